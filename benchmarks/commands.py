@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 from benchmarks import Row
 
 if TYPE_CHECKING:
-    from ragg_runtime.flight import Flight
+    from ragg_runtime.io import Flight
 
 REPEATS = 3
 HIDDEN = "thermal-scale:dK1_dT=0/0/6e-8/0"
@@ -32,7 +32,7 @@ SHORT, LONG = 1_000_000, 3_000_000
 
 def run() -> list[Row]:
     """Rows of all commands."""
-    from ragg_runtime.flight import write_flight
+    from ragg_runtime.io import write_flight
     from ragg_runtime.workflow import loop
     from ragg_runtime.workflow.simulate import simulated
 
@@ -113,7 +113,7 @@ def _compensation(flight: Flight, folder: Path) -> list[Row]:
     """Frozen, from Parquet to Parquet, on one thread: what a further sample costs."""
     import numpy as np
 
-    from ragg_runtime.flight import write_flight
+    from ragg_runtime.io import write_flight
 
     known = folder / "flight.parquet"
     subprocess.run(
@@ -167,10 +167,10 @@ def _compensation(flight: Flight, folder: Path) -> list[Row]:
 
 def _preview() -> list[Row]:
     """An effect foreseen from triangles in memory."""
-    from ragg_runtime.diagnosis.foresee import foreseen, unwhitened
-    from ragg_runtime.diagnosis.strong import with_steps
-    from ragg_runtime.fit.fitted import fit
-    from ragg_runtime.fit.observation import observations_of
+    from ragg_runtime.estimation.fitted import fit
+    from ragg_runtime.estimation.observation import observations_of
+    from ragg_runtime.identification.foresee import foreseen, unwhitened
+    from ragg_runtime.identification.strong import with_steps
     from ragg_runtime.workflow import loop
     from ragg_runtime.workflow.simulate import simulated
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ragg_runtime.compensation import calibrated
 from ragg_runtime.compensation.compensate import Compensated, Kind, prepared
 from ragg_runtime.compensation.saved import read, with_another
-from ragg_runtime.flight import Flight
+from ragg_runtime.io import Flight
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulators import DEMODULATORS

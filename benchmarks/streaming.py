@@ -15,7 +15,7 @@ MOST = 20.0
 
 def run() -> list[Row]:
     """Diagnosis of an hour, and its memory."""
-    from ragg_runtime.flight import write_flight
+    from ragg_runtime.io import write_flight
     from ragg_runtime.workflow import loop
     from ragg_runtime.workflow.simulate import simulated
 

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.diagnosis import outside, records
-from ragg_runtime.flight import read_flight
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io import read_flight
 from ragg_runtime.reference.accelerometer_noise import eotvos_noise
 from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.gravity import Gradient

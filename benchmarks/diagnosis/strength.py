@@ -20,11 +20,11 @@ from scipy.interpolate import BSpline
 
 from benchmarks.diagnosis.plan import World
 from benchmarks.diagnosis.records import Loudness
-from ragg_runtime.fit import columns as design
-from ragg_runtime.fit.columns import Column
-from ragg_runtime.fit.linearise import Point, linearised
-from ragg_runtime.fit.observation import observe
-from ragg_runtime.flight import Flight
+from ragg_runtime.estimation import columns as design
+from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.linearise import Point, linearised
+from ragg_runtime.estimation.observation import observe
+from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.effects import CATALOGUE

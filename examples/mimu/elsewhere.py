@@ -27,10 +27,10 @@ from examples.mimu import record
 from examples.mimu.record import FRONT, RATE, Array
 from examples.mimu.sheet import sheet
 from examples.mimu.story import HERE, MISREAD, RADIUS, SHORT, diagnosed_of, flights, sure_of_angles
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.flight import Flight, read_flight, write_flight
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import Flight, read_flight, write_flight
 
 BACK = tuple(k + 1 for k in FRONT)
 MIXED = (FRONT[0], FRONT[1], BACK[2], BACK[3])

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation
 
-from ragg_runtime.flight import Flight, write_flight
+from ragg_runtime.io import Flight, write_flight
 
 Array = NDArray[np.float64]
 

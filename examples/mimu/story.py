@@ -15,14 +15,14 @@ from scipy.optimize import least_squares
 
 from examples.mimu.record import G0
 from examples.mimu.sheet import sheet
-from ragg_runtime.diagnosis.diagnose import diagnose
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import observations_of
-from ragg_runtime.flight import Flight, read_flight
-from ragg_runtime.flight.record import ANGULAR_RATE
+from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.identification.diagnose import diagnose
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import Flight, read_flight
+from ragg_runtime.io.record import ANGULAR_RATE
 from ragg_runtime.model_dir import derive
 
 Array = NDArray[np.float64]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli import terminal
-from ragg_runtime.flight import write_flight
+from ragg_runtime.io import write_flight
 from ragg_runtime.report import in_words
 from ragg_runtime.report.add_page import add_html
 from ragg_runtime.report.diagnose_page import diagnose_html

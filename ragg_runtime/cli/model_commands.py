@@ -171,7 +171,7 @@ def simulate(
     model_dir: Path, output: str, hidden: Sequence[str], mapping: Path | None, **options: Any
 ) -> None:
     """A flight from the numerical reference, with hidden effects on request."""
-    from ragg_runtime.flight import write_flight
+    from ragg_runtime.io import write_flight
     from ragg_runtime.workflow.loop import mapping_of
     from ragg_runtime.workflow.simulate import simulated
 
@@ -202,8 +202,8 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
 
     Reads CSV, Parquet, NetCDF, HDF5, MATLAB and Excel; writes CSV, Parquet and NetCDF.
     """
-    from ragg_runtime.flight.files import convert as _convert
-    from ragg_runtime.flight.mapping import read_mapping
+    from ragg_runtime.io.files import convert as _convert
+    from ragg_runtime.io.mapping import read_mapping
 
     if mapping is not None and mapping.resolve() == target.resolve():
         raise UserError("OUT is the mapping itself", where=target, remedy="name another file")
@@ -224,7 +224,7 @@ def map_command(flight: Path, output: str | None) -> None:
 
     What the file does not say is marked with "?" and asked for: units are never guessed.
     """
-    from ragg_runtime.flight.guess import draft
+    from ragg_runtime.io.guess import draft
 
     made = draft(flight)
     if output is None:

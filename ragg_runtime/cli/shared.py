@@ -17,7 +17,7 @@ from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.base.files import Target
 
 if TYPE_CHECKING:
-    from ragg_runtime.flight import Flight
+    from ragg_runtime.io import Flight
     from ragg_runtime.workflow.loop import Loaded
 
 
@@ -32,7 +32,7 @@ class OutputFile(click.Path):
         name = os.fsdecode(super().convert(value, param, ctx))
         path = Path(name)
         if not self.records and path.is_file() and path.stat().st_size:
-            from ragg_runtime.flight.formats import ending_of  # only here: to import it takes a while
+            from ragg_runtime.io.formats import ending_of  # only here: to import it takes a while
 
             if ending_of(path.name) is not None:
                 raise _over("a record", path, "a file that is not empty, with the ending of a flight file")

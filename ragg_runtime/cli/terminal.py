@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ragg_runtime.base.errors import one_line
-from ragg_runtime.flight import Flight
+from ragg_runtime.io import Flight
 from ragg_runtime.report import in_words
 
 if TYPE_CHECKING:

@@ -12,8 +12,15 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.diagnosis import comparison
-from ragg_runtime.diagnosis.parameters import (
+from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.fitted import Fitted, fit, noise_floor
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.score import Error
+from ragg_runtime.estimation.segments import ROWS
+from ragg_runtime.estimation.square_root import join, with_prior
+from ragg_runtime.estimation.trust_region import Linear
+from ragg_runtime.identification import comparison
+from ragg_runtime.identification.parameters import (
     SEEN,
     Combination,
     ParameterValue,
@@ -21,15 +28,8 @@ from ragg_runtime.diagnosis.parameters import (
     own_name,
     parameter_values,
 )
-from ragg_runtime.fit.columns import Column
-from ragg_runtime.fit.fitted import Fitted, fit, noise_floor
-from ragg_runtime.fit.observation import observations_of
-from ragg_runtime.fit.score import Error
-from ragg_runtime.fit.segments import ROWS
-from ragg_runtime.fit.square_root import join, with_prior
-from ragg_runtime.fit.trust_region import Linear
-from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io import Flight
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]

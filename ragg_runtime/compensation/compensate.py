@@ -28,22 +28,22 @@ from ragg_runtime.compensation.series import (
     series,
     whole,
 )
-from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.fitted import fit
-from ragg_runtime.fit.observation import Observation, observations_of
-from ragg_runtime.fit.score import finite
-from ragg_runtime.fit.segments import ROWS, Segment, spread
-from ragg_runtime.fit.unknown_gradient import spin_frequency
-from ragg_runtime.flight import Flight
+from ragg_runtime.estimation.calibrate import Calibration
+from ragg_runtime.estimation.fitted import fit
+from ragg_runtime.estimation.noise_spectrum import Noise, periodogram
+from ragg_runtime.estimation.observation import Observation, observations_of
+from ragg_runtime.estimation.score import finite
+from ragg_runtime.estimation.segments import ROWS, Segment, spread
+from ragg_runtime.estimation.unknown_gradient import spin_frequency
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import sees
 from ragg_runtime.instrument.units import EOTVOS
+from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
 from ragg_runtime.signals.derivative import runs
-from ragg_runtime.signals.noise_spectrum import Noise, periodogram
 
 Array = NDArray[np.float64]
 

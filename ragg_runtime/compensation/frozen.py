@@ -16,22 +16,22 @@ from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation import calibrated
 from ragg_runtime.compensation.saved import Saved, read
-from ragg_runtime.diagnosis import comparison as compare
-from ragg_runtime.diagnosis.comparison import Comparison
-from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.columns import base_columns
-from ragg_runtime.fit.fitted import Fitted, about
-from ragg_runtime.fit.linearise import Point
-from ragg_runtime.fit.noise import estimate_noise
-from ragg_runtime.fit.observation import Observation, observations_of
-from ragg_runtime.fit.score import Error
-from ragg_runtime.fit.segments import segments, spread
-from ragg_runtime.fit.square_root import join
-from ragg_runtime.flight import Flight
+from ragg_runtime.estimation.calibrate import Calibration
+from ragg_runtime.estimation.columns import base_columns
+from ragg_runtime.estimation.fitted import Fitted, about
+from ragg_runtime.estimation.linearise import Point
+from ragg_runtime.estimation.noise import estimate_noise
+from ragg_runtime.estimation.noise_spectrum import Noise
+from ragg_runtime.estimation.observation import Observation, observations_of
+from ragg_runtime.estimation.score import Error
+from ragg_runtime.estimation.segments import segments, spread
+from ragg_runtime.estimation.square_root import join
+from ragg_runtime.identification import comparison as compare
+from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
-from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
 

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.compensate import Compensated
 from ragg_runtime.compensation.series import Series
-from ragg_runtime.flight.files import write_tables
-from ragg_runtime.flight.record import DEMODULATED
-from ragg_runtime.flight.source import Heading, Written
 from ragg_runtime.instrument.layout import column_endings
+from ragg_runtime.io.files import write_tables
+from ragg_runtime.io.record import DEMODULATED
+from ragg_runtime.io.source import Heading, Written
 from ragg_runtime.signals.tensor import COMPONENTS, Tensor, tensor
 
 Array = NDArray[np.float64]

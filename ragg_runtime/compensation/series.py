@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.compensation.calibrated import base, inverse, with_sheet
-from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.observation import Observation, as_output
-from ragg_runtime.fit.segments import BLOCKS, block_edges
-from ragg_runtime.fit.square_root import join
+from ragg_runtime.estimation.calibrate import Calibration
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.observation import Observation, as_output
+from ragg_runtime.estimation.segments import BLOCKS, block_edges
+from ragg_runtime.estimation.square_root import join
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
 from ragg_runtime.instrument.parameters import PARAMETERS

@@ -69,7 +69,7 @@ class Effect:
     """What the runtime knows of a physical effect, from the manifest of the derivation.
 
     ``common_of``, ``told_from``: parameters of the accelerometers that the sheet knows; ``turning``: it is one only where the disc
-    turns (:mod:`ragg_runtime.evidence.sheet`); ``switches``: where a voltage passes zero.
+    turns (:mod:`ragg_runtime.identification.sheet`); ``switches``: where a voltage passes zero.
     """
 
     id: str

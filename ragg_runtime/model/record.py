@@ -9,11 +9,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.flight import Flight
-from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Vector3, gain
+from ragg_runtime.io import Flight
+from ragg_runtime.io.record import GRADIENT, RATES
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.signals.demodulators import Demodulator

@@ -9,9 +9,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.flight import Flight
-from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.instrument.layout import Layout, Output
+from ragg_runtime.io import Flight
+from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.fir import convolved

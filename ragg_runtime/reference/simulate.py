@@ -24,8 +24,8 @@ from ragg_runtime.reference.rotation import Rotations
 from ragg_runtime.reference.turning import Turning
 
 if TYPE_CHECKING:
-    from ragg_runtime.flight import Flight
     from ragg_runtime.instrument.instrument import Instrument
+    from ragg_runtime.io import Flight
 
 Array = NDArray[np.float64]
 
@@ -64,7 +64,7 @@ class Simulation:
 
     def flight(self, name: str = "simulated", *, voltages: bool = False) -> Flight:
         """The record as a flight: its outputs, and the voltages if asked for."""
-        from ragg_runtime.flight import Flight
+        from ragg_runtime.io import Flight
 
         outputs = dict(self.outputs)
         if voltages:

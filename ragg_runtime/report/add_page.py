@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ragg_runtime.diagnosis import budget, series
-from ragg_runtime.diagnosis.comparison import Comparison
-from ragg_runtime.diagnosis.parameters import calibrated
-from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.identification import budget, series
+from ragg_runtime.identification.comparison import Comparison
+from ragg_runtime.identification.parameters import calibrated
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.report import diagnose_page, figures, page, panels, parameters
 from ragg_runtime.report.figures import Step
 from ragg_runtime.report.page import Origin

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from ragg_runtime.compensation.frozen import Held
-from ragg_runtime.diagnosis import series
-from ragg_runtime.diagnosis.comparison import LOUD, Comparison
+from ragg_runtime.identification import series
+from ragg_runtime.identification.comparison import LOUD, Comparison
 from ragg_runtime.report import figures, page, panels, parameters
 from ragg_runtime.report.page import Origin
 from ragg_runtime.wording import numbers

@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.diagnosis import series
-from ragg_runtime.diagnosis.parameters import SEEN, UNSEEN, ParameterValue, gains
-from ragg_runtime.diagnosis.parameters import headlines as of_parameters
-from ragg_runtime.diagnosis.parameters import own_name as _name
-from ragg_runtime.diagnosis.ranking import Ranked, other_accelerometers
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit.columns import Column
-from ragg_runtime.fit.fitted import Fitted, Posterior, posterior
+from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.fitted import Fitted, Posterior, posterior
+from ragg_runtime.identification import series
+from ragg_runtime.identification.parameters import SEEN, UNSEEN, ParameterValue, gains
+from ragg_runtime.identification.parameters import headlines as of_parameters
+from ragg_runtime.identification.parameters import own_name as _name
+from ragg_runtime.identification.ranking import Ranked, other_accelerometers
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.report import figures, page, panels, parameters
 from ragg_runtime.report.figures import Bar
 from ragg_runtime.report.page import Origin

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.transforms import blended_transform_factory
 from numpy.typing import NDArray
 
-from ragg_runtime.diagnosis.budget import Contribution
-from ragg_runtime.diagnosis.series import Envelope, Spectrum, envelope, runs
+from ragg_runtime.identification.budget import Contribution
+from ragg_runtime.identification.series import Envelope, Spectrum, envelope, runs
 from ragg_runtime.report import draw
 from ragg_runtime.wording import numbers
 

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ragg_runtime.diagnosis.comparison import Comparison
-from ragg_runtime.diagnosis.parameters import ParameterValue
-from ragg_runtime.diagnosis.ranking import Ranked
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.score import Error, least
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.score import Error, least
+from ragg_runtime.identification.comparison import Comparison
+from ragg_runtime.identification.parameters import ParameterValue
+from ragg_runtime.identification.ranking import Ranked
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.wording import notebook
 
 if TYPE_CHECKING:

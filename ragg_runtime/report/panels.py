@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.diagnosis import comparison, series
-from ragg_runtime.diagnosis.comparison import Comparison
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.score import Error
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.score import Error
+from ragg_runtime.identification import comparison, series
+from ragg_runtime.identification.comparison import Comparison
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.report import figures, page
 from ragg_runtime.report.figures import Bar, ChannelPanel, Line, MeasuredPanel, SpectrumPanel, TimePanel
 from ragg_runtime.wording import numbers
@@ -201,7 +201,7 @@ def error_of_noise(floor: float, inline: float, cross: float, k_ggi: float) -> E
 
 
 def holdout_before(f: Fitted) -> Error:
-    """Held-out error of the model without further effects, as :func:`ragg_runtime.diagnosis.comparison.compare` makes it."""
+    """Held-out error of the model without further effects, as :func:`ragg_runtime.identification.comparison.compare` makes it."""
     half, _ = f.coefficients((), held_out=True)
     return f.score([f.vector(half)])[0].held_out
 

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.diagnosis import parameters as combinations
-from ragg_runtime.diagnosis.parameters import SEEN, UNSEEN
-from ragg_runtime.fit.columns import Column
-from ragg_runtime.fit.fitted import Fitted, posterior
+from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.fitted import Fitted, posterior
+from ragg_runtime.identification import parameters as combinations
+from ragg_runtime.identification.parameters import SEEN, UNSEEN
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.diagnosis import series as reported
-from ragg_runtime.flight.record import DEMODULATED
+from ragg_runtime.identification import series as reported
+from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.studio import tracks
 from ragg_runtime.studio.session import State
 from ragg_runtime.studio.tracks import HEAD, Pyramid, pyramid

@@ -15,11 +15,11 @@ from starlette.requests import ClientDisconnect, Request
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text, replacing
-from ragg_runtime.flight.formats import open_file
-from ragg_runtime.flight.guess import draft, sample
-from ragg_runtime.flight.mapping import UNKNOWN, Mapped, parse_mapping
-from ragg_runtime.flight.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
-from ragg_runtime.flight.source import Heading, Look
+from ragg_runtime.io.formats import open_file
+from ragg_runtime.io.guess import draft, sample
+from ragg_runtime.io.mapping import UNKNOWN, Mapped, parse_mapping
+from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
+from ragg_runtime.io.source import Heading, Look
 from ragg_runtime.studio.session import State, safe_name
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow.loop import Loaded, keep_mapping, mapping_of

@@ -33,7 +33,7 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.diagnosis import foresee
+from ragg_runtime.identification import foresee
 from ragg_runtime.studio import drawing, mapping, views
 from ragg_runtime.studio.mapping import receive
 from ragg_runtime.studio.session import Busy, Session

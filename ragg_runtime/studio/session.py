@@ -18,12 +18,12 @@ from typing import Any
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.progress import PASSES
-from ragg_runtime.diagnosis import foresee
-from ragg_runtime.diagnosis.comparison import Comparison
-from ragg_runtime.diagnosis.foresee import Unwhitened
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight import Flight
-from ragg_runtime.flight.formats import ENDINGS, ending_of
+from ragg_runtime.identification import foresee
+from ragg_runtime.identification.comparison import Comparison
+from ragg_runtime.identification.foresee import Unwhitened
+from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.io import Flight
+from ragg_runtime.io.formats import ENDINGS, ending_of
 from ragg_runtime.studio.tracks import Tracks, compensated
 from ragg_runtime.workflow import after, loop, versions
 from ragg_runtime.workflow.after import Compensation

@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.diagnosis import comparison, foresee, heat
-from ragg_runtime.diagnosis import series as reported
-from ragg_runtime.diagnosis.comparison import Comparison
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight import Flight
-from ragg_runtime.flight.record import DEMODULATED
+from ragg_runtime.identification import comparison, foresee, heat
+from ragg_runtime.identification import series as reported
+from ragg_runtime.identification.comparison import Comparison
+from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.io import Flight
+from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow import after
 from ragg_runtime.workflow.after import Compensation

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.diagnosis.comparison import Comparison
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight.record import WIDEST_SPIKE, left_out
+from ragg_runtime.identification.comparison import Comparison
+from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.io.record import WIDEST_SPIKE, left_out
 from ragg_runtime.report import diagnose_page, panels, parameters
 from ragg_runtime.report.add_page import add_html
 from ragg_runtime.report.compare_page import compare_html

@@ -24,7 +24,7 @@ import click
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import file_digest
 from ragg_runtime.base.progress import INTERVAL
-from ragg_runtime.flight.record import same_record
+from ragg_runtime.io.record import same_record
 from ragg_runtime.survey import local
 from ragg_runtime.survey.local import ATTEMPTS, lost
 from ragg_runtime.survey.result import Survey

@@ -22,21 +22,26 @@ from numpy.typing import NDArray
 import ragg_runtime
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.diagnosis import comparison
-from ragg_runtime.diagnosis.diagnose import diagnose_fitted
-from ragg_runtime.diagnosis.parameters import SEEN, ParameterValue, parameter_values, visible_combinations
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import observations_of
-from ragg_runtime.fit.score import finite
-from ragg_runtime.flight import Flight, read_flight
-from ragg_runtime.flight.mapping import Mapped, parse_mapping
-from ragg_runtime.flight.record import content
-from ragg_runtime.flight.sources import open_sources
+from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.score import finite
+from ragg_runtime.identification import comparison
+from ragg_runtime.identification.diagnose import diagnose_fitted
+from ragg_runtime.identification.parameters import (
+    SEEN,
+    ParameterValue,
+    parameter_values,
+    visible_combinations,
+)
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import Flight, read_flight
+from ragg_runtime.io.mapping import Mapped, parse_mapping
+from ragg_runtime.io.record import content
+from ragg_runtime.io.sources import open_sources
 from ragg_runtime.model_dir import derive
-from ragg_runtime.plausibility import examined
+from ragg_runtime.screening import examined
 
 Array = NDArray[np.float64]
 

@@ -32,9 +32,9 @@ from ragg_runtime.compensation.output import Table, joined, write_series
 from ragg_runtime.compensation.recursive import Tuning, followed, following
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.series import MEANING
-from ragg_runtime.flight import Flight
-from ragg_runtime.flight.formats import writable
-from ragg_runtime.flight.record import distinct
+from ragg_runtime.io import Flight
+from ragg_runtime.io.formats import writable
+from ragg_runtime.io.record import distinct
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.model_dir import derive

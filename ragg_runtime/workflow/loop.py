@@ -25,21 +25,21 @@ import numpy as np
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import read_text, replacing
 from ragg_runtime.base.provenance import provenance
-from ragg_runtime.diagnosis import comparison as _compare
-from ragg_runtime.diagnosis import diagnose as _diagnose
-from ragg_runtime.diagnosis.comparison import Comparison, climb
-from ragg_runtime.diagnosis.next_motion import LIMITS
-from ragg_runtime.diagnosis.parameters import ParameterValue, calibrated
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight import Flight
-from ragg_runtime.flight import read_flights as _read_flights
-from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
-from ragg_runtime.flight.record import distinct
+from ragg_runtime.identification import comparison as _compare
+from ragg_runtime.identification import diagnose as _diagnose
+from ragg_runtime.identification.comparison import Comparison, climb
+from ragg_runtime.identification.next_motion import LIMITS
+from ragg_runtime.identification.parameters import ParameterValue, calibrated
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
+from ragg_runtime.io import Flight
+from ragg_runtime.io import read_flights as _read_flights
+from ragg_runtime.io.mapping import Mapped, parse_mapping, read_mapping
+from ragg_runtime.io.record import distinct
 from ragg_runtime.model.model import Model, missing_channels
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import (
@@ -51,7 +51,7 @@ from ragg_runtime.model_dir.directory import (
     replace_model_dir,
 )
 from ragg_runtime.model_dir.history import Step
-from ragg_runtime.plausibility import check_settings, examined
+from ragg_runtime.screening import check_settings, examined
 from ragg_runtime.wording import notebook
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.diagnosis.motion_design import Separation, design, even, multisine, tones_of
-from ragg_runtime.diagnosis.next_motion import APART, AXES, HIGHEST, Sinusoid, moved
-from ragg_runtime.flight import Flight, write_flight
+from ragg_runtime.identification.motion_design import Separation, design, even, multisine, tones_of
+from ragg_runtime.identification.next_motion import APART, AXES, HIGHEST, Sinusoid, moved
+from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.workflow.loop import Loaded, diagnose
 
 Array = NDArray[np.float64]

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime import reference
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import Flight, read_flight
-from ragg_runtime.flight.mapping import Mapped
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.instrument.units import units
+from ragg_runtime.io import Flight, read_flight
+from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.model.model import Effect, packaged
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.auxiliaries import further, plausible

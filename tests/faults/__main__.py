@@ -19,7 +19,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from ragg_runtime.flight import write_flight
+from ragg_runtime.io import write_flight
 from ragg_runtime.model_dir.directory import load_model_dir
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated

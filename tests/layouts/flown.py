@@ -7,8 +7,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io import Flight
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.instruments import perturbed

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.compensate import Compensated, Kind, Prepared, prepared
 from ragg_runtime.compensation.output import Table, joined
-from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import Flight
 from ragg_runtime.model_dir import derive
 from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.tensor import COMPONENTS

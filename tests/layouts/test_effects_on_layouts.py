@@ -9,10 +9,10 @@ import pytest
 from numpy.typing import NDArray
 
 from derive.effects import catalogue
-from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import units
+from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import output, scale_factor, unit_factor, vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import record

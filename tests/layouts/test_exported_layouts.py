@@ -16,8 +16,8 @@ from ragg_runtime.compensation.export.contents import Contents, unit_of
 from ragg_runtime.compensation.export.numpy_folder import numpy_files
 from ragg_runtime.compensation.export.program import c_program, table
 from ragg_runtime.compensation.recursive import Online, Tuning
-from ragg_runtime.fit.observation import observations_of
-from ragg_runtime.flight import Flight, read_flight, write_flight
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.model.evaluate import output, vector
 from ragg_runtime.model.record import record
 from ragg_runtime.model_dir import derive

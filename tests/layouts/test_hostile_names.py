@@ -17,10 +17,10 @@ from derive.layout import PAPER, Output
 from derive.names import EXPECTED, channel_in_code, channel_of, id_in_code, is_name, parameter_in_code
 from derive.pipeline import Form, derive_harmonics, derive_model, derive_plain
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import read_flight, write_flight
-from ragg_runtime.flight.guess import draft
-from ragg_runtime.flight.mapping import parse_mapping
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import read_flight, write_flight
+from ragg_runtime.io.guess import draft
+from ragg_runtime.io.mapping import parse_mapping
 from ragg_runtime.model.model import from_files
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by

@@ -7,10 +7,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import EOTVOS
+from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import output, scale_factor, vector
 from ragg_runtime.model.record import record
 from ragg_runtime.model_dir import derive

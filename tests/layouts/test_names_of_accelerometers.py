@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ragg_runtime.diagnosis.comparison import compare
-from ragg_runtime.fit.columns import base_columns, spelt
+from ragg_runtime.estimation.columns import base_columns, spelt
+from ragg_runtime.identification.comparison import compare
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir import derive
 from ragg_runtime.wording.notebook import parameter

@@ -10,13 +10,13 @@ import pytest
 
 from examples.mimu import record, story
 from examples.mimu.sheet import sheet
-from ragg_runtime.evidence.sheet import doubtful
-from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import observations_of
-from ragg_runtime.flight import read_flight
+from ragg_runtime.estimation.calibrate import Calibration
+from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.identification.sheet import doubtful
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import read_flight
 from ragg_runtime.model_dir import derive
 
 HERE = Path(record.__file__).parent

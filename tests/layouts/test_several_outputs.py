@@ -10,10 +10,10 @@ import pytest
 from derive.effects import catalogue
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.calibrated import calibrated
-from ragg_runtime.diagnosis import several_outputs
-from ragg_runtime.diagnosis.strong import Stage
-from ragg_runtime.fit.fitted import fit
-from ragg_runtime.fit.observation import observations_of
+from ragg_runtime.estimation.fitted import fit
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.identification import several_outputs
+from ragg_runtime.identification.strong import Stage
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir import derive
 from ragg_runtime.signals.tensor import tensor

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import read_flight, write_flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import read_flight, write_flight
 from ragg_runtime.model.record import spin as turning_rate
 from ragg_runtime.model.record import spin_degree
 from ragg_runtime.signals.derivative import DEGREES

@@ -17,8 +17,8 @@ from pathlib import Path
 import commands
 import numpy as np
 
-from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.instrument.edit_toml import model_text
+from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.workflow import loop
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ragg_runtime.diagnosis.diagnose import diagnose
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight import Flight
+from ragg_runtime.identification.diagnose import diagnose
+from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.io import Flight
 from ragg_runtime.model import model as load
 from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import Scenario

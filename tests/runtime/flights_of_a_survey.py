@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.flight import write_flight
+from ragg_runtime.io import write_flight
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 

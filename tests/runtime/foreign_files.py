@@ -10,8 +10,8 @@ import h5py
 import openpyxl
 from scipy.io import savemat
 
-from ragg_runtime.flight.files import write_tables
-from ragg_runtime.flight.source import Written
+from ragg_runtime.io.files import write_tables
+from ragg_runtime.io.source import Written
 
 ENDINGS = (".csv", ".csv.gz", ".parquet", ".nc", ".h5", ".mat", ".xlsx")
 

@@ -7,16 +7,16 @@ import dataclasses
 import numpy as np
 import pytest
 
-from ragg_runtime.diagnosis.comparison import compare
-from ragg_runtime.diagnosis.diagnose import diagnose
-from ragg_runtime.fit.fitted import noise_floor
-from ragg_runtime.flight.angular_acceleration import REACH, Derivative, planned
-from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
+from ragg_runtime.estimation.fitted import noise_floor
+from ragg_runtime.estimation.noise_spectrum import estimate
+from ragg_runtime.identification.comparison import compare
+from ragg_runtime.identification.diagnose import diagnose
+from ragg_runtime.io.angular_acceleration import REACH, Derivative, planned
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.model.model import packaged
-from ragg_runtime.plausibility import examined
 from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.screening import examined
 from ragg_runtime.signals.derivative import differentiate
-from ragg_runtime.signals.noise_spectrum import estimate
 
 RATE = 16.0
 

@@ -27,8 +27,8 @@ from bad_input_table import (
     timed,
 )
 
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight import Flight
+from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.io import Flight
 from ragg_runtime.workflow import loop
 
 

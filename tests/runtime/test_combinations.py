@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 import pytest
 
-from ragg_runtime.diagnosis.diagnose import diagnose
-from ragg_runtime.fit.fitted import estimated
+from ragg_runtime.estimation.fitted import estimated
+from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.model_dir import derive
 from ragg_runtime.signals.combinations import basis, telling
 from ragg_runtime.workflow.loop import example

@@ -19,7 +19,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import compensate
 from ragg_runtime.compensation.compensate import Compensated, Kind, Prepared, prepared
 from ragg_runtime.compensation.series import Quality, Segment, Series
-from ragg_runtime.flight import Flight, write_flight
+from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulators import CUTOFF, DEMODULATORS, ORDER, demodulator

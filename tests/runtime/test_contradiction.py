@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from ragg_runtime.diagnosis import contenders
-from ragg_runtime.flight import Flight
+from ragg_runtime.identification import contenders
+from ragg_runtime.io import Flight
 from ragg_runtime.reference.scenario import Scenario, scenario
 from tests.runtime.diagnosed import diagnosed
 

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.diagnosis.comparison import Comparison, compare
-from ragg_runtime.flight import Flight, read_flight, write_flight
-from ragg_runtime.flight.mapping import parse_mapping
+from ragg_runtime.identification.comparison import Comparison, compare
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
 from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import Flight, read_flight, write_flight
+from ragg_runtime.io.mapping import parse_mapping
 from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import packaged

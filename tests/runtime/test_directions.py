@@ -8,9 +8,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ragg_runtime.fit import fitted, observation, prepared_flight
-from ragg_runtime.lack_of_fit.omnibus import Scores
-from ragg_runtime.lack_of_fit.whitened_terms import Directions
+from ragg_runtime.estimation import fitted, observation, prepared_flight
+from ragg_runtime.identification.omnibus import Scores
+from ragg_runtime.identification.whitened_terms import Directions
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
 

@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import read_flight, write_flight
+from ragg_runtime.io import read_flight, write_flight
 from ragg_runtime.model.evaluate import output, scale_factor, vector
 from ragg_runtime.model.record import record
 from ragg_runtime.workflow import after, loop

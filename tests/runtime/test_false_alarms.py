@@ -6,10 +6,9 @@ import numpy as np
 from scipy import stats
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.evidence import selection
-from ragg_runtime.evidence.selection import Field
-from ragg_runtime.fit.columns import Column
-from ragg_runtime.lack_of_fit import omnibus
+from ragg_runtime.estimation.columns import Column
+from ragg_runtime.identification import omnibus, selection
+from ragg_runtime.identification.selection import Field
 from ragg_runtime.model.model import packaged
 
 

@@ -13,11 +13,11 @@ import openpyxl
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight.files import convert, write_tables
-from ragg_runtime.flight.formats import open_file
-from ragg_runtime.flight.netcdf_file import room
-from ragg_runtime.flight.source import Heading, Look, Written
-from ragg_runtime.flight.sources import open_sources
+from ragg_runtime.io.files import convert, write_tables
+from ragg_runtime.io.formats import open_file
+from ragg_runtime.io.netcdf_file import room
+from ragg_runtime.io.source import Heading, Look, Written
+from ragg_runtime.io.sources import open_sources
 from tests.runtime.foreign_files import ENDINGS, write
 
 WRITTEN = (".csv", ".csv.gz", ".parquet", ".nc")

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import Flight
+from ragg_runtime.io import Flight
 from ragg_runtime.model import model
-from ragg_runtime.plausibility import examined
-from ragg_runtime.plausibility.filled_in import without_filling
 from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.screening import examined
+from ragg_runtime.screening.filled_in import without_filling
 
 N = 4096
 

@@ -11,7 +11,7 @@ import pytest
 import xarray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import Flight, formats, read_flight, write_flight
+from ragg_runtime.io import Flight, formats, read_flight, write_flight
 
 G0 = 9.8
 SUFFIXES = (".csv", ".csv.gz", ".parquet", ".nc")

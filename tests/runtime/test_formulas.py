@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.evidence import probability, sequential
-from ragg_runtime.fit.segments import ROWS
+from ragg_runtime.estimation.segments import ROWS
+from ragg_runtime.identification import probability, sequential
 
 ROOT = Path(__file__).parents[2]
 TEXT = (ROOT / "docs" / "formulas.md").read_text("utf-8")

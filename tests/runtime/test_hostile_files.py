@@ -11,11 +11,11 @@ import pytest
 from scipy.io import savemat
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import read_flight
-from ragg_runtime.flight.mapping import parse_mapping
-from ragg_runtime.flight.source import Heading, Written
-from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import read_flight
+from ragg_runtime.io.mapping import parse_mapping
+from ragg_runtime.io.source import Heading, Written
+from ragg_runtime.io.sources import open_sources
 from tests.runtime.foreign_files import ENDINGS, write
 
 NAMES = ("time", "a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z", "G_out")

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ragg_runtime.fit import fitted
-from ragg_runtime.fit.observation import observe
-from ragg_runtime.fit.switching import certain
+from ragg_runtime.estimation import fitted
+from ragg_runtime.estimation.observation import observe
+from ragg_runtime.estimation.switching import certain
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.lateness import STEP, about, late

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import read_flight
 from ragg_runtime.instrument.read_toml import read_instrument
+from ragg_runtime.io import read_flight
 from ragg_runtime.model_dir.history import read_history
 
 UNITS = {

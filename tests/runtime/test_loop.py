@@ -14,17 +14,17 @@ import pytest
 from commands import ragg
 
 from derive.expression import ExpressionError, from_expression
-from ragg_runtime.diagnosis.comparison import compare, nominal_residual
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight import Flight, write_flight
+from ragg_runtime.estimation.noise_spectrum import estimate
+from ragg_runtime.identification.comparison import compare, nominal_residual
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.edit_toml import model_text
+from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.accelerometer_noise import Noise
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.signals.fir import filtered
-from ragg_runtime.signals.noise_spectrum import estimate
 from ragg_runtime.workflow import loop
 from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed

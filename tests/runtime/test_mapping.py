@@ -13,10 +13,10 @@ from click.testing import CliRunner
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import cli
-from ragg_runtime.flight import Flight, read_flight, read_flights, write_flight
-from ragg_runtime.flight.guess import draft
-from ragg_runtime.flight.mapping import Mapped, parse_mapping
-from ragg_runtime.flight.sources import open_sources
+from ragg_runtime.io import Flight, read_flight, read_flights, write_flight
+from ragg_runtime.io.guess import draft
+from ragg_runtime.io.mapping import Mapped, parse_mapping
+from ragg_runtime.io.sources import open_sources
 from ragg_runtime.workflow import loop
 
 G0 = 9.8

@@ -14,9 +14,9 @@ import pytest
 from derive.effects import catalogue
 from derive.pipeline import derive_model
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.diagnosis import comparison
-from ragg_runtime.fit import observation
-from ragg_runtime.fit.linearise import Point, linearised
+from ragg_runtime.estimation import observation
+from ragg_runtime.estimation.linearise import Point, linearised
+from ragg_runtime.identification import comparison
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model, from_files, packaged
 from ragg_runtime.model.native import (

@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.diagnosis import motion_design, next_motion
-from ragg_runtime.evidence import selection
-from ragg_runtime.evidence.selection import field_of
-from ragg_runtime.fit import fitted as fitted_
-from ragg_runtime.fit import observation
-from ragg_runtime.flight import Flight
+from ragg_runtime.estimation import fitted as fitted_
+from ragg_runtime.estimation import observation
+from ragg_runtime.identification import motion_design, next_motion, selection
+from ragg_runtime.identification.selection import field_of
+from ragg_runtime.io import Flight
 from ragg_runtime.model import model
 from ragg_runtime.reference.motion import Signal, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, scenario

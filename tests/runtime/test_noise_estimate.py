@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ragg_runtime.fit import calibrate, observation
-from ragg_runtime.fit.left_over import left_over
-from ragg_runtime.fit.significance import log_sf, log_sf_f, log_sf_t
-from ragg_runtime.fit.unknown_gradient import splines
+from ragg_runtime.estimation import calibrate, observation
+from ragg_runtime.estimation.left_over import left_over
+from ragg_runtime.estimation.noise_level import estimated, in_words
+from ragg_runtime.estimation.noise_spectrum import estimate
+from ragg_runtime.estimation.significance import log_sf, log_sf_f, log_sf_t
+from ragg_runtime.estimation.unknown_gradient import splines
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.signals.noise_level import estimated, in_words
-from ragg_runtime.signals.noise_spectrum import estimate
 
 Array = NDArray[np.float64]
 

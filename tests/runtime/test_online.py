@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.export.program import table
 from ragg_runtime.compensation.recursive import UNKNOWN_EO, UPDATE, Online, Tuning
-from ragg_runtime.fit.observation import Observation, observe
-from ragg_runtime.flight import write_flight
-from ragg_runtime.flight.record import SI_UNITS
+from ragg_runtime.estimation.observation import Observation, observe
+from ragg_runtime.io import write_flight
+from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.workflow import after, loop

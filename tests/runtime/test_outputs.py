@@ -12,7 +12,7 @@ from pathlib import Path
 import commands
 import pytest
 
-from ragg_runtime.flight import write_flight
+from ragg_runtime.io import write_flight
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 

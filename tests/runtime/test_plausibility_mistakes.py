@@ -10,13 +10,13 @@ import pytest
 from scipy import signal
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import Flight
+from ragg_runtime.io import Flight
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import scale_factor, vector
-from ragg_runtime.plausibility import examined, identify, likely_mistake, other_demodulator, timing
-from ragg_runtime.plausibility.quick_fit import explain, shrunken
-from ragg_runtime.plausibility.subsample import picker
 from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.screening import examined, identify, likely_mistake, other_demodulator, timing
+from ragg_runtime.screening.quick_fit import explain, shrunken
+from ragg_runtime.screening.subsample import picker
 from ragg_runtime.signals.demodulate import demodulate
 
 G0 = 9.8

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ragg_runtime.plausibility.spikes import (
+from ragg_runtime.screening.spikes import (
     glitches,
     spikes,
 )

@@ -7,11 +7,11 @@ import pytest
 from numpy.typing import NDArray
 from scipy import stats
 
-from ragg_runtime.diagnosis.ranking import Ranked, with_probability
-from ragg_runtime.evidence.probability import HELD, STRENGTHS, Probabilities, weighed
-from ragg_runtime.evidence.selection import Field
-from ragg_runtime.fit.columns import Column
-from ragg_runtime.fit.score import Error
+from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.score import Error
+from ragg_runtime.identification.probability import HELD, STRENGTHS, Probabilities, weighed
+from ragg_runtime.identification.ranking import Ranked, with_probability
+from ragg_runtime.identification.selection import Field
 
 Array = NDArray[np.float64]
 

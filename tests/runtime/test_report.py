@@ -17,11 +17,11 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ragg_runtime.diagnosis import budget, diagnose, result, series
-from ragg_runtime.diagnosis import comparison as compare
-from ragg_runtime.flight import Flight
+from ragg_runtime.identification import budget, diagnose, result, series
+from ragg_runtime.identification import comparison as compare
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.io import Flight
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import named, output, vector, voltages
 from ragg_runtime.model.record import record

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import Flight, write_flight
-from ragg_runtime.flight.record import distinct
+from ragg_runtime.io import Flight, write_flight
+from ragg_runtime.io.record import distinct
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.workflow import after, loop
 from ragg_runtime.workflow.simulate import simulated

@@ -7,20 +7,27 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ragg_runtime.diagnosis import comparison, contenders
-from ragg_runtime.diagnosis.contenders import Left
-from ragg_runtime.evidence import selection, steps
-from ragg_runtime.evidence.selection import field_of
-from ragg_runtime.fit import calibrate, fitted, noise, observation, passes, prepared_flight, score, slow_noise
-from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.linearise import Point
-from ragg_runtime.fit.segments import BLOCKS, beginnings, segments, spread
-from ragg_runtime.flight import Flight
-from ragg_runtime.lack_of_fit import omnibus
+from ragg_runtime.estimation import (
+    calibrate,
+    fitted,
+    noise,
+    observation,
+    passes,
+    prepared_flight,
+    score,
+    slow_noise,
+)
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.linearise import Point
+from ragg_runtime.estimation.noise_spectrum import white_noise
+from ragg_runtime.estimation.segments import BLOCKS, beginnings, segments, spread
+from ragg_runtime.identification import comparison, contenders, omnibus, selection, steps
+from ragg_runtime.identification.contenders import Left
+from ragg_runtime.identification.selection import field_of
+from ragg_runtime.io import Flight
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.signals.noise_spectrum import white_noise
 from tests.runtime.diagnosed import diagnosed
 
 G0 = 9.8

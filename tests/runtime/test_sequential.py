@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
-from ragg_runtime.evidence.sequential import Evidence, evidence, log_e
-from ragg_runtime.fit import fitted
-from ragg_runtime.fit.observation import observations_of
+from ragg_runtime.estimation import fitted
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.identification.sequential import Evidence, evidence, log_e
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ragg_runtime.base.series_name import Channel, Derivative, Function, Relaxation, harmonic, series
-from ragg_runtime.lack_of_fit.dictionary import generic, harmonics
+from ragg_runtime.identification.dictionary import generic, harmonics
 
 
 def test_every_name_of_the_dictionary_is_printed_as_it_was_parsed() -> None:

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import Flight, read_flight, write_flight
-from ragg_runtime.flight.assemble import BRIDGED_STEPS, Slow, judged
+from ragg_runtime.io import Flight, read_flight, write_flight
+from ragg_runtime.io.assemble import BRIDGED_STEPS, Slow, judged
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 

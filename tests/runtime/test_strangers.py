@@ -10,7 +10,7 @@ import pytest
 
 from ragg_runtime.base.errors import printable
 from ragg_runtime.cli.main import main
-from ragg_runtime.flight import write_flight
+from ragg_runtime.io import write_flight
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 

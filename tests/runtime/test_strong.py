@@ -14,13 +14,13 @@ import pytest
 import ragg_runtime.workflow.loop as ragg
 from ragg_runtime.cli.main import main
 from ragg_runtime.cli.terminal import added as added_text
-from ragg_runtime.diagnosis import contenders, strong
-from ragg_runtime.diagnosis.comparison import compare
-from ragg_runtime.diagnosis.strong import Stage, with_steps
-from ragg_runtime.fit import calibrate
-from ragg_runtime.fit.fitted import fit
-from ragg_runtime.fit.observation import observations_of
-from ragg_runtime.flight.files import write_flight
+from ragg_runtime.estimation import calibrate
+from ragg_runtime.estimation.fitted import fit
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.identification import contenders, strong
+from ragg_runtime.identification.comparison import compare
+from ragg_runtime.identification.strong import Stage, with_steps
+from ragg_runtime.io.files import write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from tests.rate import RATE

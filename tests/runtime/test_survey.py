@@ -23,8 +23,8 @@ from flights_of_a_survey import COUNT, WITH_EFFECT, lines_of, make, without_effe
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
-from ragg_runtime.flight import write_flight
-from ragg_runtime.flight.source import Heading, Written
+from ragg_runtime.io import write_flight
+from ragg_runtime.io.source import Heading, Written
 from ragg_runtime.report.survey_page import survey_html
 from ragg_runtime.report.survey_text import surveyed
 from ragg_runtime.survey import local, run

@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ragg_runtime.fit.observation import observe
-from ragg_runtime.fit.switching import certain
-from ragg_runtime.fit.unknown_gradient import windows
+from ragg_runtime.estimation.noise_spectrum import white_noise
+from ragg_runtime.estimation.observation import observe
+from ragg_runtime.estimation.switching import certain
+from ragg_runtime.estimation.unknown_gradient import windows
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector, voltages
 from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.signals.noise_spectrum import white_noise
 
 
 @pytest.fixture(scope="module")

@@ -11,15 +11,14 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from derive.expression import from_expression
-from ragg_runtime.diagnosis import comparison
-from ragg_runtime.diagnosis.diagnose import diagnose
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit import fitted, observation, prepared_flight
-from ragg_runtime.flight import Flight
+from ragg_runtime.estimation import fitted, observation, prepared_flight
+from ragg_runtime.identification import as_effect, comparison, features, omnibus
+from ragg_runtime.identification.diagnose import diagnose
+from ragg_runtime.identification.dictionary import Dictionary, Term
+from ragg_runtime.identification.omnibus import Scores
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import EffectSetting
-from ragg_runtime.lack_of_fit import as_effect, features, omnibus
-from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
-from ragg_runtime.lack_of_fit.omnibus import Scores
+from ragg_runtime.io import Flight
 from ragg_runtime.model import model as load
 from ragg_runtime.model.record import Record
 from ragg_runtime.model_dir import derive

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ragg_runtime.diagnosis import diagnose as diagnosis
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit import fitted, observation, thinning
-from ragg_runtime.fit.linearise import Point, linearised
-from ragg_runtime.fit.observation import Observation
-from ragg_runtime.flight import Flight
+from ragg_runtime.estimation import fitted, observation, thinning
+from ragg_runtime.estimation.linearise import Point, linearised
+from ragg_runtime.estimation.observation import Observation
+from ragg_runtime.identification import diagnose as diagnosis
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io import Flight
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import output, vector
 from ragg_runtime.reference.scenario import Scenario, scenario

@@ -9,8 +9,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy import optimize
 
-from ragg_runtime.fit.square_root import with_prior
-from ragg_runtime.fit.trust_region import SETTLED, VALLEY, Linear, minimise, settled
+from ragg_runtime.estimation.square_root import with_prior
+from ragg_runtime.estimation.trust_region import SETTLED, VALLEY, Linear, minimise, settled
 
 Array = NDArray[np.float64]
 Residual = Callable[[Array], Array]

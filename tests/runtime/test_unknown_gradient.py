@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ragg_runtime.fit.linearise import Point, linearised
-from ragg_runtime.fit.observation import observe
-from ragg_runtime.fit.unknown_gradient import windows, without
+from ragg_runtime.estimation.linearise import Point, linearised
+from ragg_runtime.estimation.noise_spectrum import white_noise
+from ragg_runtime.estimation.observation import observe
+from ragg_runtime.estimation.unknown_gradient import windows, without
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.signals.noise_spectrum import white_noise
 
 
 def test_an_unknown_gradient_is_taken_out_of_each_voltage_by_its_scale_factor() -> None:

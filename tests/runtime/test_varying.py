@@ -11,9 +11,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy import stats
 
-from ragg_runtime.fit import significance
-from ragg_runtime.fit.passes import Piece
-from ragg_runtime.lack_of_fit.time_varying import BlockScores
+from ragg_runtime.estimation import significance
+from ragg_runtime.estimation.passes import Piece
+from ragg_runtime.identification.time_varying import BlockScores
 
 Array = NDArray[np.float64]
 

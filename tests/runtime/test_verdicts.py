@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ragg_runtime.diagnosis.comparison import compare
-from ragg_runtime.diagnosis.diagnose import diagnose
-from ragg_runtime.evidence import selection
-from ragg_runtime.fit.fitted import fit
-from ragg_runtime.fit.observation import observations_of
-from ragg_runtime.flight import Flight
+from ragg_runtime.estimation.fitted import fit
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.identification import selection
+from ragg_runtime.identification.comparison import compare
+from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io import Flight
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import scenario
 

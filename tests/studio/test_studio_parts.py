@@ -17,12 +17,12 @@ import pytest
 from serving import brief, foreign, new
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.diagnosis import foresee, heat
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.evidence.selection import field_of
-from ragg_runtime.fit.observation import observations_of
-from ragg_runtime.flight import write_flight
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.identification import foresee, heat
+from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.identification.selection import field_of
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import write_flight
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio import mapping, session, views
 from ragg_runtime.studio.routes import ACTIONS
@@ -69,7 +69,7 @@ def test_a_signature_is_the_residual_that_goes(diagnosis: Diagnosis) -> None:
 
 
 def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> None:
-    from ragg_runtime.lack_of_fit import omnibus
+    from ragg_runtime.identification import omnibus
 
     f = diagnosis.fitted
     h = heat.heat(f.prepared[0], f.triangles[0], f.n_base)

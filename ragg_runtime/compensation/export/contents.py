@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.flight.angular_acceleration import Derivative
-from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS, is_disc_angle
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, gain, sees
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
+from ragg_runtime.io.angular_acceleration import Derivative
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS, is_disc_angle
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.evaluate import named, scale_factor
 from ragg_runtime.model.lateness import late

@@ -1,0 +1,288 @@
+"""Fit a model's parameters to flights, each with a prior as wide as its plausible size about the test sheet's value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.estimation import columns as design
+from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.linearise import Point
+from ragg_runtime.estimation.noise import estimate_noise, swell
+from ragg_runtime.estimation.noise_spectrum import Noise, white_noise
+from ragg_runtime.estimation.observation import Observation
+from ragg_runtime.estimation.passes import Piece, excerpt, heard, passed
+from ragg_runtime.estimation.square_root import join, with_prior
+from ragg_runtime.estimation.trust_region import Linear, Minimum, minimise
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.model import Model
+
+Array = NDArray[np.float64]
+
+MISFIT = 1.1
+"""Power of what is left, over that of the noise, from which it is more than noise: then how the noise is coloured says
+nothing of what is left, and all samples weigh the same, so that the rms is as small as it can be."""
+
+LEAN = 10.0
+"""There the noise counts as no less than what is left over this: the prior then weighs little, but keeps parameters from drifting.
+"""
+
+ROUNDS = 3
+"""Most times that a fit of what is loud is made, each with what the one before has left and the noise estimated there."""
+
+FALLING = 0.9
+"""Factor below which one of both must have fallen for another one."""
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """Parameters fitted to one or more flights.
+
+    ``p`` is the parameter vector of the model's chain, SI; ``covariance`` (n, n) that of the fitted ones in units of their scales,
+    prior included; ``rows`` counts whitened samples; ``chi2`` includes the prior, ``excess`` is that of the data alone over their
+    number, and ``unheld`` what the linearised problem would leave of it without the prior.
+    """
+
+    p: Array
+    columns: tuple[Column, ...]
+    index: NDArray[np.intp]
+    covariance: Array
+    noise: tuple[Noise, ...]
+    rows: int
+    chi2: float
+    excess: float
+    unheld: float
+    converged: bool
+    reason: str
+
+    @property
+    def complaint(self) -> str | None:
+        """Why it is not to be trusted, in words; ``None`` if it is."""
+        return None if self.converged else f"the calibration has not converged: {self.reason}"
+
+
+@dataclass(frozen=True)
+class _Fall(Linear):
+    """A fit linearised about a point: triangle ``data`` (n + 1, n + 1) of [base | residual] without the prior, the prior's centre
+    ``to_nominal`` (n,) as seen from the point, in scales, and ``sums`` (n + 1,), V, of the columns and residual of each output.
+    """
+
+    data: Array
+    to_nominal: Array
+    sums: Mapping[int, Array]
+    rows: int
+
+    @property
+    def excess(self) -> float:
+        """Chi-square of the data over their number."""
+        return float(self.data[:, -1] @ self.data[:, -1]) / max(self.rows, 1)
+
+    def over(self, size: float) -> _Fall:
+        """The same with a noise so many times as large."""
+        fall = _linear(self.data / size, self.to_nominal)
+        rest = fall.rest if np.isfinite(self.rest) else np.inf
+        return replace(self, R=fall.R, y=fall.y, rest=rest, data=self.data / size)
+
+
+@dataclass(frozen=True)
+class _Task:
+    """What is fitted: chi-square as a function of the parameters' distance x (n,) from the sheet, in scales."""
+
+    model: Model
+    instrument: Instrument
+    observations: Sequence[Observation]
+    nominal: Array
+    columns: tuple[Column, ...]
+    index: NDArray[np.intp]
+
+    @staticmethod
+    def of(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> _Task:
+        found = design.base_columns(model, instrument)
+        columns = tuple(c for c, _ in found)
+        index = np.array([i for _, i in found])
+        return _Task(
+            model=model,
+            instrument=instrument,
+            observations=observations,
+            nominal=vector(model, instrument),
+            columns=columns,
+            index=index,
+        )
+
+    @property
+    def scale(self) -> Array:
+        return np.array([c.scale for c in self.columns])
+
+    def vector(self, x: Array) -> Array:
+        """Parameter vector, SI."""
+        p = self.nominal.copy()
+        p[self.index] += x * self.scale
+        return p
+
+    def excerpt(self) -> _Task:
+        """The same of some segments of long flights; itself if none is long."""
+        shorter = [excerpt(o) for o in self.observations]
+        if all(a is b for a, b in zip(shorter, self.observations, strict=True)):
+            return self
+        return replace(self, observations=shorter)
+
+    def at(self, x: Array, noise: Sequence[Noise]) -> _Fall:
+        """Linearised about x."""
+        p = self.vector(x)
+        places = {o.place for o in self.observations}
+        if not all(scale_factor(self.model, p, place) > 0.0 for place in places):
+            return self._nowhere(x)
+        point = Point(self.model, self.instrument, p, with_candidates=False)
+        triangles, rows = [], 0
+        sums = {o.place: np.zeros(len(x) + 1) for o in self.observations}
+        for o, n in zip(self.observations, noise, strict=True):
+            for T, count, part in passed(point, o, n, _triangle, chosen=heard(o)):
+                triangles.append(T)
+                rows += count
+                sums[o.place] += part
+        data = join(triangles)
+        if not np.isfinite(data).all():
+            return self._nowhere(x)
+        fall = _linear(data, -x)
+        return _Fall(R=fall.R, y=fall.y, rest=fall.rest, data=data, to_nominal=-x, sums=sums, rows=rows)
+
+    def noise(self, x: Array) -> list[Noise]:
+        """Noise of every flight from what nothing explains about x."""
+        everything = Point(self.model, self.instrument, self.vector(x), with_candidates=True)
+        return [estimate_noise(everything, o) for o in self.observations]
+
+    def size(self, noise: Sequence[Noise]) -> float:
+        """Root of the mean power of what no column explains, V, lines included."""
+        floors = [float(np.mean([m.rms**2 for m in n.models])) for n in noise]
+        records = [o.record for o in self.observations]
+        powers = [f * swell(n, r) + n.line_power for f, n, r in zip(floors, noise, records, strict=True)]
+        return float(np.sqrt(np.mean(powers)))
+
+    def _nowhere(self, x: Array) -> _Fall:
+        """A point at which the model is no instrument: infinitely far from any record."""
+        n = len(x)
+        return _Fall(
+            R=np.eye(n),
+            y=np.zeros(n),
+            rest=np.inf,
+            data=np.zeros((n + 1, n + 1)),
+            to_nominal=-x,
+            sums={},
+            rows=1,
+        )
+
+
+@dataclass(frozen=True)
+class _Unweighted:
+    """Fits in which every sample weighs the same: the points that were tried serve for any size of the noise."""
+
+    task: _Task
+    _tried: dict[bytes, _Fall] = field(default_factory=dict)
+
+    def volts(self, x: Array) -> _Fall:
+        """Linearised about x, a noise of 1 V."""
+        key = x.tobytes()
+        if key not in self._tried:
+            while len(self._tried) > 1:
+                self._tried.pop(next(iter(self._tried)))
+            unit = [white_noise(o.record.rate, len(o.series)) for o in self.task.observations]
+            self._tried[key] = self.task.at(x, unit)
+        return self._tried[key]
+
+    def fit(self, x: Array, size: float) -> Minimum[_Fall]:
+        """From x with noise of this size, V."""
+        return minimise(lambda at: self.volts(at).over(size), x)
+
+    def left(self, x: Array) -> float:
+        """rms of the outputs' residual at x, V."""
+        at = self.volts(x)
+        return float(np.sqrt(at.excess))
+
+    def promised(self, x: Array) -> float:
+        """rms that a linear fit from x would leave, V."""
+        at = self.volts(x)
+        return float(abs(at.data[-1, -1])) / float(np.sqrt(at.rows))
+
+
+def fit(
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    *,
+    start: Array | None = None,
+    noise: Sequence[Noise] | None = None,
+    unweighted: bool = False,
+) -> Calibration:
+    """Least squares on all flights at once, from the nominal values or from ``start``.
+
+    First every sample weighs the same; from what is left the noise is estimated, and the fit goes on whitened, unless much more
+    than noise is left or ``unweighted`` is asked for. Long flights begin on an excerpt.
+    """
+    task = _Task.of(model, instrument, observations)
+    x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
+    loud, whole, some = unweighted, _Unweighted(task), task.excerpt()
+    if noise is None:
+        begun = whole if some is task else _Unweighted(some)
+        x = begun.fit(x, begun.promised(x)).x
+        noise = task.noise(x)
+        loud = loud or begun.left(x) ** 2 > MISFIT * task.size(noise) ** 2
+    if not loud:
+        if start is None and some is not task:
+            x = minimise(lambda at: some.at(at, noise), x).x
+        found = minimise(lambda at: task.at(at, noise), x)
+        return _calibration(task, found, noise)
+    return _loud(whole, x, noise, fixed=unweighted)
+
+
+def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Calibration:
+    """The unwhitened fit from x of what leaves more than ``noise``, which is estimated anew at its end unless it is ``fixed``."""
+    for _ in range(ROUNDS):
+        left = p.left(x)
+        found = p.fit(x, max(p.task.size(noise), left / LEAN))
+        if fixed or np.array_equal(found.x, x):
+            break
+        x, before, noise = found.x, noise, p.task.noise(found.x)
+        if loudness(noise) > FALLING * loudness(before) and p.left(x) > FALLING * left:
+            break
+    return _calibration(p.task, found, noise)
+
+
+def loudness(noise: Sequence[Noise]) -> float:
+    """Root of the mean power of the outputs' noise over all flights, V."""
+    return float(np.sqrt(np.mean([m.rms**2 for n in noise for m in n.models])))
+
+
+def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> Calibration:
+    """The end of a fit as parameters, levelled."""
+    at = found.at
+    step = found.last
+    for sums in at.sums.values():
+        step = design.levelled(step, sums, design.null_biases(task.columns))
+    covariance = _linear(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
+    return Calibration(
+        p=task.vector(found.x + step),
+        columns=task.columns,
+        index=task.index,
+        covariance=covariance,
+        noise=tuple(noise),
+        rows=at.rows,
+        chi2=at.cost,
+        excess=at.excess,
+        unheld=float(at.data[-1, -1] ** 2) / max(at.rows, 1),
+        converged=found.converged,
+        reason=found.reason,
+    )
+
+
+def _triangle(piece: Piece) -> tuple[Array, int, Array]:
+    return piece.triangle(), piece.white.shape[1], piece.sums()
+
+
+def _linear(T: Array, to_nominal: Array) -> Linear:
+    """The fit of a triangle [base (n) | residual], the prior in it: its centre is ``to_nominal`` away, its width one scale."""
+    R = with_prior(T, range(len(to_nominal)), to_nominal)
+    return Linear(R[:-1, :-1], R[:-1, -1], float(R[-1, -1] ** 2))

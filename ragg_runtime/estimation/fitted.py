@@ -1,0 +1,394 @@
+"""A model calibrated on flights, with what all tests and scores need."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import linalg
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.estimation import calibrate, columns, noise, prepared_flight
+from ragg_runtime.estimation.calibrate import Calibration
+from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.noise_spectrum import Noise
+from ragg_runtime.estimation.observation import Observation
+from ragg_runtime.estimation.off_sheet import QUIET, widened
+from ragg_runtime.estimation.passes import Piece
+from ragg_runtime.estimation.prepared_flight import PreparedFlight
+from ragg_runtime.estimation.score import Error, Stretch, Tally, pooled
+from ragg_runtime.estimation.segments import BLOCKS
+from ragg_runtime.estimation.square_root import fold, prior, with_prior
+from ragg_runtime.estimation.switching import certain
+from ragg_runtime.estimation.thinning import beyond
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.model import Model
+
+Array = NDArray[np.float64]
+
+FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
+HELD_OUT_BLOCKS = tuple(b for b in range(BLOCKS) if b not in FITTED_BLOCKS)
+"""Blocks of time on which a held-out fit is made; the others, in turn with them, score it."""
+
+FREE = 1e-3
+"""Weight of a word of the sheet that is not taken: a thousand sigma off costs no more than one."""
+
+WIDENED = 3
+"""Most times that a sheet is taken to be less sure than it says."""
+
+
+@dataclass(frozen=True)
+class Scored:
+    """How large one residual is.
+
+    ``held_out`` is over the blocks of time that a held-out fit does not see; ``mean_square`` of each flight, V^2, within the fitted
+    band; ``blocks`` (flights, BLOCKS) the rms, V, NaN without valid samples.
+    """
+
+    whole: Error
+    held_out: Error
+    mean_square: tuple[float, ...]
+    blocks: Array
+
+
+@dataclass(frozen=True)
+class _Counted:
+    """Of one segment: its tally, and sums in the blocks of time."""
+
+    tally: Tally
+    squares: Array
+    samples: Array
+
+
+def _left(v: Array, piece: Piece) -> Array:
+    return np.asarray(piece.left(v)[0])
+
+
+def _counted(piece: Piece, V: Array, further: Callable[[Piece], Array] | None) -> _Counted:
+    r = piece.observation.record
+    e = piece.left(V)
+    if further is not None:
+        e = np.concatenate([e, further(piece)])
+    squares, samples = np.zeros((BLOCKS, len(e))), np.zeros(BLOCKS)
+    scored = np.zeros(len(r.time), dtype=np.bool_)
+    for b, rows in piece.segment.blocks:
+        here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
+        scored[here] = b in HELD_OUT_BLOCKS
+        v = r.valid[here]
+        squares[b] = np.sum(e[:, here][:, v] ** 2, axis=1)
+        samples[b] = np.sum(v)
+    selected = np.stack([np.ones(len(scored), dtype=np.bool_), scored])
+    return _Counted(
+        Tally.of(Stretch(e, r.demodulation_angle, selected, r.valid), r.rate, turning=r.turning),
+        squares,
+        samples,
+    )
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A model fitted to flights, and everything that evidence is read from.
+
+    ``triangles`` holds for every flight the triangle of its whitened columns [base | candidates | residual]
+    in each block of time; all tests are made on them alone. ``sums`` (BLOCKS, size + 1) are those of the plain columns.
+    """
+
+    model: Model
+    instrument: Instrument
+    observations: tuple[Observation, ...]
+    calibration: Calibration
+    prepared: tuple[PreparedFlight, ...]
+    triangles: tuple[tuple[Array, ...], ...]
+    sums: tuple[Array, ...]
+    to_nominal: Array
+    scales: tuple[float, ...]
+    """k_ggi of every observation's output, V/Eo."""
+
+    @property
+    def sheet(self) -> Array:
+        """(P,): the parameters as model.toml says."""
+        return vector(self.model, self.instrument)
+
+    @property
+    def k_ggi(self) -> float:
+        """That of the first."""
+        return self.scales[0]
+
+    @property
+    def first(self) -> list[int]:
+        """Place among the observations of the first of each flight, of however many outputs."""
+        return [
+            n for n, o in enumerate(self.observations) if not n or o.flight != self.observations[n - 1].flight
+        ]
+
+    @property
+    def flights(self) -> list[Observation]:
+        """One observation of each flight, of however many outputs."""
+        return [self.observations[n] for n in self.first]
+
+    @property
+    def n_base(self) -> int:
+        return len(self.calibration.columns)
+
+    @property
+    def candidates(self) -> Sequence[Column]:
+        """Those of the candidate effects, after the base columns; none where nothing was prepared for their tests."""
+        return self.prepared[0].at.candidates
+
+    @property
+    def size(self) -> int:
+        """Number of columns, base and candidates."""
+        return int(self.triangles[0][0].shape[1]) - 1
+
+    @property
+    def uneven(self) -> bool:
+        """Whether the noise changes its level in any observation."""
+        return any(n.level.parts for n in self.calibration.noise)
+
+    @property
+    def beyond(self) -> tuple[float, ...]:
+        """Mean square, V^2, of what thinning took of each observation, which remembers it: no column reaches there, it is noise."""
+        return tuple(beyond(self.model, self.instrument, self.calibration.p, o) for o in self.observations)
+
+    @cached_property
+    def _fitted_part(self) -> Array:
+        return fold([t[b] for t in self.triangles for b in FITTED_BLOCKS])
+
+    @cached_property
+    def data(self) -> Array:
+        """Triangle of all flights, without the prior."""
+        return fold([self._fitted_part, *(t[b] for t in self.triangles for b in HELD_OUT_BLOCKS)])
+
+    @cached_property
+    def whole(self) -> Array:
+        """Triangle of all flights, the prior in it."""
+        return fold([self.data, self._prior])
+
+    @cached_property
+    def half(self) -> Array:
+        """The same over the blocks on which a held-out fit is made."""
+        return fold([self._fitted_part, self._prior])
+
+    @property
+    def _prior(self) -> Array:
+        return prior(range(self.n_base), self.size + 1, self.to_nominal)
+
+    def freed(self, name: str, extra: Sequence[int]) -> Array:
+        """Triangle [base | candidates ``extra`` | residual] as if the sheet did not know one parameter of the accelerometers."""
+        picked = [*range(self.n_base), *(self.n_base + k for k in extra), -1]
+        sheet = self._prior[:, picked]
+        of_it = [k for k, c in enumerate(self.calibration.columns) if c.effect is None and c.name == name]
+        sheet[of_it] *= FREE
+        return np.asarray(np.linalg.qr(np.vstack([self.data[:, picked], sheet]), mode="r"))
+
+    def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
+        """Fit of base and ``extra`` candidate columns, in scales, with its covariance, priors included.
+
+        With ``held_out`` only the blocks of :data:`FITTED_BLOCKS` are fitted. The null biases take the residual's mean.
+        """
+        T, n = self.half if held_out else self.whole, self.n_base
+        picked = [*range(n), *(n + k for k in extra)]
+        k = len(picked)
+        # the base columns are triangular already: what the extra ones leave below them is all that is new
+        below = with_prior(T[n:, [*picked[n:], -1]], range(k - n))
+        R = np.vstack([T[:n, picked], np.hstack([np.zeros((k - n, n)), below[: k - n, : k - n]])])
+        inverse, _ = linalg.lapack.dtrtri(R)
+        blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
+        biases = columns.null_biases(self.calibration.columns)
+        coefficients = inverse @ np.concatenate([T[:n, -1], below[: k - n, -1]])
+        for place in dict.fromkeys(o.place for o in self.observations):
+            own = [x[blocks] for x, o in zip(self.sums, self.observations, strict=True) if o.place == place]
+            sums = np.sum(own, axis=(0, 1))[[*picked, -1]]
+            coefficients = columns.levelled(coefficients, sums, biases)
+        return coefficients, inverse @ inverse.T
+
+    def vector(self, coefficients: Array, extra: Sequence[int] = ()) -> Array:
+        """(size,): coefficients of base and ``extra`` candidates among those of all columns."""
+        v = np.zeros(self.size)
+        v[: self.n_base] = coefficients[: self.n_base]
+        v[[self.n_base + k for k in extra]] = coefficients[self.n_base :]
+        return v
+
+    def residuals(self, coefficients: Array, extra: Sequence[int] = ()) -> list[Array]:
+        """Residual of G_out, (N,) V, of every flight once these coefficients are in."""
+        return self.residuals_of(self.vector(coefficients, extra))
+
+    def residuals_of(self, v: Array) -> list[Array]:
+        """The same with the coefficients of all columns, (size,)."""
+        flights = [x.for_residuals(v[None]) for x in self.prepared]
+        return [np.concatenate([*lean.each(partial(_left, w), whitened=False)]) for lean, w in flights]
+
+    def score(
+        self, vectors: Sequence[Array], further: Callable[[Piece], Array] | None = None, count: int = 0
+    ) -> list[Scored]:
+        """How large the residuals are with these coefficients (size,), in one pass over the flights.
+
+        ``further`` yields ``count`` more residuals (count, N), V, of a piece.
+        """
+        V = np.stack(vectors) if vectors else np.empty((0, self.size))
+        k = len(V) + count
+        tallies, blocks = [], np.full((len(self.prepared), BLOCKS, k), np.nan)
+        for n, x in enumerate(self.prepared):
+            r = x.observation.record
+            tally = Tally(k, 2, r.rate, turning=r.turning, beyond=self.beyond[n])
+            squares, samples = np.zeros((BLOCKS, k)), np.zeros(BLOCKS)
+            lean, W = x.for_residuals(V)
+
+            def counted(piece: Piece, W: Array = W) -> _Counted:
+                return _counted(piece, W, further)
+
+            for part in lean.each(counted, whitened=False):
+                squares += part.squares
+                samples += part.samples
+                tally.join(part.tally)
+            tallies.append(tally)
+            some = samples > 0
+            blocks[n, some] = np.sqrt(squares[some] / samples[some, None] + self.beyond[n])
+        return [
+            Scored(
+                self._pooled(tallies, j, 0),
+                self._pooled(tallies, j, 1),
+                tuple(float(t.squares[0, j] / t.samples[0]) for t in tallies),
+                blocks[:, :, j],
+            )
+            for j in range(k)
+        ]
+
+    def _pooled(self, tallies: Sequence[Tally], series: int, group: int) -> Error:
+        errors = [t.error(series, k, group) for t, k in zip(tallies, self.scales, strict=True)]
+        if len(errors) == 1:
+            return errors[0]
+        return pooled(errors, [float(t.samples[group]) for t in tallies])
+
+
+def calibrated(
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    *,
+    noise: Sequence[Noise] | None = None,
+    start: Array | None = None,
+    unweighted: bool = False,
+) -> tuple[Instrument, Calibration]:
+    """The parameters, and the instrument with a sheet as sure as the record says it is (``off_sheet.widened``), if that brings what
+    is left down to noise.
+    """
+    c = calibrate.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
+    found = instrument, c
+    for _ in range(WIDENED):
+        wider = widened(model, instrument, c)
+        if wider is None:
+            break
+        instrument = wider
+        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p, unweighted=unweighted)
+    return (instrument, c) if c.excess <= QUIET else found
+
+
+@one_thread
+def fit(
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    noise: Sequence[Noise] | None = None,
+    start: Array | None = None,
+    *,
+    unweighted: bool = False,
+    candidates: bool = True,
+) -> Fitted:
+    """Calibrate a model on flights and prepare the evidence.
+
+    ``noise`` is estimated unless given; ``unweighted``: all samples weigh the same. Without ``candidates`` no effect can be tested.
+    """
+    observations = certain(model, instrument, observations)
+    instrument, c = calibrated(
+        model, instrument, observations, noise=noise, start=start, unweighted=unweighted
+    )
+    if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):
+        raise UserError(
+            "the calibration does not converge: the record is not one of this instrument",
+            where=", ".join(o.name for o in observations),
+            found="a scale factor of the gradiometer below zero",
+            expected="the disc angle, spin frequency, axes and signs of the model",
+            remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
+        )
+    return about(model, instrument, observations, c, candidates=candidates)
+
+
+@one_thread
+def about(
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    c: Calibration,
+    *,
+    candidates: bool = True,
+) -> Fitted:
+    """The evidence about a calibration, however it was found; of its parameters alone without ``candidates``."""
+    prepared = prepared_flight.prepare(model, instrument, observations, c, candidates=candidates)
+    triangles, sums = zip(*(prepared_flight.blocks(x) for x in prepared), strict=True)
+    return Fitted(
+        model=model,
+        instrument=instrument,
+        observations=tuple(observations),
+        calibration=c,
+        prepared=prepared,
+        triangles=triangles,
+        sums=sums,
+        to_nominal=prepared_flight.to_nominal(model, instrument, c),
+        scales=tuple(scale_factor(model, c.p, o.place) for o in observations),
+    )
+
+
+def swell(f: Fitted) -> float:
+    """rms of all the noise over that of the floor."""
+    return float(np.sqrt(np.mean([noise.swell(x.noise, x.observation.record) for x in f.prepared])))
+
+
+def lines(f: Fitted) -> float:
+    """rms of the lines that are taken for noise, Eo."""
+    power = [
+        sum(w[q.output] ** 2 * q.amplitude**2 / 2 for q in x.noise.lines) / k_ggi**2
+        for x, k_ggi in zip(f.prepared, f.scales, strict=True)
+        for w in [x.noise.weights(x.observation.signs)]
+    ]
+    return float(np.sqrt(np.mean(power)))
+
+
+def estimated(x: PreparedFlight) -> float:
+    """Variance of the estimated noise of what was observed as G_out, V^2."""
+    share = x.observation.recorded.noise_share(x.observation.record)
+    return share * x.noise.variance(x.observation.signs)
+
+
+def noise_floor(f: Fitted) -> float:
+    """rms of the noise of G_out before demodulation, Eo."""
+    variances = []
+    for x, k_ggi, fast in zip(f.prepared, f.scales, f.beyond, strict=True):
+        variances.append((estimated(x) + fast) / (k_ggi / f.k_ggi) ** 2)
+    return float(np.sqrt(np.mean(variances))) / f.k_ggi
+
+
+@dataclass(frozen=True)
+class Posterior:
+    """Fitted values (k,) in scales, and their covariance (k, k)."""
+
+    value: Array
+    covariance: Array
+
+    def std(self, weights: Array) -> float:
+        """Standard deviation of ``weights @ value``."""
+        return float(np.sqrt(max(0.0, float(weights @ self.covariance @ weights))))
+
+    def of(self, places: Sequence[int]) -> Posterior:
+        """Of some of the parameters."""
+        return Posterior(self.value[list(places)], self.covariance[np.ix_(places, places)])
+
+
+def posterior(f: Fitted, extra: Sequence[int] = ()) -> Posterior:
+    """Base parameters (as steps from the calibrated ones) and ``extra`` candidates, priors of both included."""
+    return Posterior(*f.coefficients(extra))

@@ -1,0 +1,210 @@
+"""What columns leave of a record's output, and how much of the noise they have taken with them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft, linalg
+
+from ragg_runtime.base.threads import stretches
+from ragg_runtime.estimation.disturbances import Disturbance, disturbances
+from ragg_runtime.estimation.noise_spectrum import estimate, hann
+from ragg_runtime.estimation.square_root import triangle
+from ragg_runtime.signals.fir import GROUP, SPARSE, filtered, not_zero
+
+Array = NDArray[np.float64]
+
+ROUNDS = 6
+"""Most times that lines and jumps are looked for in what is left beside those before."""
+
+
+@dataclass(frozen=True)
+class Left:
+    """What columns leave of the last one.
+
+    ``rest`` (rows,) is at the valid samples; ``rank`` the degrees of freedom of the columns; ``kept`` the share of white noise that
+    they leave at each frequency of the periodogram; ``found`` the lines and jumps fitted beside them; ``shapes`` (k, rows) their
+    fitted series. ``columns`` (n, rows) times ``directions`` (n, n) are orthonormal.
+    """
+
+    rest: Array
+    rank: float
+    kept: Array
+    found: list[Disturbance]
+    shapes: Array
+    columns: Array = field(repr=False)
+    directions: Array = field(repr=False)
+
+
+def left_over(
+    flat: Array,
+    valid: NDArray[np.bool_],
+    rate: float | None,
+    band: tuple[float, float] | None,
+    through: Callable[[Array], Array] = lambda columns: columns,
+) -> Left:
+    """What columns leave of the last of flat (n + 1, rows), with lines and jumps in it fitted beside them.
+
+    No line is looked for in ``band``; ``through`` does to columns (k, rows) what was done to ``flat``. Without ``rate`` neither
+    lines nor ``kept`` are looked for.
+    """
+    some = not_zero(flat[:-1])
+    if np.count_nonzero(some) < SPARSE * len(flat):
+        flat = flat[[*some, True]]
+    left = _fitted(flat, flat, valid, rate, [])
+    if rate is None:
+        return replace(left, columns=np.empty(0), directions=np.empty(0))
+    time = np.flatnonzero(valid) / rate
+
+    def beside(found: list[Disturbance]) -> Left:
+        wide = np.vstack([*(through(d.columns(time)) for d in found), flat])
+        return _fitted(wide, flat, valid, rate, found)
+
+    for _ in range(ROUNDS):
+        seen = disturbances(placed(left.rest, valid), valid, rate, band)
+        lines = [d for d in seen if d.kind == "line"]
+        jump = None if lines else _jump(left, valid, rate)
+        with_it = None if jump is None else _and(left, through(jump.columns(time))[0], valid)
+        if jump is not None and with_it is not None and _told(left, with_it, valid, rate, band):
+            left = beside(
+                [*left.found, jump]
+            )  # to the sample; those that a mean shows are of no use beside it
+            continue
+        if not seen:
+            break
+        left = beside([*left.found, *(lines or seen)])
+    return replace(left, columns=np.empty(0), directions=np.empty(0))
+
+
+def _and(left: Left, column: Array, valid: NDArray[np.bool_]) -> Left:
+    """What is left once one more column (rows,) is fitted: what is new in it takes its share of residual and noise."""
+    new = column - (left.directions @ (left.directions.T @ (left.columns @ column))) @ left.columns
+    new /= np.linalg.norm(new)
+    nothing = _kept(new[None], np.zeros((1, 1)), valid)
+    kept = np.maximum(left.kept + _kept(new[None], np.ones((1, 1)), valid) - nothing, 0.0)
+    return replace(left, rest=left.rest - new * float(new @ left.rest), kept=kept)
+
+
+def placed(rest: Array, valid: NDArray[np.bool_]) -> Array:
+    """(N,): what is left, zero where a sample is not valid."""
+    e = np.zeros(len(valid))
+    e[valid] = rest
+    return e
+
+
+def _fitted(
+    wide: Array, flat: Array, valid: NDArray[np.bool_], rate: float | None, found: list[Disturbance]
+) -> Left:
+    fit = _least_squares(wide)
+    ends = np.cumsum([0, *(len(d.columns(np.zeros(1))) for d in found)])
+    return Left(
+        rest=np.asarray(flat[-1] - fit.solution @ wide[:-1]),
+        rank=fit.rank,
+        kept=_kept(wide[:-1], fit.directions, valid) if rate else np.empty(0),
+        found=found,
+        shapes=np.array([fit.solution[a:b] @ wide[a:b] for a, b in pairwise(ends)]),
+        columns=wide[:-1],
+        directions=fit.directions,
+    )
+
+
+JUMP = 32.0
+"""Least chi-square of a jump that the columns hide: above chance in 1,400 records of 640 s of red noise but for 6."""
+
+INSTANTS = 96
+"""Instants among which it is sought, and again about the best of them, to the sample."""
+
+
+def _jump(left: Left, valid: NDArray[np.bool_], rate: float) -> Disturbance | None:
+    """The jump that would explain most of what is left, columns fitted beside it anew; ``None`` if white noise would do."""
+    n = len(left.rest)
+    low, high = 0, n
+    while True:
+        edges = np.unique(np.linspace(low, high, INSTANTS + 1).astype(np.intp))[1:-1]
+        starts = np.concatenate([[0], edges])
+        spanned = left.directions.T @ np.add.reduceat(left.columns, starts, axis=1)
+        after, shared = (
+            np.cumsum(x[..., ::-1], axis=-1)[..., ::-1][..., 1:]
+            for x in (np.add.reduceat(left.rest, starts), spanned)
+        )
+        own = (n - edges) - np.sum(shared**2, axis=0)
+        own = np.where(own > 1e-3 * np.minimum(edges, n - edges), own, np.inf)
+        best = int(np.argmax(after**2 / own))
+        if high - low <= INSTANTS:
+            break
+        reach = -(-(high - low) // INSTANTS)
+        low, high = max(0, int(edges[best]) - reach - 1), min(n, int(edges[best]) + reach + 1)
+    variance = float(left.rest @ left.rest) / max(1.0, n - left.rank)
+    if not float(after[best] ** 2 / own[best]) > JUMP * variance:
+        return None
+    size = abs(float(after[best] / own[best])) / float(np.sqrt(variance))
+    return Disturbance("jump", float(np.flatnonzero(valid)[edges[best]] / rate), size)
+
+
+def _told(
+    before: Left, after: Left, valid: NDArray[np.bool_], rate: float, band: tuple[float, float] | None
+) -> bool:
+    """Whether what was fitted last stands out of the noise that is left without it: red noise looks like jumps, too."""
+    model = estimate([placed(after.rest, valid)], rate, band, [after.kept])
+    taps = model.whitening_filter(len(valid))
+    gone = filtered(placed(before.rest - after.rest, valid)[None], taps)[0][valid]
+    return float(gone @ gone) > JUMP
+
+
+EVERY = 1024
+"""Bins of a periodogram for which the share that columns leave is computed; it is interpolated in between."""
+
+
+def _kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
+    """Share of white noise left at each frequency once columns (n, rows) are fitted, |v|^2 - |Q'v|^2 of windowed waves v, gaps
+    counted as lost; columns times ``directions`` (n, k) are Q.
+    """
+    n = len(valid)
+    window = hann(n)
+    size = fft.next_fast_len(n, real=True)  # a little finer than the periodogram's own frequencies
+    bins = size // 2 + 1
+    some = np.unique(np.r_[0 : min(bins, EVERY // 2), np.geomspace(1, bins, EVERY).astype(np.intp) - 1])
+    waves = np.empty((len(columns), len(some)), dtype=np.complex128)
+
+    for group in stretches(len(columns), GROUP):
+        part = columns[group] * window[valid]
+        if not valid.all():
+            x = np.zeros((len(part), n))
+            x[:, valid] = part
+            part = x
+        waves[group] = fft.rfft(part, size, axis=1)[:, some]
+    spanned = directions.T @ waves.view(np.float64)  # real and imaginary parts side by side: half the work
+    taken = np.einsum("ij,ij->j", spanned, spanned).reshape(-1, 2).sum(axis=1)
+    left = (np.sum(window[valid] ** 2) - taken) / np.sum(window**2)
+    return np.asarray(np.interp(np.arange(n // 2 + 1) * (size / n), some, np.maximum(left, 0.0)))
+
+
+ABSENT = 1e-11
+"""Relative size of a direction of (normalised) columns that is rounding rather than physics."""
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """Coefficients (n,), how many they count as, and ``directions`` (n, n): columns times it are orthonormal (or fade)."""
+
+    solution: Array
+    rank: float
+    directions: Array
+
+
+def _least_squares(columns: Array) -> _Fit:
+    """The fit of columns (n + 1, rows) to the last of them; numerically absent directions are faded out."""
+    R = triangle(columns)
+    n = len(R) - 1
+    norms = np.linalg.norm(R[:, :n], axis=0)
+    norms[norms == 0.0] = 1.0
+    U, s, Vt = linalg.svd(R[:n, :n] / norms)
+    faded = s**2 / (s**2 + (ABSENT * s[0]) ** 2)
+    inverse = Vt.T / np.maximum(s, 1e-300) / norms[:, None]
+    solution = inverse @ (faded * (U.T @ R[:n, n]))
+    lost = np.sqrt(faded * (2.0 - faded))  # what a faded fit takes of the noise's power
+    return _Fit(solution=solution, rank=float(np.sum(faded)), directions=inverse * lost)

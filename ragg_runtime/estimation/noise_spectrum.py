@@ -1,0 +1,395 @@
+"""The noise of a record, estimated from its residual, and the filter that makes it white.
+
+With 1/f noise taken for white, a nominal 5 % test raises false alarms on nearly every effect-free record;
+so every column of every fit passes through the same whitening filter as the data. The filter is causal and
+finite: linear, hence exact on the columns however much larger than the noise they are, and a long record
+can be streamed through it. Samples that are not valid are put to zero, in data and columns alike, before
+they are filtered, and the filter starts from rest: both are linear and the same for all columns, so that
+what the model explains it explains before and after; only the noise next to a gap or to the start is not
+perfectly white.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft, interpolate, optimize
+
+from ragg_runtime.estimation.noise_level import Level
+
+Array = NDArray[np.float64]
+
+LOWEST = 3
+"""First bin of a periodogram that is used."""
+
+BELOW = 4.0
+"""So far, in log frequency, the model goes on below it."""
+
+SMOOTH = 0.7
+"""Half width in log frequency over which the fitted spectrum averages the periodogram."""
+
+KNOTS = 9
+"""Coefficients of the log-spectrum: enough for red, white and a broad resonance, too few for a line."""
+
+LOOSE = 0.05
+"""How much a finer spline is held back where it is fine, over elsewhere."""
+
+FINE = 12
+"""Intervals of a finer spline between zero and the Nyquist frequency, taken where the spectrum plainly asks for it:
+what is left of a derived angular acceleration stands in a narrow band near the top. Hundreds of bins lie in each, so
+that a line does not bend it."""
+
+
+@dataclass(frozen=True)
+class NoiseModel:
+    """A smooth one-sided power spectral density: a cubic spline of its logarithm over log frequency.
+
+    Attributes
+    ----------
+    rate
+        Sampling rate, Hz.
+    log_f, log_psd
+        Sorted natural logarithms of frequency (Hz) and density (unit^2/Hz) on a fine grid; held constant
+        outside it.
+    spread
+        Standard error of ``log_psd``: a few bins of a periodogram know the lowest frequencies.
+    """
+
+    rate: float
+    log_f: Array
+    log_psd: Array
+    spread: Array
+
+    def psd(self, f: Array) -> Array:
+        """One-sided density at frequencies f, Hz (the lowest of the grid is used at and near zero)."""
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.exp(np.interp(np.log(np.abs(f)), self.log_f, self.log_psd)))
+
+    def _cautious(self, f: Array) -> Array:
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.exp(np.interp(np.log(np.abs(f)), self.log_f, self.log_psd + self.spread)))
+
+    @property
+    def rms(self) -> float:
+        """Root of the density integrated from 0 to the Nyquist frequency."""
+        lowest = float(np.exp(self.log_f[0] + BELOW)) / LOWEST  # one over the length of the record
+        f = np.geomspace(min(lowest, self.rate / 4), self.rate / 2, 4097)
+        S = self.psd(f)
+        area = np.sum(np.diff(f) * (S[1:] + S[:-1]) / 2.0)  # NumPy 1 has no trapezoid
+        return float(np.sqrt(area + S[0] * f[0]))
+
+    def whitening_filter(self, length: int) -> Array:
+        """Causal minimum-phase FIR (length,) that turns this noise into white noise of unit variance.
+
+        Where the density is known poorly it is taken one standard error higher: a slow effect must stand out of
+        the noise that there may be.
+        """
+        n = 1 << max(13, (4 * length - 1).bit_length())
+        f: Array = np.fft.fftfreq(n, 1 / self.rate).astype(np.float64)
+        # Kolmogorov: the causal half of the cepstrum of 1/sqrt(two-sided density, per sample).
+        cepstrum = np.fft.ifft(-0.5 * np.log(self._cautious(f) * self.rate / 2)).real
+        cepstrum[1 : n // 2] *= 2
+        cepstrum[n // 2 + 1 :] = 0
+        return np.asarray(np.fft.ifft(np.exp(np.fft.fft(cepstrum))).real[:length])
+
+
+@dataclass(frozen=True)
+class Averages:
+    """What is left of a long record's means over neighbouring samples: of noise that is slower than stretches are long.
+
+    Attributes
+    ----------
+    rest, kept
+        (n,), and the share of white noise that is left at each frequency of its periodogram.
+    rate
+        How many there are a second, Hz.
+    below
+        Frequency below which they, not the stretches, tell the noise, Hz.
+    """
+
+    rest: Array
+    kept: Array
+    rate: float
+    below: float
+
+
+def estimate(
+    residuals: Sequence[Array],
+    rate: float,
+    without: tuple[float, float] | None = None,
+    kept: Sequence[Array] | None = None,
+    slow: Averages | None = None,
+) -> NoiseModel:
+    """Spectrum of the noise from contiguous stretches of residual, by Whittle fits.
+
+    Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise. ``kept``: for
+    every stretch the share of the noise that a fit has left it at each frequency of its periodogram (default: all). ``slow``: of
+    a record of which the stretches are but parts.
+
+    First alpha f^-b + omega_T (paper, Eq. 53), which also says how the noise goes on below the lowest
+    frequency of the record; then a smooth correction, a spline of the logarithm over log frequency, fitted
+    as a gamma generalised linear model. Neither bends to a single line.
+    """
+    f, p, count = _periodogram(residuals, rate, without, kept, slow)
+    coarse = _corrected(f, p, count, _red_and_white(f, p, count), None)
+    fine = _corrected(f, p, count, _red_and_white(*_lower(f, p, count)), rate)
+    # Twice the gain in log likelihood against the number of coefficients (BIC).
+    gain = coarse.cost - fine.cost
+    chosen = fine if gain > (fine.size - coarse.size) * np.log(len(f)) else coarse
+    x = np.log(f)
+    grid = np.linspace(x[0] - BELOW, x[-1], 513)
+    near = np.abs(np.clip(grid, x[0], x[-1])[:, None] - x[None, :]) < SMOOTH
+    spread = 1 / np.sqrt(np.maximum(near @ count, 1.0))
+    log_psd = np.asarray(np.log(chosen.base(np.exp(grid))) + chosen.at(np.exp(np.clip(grid, x[0], x[-1]))))
+    model = NoiseModel(rate, grid, log_psd, spread)
+    # the level once more by itself: the penalties must not bias it
+    level = float(np.sum(count * p / model.psd(f)) / np.sum(count))
+    return NoiseModel(rate, grid, model.log_psd + np.log(level), spread)
+
+
+@dataclass(frozen=True)
+class _Correction:
+    """A spline of the logarithm of a spectrum's departure from ``base``; ``cost`` is minus twice the log likelihood."""
+
+    base: Callable[[Array], Array]
+    at: Callable[[Array], Array]
+    size: int
+    cost: float
+
+
+def _lower(f: Array, p: Array, count: Array) -> tuple[Array, Array, Array]:
+    """The lower half, in the logarithm, of the frequencies: what a steep end does to the rest is none of its matter."""
+    low = f <= np.sqrt(f[0] * f[-1])
+    return f[low], p[low], count[low]
+
+
+def _corrected(
+    f: Array, p: Array, count: Array, base: Callable[[Array], Array], dense: float | None
+) -> _Correction:
+    """The correction of ``base`` to the periodogram p (n,) at f (n,).
+
+    Knots are evenly spaced in the logarithm of the frequency, or, for a ``dense`` sampling rate, Hz, in that for low
+    frequencies and in the frequency itself for high ones, FINE intervals to the Nyquist frequency.
+    """
+
+    def scale(g: Array) -> Array:
+        return np.asarray(np.log(g) + (0.0 if dense is None else g * (2 * FINE / dense)))
+
+    x, level = scale(f), base(f)
+    size = KNOTS if dense is None else max(KNOTS, round(float(x[-1] - x[0])))
+    inner = np.linspace(x[0], x[-1], size - 2)
+    knots = np.concatenate([[x[0]] * 4, inner[1:-1], [x[-1]] * 4])
+    X = interpolate.BSpline.design_matrix(np.clip(x, x[0], x[-1]), knots, 3).toarray()
+    roughness = np.diff(np.eye(X.shape[1]), 2, axis=0)
+    b: Array = np.zeros(X.shape[1])
+    held = np.ones(X.shape[1])
+    if dense is not None:
+        # What asks for it may be steep by decades near the top, and is held back little there. Low frequencies, of which
+        # few bins tell and a fit has taken some, are held to their base as ever.
+        centre = np.array([np.mean(knots[k + 1 : k + 4]) for k in range(len(b))])
+        held[centre > scale(np.array(dense / (2 * FINE)))] = LOOSE
+    penalty = 20.0 * (roughness.T * held[1:-1]) @ roughness + 2.0 * np.diag(held)
+    if dense is not None:  # the search begins near its end
+        b[:] = np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ np.log(p / level))
+    for _ in range(50):
+        ratio = p / (level * np.exp(X @ b))
+        step = np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ (ratio - 1) - penalty @ b)
+        step *= min(1.0, 2.0 / max(float(np.max(np.abs(step))), 1e-300))
+        b = b + step
+        if np.max(np.abs(step)) < 1e-8:
+            break
+    fitted = X @ b
+    cost = 2 * float(np.sum(count * (np.log(level) + fitted + p / (level * np.exp(fitted)))))
+    spline = interpolate.BSpline(knots, b, 3)
+    return _Correction(base, lambda g: np.asarray(spline(np.clip(scale(g), x[0], x[-1]))), size, cost)
+
+
+LEFT = 0.1
+"""Share of the noise that a fit must have left in a group of frequencies for them to tell its density."""
+
+
+def _periodogram(
+    residuals: Sequence[Array],
+    rate: float,
+    without: tuple[float, float] | None,
+    kept: Sequence[Array] | None,
+    slow: Averages | None,
+) -> tuple[Array, Array, Array]:
+    """Frequencies, densities and numbers of averaged bins (in equal steps of log frequency).
+
+    The power in a group of bins over what a fit has left of unit noise there is its density without bias, and as many
+    bins as are left tell it.
+    """
+    longest = max(len(r) for r in residuals)
+    usable = [k for k, r in enumerate(residuals) if len(r) >= max(64, longest // 4)]
+    if not usable:
+        raise ValueError("no stretch long enough to estimate the noise from")
+    frequency, density, share = [], [], []
+    for k in usable:
+        f, p = periodogram(residuals[k], rate)
+        # The lowest bins are bent by the mean, the taper and the drifts that a fit takes out.
+        used = np.ones(len(f), dtype=np.bool_) if without is None else (f < without[0]) | (f > without[1])
+        used[:LOWEST] = used[-1:] = False
+        if slow is not None:
+            used &= f >= slow.below
+        frequency.append(f[used])
+        density.append(without_lines(p[used]))
+        share.append(np.ones(len(f))[used] if kept is None else kept[k][used])
+    if slow is not None:
+        f, p = periodogram(slow.rest, slow.rate)
+        used = f < slow.below
+        used[:LOWEST] = False
+        frequency.append(f[used])
+        density.append(without_lines(p[used]))
+        share.append(slow.kept[used])
+    f, p, left = np.concatenate(frequency), np.concatenate(density), np.concatenate(share)
+    which = np.digitize(f, np.geomspace(f.min() * 0.999, f.max() * 1.001, 120))
+    n, power, free, log_f = (
+        np.asarray(np.bincount(which, x), dtype=np.float64) for x in (np.ones(len(f)), p, left, np.log(f))
+    )
+    informed = np.flatnonzero((n > 0) & (free >= LEFT * np.maximum(n, 1)))
+    if len(informed) < KNOTS:  # so many columns that nothing is left of most: all the same
+        informed = np.flatnonzero(n > 0)
+        free = n * max(LEFT, float(np.mean(left)))
+    # neighbouring bins of a Hann periodogram are correlated
+    return np.exp(log_f[informed] / n[informed]), power[informed] / free[informed], free[informed] / 1.5
+
+
+LINE = 25.0
+"""Density over that of its neighbourhood from which a bin is a line, no noise: of a day's million bins of noise the highest
+stands at about 14 times the mean."""
+
+NEIGHBOURS = 0.2
+"""Half width of the neighbourhood of a bin, as a share of its frequency: red noise changes little across it."""
+
+LEAST = 10
+"""Half width of the neighbourhood, bins: those lower than twice this are left as they are, red noise being steep there."""
+
+
+def without_lines(p: Array) -> Array:
+    """A periodogram with its lines cut down to their neighbourhood's median; of noise nothing is changed."""
+    n = len(p)
+    found = p.copy()
+    first = 2 * LEAST
+    if n <= 2 * first:
+        return found
+    # medians in neighbourhoods that grow with frequency, each half overlapping the next
+    starts, centres, levels = first, [], []
+    while starts < n:
+        half = max(LEAST, int(NEIGHBOURS * starts))
+        around = p[max(0, starts - half) : min(n, starts + half + 1)]
+        centres.append(starts)
+        levels.append(float(np.median(around)) / np.log(2.0))
+        starts += max(1, half // 2)
+    k = np.arange(first, n)
+    level = np.exp(np.interp(np.log(k), np.log(centres), np.log(np.maximum(levels, 1e-300))))
+    high = p[first:] > LINE * level
+    found[first:][high] = level[high]
+    return found
+
+
+def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]:
+    """alpha f^-b + omega_T by maximum (Whittle) likelihood, with a weak prior that the noise is white."""
+    white = float(np.median(p[f >= np.sqrt(f[0] * f[-1])]))
+
+    def density(theta: Array, f: Array) -> Array:
+        return np.asarray(white * (np.exp(theta[0]) + np.exp(theta[1]) * (f / 0.1) ** (-theta[2])))
+
+    log_f = np.log(f / 0.1)
+
+    def cost(theta: Array) -> tuple[float, Array]:
+        """And its gradient, by which the optimum is found to rounding, whatever that does on the way."""
+        flat, red = white * np.exp(theta[0]), white * np.exp(theta[1] - theta[2] * log_f)
+        s = flat + red
+        slope = count * (1.0 - p / s) / s
+        sums = np.array([np.sum(slope) * flat, slope @ red, -(slope * red) @ log_f + theta[2] - 1.0])
+        return float(np.sum(count * (np.log(s) + p / s)) + 0.5 * (theta[2] - 1.0) ** 2), sums
+
+    best = optimize.minimize(
+        cost,
+        np.array([0.0, -3.0, 1.0]),
+        jac=True,
+        method="L-BFGS-B",
+        bounds=[(-5, 5), (-14, 8), (0.1, 3.0)],
+        options={"ftol": 1e-14, "gtol": 1e-8},
+    )
+    return lambda g: density(best.x, g)
+
+
+@lru_cache(maxsize=64)
+def white_noise(rate: float, outputs: int) -> Noise:
+    """White noise of 1 V in every output: one object, by which it is known again."""
+    flat = NoiseModel(rate, np.array([0.0, 1.0]), np.zeros(2), np.zeros(2))
+    return Noise(models=(flat,) * outputs, filters=(np.ones(1),) * outputs)
+
+
+@dataclass(frozen=True)
+class Line:
+    """A sinusoid in what the filter ``output`` takes of an observation's series: Hz, and its amplitude, V; 0 where that is counted with
+    another one beside it.
+    """
+
+    output: int
+    frequency: float
+    amplitude: float
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Noise of each output of an observation and its whitening filters. ``disturbed`` says which lines and jumps are no part of
+    it; ``level`` how loud the noise is from sample to sample; ``freedom`` the degrees of freedom from which it is known.
+
+    ``lines``: those that are neither of the motion nor beside a multiple of the spin rate; what they span is taken out of data and
+    columns alike. ``combinations`` (m, m), if there are any: models and filters are of these combinations of the m series, orthonormal rows
+    (:mod:`ragg_runtime.signals.combinations`).
+    """
+
+    models: tuple[NoiseModel, ...]
+    filters: tuple[Array, ...]
+    disturbed: str | None = None
+    level: Level = field(default_factory=Level)
+    freedom: float = np.inf
+    combinations: Array | None = field(default=None, compare=False)
+    lines: tuple[Line, ...] = ()
+
+    @property
+    def line_power(self) -> float:
+        """V^2, of the lines, mean over the series."""
+        return sum(x.amplitude**2 / 2 for x in self.lines) / len(self.models)
+
+    def series(self, x: Array, m: int) -> Array:
+        """What the filter m takes of series (n, m, N): (n, N)."""
+        return x[:, m] if self.combinations is None else np.tensordot(self.combinations[m], x, (0, 1))
+
+    def weights(self, w: Array) -> Array:
+        """(m,): how what counts so in the series (m,) counts in what the filters take."""
+        return w if self.combinations is None else self.combinations @ w
+
+    def psd(self, f: Array, signs: Array) -> Array:
+        """One-sided density at frequencies f, V^2/Hz, of the output in which the series count so (m,)."""
+        weights = self.weights(signs) ** 2
+        return np.asarray(sum(w * m.psd(f) for w, m in zip(weights, self.models, strict=True)))
+
+    def variance(self, signs: Array) -> float:
+        """V^2, of that output."""
+        weights = self.weights(signs) ** 2
+        return float(sum(w * m.rms**2 for w, m in zip(weights, self.models, strict=True)))
+
+
+def hann(n: int) -> Array:
+    """(n,): the periodic Hann window."""
+    return np.asarray(0.5 + 0.5 * np.cos(np.linspace(-np.pi, np.pi, n + 1))[:-1])
+
+
+def periodogram(x: Array, rate: float) -> tuple[Array, Array]:
+    """Frequencies, Hz, and one-sided density of x (..., N) less its mean, seen through a Hann window."""
+    n = x.shape[-1]
+    window = hann(n)
+    wave = fft.rfft((x - np.mean(x, axis=-1, keepdims=True)) * window)
+    power = (wave.real**2 + wave.imag**2) * (1.0 / (rate * np.sum(window**2)))
+    power[..., 1 : n // 2 + 1 - (n % 2 == 0)] *= 2.0
+    return fft.rfftfreq(n, 1.0 / rate), power

@@ -1,0 +1,232 @@
+"""What of a flight is fitted: the four voltages, G_out, or the demodulated channels."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generated.output_effects import imu_saturation, saturation
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.estimation.noise_spectrum import Noise
+from ragg_runtime.estimation.segments import ROWS
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import PAPER, Output, scale
+from ragg_runtime.io import Flight
+from ragg_runtime.model.record import Record, record
+from ragg_runtime.model.recorded import Recorded, recorded
+from ragg_runtime.signals.fir import thinned
+
+Array = NDArray[np.float64]
+
+
+def observations_of(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
+    """Every output of every flight: several where the layout has several, those that were recorded."""
+    found = []
+    for n, x in enumerate(flights):
+        forms = [recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
+        found += [replace(observe(x, instrument, k), flight=n) for k, form in enumerate(forms) if form]
+    return found
+
+
+def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observation:
+    """The most telling form of an output of a flight: its voltages if recorded, else G_out, else the channels."""
+    layout = instrument.layout
+    o = layout.outputs[place]
+    r = record(flight, instrument, place)
+    form = recorded(flight, layout, place)
+    if form is None:
+        raise UserError(f"the flight does not hold the output {o.name}", where=flight.path or flight.name)
+    a = instrument.accelerometers
+    k_ggi = scale(o, a["k_VI"] * a["K1"], instrument.radii + a["dR"])
+    columns = form.columns(layout, o, flight.outputs) or ()
+    if form.demodulated:
+        there = np.isfinite([flight.outputs[c] for c in columns]).all(axis=0) & r.valid
+        r = replace(r, every=_spacing(there))
+    series = form.series([flight.outputs[c] for c in columns], r, k_ggi)
+    if form.demodulated:
+        inside = np.zeros(len(r.time), dtype=bool)  # elsewhere the demodulator has not seen enough
+        inside[r.low_pass.before : len(r.time) - r.low_pass.ahead] = True
+        r = replace(r, valid=r.valid & inside)
+    valid = np.array(r.valid)
+    for x in series:
+        valid &= np.isfinite(x)
+    if o.name in flight.outputs and _at_top(flight.outputs[o.name], valid):
+        valid &= ~saturation.clipped(flight.outputs[o.name], valid)
+    for name in imu_saturation.CHANNELS:
+        if name in flight.channels and _at_top(flight.channels[name], valid):
+            valid &= ~imu_saturation.clipped(flight.channels[name], valid)
+    wide = r.wide
+    if len(r.time) <= ROWS:  # longer ones are cleaned part by part
+        wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
+    name = flight.name if len(layout.outputs) == 1 else f"{flight.name}: {o.name}"
+    slopes = (a["k_VI"] * a["K1"])[list(o.members)]
+    return Observation(
+        recorded=form,
+        record=replace(r, valid=valid, wide=wide),
+        series=series,
+        name=name,
+        output=o,
+        place=place,
+        gains=slopes / np.mean(slopes) if form.separate else np.ones(len(series)),
+    )
+
+
+@dataclass(frozen=True)
+class Observation:
+    """What of a flight, or of a part of one, is fitted: m output series over N samples, V, in the form ``recorded``.
+
+    ``place`` counts the observations (one of each output of each flight), ``flight`` the flights; ``gains`` (m,) are the sheet's
+    scale factors over their mean; ``thin``: of what record this is a thinned one.
+    """
+
+    recorded: Recorded
+    record: Record
+    series: tuple[Array, ...]
+    name: str
+    output: Output = PAPER.outputs[0]
+    place: int = 0
+    flight: int = 0
+    gains: Array = field(default_factory=lambda: np.ones(1))
+    thin: Thin | None = None
+    memo: list[tuple[Noise, list[Any]]] = field(default_factory=list, compare=False, repr=False)
+    """What :mod:`ragg_runtime.estimation.unknown_gradient` has found for some noise."""
+
+    @cached_property
+    def data(self) -> Array:
+        """(m, N), V; zero where a sample is not valid."""
+        return np.stack([np.where(self.record.valid, x, 0.0) for x in self.series])
+
+    @property
+    def unthinned(self) -> Observation:
+        """The observation as it was recorded."""
+        return self if self.thin is None else self.thin.whole
+
+    @property
+    def flight_name(self) -> str:
+        """Name of the flight, without that of the output."""
+        return self.name.removesuffix(f": {self.output.name}")
+
+    @property
+    def signs(self) -> Array:
+        """(m,): how much each series counts in the output."""
+        return self.recorded.signs(self.output)
+
+    @property
+    def weights(self) -> Array:
+        """(m,): how much of a common term of G_out each series sees (for voltages each is searched as one)."""
+        return np.asarray(self.signs / len(self.signs))
+
+    def part(self, rows: slice, only: Container[str] | None = None) -> Observation:
+        """Some of the samples; ``only`` some of their channels."""
+        if (rows.start, rows.stop) == (0, len(self.record.time)):
+            return self
+        series = tuple(np.array(x[rows]) for x in self.series)
+        record = self.record.part(rows, only)
+        return Observation(
+            recorded=self.recorded,
+            record=record,
+            series=series,
+            name=self.name,
+            output=self.output,
+            place=self.place,
+            flight=self.flight,
+            gains=self.gains,
+            thin=None if self.thin is None else self.thin.part(rows),
+        )
+
+
+@dataclass(frozen=True)
+class Thin:
+    """Where the samples of a thinned observation come from: every so many of the ``whole``, through the low-pass ``taps`` (2 h +
+    1,), about its middle; ``rows`` says which of those kept these are.
+    """
+
+    whole: Observation
+    every: int
+    taps: Array
+    rows: slice
+    memo: dict[Any, dict[tuple[int, int], Array]] = field(default_factory=dict, compare=False, repr=False)
+    """What the whole leaves about the last few points (:mod:`ragg_runtime.estimation.linearise`): point -> rows -> residuals."""
+    taken: dict[Any, float] = field(default_factory=dict, compare=False, repr=False)
+    """What thinning took of it about points (:mod:`ragg_runtime.estimation.thinning`)."""
+
+    def part(self, rows: slice) -> Thin:
+        """Some of the samples."""
+        first = self.rows.start
+        return replace(self, rows=slice(first + rows.start, first + rows.stop))
+
+    @property
+    def span(self) -> slice:
+        """Which samples of the whole these are made of."""
+        return slice(self.rows.start * self.every, (self.rows.stop - 1) * self.every + len(self.taps))
+
+    def source(self, only: Container[str] | None = None) -> Observation:
+        """The part of the whole that these are made of; ``only`` some of its channels."""
+        return self.whole.part(self.span, only)
+
+    def kept(self, x: Array) -> Array:
+        """Series (..., N) over the :attr:`span`, thinned: (..., n)."""
+        return thinned(x, self.taps, self.every)
+
+
+def bridged(x: Array, valid: NDArray[np.bool_]) -> Array:
+    """A series (N,), straight from neighbour to neighbour where a sample is not valid."""
+    if valid.all() or not valid.any():
+        return x
+    at = np.arange(len(x))
+    return np.where(valid, x, np.interp(at, at[valid], x[valid]))
+
+
+def _at_top(values: Array, valid: NDArray[np.bool_]) -> bool:
+    """Whether so many samples stand at one extreme value that a range may have been reached."""
+    parts = [slice(k, k + ROWS) for k in range(0, len(values), ROWS)]
+    tops = [float(np.nanmax(_sizes(values[some], valid[some]), initial=0.0)) for some in parts]
+    near = max(tops, default=0.0) * (1 - 1e-9)
+    there = [
+        np.sum(_sizes(values[some], valid[some]) >= near)
+        for some, top in zip(parts, tops, strict=True)
+        if top >= near
+    ]
+    return bool(sum(there) >= saturation.CLIPPED)
+
+
+def _sizes(values: Array, valid: NDArray[np.bool_]) -> Array:
+    """Absolute values of the valid samples."""
+    return np.abs(values if valid.all() else values[valid])
+
+
+def _spacing(there: NDArray[np.bool_]) -> int:
+    """Samples from one of channels to the next."""
+    at = np.flatnonzero(there)
+    return max(1, int(np.median(np.diff(at)))) if len(at) > 1 else 1
+
+
+def telling(r: Record) -> float:
+    """How many times more a sample of the channels tells than one of a record at the full rate."""
+    from scipy import signal  # slow to import, and only records of channels need it
+
+    taps, n = r.low_pass.taps, len(r.time)
+    reach = min(len(taps), n)
+    lags = np.arange(1, reach)
+    alike = signal.correlate(taps, taps)[len(taps) :][: reach - 1] / float(np.sum(taps**2))
+
+    def squares(turn: float) -> Array:
+        return np.asarray(np.square(alike * np.cos(turn * lags)))
+
+    x = r.valid.astype(np.float64)
+    count = float(np.sum(x))
+    beside = np.rint(signal.correlate(x, x, method="fft"))[n:][: reach - 1]
+    whole = count + 2 * float(np.maximum(count - lags, 0.0) @ squares(4 * np.pi * r.spin_frequency / r.rate))
+    turn = np.pi / (2 * r.every) if r.every > 1 else 4 * np.pi * r.spin_frequency / r.rate
+    own = count + 2 * float(beside @ squares(turn))
+    return max(1.0, whole / own) if count else 1.0
+
+
+def as_output(o: Observation, e: Array) -> Array:
+    """G_out (..., N) of what an observation holds (..., m, N): itself, or the sum of the voltages with their signs (Eq. 15)."""
+    return np.asarray(np.einsum("m,...mn->...n", o.signs, e))

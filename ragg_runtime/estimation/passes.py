@@ -1,0 +1,214 @@
+"""One pass over a flight: segment after segment, linearised about a parameter vector and whitened."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base import progress
+from ragg_runtime.estimation import columns as design
+from ragg_runtime.estimation import unknown_gradient
+from ragg_runtime.estimation.linearise import Point, linearised
+from ragg_runtime.estimation.noise_spectrum import Noise
+from ragg_runtime.estimation.observation import Observation, as_output
+from ragg_runtime.estimation.segments import ROWS, THINNER, Segment, segments, spread
+from ragg_runtime.estimation.square_root import triangle
+from ragg_runtime.estimation.unknown_gradient import Window
+from ragg_runtime.model.record import Record
+from ragg_runtime.signals.fir import filtered
+
+Array = NDArray[np.float64]
+R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A segment of a flight about one parameter vector: N samples, m outputs.
+
+    ``columns`` (n + 1, m, N), V, are base (``n_base``) and candidates, each times its parameter's scale, and the residual;
+    ``white`` (n + 1, rows) the same whitened, one output after the other, an unknown gradient (``windows``) projected out;
+    ``sample`` (rows,) the flight's sample of each whitened row; ``heard`` the columns that are not zero.
+    """
+
+    segment: Segment
+    observation: Observation
+    columns: Array
+    n_base: int
+    white: Array
+    sample: NDArray[np.intp]
+    windows: Sequence[Window]
+    heard: slice | NDArray[np.intp]
+
+    def triangle(self, first: int = 0, stop: int | None = None) -> Array:
+        """Triangular factor (n + 1, n + 1) of the whitened columns: of the flight's samples from ``first`` on, before ``stop``."""
+        valid = int(np.count_nonzero(self.observation.record.valid))
+        ends = (first, self.segment.rows.stop if stop is None else stop)
+        a, b = (int(k) for k in np.searchsorted(self.sample[:valid], ends))
+        begins = range(0, max(1, self.white.shape[1]), max(1, valid))  # of every output
+        return triangle(np.concatenate([self.white[:, k + a : k + b] for k in begins], axis=1))
+
+    @property
+    def residual(self) -> Array:
+        """(m, N), V."""
+        return np.asarray(self.columns[-1])
+
+    def sums(self, some: slice = slice(None)) -> Array:
+        """(n + 1,), V: sums of the columns of G_out over some samples; zero of channels, which have lost their mean."""
+        weights = self.observation.signs * (not self.observation.recorded.demodulated)
+        return np.asarray(np.sum(self.columns[:, :, some], axis=2) @ weights)
+
+    def left(self, coefficients: Array) -> Array:
+        """Residuals of G_out (k, N), V, once columns have these coefficients (k, n); no unknown gradient."""
+        base, further = coefficients[:, : self.n_base], coefficients[:, self.n_base :]
+        e = self.columns[-1] - np.tensordot(base, self.columns[: base.shape[1]], 1)
+        for left, own in zip(e, further, strict=True):  # of an effect's fit all but a few are zero
+            few = np.flatnonzero(own)
+            if len(few):
+                left -= np.tensordot(own[few], self.columns[self.n_base + few], 1)
+        return self.observed(e)
+
+    def observed(self, e: Array) -> Array:
+        """What residuals of the series (k, m, N), V, are of G_out (k, N); no unknown gradient."""
+        e = unknown_gradient.without(e, self.windows, self.observation.record.valid)
+        return as_output(self.observation, e)
+
+
+def flight_segments(o: Observation) -> list[Segment]:
+    """The segments of a flight. Demodulated channels are not divided: their columns pass a two-sided filter."""
+    n = len(o.record.time)
+    if o.recorded.demodulated:
+        return segments(n, max(n, ROWS))
+    return segments(n, ROWS // THINNER if o.thin is not None and n > ROWS else ROWS)
+
+
+def longer(o: Observation) -> bool:
+    """Whether a flight is longer than what its noise is seen in at a time: of noise that is slower nothing is known."""
+    return len(flight_segments(o)) > 1
+
+
+def heard(o: Observation) -> list[Segment]:
+    """The segments of a flight that hold valid samples."""
+    return [s for s in flight_segments(o) if np.any(o.record.valid[s.rows])]
+
+
+EXCERPT = 4
+"""Most segments of an excerpt."""
+
+
+def excerpt(o: Observation) -> Observation:
+    """The observation with but some segments of a long flight valid, evenly spread: what is loud they tell as well as all."""
+    found = heard(o)
+    if len(found) <= EXCERPT:
+        return o
+    valid = np.zeros(len(o.record.time), dtype=np.bool_)
+    for s in spread(found, EXCERPT):
+        valid[s.rows] = o.record.valid[s.rows]
+    return replace(o, record=replace(o.record, valid=valid, whole=o.record.whole or o.record), memo=[])
+
+
+def passed(
+    at: Point,
+    o: Observation,
+    noise: Noise,
+    work: Callable[[Piece], R],
+    *,
+    chosen: Sequence[Segment] | None = None,
+    whitened: bool = True,
+    effort: float = 0.0,
+) -> Iterator[R]:
+    """What ``work`` makes of every segment of a flight (or of the ``chosen``, in order); it must not keep a piece of several.
+
+    ``effort``: how many times as long ``work`` takes as making the piece. Unless ``whitened``, the columns alone are made.
+    """
+    n_base = len(at.base)
+    heard = design.heard([*at.base, *at.candidates], at.instrument, o.place)
+    found = flight_segments(o) if chosen is None else chosen
+    memory = max(len(t) for t in noise.filters) - 1 if whitened else 0
+    tail: Array | None = None
+    before = 0
+    share = (1.0 if at.with_candidates else 0.4) * (1.0 if whitened else 0.5) * (1.0 + effort)
+    for s in found:
+        part = o.part(s.rows)
+        columns = linearised(at, part)
+        flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
+        windows = unknown_gradient.windows(o, s.rows, noise)
+        if whitened:
+            tail = _past(tail, s.rows.start - before, memory)
+            flat = _white(columns, heard, noise, tail, part.record, windows)
+            tail, before = _carried(tail, columns, memory), s.rows.stop
+            sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
+        piece = Piece(
+            segment=s,
+            observation=part,
+            columns=columns,
+            n_base=n_base,
+            white=flat,
+            sample=sample,
+            windows=windows,
+            heard=heard,
+        )
+        made = work(piece)
+        progress.step(share * (s.rows.stop - s.rows.start))
+        yield made
+
+
+def _white(
+    columns: Array,
+    heard: slice | NDArray[np.intp],
+    noise: Noise,
+    tail: Array | None,
+    record: Record,
+    windows: Sequence[Window],
+) -> Array:
+    """(n + 1, rows): columns (n + 1, m, N) whitened, without what an unknown gradient spans; zero where nothing is heard."""
+    some = whitened_columns(columns[heard], noise, None if tail is None else tail[heard], record)
+    if windows:
+        some = some.copy() if np.shares_memory(some, columns) else some
+        unknown_gradient.project(some, windows)
+    if isinstance(heard, slice):
+        return some
+    flat = np.zeros((len(columns), some.shape[1]))
+    flat[heard] = some
+    return flat
+
+
+def whitened_columns(columns: Array, noise: Noise, tail: Array | None, record: Record) -> Array:
+    """(n + 1, rows): columns (n + 1, m, N) through the filters, over the noise's level, one output after the other."""
+    valid, level = record.valid, noise.level.of(record.quantity)
+
+    def through(m: int) -> Array:
+        y = filtered(
+            noise.series(columns, m), noise.filters[m], None if tail is None else noise.series(tail, m)
+        )
+        y = y / level if noise.level.parts else y
+        return y if valid.all() else y[:, valid]
+
+    if len(noise.filters) == 1:
+        return through(0)
+    width = int(np.count_nonzero(valid))
+    flat = np.empty((len(columns), len(noise.filters) * width))
+    for m in range(len(noise.filters)):
+        flat[:, m * width : (m + 1) * width] = through(m)
+    return flat
+
+
+def _past(tail: Array | None, gap: int, memory: int) -> Array | None:
+    """What a filter still remembers after so many zeros."""
+    if tail is None or gap >= memory:
+        return None
+    return np.pad(tail, ((0, 0), (0, 0), (0, gap)))[:, :, -memory:] if gap else tail
+
+
+def _carried(tail: Array | None, columns: Array, memory: int) -> Array | None:
+    """What a filter remembers once it has seen ``columns``."""
+    if memory == 0:
+        return None
+    n = columns.shape[2]
+    if n >= memory:
+        return columns[:, :, n - memory :]
+    kept = columns if tail is None else np.concatenate([tail, columns], axis=2)
+    return kept[:, :, -memory:]

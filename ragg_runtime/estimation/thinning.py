@@ -1,0 +1,206 @@
+"""Long flights at a high rate, thinned: the columns of a fit hold nothing in most of the band.
+
+Output and motion pass a low-pass and every so many samples are kept. The model's output is made of the whole record and thinned;
+its derivatives are those along the thinned motion, which must agree with the whole ones on an excerpt.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from ragg_runtime.base.threads import stretches
+from ragg_runtime.estimation.disturbances import disturbances
+from ragg_runtime.estimation.linearise import Point, left, linearised
+from ragg_runtime.estimation.observation import Observation, Thin, bridged
+from ragg_runtime.estimation.passes import heard, longer
+from ragg_runtime.estimation.segments import Segment, spread
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io.record import is_disc_angle
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import HALO
+from ragg_runtime.signals.fir import convolved
+
+Array = NDArray[np.float64]
+
+EVERY = (12, 10, 8, 6, 5, 4, 3)
+"""One in so many samples may be kept; of one in two the whole record's residuals cost what the rest spares."""
+
+PASSED, STOPPED = 0.8, 1.2
+"""Edges of the low-pass over half the rate of the samples that are kept: what folds falls between them."""
+
+ATTENUATION = 100.0
+"""Of the low-pass, dB: of the output, a million times the noise, what folds is a tenth of that and no motion."""
+
+LEAST_RATE, ABOVE = 8.0, 2.0
+"""Hz, of the samples that are kept, and of what passes beyond the fourth multiple of the spin rate: the motion about it."""
+
+ALIKE, NEAR = 1e-3, 0.2
+"""Greatest relative difference between a column along the thinned motion and the thinned column: of the model's parameters, and of
+candidates, which are derived into the model once they are found.
+"""
+
+EXCERPTS, EXCERPT = 3, 12000
+"""Segments on whose first samples the columns are compared, and most of these."""
+
+SHORT = 8
+"""Lengths of the low-pass that a segment must have at least."""
+
+MISSING = 0.25
+"""Share of the low-pass under which samples may be missing, as spikes are: straight lines then stand in their place."""
+
+LOST = 0.05
+"""Share of the samples that may be lost beside those that are missing."""
+
+BLOCK, TOGETHER = 1 << 12, 32
+"""Samples, and columns, that are made at a time: more take memory and no less time."""
+
+
+def thinned(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
+    """Observations as thin as their columns allow about the sheet, those of one flight alike; short ones as they are."""
+    at = Point(model, instrument, vector(model, instrument), with_candidates=True)
+    most = [_most(at, o) for o in observations]
+    found = []
+    for o in observations:
+        every = min(k for k, x in zip(most, observations, strict=True) if x.flight == o.flight)
+        found.append(o if every == 1 else _kept(o, _thin(o, every)))
+    return found
+
+
+def _most(at: Point, o: Observation) -> int:
+    """One in how many of its samples is enough."""
+    least = max(LEAST_RATE, 2 * (4 * o.record.spin_frequency + ABOVE) / PASSED)
+    choices = [k for k in EVERY if o.record.rate >= k * least]
+    if o.recorded.demodulated or not longer(o) or not choices:
+        return 1
+    some = spread(heard(o), EXCERPTS)
+    pieces = [o.part(slice(s.rows.start, min(s.rows.start + EXCERPT, s.rows.stop))) for s in some]
+    whole = [linearised(at, _everywhere(x))[:-1] for x in pieces]
+
+    def enough(every: int) -> bool:
+        thin = [_thin(x, every) for x in pieces]
+        short = min(len(x.record.time) for x in pieces) < SHORT * len(thin[0].taps)
+        return not short and _alike(at, thin, whole)
+
+    if not enough(choices[-1]):  # a motion that shakes is soon known
+        return 1
+    every = next((k for k in choices[:-1] if enough(k)), choices[-1])
+    lost = np.mean(o.record.valid) - np.mean(_supported(o.record.valid, _thin(o, every)))
+    return 1 if lost > LOST or any(_has_line(at, _thin(o.part(s.rows), every)) for s in some) else every
+
+
+def _everywhere(o: Observation) -> Observation:
+    """An observation all of whose samples count: of its motion alone something is asked."""
+    return replace(o, record=replace(o.record, valid=np.ones_like(o.record.valid)), memo=[])
+
+
+def _thin(o: Observation, every: int) -> Thin:
+    taps = low_pass(every)
+    return Thin(whole=o, every=every, taps=taps, rows=slice(0, (len(o.record.time) - len(taps)) // every + 1))
+
+
+def low_pass(every: int) -> Array:
+    """(2 h + 1,): taps, their sum 1, for one in so many samples (Kaiser's window)."""
+    from scipy import signal  # slow to import, and only long flights need it
+
+    half, shape = signal.kaiserord(ATTENUATION, (STOPPED - PASSED) / every)
+    return np.asarray(signal.firwin(2 * (half // 2) + 1, 1.0 / every, window=("kaiser", shape)))
+
+
+def beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> float:
+    """Mean square, V^2 of G_out, of what thinning has taken of an observation's residual about parameters p, SI."""
+    if o.thin is None:
+        return 0.0
+    at = Point(model, instrument, p, with_candidates=False)
+    if at.name in o.thin.taken:
+        return o.thin.taken[at.name]
+    whole, taps = o.thin.whole, o.thin.taps
+
+    def taken(s: Segment) -> Array:
+        part = whole.part(s.rows, at.channels)
+        e = part.signs @ left(at, part)
+        slow, inner = convolved(e, taps), slice(len(taps) // 2, len(e) - len(taps) // 2)
+        # the whole less the slow, one sample at a time: what both hold, an unknown gradient say, cancels
+        square = ((e[inner] - slow) * (e[inner] + slow))[part.record.valid[inner]]
+        return np.array([np.sum(square), len(square)])
+
+    square, count = sum(map(taken, heard(whole)), np.zeros(2))
+    found = max(0.0, float(square) / max(float(count), 1.0))
+    o.thin.taken[at.name] = found
+    return found
+
+
+def _alike(at: Point, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
+    """Whether along the thinned motion the same columns are made, of pieces of a flight, as the ``whole`` ones are, thinned."""
+    square = off = np.zeros(1)
+    for thin, columns in zip(pieces, whole, strict=True):
+        o = replace(_kept(thin.whole, thin), thin=None)
+        # towards an end or a gap derivatives are of one side
+        inside = ndimage.binary_erosion(o.record.valid, iterations=HALO)
+        if 2 * np.sum(inside) < len(inside):
+            return False  # so few samples tell nothing of the rest
+        made = linearised(at, o)[:-1]
+        wanted = np.concatenate([thin.kept(columns[some]) for some in stretches(len(columns), TOGETHER)])
+        square = square + np.sum(wanted[:, :, inside] ** 2, axis=(1, 2))
+        off = off + np.sum((made - wanted)[:, :, inside] ** 2, axis=(1, 2))
+    most = np.where(np.arange(len(off)) < len(at.base), ALIKE, NEAR)
+    return bool(np.all(off <= most**2 * square))
+
+
+def _has_line(at: Point, thin: Thin) -> bool:
+    """Whether what the low-pass takes of a piece's residual has a line, which must be told."""
+    r, half, e = thin.whole.record, len(thin.taps) // 2, left(at, thin.whole)
+    fast = e[:, half:-half] - convolved(e, thin.taps)
+    told = (0.0, STOPPED * r.rate / (2 * thin.every))
+    found = (d for x in fast for d in disturbances(x, r.valid[half:-half], r.rate, told))
+    return any(d.kind == "line" for d in found)
+
+
+def _supported(valid: NDArray[np.bool_], thin: Thin) -> NDArray[np.bool_]:
+    """(n,): which samples that are kept have nearly all that makes them."""
+    found = np.empty(thin.rows.stop, dtype=np.bool_)
+    weights = replace(thin, taps=np.abs(thin.taps) / np.sum(np.abs(thin.taps)))
+    for some in stretches(len(found), BLOCK):
+        missing = ~valid[thin.part(some).span]
+        found[some] = not missing.any() or weights.kept(missing.astype(np.float64)) < MISSING
+    return found
+
+
+def _kept(o: Observation, thin: Thin) -> Observation:
+    """The samples of an observation that are kept."""
+    r, size, half = o.record, thin.rows.stop, len(thin.taps) // 2
+    channels = dict(r.channels)
+    time = np.array(r.time[half :: thin.every][:size])
+    series = [np.empty(size) for x in o.series]
+    wide = {n: np.empty(size) for n, x in channels.items()}
+
+    for some in stretches(size, BLOCK):
+        rows = thin.part(some).span
+        there = np.array(r.valid[rows])
+        for x, found in zip(o.series, series, strict=True):
+            found[some] = thin.kept(_whole(x[rows], there))
+        for n, x in channels.items():
+            whole = _whole(x[rows], there)
+            # of a disc's angle turns may be missing
+            wide[n][some] = thin.kept(np.unwrap(whole) if is_disc_angle(n) else whole)
+    record = replace(
+        r,
+        time=time,
+        wide=wide,
+        rate=r.rate / thin.every,
+        valid=_supported(r.valid, thin),
+        halo=(0, 0),
+        whole=None,
+    )
+    return replace(o, record=record, series=tuple(series), thin=thin, memo=[])
+
+
+def _whole(x: Array, valid: NDArray[np.bool_]) -> Array:
+    """Some samples of a column, in memory, all of them numbers."""
+    x = np.array(x)
+    return np.nan_to_num(bridged(x, valid & np.isfinite(x)))

@@ -1,0 +1,208 @@
+"""Nonlinear least squares by a trust region (Moré, The Levenberg-Marquardt algorithm, 1978), the linearised problem being a
+triangle (n, n) in units of the priors' widths.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import optimize
+
+from ragg_runtime.estimation.significance import INDISTINGUISHABLE
+
+Array = NDArray[np.float64]
+
+SETTLED = 0.01
+"""Chi-square that the linearised problem may still promise at an optimum: a tenth of a standard deviation in one
+direction, well below what noise does to any estimate."""
+
+RELATIVE = 1e-5
+"""The same as a share of chi-square, where what is left is far more than noise: half of it is the share of the rms."""
+
+VALLEY = 1.0
+"""Chi-square still promised at which a search ends that gains less than :data:`SETTLED` in a step: a curved valley, or rounding."""
+
+SLOW = 0.01
+"""The same where what is left is far more than noise, as a share of chi-square: half of it is the share of the rms, below the
+1 % to which it is asked for. A search ends there whose step gained less than :data:`RELATIVE` and could not have been longer."""
+
+ACCEPTED = 1e-4
+"""Least share of the promised decrease for which a step is taken."""
+
+POOR, GOOD = 0.25, 0.75
+"""Shares below which the radius shrinks, and above which it may grow (Moré's)."""
+
+CORRECTION = 0.5
+"""Length of a step back to the floor of a valley over that of the step along it."""
+
+CORRECTIONS = 2
+"""Most of them after a step."""
+
+FAITHFUL = 0.01
+"""Difference between a step's fall and what was promised of it, as a share, up to which the problem counts as linear."""
+
+MOST = 150
+"""Most trials of a fit; usual are two or three. Where there is no noise but the last digits of a file the floor of the valley is a
+thousand times narrower, and a hundred steps lead along it."""
+
+
+@dataclass(frozen=True)
+class Linear:
+    """A sum of squares about a point: |y - R step|^2 + rest; R (n, n) is regular."""
+
+    R: Array
+    y: Array
+    rest: float
+
+    @property
+    def cost(self) -> float:
+        """The sum of squares at the point itself."""
+        return float(self.y @ self.y) + self.rest
+
+    @cached_property
+    def _factors(self) -> tuple[Array, Array, Array]:
+        U, s, Vt = np.linalg.svd(self.R)
+        return s, U.T @ self.y, Vt.T
+
+    @property
+    def step(self) -> Array:
+        """(n,): to where the sum of squares is least."""
+        return np.asarray(np.linalg.solve(self.R, self.y))
+
+    @property
+    def decrement(self) -> float:
+        """Decrease that the best step promises: |y|^2, the gradient's square in the metric of R^T R."""
+        return float(self.y @ self.y)
+
+    @property
+    def covariance(self) -> Array:
+        """(n, n)."""
+        inverse = np.linalg.inv(self.R)
+        return np.asarray(inverse @ inverse.T)
+
+    def damped(self, damping: float) -> Array:
+        """(n,): the step that minimises |y - R step|^2 + damping |step|^2."""
+        s, d, V = self._factors
+        return np.asarray(V @ (s * d / (s**2 + damping)))
+
+    def within(self, radius: float) -> Array:
+        """(n,): the best step no longer than ``radius``."""
+        free = self.damped(0.0)
+        if np.linalg.norm(free) <= radius:
+            return free
+        s, d, _ = self._factors
+
+        def excess(log_damping: float) -> float:
+            # Moré: one over the length is nearly linear in the damping
+            length = float(np.linalg.norm(s * d / (s**2 + np.exp(log_damping))))
+            return 1.0 / radius - 1.0 / max(length, 1e-300)
+
+        low, high = 2 * np.log(float(s[-1])) - 60.0, np.log(float(np.linalg.norm(s * d)) / radius) + 1.0
+        return self.damped(float(np.exp(optimize.brentq(excess, min(low, high - 1.0), high, xtol=1e-6))))
+
+    def promised(self, step: Array) -> float:
+        """Decrease that a step promises."""
+        return self.decrement - float(np.sum((self.y - self.R @ step) ** 2))
+
+    def slope(self, step: Array) -> float:
+        """Half of the rate at which the sum of squares falls at the beginning of a step."""
+        return float(self.y @ (self.R @ step))
+
+
+L = TypeVar("L", bound=Linear)
+
+
+@dataclass(frozen=True)
+class Minimum(Generic[L]):
+    """Where the search ended: ``x`` (n,), the problem linearised ``at`` it, and the ``trials`` it took.
+
+    ``faithful``: the last step did what was promised of it, and none before had to be shortened.
+    """
+
+    x: Array
+    at: L
+    converged: bool
+    reason: str
+    trials: int
+    faithful: bool = False
+
+    @property
+    def last(self) -> Array:
+        """(n,): the step to the optimum of the linearised problem, where that is below what noise does."""
+        trusted = self.faithful and self.at.decrement < SETTLED
+        return self.at.damped(0.0) if trusted else np.zeros(len(self.x))
+
+
+def settled(at: Linear) -> bool:
+    """The test of optimality: nothing worth having is promised any more."""
+    return at.decrement <= max(SETTLED, RELATIVE * at.cost)
+
+
+def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) -> Minimum[L]:
+    """Minimise a sum of squares from ``start`` (n,); chi-square never rises. A point of infinite cost is out of the model's reach."""
+    x = np.array(start, dtype=np.float64)
+    at = linearise(x)
+    radius, faithful, trials = np.inf, False, 1
+
+    def ended(converged: bool, reason: str, faithful: bool = False) -> Minimum[L]:
+        return Minimum(x=x, at=at, converged=converged, reason=reason, trials=trials, faithful=faithful)
+
+    if not np.isfinite(at.cost):
+        return ended(False, "the model has no finite output where the fit begins")
+    while trials < most:
+        if settled(at):
+            return ended(True, "nothing is left to gain", faithful)
+        step = at.within(radius)
+        length = float(np.linalg.norm(step))
+        end, ahead, tried = _followed(linearise, at, x, step)
+        trials += tried
+        fallen = at.cost - ahead.cost
+        ratio = fallen / at.promised(step) if np.isfinite(fallen) else -np.inf
+        if ratio < POOR:
+            radius = length * _shrunk(at.slope(step), fallen)
+        elif ratio > GOOD:
+            radius = max(radius, 2.0 * length)
+        if ratio > ACCEPTED:
+            x, at = end, ahead
+            faithful = tried == 1 and abs(ratio - 1.0) < FAITHFUL and not np.isfinite(radius)
+            creeps = ratio <= GOOD and fallen < RELATIVE * at.cost and at.decrement < SLOW * at.cost
+            if creeps or (fallen < SETTLED and at.decrement < VALLEY):
+                return ended(True, "nothing worth having is left to gain")
+        elif radius < _smallest(x):
+            # where samples come and go with the parameters, or all is rounding, what is promised is not there
+            if at.decrement < INDISTINGUISHABLE:
+                return ended(True, "nothing worth having is left to gain")
+            return ended(False, "no step, however small, lowers the misfit")
+    return ended(settled(at), f"it was stopped after {most} trials")
+
+
+def _followed(linearise: Callable[[Array], L], at: L, x: Array, step: Array) -> tuple[Array, L, int]:
+    """The end of a step from x, with a second-order correction (Fletcher 1982), the problem about it, and the points tried."""
+    end = x + step
+    ahead = linearise(end)
+    room = CORRECTION * float(np.linalg.norm(step))
+    for tried in range(1, CORRECTIONS + 1):
+        if at.cost - ahead.cost >= POOR * at.promised(step) or not np.isfinite(ahead.cost):
+            return end, ahead, tried
+        back = ahead.within(room)
+        nearer = linearise(end + back)
+        if not nearer.cost < ahead.cost:
+            return end, ahead, tried + 1
+        end, ahead = end + back, nearer
+    return end, ahead, CORRECTIONS + 1
+
+
+def _shrunk(slope: float, fallen: float) -> float:
+    """Factor for the radius after a poor step: where the parabola with this slope and this fall has its minimum."""
+    if not np.isfinite(fallen):
+        return 0.1
+    return float(np.clip(slope / max(2.0 * slope - fallen, 1e-300), 0.1, 0.5))
+
+
+def _smallest(x: Array) -> float:
+    return 1e-9 * (1.0 + float(np.linalg.norm(x)))

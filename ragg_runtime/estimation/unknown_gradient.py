@@ -1,0 +1,194 @@
+"""A gravity gradient that was not recorded: T_1 sin 2 phi + T_2 cos 2 phi (Eq. 30), T_1 and T_2 cubic splines of periods of half a
+minute and longer, projected out of data and columns, window by window; lines of the output likewise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import interpolate
+
+from ragg_runtime.base.threads import stretches
+from ragg_runtime.estimation.disturbances import Disturbance
+from ragg_runtime.estimation.noise_spectrum import Noise
+from ragg_runtime.estimation.observation import Observation
+from ragg_runtime.estimation.square_root import orthonormal
+from ragg_runtime.model.record import GRADIENTS, quantities_of
+from ragg_runtime.signals.fir import Floats, filtered
+
+Array = NDArray[np.float64]
+
+KNOT_SECONDS = 10.0
+"""Distance of the knots of the splines."""
+
+WINDOW_SECONDS = 300.0
+"""Length of a window of time with splines of its own."""
+
+LEAD_SECONDS = 100.0
+"""Time before a window in which its splines begin: longer ago, a whitening filter has no memory of a signal
+that oscillates at twice the spin rate."""
+
+
+TOGETHER = 128
+"""Columns that it is projected out of at a time: more leave the cache."""
+
+TAKEN = 0.6 / KNOT_SECONDS
+"""Frequency, Hz, up to which the splines follow a signal, and so take noise away: half a period a knot, and a margin."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """What an unknown gradient spans in one window of a segment: ``plain`` (k, m valid) before whitening, one output after the
+    other, and the orthonormal basis ``white`` (len(places), k) in the whitened rows ``places``.
+    """
+
+    samples: slice
+    plain: Array
+    places: NDArray[np.intp]
+    white: Array
+
+    @cached_property
+    def rows(self) -> slice | NDArray[np.intp]:
+        """The same as a slice, which is no copy, where they follow one another."""
+        first, last = int(self.places[0]), int(self.places[-1]) + 1
+        return slice(first, last) if last - first == len(self.places) else self.places
+
+    @cached_property
+    def raw(self) -> Array:
+        """(m valid, k): orthonormal basis before whitening."""
+        return orthonormal(self.plain)
+
+
+def unknown(o: Observation) -> bool:
+    """Whether the gradient was not recorded."""
+    return not all(g in o.record.wide for g in GRADIENTS)
+
+
+def band(o: Observation) -> tuple[float, float] | None:
+    """Frequencies of G_out, Hz, that an unknown gradient takes; ``None`` if it is known."""
+    if not unknown(o):
+        return None
+    carrier = 2 * spin_frequency(o)
+    return carrier - TAKEN, carrier + TAKEN
+
+
+def spin_frequency(o: Observation) -> float:
+    """Mean, Hz, by the encoder where there is one."""
+    r = o.record
+    if "spin_angle" not in r.wide:
+        return r.spin_frequency
+    step = np.angle(np.exp(1j * np.diff(np.asarray(r.wide["spin_angle"][: 1 << 16]))))
+    return float(np.abs(np.mean(step))) * r.rate / (2 * np.pi)
+
+
+def splines(time: Array, cosine: Array, sine: Array) -> Array:
+    """(n, N): T_1 times a carrier's sine and T_2 times its cosine for every basis spline of T_1 and of T_2 over ``time``."""
+    count = max(4, int(np.ceil((time[-1] - time[0]) / KNOT_SECONDS)) + 3)
+    knots = np.concatenate([[time[0]] * 3, np.linspace(time[0], time[-1], count - 2), [time[-1]] * 3])
+    basis = interpolate.BSpline.design_matrix(time, knots, 3).toarray().T
+    double = np.stack([sine, cosine])
+    return np.asarray((basis[:, None, :] * double[None]).reshape(-1, len(time)))
+
+
+def windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
+    """The windows of one segment of a flight, whitened; none if the gradient is known and the output has no lines."""
+    if not unknown(o) and not noise.lines:
+        return []
+    if (rows.start, rows.stop) != (0, len(o.record.time)):
+        return _windows(o, rows, noise)
+    # a short flight asks the same in every pass
+    for known, found in o.memo:
+        if known is noise:
+            return found
+    found = _windows(o, rows, noise)
+    o.memo[:] = [*o.memo[-2:], (noise, found)]
+    return found
+
+
+def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
+    r, filters = o.record, noise.filters
+    level = np.ones(rows.stop - rows.start) * noise.level.of(quantities_of(r, rows))
+    valid = np.array(r.valid[rows])
+    rank = np.concatenate([[0], np.cumsum(valid)])
+    count = max(1, round((rows.stop - rows.start) / (WINDOW_SECONDS * r.rate)))
+    edges = [int(k) for k in np.linspace(rows.start, rows.stop, count + 1)]
+
+    def window(ends: tuple[int, int]) -> Window | None:
+        a, b = ends
+        lead = int(min(a, LEAD_SECONDS * r.rate, max(len(t) for t in filters) - 1))
+        here = np.array(r.valid[a - lead : b])
+        if np.sum(here[lead:]) < 2:
+            return None
+        inside = here[lead:]
+        shares = [np.empty((0, len(here)))] * len(o.series)
+        if unknown(o):
+            shares = _shares(o, splines(*r.carried(slice(a - lead, b))) * here)
+        plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
+        loud = level[a - rows.start : b - rows.start][inside]
+        together = np.concatenate([np.stack(shares, axis=1), _lines(o, noise, slice(a - lead, b)) * here])
+        parts = [
+            filtered(noise.series(together, m), taps, lead=lead)[:, inside] / loud
+            for m, taps in enumerate(filters)
+        ]
+        first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
+        places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(len(filters))])
+        samples = slice(a - rows.start, b - rows.start)
+        return Window(samples, plain, places, orthonormal(np.concatenate(parts, axis=1)))
+
+    return [w for w in map(window, pairwise(edges)) if w is not None]
+
+
+def _lines(o: Observation, noise: Noise, rows: slice) -> Array:
+    """(k, m, n): what the lines of an observation's noise span in some of its samples, each in its own series."""
+    found, seen = [], noise.combinations
+    for line in noise.lines:
+        own = Disturbance("line", line.frequency, 1.0).columns(o.record.time[rows])
+        shown = (np.eye(len(o.series)) if seen is None else seen)[line.output]
+        found.append(own[:, None] * shown[:, None])
+    return np.concatenate(found) if found else np.empty((0, len(o.series), rows.stop - rows.start))
+
+
+def _shares(o: Observation, X: Array) -> list[Array]:
+    """What each series sees of T_1 sin 2 phi and T_2 cos 2 phi in turn, (k, N) each, by the sheet's scale factors."""
+    alike = all(s * c == 1 for s, c in zip(o.output.signs, o.output.carriers, strict=True))
+    if not o.recorded.separate or (alike and len(set(o.output.radii)) == 1):
+        return [w * X for w in o.weights * o.gains]
+    sine, cosine = X[0::2], X[1::2]
+    found = []
+    largest = max(o.output.radii) or 1.0
+    for c, radius, gain in zip(o.output.carriers, o.output.radii, o.gains, strict=True):
+        g = gain * c * radius / largest
+        x = np.empty_like(X)
+        x[0::2], x[1::2] = g.real * sine + g.imag * cosine, g.real * cosine - g.imag * sine
+        found.append(x)
+    return found
+
+
+def project(columns: Floats, found: Sequence[Window]) -> None:
+    """Take what an unknown gradient spans out of whitened columns (n, rows), in place."""
+    for w in found:
+        Q = w.white.astype(columns.dtype, copy=False)
+        for some in stretches(len(columns), TOGETHER):
+            part = columns[some, w.rows]
+            part -= np.matmul(np.matmul(part, Q), Q.T)
+            if not isinstance(w.rows, slice):  # then ``part`` is a copy
+                columns[some, w.rows] = part
+
+
+def without(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Array:
+    """Take the fitted unknown gradient out of residuals (k, m, N): it is signal, not error."""
+    gradient = [w for w in found if len(w.plain)]
+    if not gradient:
+        return e
+    left = e.copy()
+    k, m, _ = e.shape
+    for w in gradient:
+        inside = np.flatnonzero(valid[w.samples]) + w.samples.start
+        y = e[:, :, inside].reshape(k, m * len(inside))  # of no residual at all, too
+        left[:, :, inside] = (y - (y @ w.raw) @ w.raw.T).reshape(k, m, len(inside))
+    return left

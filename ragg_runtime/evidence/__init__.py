@@ -1,1 +1,0 @@
-"""Evidence for effects of the catalogue: likelihood ratios, selection, steps, random effects."""

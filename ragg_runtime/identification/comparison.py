@@ -1,0 +1,405 @@
+"""How far a model is from a flight, and where it fails."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.estimation import columns, fitted, unknown_gradient
+from ragg_runtime.estimation.fitted import Fitted, Scored, fit, noise_floor, swell
+from ragg_runtime.estimation.observation import as_output, observations_of
+from ragg_runtime.estimation.off_sheet import OffSheet, off_sheet
+from ragg_runtime.estimation.passes import Piece
+from ragg_runtime.estimation.score import Error, channels
+from ragg_runtime.identification import selection, several_outputs
+from ragg_runtime.identification.dictionary import carrier, harmonics
+from ragg_runtime.identification.omnibus import Remainder, remainder, terms_json
+from ragg_runtime.identification.selection import field_of, testable_effects
+from ragg_runtime.instrument.form import Form
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io import Flight
+from ragg_runtime.model.evaluate import vector, voltages
+from ragg_runtime.model.lateness import about
+from ragg_runtime.model.model import Model
+from ragg_runtime.signals.demodulate import demodulable, low_pass
+from ragg_runtime.signals.fir import convolved
+from ragg_runtime.wording import notebook
+
+Array = NDArray[np.float64]
+
+
+LOUD = 1.15
+"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
+
+
+@dataclass(frozen=True, repr=False)
+class Comparison:
+    """The result of ``compare``; ``adequate`` and ``remainder`` are ``None`` where the errors alone were asked for."""
+
+    fitted: Fitted
+    nominal: Error
+    scored: Scored
+    holdout: Error
+    noise_floor: float
+    adequate: bool | None
+    remainder: Remainder | None
+    ladder: tuple[Rung, ...] = ()
+    complaint: str | None = None
+    remark: str | None = None
+    off_sheet: tuple[OffSheet, ...] = ()
+    explained: Explained | None = None
+
+    @property
+    def converged(self) -> bool:
+        """Whether the calibration has arrived at an optimum; if not, ``complaint`` says why."""
+        return self.complaint is None
+
+    @property
+    def calibrated(self) -> Error:
+        return self.scored.whole
+
+    @cached_property
+    def residual(self) -> list[Array]:
+        """(N,) V of every flight, calibrated."""
+        return self.fitted.residuals(np.zeros(self.fitted.n_base))
+
+    def with_nominal(self, instrument: Instrument) -> Comparison:
+        """The same, ``nominal`` being these values."""
+        p = vector(self.fitted.model, instrument)
+        (scored,) = self.fitted.score((), lambda x: nominal_residual(self.fitted, p, x)[None], 1)
+        return replace(self, nominal=scored.whole)
+
+    def __repr__(self) -> str:
+        errors = (
+            ("nominal", self.nominal.rms_Eo),
+            ("calibrated", self.calibrated.rms_Eo),
+            ("held out", self.holdout.rms_Eo),
+            ("noise", self.noise_floor),
+        )
+        return notebook.in_one_line("Comparison", "adequate" if self.adequate else "not adequate", *errors)
+
+    def _repr_html_(self) -> str:
+        return notebook.comparison(self.as_json(), [o.name for o in self.fitted.observations])
+
+    def as_json(self) -> dict[str, object]:
+        f = self.fitted
+        records = [o.record for o in f.observations]
+        return {
+            "effects": [e.id for e in f.model.effects],
+            "samples": int(sum(len(o.record.time) for o in f.flights)),
+            "duration_s": float(sum(o.record.time[-1] + 1 / o.record.rate for o in f.flights)),
+            "rate_Hz": float(records[0].rate),
+            "error": {
+                "nominal": self.nominal.as_json(),
+                "calibrated": self.calibrated.as_json(),
+                "holdout": self.holdout.as_json(),
+            },
+            "noise_floor": {"rms_Eo": self.noise_floor},
+            "explained": None if self.explained is None else {"share": self.explained.share},
+            "converged": self.converged,
+            "reason": self.complaint or self.remark,
+            "off_sheet": [x.as_json() for x in self.off_sheet],
+            "adequate": self.adequate,
+            "where": {
+                "harmonics": self.harmonics,
+                "time": self.by_time(),
+                "motion": self.terms(),
+            },
+            **({"ladder": [r.as_json() for r in self.ladder]} if self.ladder else {}),
+            **self._of_outputs(),
+        }
+
+    def _of_outputs(self) -> dict[str, object]:
+        """Of an instrument with several outputs each of them, and what they say together."""
+        if len(self.fitted.instrument.layout.outputs) == 1:
+            return {}
+        return {
+            "outputs": several_outputs.errors(self.fitted, self.residual),
+            "together": [t.as_json() for t in several_outputs.together(self.fitted)],
+        }
+
+    @cached_property
+    def harmonics(self) -> list[dict[str, object]]:
+        """Slow error at every harmonic of the spin, Eo, largest first (see :func:`harmonic_errors`)."""
+        return harmonic_errors(self.fitted, self.fitted.vector(np.zeros(self.fitted.n_base)))
+
+    def terms(self) -> list[dict[str, object]]:
+        """Generic terms in the calibrated residual (see :func:`terms_json`)."""
+        return [] if self.remainder is None else terms_json(self.remainder, self.scored.mean_square)
+
+    def by_time(self) -> list[dict[str, object]]:
+        """Error in every block of time, Eo, largest first."""
+        rows: list[dict[str, object]] = []
+        for x, blocks, k_ggi in zip(
+            self.fitted.prepared, self.scored.blocks, self.fitted.scales, strict=True
+        ):
+            time = x.observation.record.time
+            for b, volts in enumerate(blocks):
+                if np.isfinite(volts):
+                    rms = float(volts) / k_ggi
+                    rows.append(
+                        {
+                            "flight": x.observation.name,
+                            "from_s": float(time[x.edges[b]]),
+                            "to_s": float(time[x.edges[b + 1] - 1]),
+                            "rms_Eo": rms,
+                            "over_noise": rms / self.noise_floor,
+                        }
+                    )
+        return sorted(rows, key=lambda x: -float(str(x["rms_Eo"])))
+
+
+def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
+    """Residual demodulated at const, cos k, sin k, as the demodulator would see it, largest first."""
+    turning = any(x.observation.record.turning for x in f.prepared)
+    total = dict.fromkeys(harmonics() if turning else ("const",), 0.0)
+    counted = 0
+    for x, k_ggi in zip(f.prepared, f.scales, strict=True):
+        rate = x.observation.record.rate
+        if not demodulable(rate):
+            continue
+        taps = low_pass(rate)
+        if len(x.observation.record.time) < 2 * len(taps):
+            continue
+        counted += 1
+        squares, samples = dict.fromkeys(total, 0.0), 0
+        lean, v = x.for_residuals(coefficients[None])
+        tail = np.empty((len(total), 0))
+
+        def mix(piece: Piece, v: Array = v, k_ggi: float = k_ggi) -> Array:
+            r = piece.observation.record
+            e = np.where(r.valid, piece.left(v)[0], 0.0) / k_ggi
+            return np.stack([e * carrier(r, h) * (1 if h == "const" else 2) for h in total])
+
+        for mixed in lean.each(mix, whitened=False):
+            mixed = np.concatenate([tail, mixed], axis=1)
+            if mixed.shape[1] >= len(taps):
+                low = convolved(mixed, taps)
+                samples += low.shape[1]
+                for h, y in zip(total, low, strict=True):
+                    squares[h] += float(y @ y)
+            tail = mixed[:, -len(taps) + 1 :]
+        for h in total:
+            total[h] += squares[h] / samples
+    power = sum(total.values())
+    if not counted:
+        return []
+    rows: list[dict[str, object]] = [
+        {"harmonic": h, "rms_Eo": float(np.sqrt(p / counted)), "share": p / power if power else 0.0}
+        for h, p in total.items()
+    ]
+    return sorted(rows, key=lambda x: -float(str(x["rms_Eo"])))
+
+
+@one_thread
+def compare(
+    model: Model, instrument: Instrument, flights: Sequence[Flight], *, judged: bool = True
+) -> Comparison:
+    """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails.
+
+    Without ``judged`` neither the candidates are tested nor what is left is searched.
+    """
+    observations = observations_of(flights, instrument)
+    f = fit(model, instrument, observations, candidates=judged)
+    calibrated, half, nominal = _three_scores(f)
+    if calibrated.whole.rms_V > nominal.whole.rms_V:
+        # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
+        noise = f.calibration.noise
+        f = fit(model, instrument, observations, noise, unweighted=True, candidates=judged)
+        calibrated, half, nominal = _three_scores(f)
+    return concluded(f, nominal.whole, calibrated, half.held_out, judged=judged)
+
+
+def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
+    """As calibrated, as fitted to half of the record, and with model.toml's values as they are."""
+    half, _ = f.coefficients((), held_out=True)
+    calibrated, held_out, nominal = errors(f, [np.zeros(f.n_base), half])
+    return calibrated, held_out, nominal
+
+
+def errors(f: Fitted, coefficients: Sequence[Array]) -> list[Scored]:
+    """How large the residuals are with these coefficients of the base columns, and with the nominal values (last)."""
+    p = f.sheet
+    return f.score([f.vector(c) for c in coefficients], lambda x: nominal_residual(f, p, x)[None], 1)
+
+
+def concluded(
+    f: Fitted, nominal: Error, calibrated: Scored, holdout: Error, *, judged: bool = True
+) -> Comparison:
+    """Search what is left, and say whether the model is adequate (if it is to be ``judged``)."""
+    rem = remainder(f) if judged else None
+    available = testable_effects(f) if judged else []
+    choice = selection.choose(field_of(f, available)) if available else None
+    complaint = f.calibration.complaint
+    noise = noise_floor(f)
+    output_explained = explained(f, calibrated)
+    doubt = output_explained.complaint if judged else None
+    quiet = complaint is None and doubt is None and not loud(f, calibrated, noise)
+    adequate = None if rem is None else quiet and not rem.significant and not (choice and choice.chosen)
+    return Comparison(
+        fitted=f,
+        nominal=nominal,
+        scored=calibrated,
+        holdout=holdout,
+        noise_floor=noise,
+        adequate=adequate,
+        remainder=rem,
+        complaint=complaint,
+        remark=doubt or disturbed(f),
+        explained=output_explained,
+        off_sheet=tuple(off_sheet(f.model, f.instrument, f.calibration)),
+    )
+
+
+def loud(f: Fitted, scored: Scored, noise: float) -> bool:
+    """Whether an error stands above the noise (rms, Eo), lines and three standard errors of the noise allowed for."""
+    freedom = sum(n.freedom for n in f.calibration.noise)
+    known = 1.0 + 3.0 / float(np.sqrt(2.0 * freedom))
+    return scored.whole.rms_Eo > float(np.hypot(LOUD * noise * swell(f) * known, fitted.lines(f)))
+
+
+def disturbed(f: Fitted) -> str | None:
+    """Which lines and jumps the record holds, and how its noise changes its level, in words."""
+    said = [
+        x.noise.disturbed if len(f.prepared) == 1 else f"{x.observation.name}: {x.noise.disturbed}"
+        for x in f.prepared
+        if x.noise.disturbed is not None
+    ]
+    return "; ".join(said) or None
+
+
+def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
+    """Residual of G_out, (N,) V, of a piece of a flight with these values; no unknown gradient."""
+    o = piece.observation
+    predicted = columns.observed(o, voltages(f.model.chain, *about(f.model, o.record, p), o.output), None)
+    (left,) = piece.observed(np.where(o.record.valid, o.data - predicted, 0.0)[None])
+    return np.asarray(left)
+
+
+def demodulated(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:
+    """(time, inline, cross) of every flight's residual, s and Eo."""
+    return [demodulated_one(f, n, e) for n, e in enumerate(residuals)]
+
+
+def demodulated_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Array]:
+    """(time, inline, cross) of any series of G_out of one flight, s and Eo."""
+    r = f.prepared[flight].observation.record
+    return channels(x, r, f.scales[flight], r.valid)
+
+
+STEPS: tuple[Form, ...] = (
+    Form(),
+    Form(kinematics="full"),
+    Form(kinematics="full", second_order_angles=True),
+    Form(kinematics="full", second_order_angles=True, misalignment="exact"),
+    Form(kinematics="full", second_order_angles=True, misalignment="exact", mounting=2),
+    Form(kinematics="full", second_order_angles=True, misalignment="exact", mounting="exact"),
+)
+"""From the paper's form to that which keeps everything, one simplification less at a time."""
+
+
+@dataclass(frozen=True)
+class Rung:
+    """A form of the model, its errors with model.toml's values and with fitted ones, and the ``step`` by which its prediction
+    differs from that of the form before (``None`` of the first).
+    """
+
+    form: Form
+    nominal: Error
+    calibrated: Error
+    step: Error | None
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            **self.form.as_json(),
+            "nominal": self.nominal.as_json(),
+            "calibrated": self.calibrated.as_json(),
+            "step": None if self.step is None else self.step.as_json(),
+        }
+
+
+def forms(own: Form) -> tuple[Form, ...]:
+    """The forms to try: the steps, and the model's own at the end if it is none of them."""
+    return STEPS if own in STEPS else (*STEPS, own)
+
+
+@one_thread
+def climb(
+    instrument: Instrument, flights: Sequence[Flight], model_in: Callable[[Form], Model]
+) -> tuple[Rung, ...]:
+    """Hold the flights against the model in every form; ``model_in`` derives it."""
+    observations = observations_of(flights, instrument)
+    rungs: list[Rung] = []
+    below: tuple[Model, Array] | None = None
+    for form in forms(instrument.form):
+        model = model_in(form)
+        of_form = replace(instrument, form=form)
+        p = vector(model, of_form)
+        rungs.append(_rung(fit(model, of_form, observations), p, below))
+        below = model, p
+    return tuple(rungs)
+
+
+def _rung(f: Fitted, p: Array, below: tuple[Model, Array] | None) -> Rung:
+    def further(piece: Piece) -> Array:
+        o = piece.observation
+        here = columns.observed(o, voltages(f.model.chain, o.record, p, o.output), None)
+        found = [o.data - here]
+        if below is not None:
+            found.append(
+                here - columns.observed(o, voltages(below[0].chain, o.record, below[1], o.output), None)
+            )
+        return piece.observed(np.stack([np.where(o.record.valid, x, 0.0) for x in found]))
+
+    count = 1 if below is None else 2
+    scored = f.score([f.vector(np.zeros(f.n_base))], further, count)
+    return Rung(
+        form=f.instrument.form,
+        nominal=scored[1].whole,
+        calibrated=scored[0].whole,
+        step=None if below is None else scored[2].whole,
+    )
+
+
+@dataclass(frozen=True)
+class Explained:
+    """What a model explains of the output: the share of its power about its mean, and the gain in description over a constant by
+    the BIC (G. Schwarz, Ann. Stat. 6, 1978).
+    """
+
+    share: float
+    gain: float
+
+    @property
+    def complaint(self) -> str | None:
+        """In words, that the model explains nothing; ``None`` if it explains something."""
+        if self.gain > 0.0:
+            return None
+        return (
+            f"nothing in the output follows the motion: the model explains {100 * self.share:.2g} % of it, no more than its"
+            " parameters would of noise; is it the output of this flight and this instrument?"
+        )
+
+
+def explained(f: Fitted, scored: Scored) -> Explained:
+    """What a fitted model that leaves a residual so large (``scored``) explains of the flights' outputs."""
+    power = left = rows = 0.0
+    parameters = float(f.n_base)
+    for o, mean_square in zip(f.observations, scored.mean_square, strict=True):
+        valid = o.record.valid
+        count = float(np.sum(valid))
+        G = as_output(o, o.data)[valid]
+        power += float(np.var(G)) * count
+        left += mean_square * count
+        rows += count
+        if unknown_gradient.unknown(o):
+            span = float(o.record.time[-1] - o.record.time[0])
+            parameters += 2 * (span / unknown_gradient.KNOT_SECONDS + 3)
+    ratio = left / power if power > 0.0 else 1.0
+    gain = -rows * float(np.log(max(ratio, 1e-300))) - parameters * float(np.log(max(rows, 1.0)))
+    return Explained(share=max(0.0, 1.0 - ratio), gain=gain)

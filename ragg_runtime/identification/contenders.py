@@ -1,0 +1,129 @@
+"""Effects as contenders: derived into the model of some flights and fitted nonlinearly, and what they leave."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.estimation.fitted import Fitted, calibrated
+from ragg_runtime.estimation.noise_spectrum import Noise
+from ragg_runtime.estimation.off_sheet import as_said, room_taken
+from ragg_runtime.estimation.passes import excerpt
+from ragg_runtime.estimation.prepared_flight import to_nominal
+from ragg_runtime.estimation.switching import certain
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model.model import Model
+
+Array = NDArray[np.float64]
+
+APART = 100.0
+"""Chi-square by which a contender must leave more than another one of an excerpt to be out of the contest (10 sigma): of two that
+are alike the coefficients fit so much of the noise that one may be ahead by a dozen or two."""
+
+
+class Extend(Protocol):
+    """Derives a model with further effects; with ``candidates`` also the signatures of the rest.
+
+    Given by the caller: this package cannot derive.
+    """
+
+    def __call__(self, model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model: ...
+
+
+def derived(
+    f: Fitted, ids: Sequence[str], instants: Mapping[str, float], extend: Extend, candidates: bool = False
+) -> tuple[Model, Instrument]:
+    """The model of some flights with further effects in it, and the sheet, as sure as it says, with the instants of steps."""
+    model = extend(f.model, ids, candidates=candidates)
+    steps = tuple(
+        EffectSetting(e, MappingProxyType({"t_step": RawQuantity(instants[e], "s")}))
+        for e in ids
+        if e in instants
+    )
+    return model, replace(as_said(f.instrument), effects=(*f.instrument.effects, *steps))
+
+
+@dataclass(frozen=True)
+class Left:
+    """What effects in the model leave: chi-square, with what the parameters cost, and whether the fit came to an optimum."""
+
+    chi2: float
+    arrived: bool
+
+
+def left(
+    f: Fitted,
+    noise: Sequence[Noise],
+    held: frozenset[str],
+    extended: tuple[Model, Instrument],
+) -> Left:
+    """What a nonlinear fit leaves with effects in the model; coefficients labelled in ``held`` stay at zero, to second order.
+
+    Every parameter that only the sheet knew before, and the record does now, costs 2 (AIC).
+    """
+    model, sheet = extended
+    observations = certain(model, sheet, f.observations)
+    instrument, c = calibrated(model, sheet, observations, noise=noise)
+    others = [n for n, q in enumerate(c.columns) if q.label in held]
+    x = -to_nominal(model, instrument, c)
+    cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
+    if others:
+        # of a Gaussian: the variances once some of its variables are given
+        C = c.covariance[:, others]
+        given = np.linalg.solve(C[others], C.T)
+        cost = float(x[others] @ np.linalg.solve(C[others], x[others]))
+        x -= x[others] @ given
+        known += float(np.sum(given * C.T)) - len(others)
+    left_out = f.calibration.rows - c.rows  # each would have its share of the noise
+    own = x[[n for n, q in enumerate(c.columns) if q.effect is not None]]
+    # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
+    # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
+    tails = float(np.sum(np.log1p(own**2) - own**2))
+    return Left(
+        chi2=c.chi2 + left_out + cost + 2.0 * known + tails + room_taken(instrument, c),
+        arrived=c.converged,
+    )
+
+
+@dataclass(frozen=True)
+class Contest:
+    """What contenders leave of the flights of the fit ``f`` without them, each fitted once; of long ones first an excerpt.
+
+    ``entered``: of a contender what of it is ``held``, and its model and sheet, as for :func:`left`.
+    """
+
+    f: Fitted
+    entered: Callable[[str], tuple[frozenset[str], tuple[Model, Instrument]]]
+    _of_all: dict[str, Left] = field(default_factory=dict)
+    _of_some: dict[str, Left] = field(default_factory=dict)
+
+    @property
+    def arrived(self) -> bool:
+        """Whether any fit came to an optimum, or none was made."""
+        made = self._of_some | self._of_all
+        return not made or any(x.arrived for x in made.values())
+
+    def left(self, ids: Sequence[str]) -> dict[str, float]:
+        """Chi-square that each leaves of all; of those that the excerpt puts out of the contest what it says of them."""
+        shorter = tuple(excerpt(o) for o in self.f.observations)
+        share = sum(int(np.sum(o.record.valid)) for o in shorter) / sum(
+            int(np.sum(o.record.valid)) for o in self.f.observations
+        )
+        if share == 1.0:
+            return {e: self._fitted(e, self.f, self._of_all).chi2 for e in ids}
+        some = replace(self.f, observations=shorter)
+        rough = {e: self._fitted(e, some, self._of_some).chi2 for e in ids}
+        least = min(rough.values())
+        near = {e: self._fitted(e, self.f, self._of_all).chi2 for e in ids if rough[e] < least + APART}
+        return {e: min(near.values()) + (x - least) / share for e, x in rough.items()} | near
+
+    def _fitted(self, e: str, f: Fitted, fits: dict[str, Left]) -> Left:
+        if e not in fits:
+            fits[e] = left(f, f.calibration.noise, *self.entered(e))
+        return fits[e]

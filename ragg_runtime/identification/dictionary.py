@@ -1,0 +1,260 @@
+"""Generic terms, harmonic x product of channels: where a residual lives, in no effect's name.
+
+The dictionary behind ``where`` and ``unexplained``, searched sparsely: harmonics 0 ... 4 of the spin times products
+of up to three channels (motion, its time derivatives, auxiliary channels); and, without harmonics, what a transducer
+may make of the forces that it feels as they turn with the disc: higher powers, kinks and signs, rates, after-effects,
+products with auxiliary channels and with rotation. Of those, a sum of harmonics would have to be long: f_i^4 alone is
+fifteen of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations_with_replacement, product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base import series_name
+from ragg_runtime.estimation.segments import segments
+from ragg_runtime.identification import features
+from ragg_runtime.identification.features import Relaxations
+from ragg_runtime.io.record import is_disc_angle
+from ragg_runtime.model.record import GRADIENTS, Record
+
+Array = NDArray[np.float64]
+Singles = NDArray[np.float32]
+
+HIGHEST = 4
+"""Highest multiple of the spin rate: what second-order terms of a rotating force reach (Eq. 17)."""
+
+HIGHEST_OF_ONE = 6
+"""The same of constants and single channels, which are few."""
+
+_MOTION = tuple(f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
+_CUBIC = tuple(f"{n}_{k}" for n in ("a", "omega") for k in "xyz")
+_RATES = tuple(f"{d}_{n}_{k}" for d, n in (("d", "a"), ("d2", "a"), ("d", "omegadot")) for k in "xyz")
+_NOT_A_CHANNEL = frozenset(GRADIENTS)
+
+_FORCES = (*features.FORCES, "a_z")
+"""What the first accelerometer feels along its input, output and (but for the sign) pendulous axis."""
+
+CREEP = (1, 5, 20, 60)
+"""Time constants, s, of relaxations of channels."""
+
+TURNING_CREEP = (0.1, 0.3, 1, 3, 10)
+"""The same of forces that turn with the disc, of which a slower one keeps little."""
+
+FRICTION = (0.2, 0.5, 1)
+"""The same of the sense of motion: play and friction give way over some way after it turns round."""
+
+WARMTH = (5, 20, 60)
+"""The same of squares: what the power that a motion dissipates warms."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """``harmonic`` (const, cos k, sin k) times the product of ``channels`` (none: 1)."""
+
+    harmonic: str
+    channels: tuple[str, ...]
+
+    @property
+    def product(self) -> str:
+        """Names joined by ``*``, ``1`` for none."""
+        return "*".join(self.channels) or "1"
+
+    @property
+    def order(self) -> int:
+        """Number of channels, and of functions of them: how much a term asks one to believe."""
+        return sum(1 + name.count("(") for name in self.channels)
+
+
+class Dictionary:
+    """The terms that a flight allows, and their series over the flight or a part of it.
+
+    Of auxiliary channels and of time only the changes are physics here (their means are in the base), so
+    these enter less their means.
+    """
+
+    def __init__(self, r: Record) -> None:
+        centred = sorted(n for n in r.wide if n not in _MOTION and _is_channel(n))
+        rates = [n for n in _RATES if n.partition("_")[2] in r.wide]
+        names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
+        further = [c for c in generic([*centred, "time"]) if all(features.recorded(n, r) for n in c)]
+        made = dict.fromkeys(n for c in further for n in c if n not in names)
+        self._slow = Relaxations([n for n in made if features.is_slow(n)], r)
+        found = _statistics(r, [*names, *made], self._slow)
+        self.centre = {n: found[n].mean for n in (*centred, "time")}
+        self._size = {n: s.rms if n not in self.centre else s.spread for n, s in found.items() if s.varies}
+        names = [n for n in names if n in self._size]
+        motion = [n for n in names if n in _MOTION]
+        other = [n for n in names if n not in _MOTION]
+        products: list[tuple[str, ...]] = [(), *((n,) for n in names)]
+        products += list(combinations_with_replacement(motion, 2))
+        products += [
+            (m, o) for m in motion if m.startswith(("a_", "omega_")) for o in other if o in self.centre
+        ]
+        products += list(combinations_with_replacement([n for n in names if n in _CUBIC], 3))
+        # of a disc that stands still every harmonic is a constant
+        of_one, of_several = (harmonics(n if r.turning else 0) for n in (HIGHEST_OF_ONE, HIGHEST))
+        alone = [Term(h, c) for c in products if len(c) <= 1 for h in of_one]
+        alone += [Term("const", (f,)) for f in features.FORCES if f in self._size]
+        several = [Term(h, c) for c in products if len(c) > 1 for h in of_several]
+        made_of = [c for c in further if all(n in self._size for n in c)]
+        trends = [any(n in self.centre or features.is_slow(n) for n in c) for c in made_of]
+        lasting = [t for t in several if t.harmonic == "const"]
+        lasting += [Term("const", c) for c, trend in zip(made_of, trends, strict=True) if trend]
+        swift = [t for t in several if t.harmonic != "const"]
+        swift += [Term("const", c) for c, trend in zip(made_of, trends, strict=True) if not trend]
+        self.terms: tuple[Term, ...] = (*alone, *lasting, *swift)
+        self.first_order = len(alone)
+        """Constants, single channels and turning forces: so many of the terms, the first."""
+        self.slow = len(alone) + len(lasting)
+        """These and what may have a trend: so many of the terms, the first."""
+
+    def size(self, term: Term) -> float:
+        """A fixed size of the term's series, SI: the product of its channels' root mean squares."""
+        return float(np.prod([self._size[n] for n in term.channels])) if term.channels else 1.0
+
+    def series(self, term: Term, r: Record) -> Array:
+        """(N,), SI, over a record of this flight."""
+        x = carrier(r, term.harmonic)
+        for name in term.channels:
+            x = x * self._channel(name, r)
+        return x
+
+    def chunks(self, r: Record, terms: Sequence[Term] | None = None, most: int = 32) -> Chunks:
+        """The terms over a part of a flight, ``most`` at a time."""
+        chosen = self.terms if terms is None else terms
+        carriers = {h: carrier(r, h).astype(np.float32) for h in dict.fromkeys(t.harmonic for t in chosen)}
+        wanted = dict.fromkeys(n for t in chosen for n in t.channels)
+        channels = {
+            n: (np.where(r.valid, self._channel(n, r), 0.0) / self._size[n]).astype(np.float32)
+            for n in wanted
+        }
+        nothing = np.where(r.valid, np.float32(1.0), np.float32(0.0))
+        return Chunks(terms=chosen, most=most, carriers=carriers, channels=channels, one=nothing)
+
+    def _channel(self, name: str, r: Record) -> Array:
+        x = self._slow.series(name, r) if features.is_slow(name) else features.series(name, r)
+        return np.asarray(x - self.centre.get(name, 0.0))
+
+
+@dataclass(frozen=True)
+class Chunks(Sequence[tuple[slice, Singles]]):
+    """Places of terms, and their series over ``size``, (terms, N), zero where not valid: made when they are asked for.
+
+    ``one`` (N,) is the product of no channels.
+    """
+
+    terms: Sequence[Term]
+    most: int
+    carriers: Mapping[str, Singles]
+    channels: Mapping[str, Singles]
+    one: Singles
+
+    def __len__(self) -> int:
+        return -(-len(self.terms) // self.most)
+
+    def __getitem__(self, k: int) -> tuple[slice, Singles]:  # type: ignore[override]
+        if not 0 <= k < len(self):
+            raise IndexError(k)
+        part = self.terms[k * self.most : (k + 1) * self.most]
+        x = np.empty((len(part), len(self.one)), dtype=np.float32)
+        product, of = self.one, tuple[str, ...]()
+        for n, t in enumerate(part):
+            if t.channels != of:
+                product, of = self.one, t.channels
+                for name in of:
+                    product = product * self.channels[name]
+            np.multiply(product, self.carriers[t.harmonic], out=x[n])
+        return slice(k * self.most, k * self.most + len(part)), x
+
+
+def _is_channel(name: str) -> bool:
+    """Whether a column that is no motion may enter a term: not gradients, nor the angles of discs."""
+    return name not in _NOT_A_CHANNEL and not is_disc_angle(name)
+
+
+@dataclass(frozen=True)
+class _Statistics:
+    mean: float
+    rms: float
+    spread: float
+    varies: bool
+
+
+def generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
+    """Products, of whatever order, in which a transducer may depend on what it feels; ``auxiliary``: see above."""
+    a, omega, omegadot = (tuple(f"{n}_{k}" for k in "xyz") for n in ("a", "omega", "omegadot"))
+    rates = tuple(f"d_{f}" for f in _FORCES)
+    turning = features.FORCES
+    pairs = list(combinations_with_replacement(_FORCES, 2))
+    memory = [
+        f"slow({x}, {t} s)" for names, ts in ((a, CREEP), (turning, TURNING_CREEP)) for x in names for t in ts
+    ]
+    memory += [f"slow(square({x}), {t} s)" for x in ("f_i", "a_z") for t in WARMTH]
+    memory += [f"slow(sign(d_{x}), {t} s)" for x in turning for t in FRICTION]
+    found: list[tuple[str, ...]] = [(n,) for n in memory]
+    found += [(n,) for f in turning for n in (f"d_{f}", f"d2_{f}")]
+    found += [(n,) for x in (*_FORCES, *rates) for n in (f"abs({x})", f"sign({x})")]
+    found += [(x, f"abs({y})") for x, y in product(_FORCES, _FORCES)]
+    found += [(x, x, f"sign({y})") for x, y in product(_FORCES, rates)]
+    found += [(x, x, f"abs({x})") for x in _FORCES]
+    found += combinations_with_replacement(_FORCES, 4)
+    found += [(x,) * 5 for x in _FORCES]
+    found += product(_FORCES, rates)
+    found += combinations_with_replacement(rates, 2)
+    found += [(*p, d) for p in pairs for d in rates]
+    found += product(turning, (*omega, *omegadot))
+    found += [(x, *p) for x in turning for p in combinations_with_replacement(omega, 2)]
+    found += [(*p, w) for p in pairs for w in (*omega, *omegadot)]
+    for n in auxiliary:
+        found += [(n, n), *((x, n) for x in turning)]
+        found += [(x, n, n) for x in _FORCES] + [(*p, n) for p in pairs]
+        found += [] if n == "time" else [(x, f"d_{n}") for x in _FORCES]
+    return found
+
+
+def _statistics(r: Record, names: Sequence[str], slow: Relaxations) -> dict[str, _Statistics]:
+    """Over the valid samples of a flight, a segment at a time; relaxations are run through on the way."""
+    count = 0.0
+    first: dict[str, float] = {}
+    sums = {n: np.zeros(2) for n in names}
+    ends = {n: np.array([np.inf, -np.inf]) for n in names}
+    for s in segments(len(r.time)):
+        part = r.part(s.rows)
+        count += float(np.sum(part.valid))
+        relaxed = slow.advance(part)
+        for n in names:
+            x = (relaxed[n] if n in relaxed else features.series(n, part))[part.valid]
+            if not len(x):
+                continue
+            y = x - first.setdefault(n, float(x[0]))  # squares of differences, so that no digits are lost
+            sums[n] += (np.sum(y), y @ y)
+            ends[n] = np.array([min(ends[n][0], np.min(x)), max(ends[n][1], np.max(x))])
+    found = {}
+    for n in names:
+        mean, square = sums[n] / max(count, 1.0)
+        origin = first.get(n, 0.0)
+        spread = float(np.sqrt(max(0.0, square - mean**2)))
+        mean = float(mean + origin)
+        varies = bool(ends[n][1] > ends[n][0])
+        found[n] = _Statistics(mean, float(np.hypot(mean, spread)) or 1.0, spread or 1.0, varies)
+    return found
+
+
+def harmonics(highest: int = HIGHEST) -> tuple[str, ...]:
+    """const, cos 1, sin 1 ... up to a multiple of the spin rate."""
+    return ("const", *(f"{f} {k}" for k in range(1, highest + 1) for f in ("cos", "sin")))
+
+
+def carrier(r: Record, harmonic: str) -> Array:
+    """(N,): 1, cos(k phi) or sin(k phi)."""
+    h = series_name.harmonic(harmonic)
+    if not h.multiple:
+        return np.ones(len(r.time))
+    z = (r.cos_phi + 1j * r.sin_phi) ** h.multiple
+    return np.asarray(z.real if h.function == "cos" else z.imag)

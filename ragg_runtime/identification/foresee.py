@@ -1,0 +1,155 @@
+"""What an effect would do before it is derived: the error left, and its signature, from triangles of the unwhitened columns."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.estimation import unknown_gradient
+from ragg_runtime.estimation.fitted import HELD_OUT_BLOCKS, Fitted
+from ragg_runtime.estimation.observation import as_output
+from ragg_runtime.estimation.passes import Piece, flight_segments, passed
+from ragg_runtime.estimation.segments import BLOCKS, ROWS
+from ragg_runtime.estimation.square_root import join, triangle
+from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.identification.selection import Field, field_of
+
+Array = NDArray[np.float64]
+
+WIDEST = 8 * ROWS
+"""Most samples of a long flight for which the signature of an effect is computed while one waits."""
+
+
+@dataclass(frozen=True)
+class Unwhitened:
+    """The columns [base | candidates | residual] of G_out, not whitened: a triangle (n + 1, n + 1), V, of all flights in each block
+    of time, and its valid samples (BLOCKS,).
+    """
+
+    triangles: tuple[Array, ...]
+    samples: Array
+
+    def rms(self, v: Array, blocks: Sequence[int]) -> float:
+        """Root mean square, V, of the residual in some blocks once columns have coefficients v (n,)."""
+        w = np.append(-v, 1.0)
+        squares = sum(float(np.sum((self.triangles[b] @ w) ** 2)) for b in blocks)
+        count = float(np.sum(self.samples[list(blocks)]))
+        return float(np.sqrt(squares / count)) if count else float("nan")
+
+
+@one_thread
+def unwhitened(f: Fitted) -> Unwhitened:
+    """The triangles of the unwhitened columns, in one pass over the flights."""
+    found: list[list[Array]] = [[] for _ in range(BLOCKS)]
+    samples = np.zeros(BLOCKS)
+
+    def own(piece: Piece) -> list[tuple[int, Array, int]]:
+        r = piece.observation.record
+        e = as_output(piece.observation, unknown_gradient.without(piece.columns, piece.windows, r.valid))
+        parts = []
+        for b, rows in piece.segment.blocks:
+            here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
+            parts.append((b, triangle(e[:, here]), int(np.sum(r.valid[here]))))
+        return parts
+
+    for x in f.prepared:
+        for parts in x.each(own, whitened=False):
+            for b, T, count in parts:
+                found[b].append(T)
+                samples[b] += count
+    nothing = np.zeros((f.size + 1, f.size + 1))
+    return Unwhitened(tuple(join(t) if t else nothing for t in found), samples)
+
+
+@dataclass(frozen=True)
+class Foreseen:
+    """What a choice of effects would leave, if everything is linear: calibrated and held-out error before demodulation, Eo, and the
+    chi-square that ``rank`` coefficients explain beyond the model.
+    """
+
+    effects: tuple[str, ...]
+    rms_Eo: float
+    holdout_Eo: float
+    chi2: float
+    rank: int
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "effects": list(self.effects),
+            "rms_Eo": self.rms_Eo,
+            "holdout_Eo": self.holdout_Eo,
+            "chi2": self.chi2,
+            "rank": self.rank,
+        }
+
+
+def field(d: Diagnosis) -> Field:
+    """The testable effects, steps included, on the triangles of everything."""
+    return field_of(d.fitted, [r.effect for r in d.ranking])
+
+
+def columns_of(field: Field, effects: Sequence[str]) -> list[int]:
+    """The testable candidate columns of some effects."""
+    return [n for e in effects if e in field.candidates for n in field.testable(e)]
+
+
+def coefficients(f: Fitted, field: Field, effects: Sequence[str], *, held_out: bool = False) -> Array:
+    """(size,): fitted coefficients of all columns with these effects in."""
+    extra = columns_of(field, effects)
+    fitted, _ = f.coefficients(extra, held_out=held_out)
+    return f.vector(fitted, extra)
+
+
+@one_thread
+def foreseen(f: Fitted, known: Unwhitened, field: Field, effects: Sequence[str]) -> Foreseen:
+    """The error that the flights would leave with these effects in the model."""
+    chi2, rank = field.joint([columns_of(field, [e]) for e in effects]) if effects else (0.0, 0)
+    return Foreseen(
+        effects=tuple(effects),
+        rms_Eo=known.rms(coefficients(f, field, effects), range(BLOCKS)) / f.k_ggi,
+        holdout_Eo=known.rms(coefficients(f, field, effects, held_out=True), HELD_OUT_BLOCKS) / f.k_ggi,
+        chi2=chi2,
+        rank=rank,
+    )
+
+
+def rows_within(f: Fitted, flight: int, window: tuple[float, float]) -> slice:
+    """Samples of which a signature is computed: of a long flight only segments that meet ``window`` (s); UserError if it is wide."""
+    r = f.prepared[flight].observation.record
+    n = len(r.time)
+    if n <= ROWS:
+        return slice(0, n)
+    a, b = (int(np.clip((t - r.time[0]) * r.rate, 0, n)) for t in window)
+    if b - a > WIDEST or b <= a:
+        raise UserError(
+            "the signature of an effect is drawn of a part of so long a flight",
+            remedy=f"zoom in to less than {WIDEST / r.rate:.0f} s",
+        )
+    return slice(ROWS * (a // ROWS), min(n, ROWS * -(-b // ROWS)))
+
+
+def signature(f: Fitted, flight: int, v: Array, rows: slice | None = None) -> tuple[slice, Array]:
+    """(samples, V): what coefficients v (size,) take out of the calibrated residual of G_out of one flight, in the segments that
+    hold ``rows`` (or all), and where these begin and end.
+    """
+    x = f.prepared[flight]
+    wanted = rows or slice(0, len(x.observation.record.time))
+    chosen = [
+        s for s in flight_segments(x.observation) if s.rows.start < wanted.stop and s.rows.stop > wanted.start
+    ]
+    both = np.stack([v, np.zeros_like(v)])
+
+    def taken(piece: Piece) -> Array:
+        after, before = piece.left(both)
+        return np.asarray(before - after)
+
+    if len(flight_segments(x.observation)) == 1:
+        parts = [*x.each(taken, whitened=False)]
+    else:
+        parts = [*passed(x.at, x.observation, x.noise, taken, chosen=chosen, whitened=False)]
+    return slice(chosen[0].rows.start, chosen[-1].rows.stop), np.concatenate(parts)

@@ -1,0 +1,80 @@
+"""Harmonic x motion term: how strongly each generic term stands out of what is left of a flight, all at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.estimation import prepared_flight
+from ragg_runtime.estimation.passes import Piece
+from ragg_runtime.estimation.prepared_flight import PreparedFlight
+from ragg_runtime.identification import omnibus
+from ragg_runtime.identification.dictionary import Term, harmonics
+from ragg_runtime.identification.omnibus import Scores, Sums
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Heat:
+    """Significance ``z`` (harmonics, products of channels) of generic terms, each by itself, in standard deviations (NaN: not
+    asked); ``coefficient`` in V per SI unit of the product; from ``level`` on one of all the terms stands out.
+    """
+
+    harmonics: tuple[str, ...]
+    products: tuple[str, ...]
+    z: Array
+    coefficient: Array
+    level: float
+
+
+@one_thread
+def heat(
+    prepared: PreparedFlight, triangles: Sequence[Array], n_base: int, given: Sequence[int] = ()
+) -> Heat:
+    """The scores of all terms once base and ``given`` candidate columns are projected out, in one pass."""
+    prepared, projector, _ = prepared_flight.projector(triangles, n_base, given).lean(prepared)
+    scores = Scores(prepared, projector)
+
+    def own(piece: Piece) -> Sums:
+        Q = projector.basis(piece)
+        return scores.of(piece, projector.left(piece, Q), Q)
+
+    for sums in prepared.each(own, effort=omnibus.EFFORT):
+        scores.sums.join(sums)
+    return _table(scores)
+
+
+def _table(s: Scores) -> Heat:
+    left2 = s.sums.norm2 - np.einsum("ij,ij->i", s.sums.along, s.sums.along)
+    good = left2 > omnibus.OWN * s.sums.norm2
+    norm = np.sqrt(np.where(good, left2, np.nan))
+    terms = s.dictionary.terms
+    rows = harmonics()
+    columns = tuple(dict.fromkeys(t.product for t in terms if t.harmonic in rows))
+    z, coefficient = (np.full((len(rows), len(columns)), np.nan) for _ in range(2))
+    row, column = ({name: k for k, name in enumerate(names)} for names in (rows, columns))
+    for k, t in enumerate(terms):
+        if t.harmonic in row:
+            at = row[t.harmonic], column[t.product]
+            z[at] = s.sums.dot[k] / norm[k]
+            coefficient[at] = z[at] / (norm[k] * s.dictionary.size(t))
+    share = omnibus.FAMILY * omnibus.SHARES[0] / (2 * max(int(np.sum(good)), 1))
+    return Heat(
+        harmonics=rows, products=columns, z=z, coefficient=coefficient, level=-float(special.ndtri(share))
+    )
+
+
+def series(prepared: PreparedFlight, harmonic: str, product: str, coefficient: float) -> Array:
+    """(N,) V: a generic term over a whole flight, with this coefficient."""
+    from ragg_runtime.identification.dictionary import Dictionary
+
+    r = prepared.observation.record
+    channels = () if product == "1" else tuple(product.split("*"))
+    x = coefficient * Dictionary(r).series(Term(harmonic, channels), r)
+    return np.asarray(np.where(r.valid, x, 0.0))

@@ -1,0 +1,147 @@
+"""Evidence for a candidate effect: what its columns explain once the base columns, with their prior, are projected out of all."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.passes import Piece
+from ragg_runtime.estimation.significance import log_sf
+
+Array = NDArray[np.float64]
+
+TESTABLE = 0.3
+"""Whitened norm, after projection, of a parameter of one scale (ten times plausible) below which it is not
+testable: at 0.3 a 3-sigma effect would be a hundred times the plausible size."""
+
+COLLINEAR = 1e-6
+"""Relative size below which what is left of a column after projection is rounding and truncation."""
+
+
+@dataclass(frozen=True)
+class Test:
+    """A likelihood-ratio test of some columns: chi-square with ``rank`` degrees of freedom; ``log_p`` is corrected for the number
+    of sub-blocks tried, of which ``which`` are the best one's columns.
+    """
+
+    chi2: float
+    rank: int
+    log_p: float
+    which: tuple[int, ...]
+
+
+def project(T: Array, onto: int) -> Array:
+    """What is left of the later columns once the first ``onto`` are projected out."""
+    return T[onto:, onto:]
+
+
+def explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[float, int]:
+    """(chi-square, rank) of the last column of P explained by ``columns`` of a norm above ``floor``."""
+    if len(columns) == 1:
+        x = np.ascontiguousarray(P[:, columns[0]])
+        square = float(x @ x)
+        return (float((x @ P[:, -1]) ** 2) / square, 1) if square > floor[columns[0]] ** 2 else (0.0, 0)
+    X = P[:, list(columns)]
+    usable = np.linalg.norm(X, axis=0) > floor[list(columns)]
+    X = X[:, usable]
+    if not X.shape[1]:
+        return 0.0, 0
+    if X.shape[1] == 1:
+        return float((X[:, 0] @ P[:, -1]) ** 2 / (X[:, 0] @ X[:, 0])), 1
+    U, s, _ = np.linalg.svd(X, full_matrices=False)
+    keep = s > max(np.max(floor[list(columns)]) * 0.3, s[0] * 1e-7)
+    return float(np.sum((U[:, keep].T @ P[:, -1]) ** 2)), int(np.sum(keep))
+
+
+def sub_blocks(columns: Sequence[tuple[int, Column]]) -> list[tuple[tuple[int, ...], int]]:
+    """Ways in which an effect may be present, each with the number of its kind: all its parameters; those of one accelerometer; one
+    parameter in all accelerometers; one single value.
+    """
+    return [(tuple(columns[k][0] for k in block), count) for block, count in _ways(_kinds(columns))]
+
+
+Kinds = tuple[tuple[int | None, str], ...]
+
+
+def _kinds(columns: Sequence[tuple[int, Column]]) -> Kinds:
+    return tuple((c.accelerometer, c.name) for _, c in columns)
+
+
+@lru_cache(maxsize=1024)
+def _ways(kinds: Kinds) -> list[tuple[tuple[int, ...], int]]:
+    """:func:`sub_blocks` of columns of these accelerometers and names, by their places: the same for every record."""
+    every = tuple(range(len(kinds)))
+    families: list[list[tuple[int, ...]]] = [[every]]
+    by_accelerometer: dict[int | None, list[int]] = {}
+    by_name: dict[str, list[int]] = {}
+    for n, (accelerometer, name) in enumerate(kinds):
+        by_accelerometer.setdefault(accelerometer, []).append(n)
+        by_name.setdefault(name, []).append(n)
+    for groups in (by_accelerometer.values(), by_name.values(), [[n] for n in every]):
+        family = [tuple(g) for g in groups]
+        if len(family) > 1 and not any(set(family) == set(f) for f in families):
+            families.append(family)
+    return [(block, len(family) * len(families)) for family in families for block in family]
+
+
+def test(
+    P: Array,
+    columns: Sequence[tuple[int, Column]],
+    floor: Array,
+    penalty: float = 0.0,
+    freedom: float = np.inf,
+) -> Test:
+    """The best of an effect's sub-blocks, its p-value corrected for their number (and by ``penalty``); ``freedom`` is the noise's."""
+    every = [n for n, _ in columns]
+    # of hundreds of rows only those matter in which the effect's columns, triangular, are not zero
+    small, low = np.asarray(np.linalg.qr(P[:, [*every, -1]], mode="r")), floor[every]
+    squares, along = np.sum(small[:, :-1] ** 2, axis=0), small[:, -1] @ small[:, :-1]
+    seen = squares > low**2
+    alone = np.where(seen, along**2 / np.where(seen, squares, 1.0), 0.0).tolist()
+    best = Test(0.0, 0, 0.0, ())
+    for block, count in _ways(_kinds(columns)):
+        chi2, rank = (
+            (alone[block[0]], int(seen[block[0]])) if len(block) == 1 else explained(small, block, low)
+        )
+        log_p = min(0.0, log_sf(chi2, rank, freedom) + math.log(count) + penalty)
+        if rank and log_p < best.log_p:
+            best = Test(chi2, rank, log_p, tuple(every[k] for k in block))
+    if not best.which:
+        chi2, rank = explained(small, range(len(every)), low)
+        best = Test(chi2, rank, min(0.0, log_sf(chi2, rank, freedom) + penalty), tuple(every))
+    return best
+
+
+@dataclass(frozen=True)
+class Variance:
+    """Sums over samples for a score test of a random effect: is the residual larger where it would show?"""
+
+    count: int
+    sums: Array
+
+    @staticmethod
+    def of(piece: Piece, place: int, residual: Array) -> Variance:
+        """Of a segment; ``place`` is the effect's column, ``residual`` (rows,) is whitened and projected."""
+        s2, e2 = piece.white[place] ** 2, residual**2
+        return Variance(len(e2), np.array([np.sum(s2), np.sum(e2), s2 @ s2, e2 @ e2, s2 @ e2]))
+
+    def test(self) -> Test:
+        """Score test of the variance, with the residual's own fourth moment, so that heavy tails raise no alarm."""
+        s2, e2, s4, e4, s2e2 = self.sums / max(self.count, 1)
+        spread, ratio = s4 - s2**2, e4 / e2**2 - 1.0
+        if spread <= 0.0 or ratio <= 0.0:
+            return Test(0.0, 0, 0.0, (0,))
+        z = float(np.sqrt(self.count) * (s2e2 / e2 - s2) / np.sqrt(spread * ratio))
+        return Test(max(z, 0.0) ** 2, 1, float(special.log_ndtr(-z)), (0,))
+
+
+def pooled(parts: Sequence[Variance]) -> Variance:
+    """The sums of several segments or flights together."""
+    return Variance(sum(p.count for p in parts), np.sum([p.sums for p in parts], axis=0))

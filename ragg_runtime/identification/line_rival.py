@@ -1,0 +1,284 @@
+"""Whether a line in the record explains as much as an effect that was chosen: then the effect is not named."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TypeGuard
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base import false_alarms
+from ragg_runtime.estimation import prepared_flight, unknown_gradient
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.passes import Piece
+from ragg_runtime.estimation.prepared_flight import PreparedFlight, Projector
+from ragg_runtime.estimation.significance import INDISTINGUISHABLE
+from ragg_runtime.identification import selection
+from ragg_runtime.identification.dictionary import Term
+from ragg_runtime.identification.omnibus import Found, Remainder
+from ragg_runtime.identification.strong import Stage, Taken
+
+SLIP = 6.6
+"""Chi-square by which a line must be off the multiple: what keeps step with the disc is taken for the disc's, and seems as far
+off it in one of a hundred (one degree of freedom)."""
+
+
+CONSTANT = 0.99
+"""Share of what an effect explains that a sinusoid at the very multiple must explain for it to be called a constant term; the
+rest is its couplings to the motion, which a strong one shows."""
+
+
+@dataclass(frozen=True)
+class LineRival:
+    """A line that explains as much as an effect, which by its ``own`` explains that chi-square beside the others that are chosen."""
+
+    line: NearLine
+    effect: str
+    own: float
+
+    @property
+    def words(self) -> str:
+        return (
+            f"the output has a line at about {self.line.frequency:.5g} Hz, beside a multiple of the spin rate: it explains as much"
+            f" as {self.effect} would, so that none is named"
+        )
+
+    def better(self, rem: Remainder) -> bool:
+        """Whether it also explains as much as the effect does together with the best generic term in a remainder."""
+        if not rem.significant:
+            return True
+        best = max((t.z**2 for s in rem.searches for t in s.terms), default=0.0)
+        return self.line.chi2 - self.own > best - INDISTINGUISHABLE
+
+    def within(self, rem: Remainder) -> Remainder:
+        """A remainder in which this line is what is left."""
+        chi2 = self.line.chi2
+        found = Found(
+            term=Term(f"line {self.line.frequency:.5g} Hz", ()),
+            coefficient=self.line.amplitude,
+            std=self.line.amplitude / float(np.sqrt(max(chi2, 1.0))),
+            z=float(np.sqrt(chi2)),
+            chi2=chi2,
+            mean_square=self.line.amplitude**2 / 2,
+            kind="line",
+        )
+        first, *others = rem.searches
+        log_p = min(first.log_p, self.line.log_p)
+        return Remainder((replace(first, log_p=log_p, terms=(found,), chi2=chi2), *others))
+
+
+@dataclass(frozen=True)
+class Steady:
+    """An effect of which the record shows no more than a constant term: a sinusoid at ``turns`` times the spin rate, Hz.
+
+    ``others`` would do as well; ``width``: how far off a line may be that explains as much (3 sigma), Hz; ``None``: none does.
+    """
+
+    effect: str
+    others: tuple[str, ...]
+    turns: int
+    frequency: float
+    width: float | None
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        times = {1: "the spin rate", 2: "twice the spin rate"}.get(
+            self.turns, f"{self.turns} times the spin rate"
+        )
+        return f"constant term at {times}"
+
+    @property
+    def words(self) -> str:
+        others = f", by {', '.join(self.others)} as well" if self.others else ""
+        said = f"what {self.effect} explains is a {self.name}{others}"
+        if self.width is None:
+            return said
+        return f"{said}; a line within {self.width:.1g} Hz of {self.frequency:.6g} Hz would do too"
+
+
+def line_rival(steps: Sequence[Taken], last: Stage) -> tuple[LineRival | None, tuple[Steady, ...]]:
+    """The first chosen effect in whose place a line beside a multiple of the spin rate would do, and those that are no more than
+    one.
+    """
+    steady = []
+    for t in steps:
+        line = best(t.before, ())
+        if _in_place(line, t.test.chi2):
+            return LineRival(line=line, effect=t.effect, own=t.test.chi2), ()
+        steady += _steady(t.before, line, t.effect, t.test.chi2, t.rivals)
+    field, choice = last.field, last.choice
+    rivals = selection.rivals(field, choice)
+    for e in choice.chosen:
+        others = [o for o in choice.chosen if o != e]
+        beside = field.joint([choice.blocks[o] for o in others])[0] if others else 0.0
+        line = best(last.fitted, [n for o in others for n, _ in field.candidates[o]])
+        if _in_place(line, choice.chi2 - beside):
+            return LineRival(line=line, effect=e, own=choice.chi2 - beside), ()
+        steady += _steady(last.fitted, line, e, choice.chi2 - beside, rivals[e])
+    return None, tuple(steady)
+
+
+def _in_place(line: NearLine | None, chi2: float) -> TypeGuard[NearLine]:
+    """Whether a line, plainly off the multiple, explains as much."""
+    return (
+        line is not None
+        and line.slip >= SLIP
+        and line.chi2 >= chi2 - INDISTINGUISHABLE
+        and line.log_p <= np.log(false_alarms.REMAINDER)
+    )
+
+
+def _steady(
+    f: Fitted, line: NearLine | None, effect: str, chi2: float, others: Sequence[str]
+) -> list[Steady]:
+    """The effect, if a line at the very multiple explains as much, or all but a small part."""
+    if line is None or line.chi2 - line.slip < min(chi2 - INDISTINGUISHABLE, CONSTANT * chi2):
+        return []
+    as_much = line.chi2 - line.slip >= chi2 - INDISTINGUISHABLE
+    r = f.prepared[0].observation.record
+    turns = round(line.frequency / r.spin_frequency)
+    # Cramer-Rao: 12 over the square of duration and of signal to noise, rad/s (Rife and Boorstyn, IEEE Trans. IT 20, 1974)
+    width = 3.0 * float(np.sqrt(12.0 / line.chi2)) / (2 * np.pi * float(r.time[-1] - r.time[0]))
+    return [
+        Steady(
+            effect=effect,
+            others=tuple(others),
+            turns=turns,
+            frequency=turns * r.spin_frequency,
+            width=width if as_much else None,
+        )
+    ]
+
+
+Array = NDArray[np.float64]
+
+MULTIPLES = (1, 2, 3, 4)
+"""Of the spin rate: those up to which the sensors' signatures reach."""
+
+REACH = 4.0
+"""Widths of a line (one over the record's length) up to which one beside a multiple is sought; those farther off the search of
+the spectrum sees."""
+
+STEP = 0.25
+"""Width between the frequencies tried first; about the best of them others follow, so much finer again."""
+
+FINER = 8
+
+TOGETHER = 11
+"""Frequencies whose waves are made at a time: they stay in the cache."""
+
+DISTINCT = 1e-6
+"""Share of a wave that must be left by what is fitted for it to have a direction of its own."""
+
+
+@dataclass(frozen=True)
+class NearLine:
+    """A sinusoid in what is left of a record: Hz, chi-square beside what is fitted, V; ``slip`` is how much of ``chi2`` one at the
+    very multiple would not explain, ``log_p`` counts the frequencies tried.
+    """
+
+    frequency: float
+    chi2: float
+    amplitude: float
+    slip: float
+    log_p: float
+
+
+def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
+    """The sinusoid beside a multiple of the spin rate that explains most, base and ``given`` candidate columns projected out.
+
+    ``None`` of several records or of channels, where no disc turns, or where none has a direction of its own.
+    """
+    if len(f.prepared) != 1 or f.observations[0].recorded.demodulated:
+        return None
+    x = f.prepared[0]
+    r = x.observation.record
+    if not r.turning:
+        return None
+    x, projector, _ = prepared_flight.projector(f.triangles[0], f.n_base, given).lean(x)
+    width = 1.0 / float(r.time[-1] - r.time[0])
+    offsets = np.arange(-REACH, REACH + STEP / 2, STEP) * width
+    found = np.concatenate([m * r.spin_frequency + offsets for m in MULTIPLES])
+    found = found[found < r.rate / 2 - width]
+    if not len(found):
+        return None
+    first = _explained(x, projector, found)
+    rough = float(found[int(np.argmax(first[0]))])
+    multiple = round(rough / r.spin_frequency) * r.spin_frequency
+    near = np.append(rough + np.linspace(-STEP, STEP, 2 * FINER + 1) * width, multiple)
+    chi2, size = _explained(x, projector, near)
+    k = int(np.argmax(chi2[:-1]))
+    if not chi2[k] > 0.0:
+        return None
+    volts2 = float(x.noise_psd(near[k : k + 1])[0]) * r.rate / 2
+    return NearLine(
+        frequency=float(near[k]),
+        chi2=float(chi2[k]),
+        amplitude=float(size[k] * np.sqrt(volts2)),
+        slip=float(chi2[k] - chi2[-1]),
+        log_p=min(0.0, float(np.log(len(found)) - chi2[k] / 2)),  # of two degrees of freedom
+    )
+
+
+def _explained(x: PreparedFlight, projector: Projector, frequencies: Array) -> tuple[Array, Array]:
+    """(n,), (n,): chi-square that a sinusoid of each frequency explains, and its amplitude in whitened rows."""
+    n = len(frequencies)
+    dot, gram = np.zeros(2 * n), np.zeros((2 * n, 2))
+    along = np.zeros((2 * n, len(projector.along)))
+
+    def sums(piece: Piece) -> tuple[Array, Array, Array]:
+        Q = projector.basis(piece)
+        right = np.column_stack([projector.left(piece, Q), Q])
+        products, inner = np.empty((2 * n, right.shape[1])), np.empty((2 * n, 2))
+        for k in range(0, n, TOGETHER):
+            X = _waves(x, piece, frequencies[k : k + TOGETHER])
+            m = len(X) // 2
+            for half, partner, first in ((X[:m], X[m:], k), (X[m:], X[:m], n + k)):
+                products[first : first + m] = half @ right
+                inner[first : first + m, 0] = np.einsum("ij,ij->i", half, half)
+                inner[first : first + m, 1] = np.einsum("ij,ij->i", half, partner)
+        return products[:, 0], inner, products[:, 1:]
+
+    for d, g, a in x.each(sums):
+        dot += d
+        gram += g
+        along += a
+    whole = gram[:, 0].copy()
+    gram[:, 0] -= np.einsum("ij,ij->i", along, along)
+    gram[:, 1] -= np.einsum("ij,ij->i", along, np.concatenate([along[n:], along[:n]]))
+    G = np.array([[gram[:n, 0], gram[:n, 1]], [gram[n:, 1], gram[n:, 0]]]).transpose(2, 0, 1)
+    d = np.stack([dot[:n], dot[n:]], axis=1)
+    sizes, V = np.linalg.eigh(G)
+    seen = sizes > DISTINCT * np.maximum(whole[:n], whole[n:])[:, None]
+    c = np.einsum("nij,ni->nj", V, d) / np.where(seen, sizes, np.inf)
+    return np.sum(c**2 * np.where(seen, sizes, 0.0), axis=1), np.linalg.norm(c, axis=1)
+
+
+def _waves(x: PreparedFlight, piece: Piece, frequencies: Array) -> Array:
+    """(2 n, rows): cosines, then sines, in whitened rows."""
+    r = piece.observation.record
+    X = _turning(2 * np.pi * frequencies, r.time[r.valid])
+    if x.noise.level.parts:
+        X /= np.asarray(x.noise.level.of(r.quantity))[r.valid]
+    weights = x.noise.weights(piece.observation.weights)
+    X = X if len(weights) == 1 else np.concatenate([w * X for w in weights], axis=1)
+    unknown_gradient.project(X, piece.windows)
+    return X
+
+
+def _turning(rates: Array, time: Array) -> Array:
+    """(2 n, N): cosines, then sines, of evenly spaced rates (n,), rad/s, times time (N,), s, by products."""
+    n = len(rates)
+    X = np.empty((2 * n, len(time)))
+    steps = np.diff(rates, prepend=-np.inf)
+    wave = turn = np.empty(0, dtype=np.complex128)
+    for k, step in enumerate(steps):
+        even = k > 1 and abs(step - steps[k - 1]) < 1e-9 * abs(step)
+        if even and not (k > 2 and abs(steps[k - 1] - steps[k - 2]) < 1e-9 * abs(step)):
+            turn = np.exp(1j * step * time)
+        wave = wave * turn if even else np.exp(1j * rates[k] * time)
+        X[k], X[n + k] = wave.real, wave.imag
+    return X

@@ -1,0 +1,402 @@
+"""Is anything left? A search over generic terms of the residual, and the names of those that are there.
+
+After the model and the chosen effects are projected out, every term of the dictionary is scored against
+what remains. The largest score of an effect-free record is known, so its significance is; terms are taken
+one by one (orthogonal matching pursuit) while the largest is significant. Scores and inner products are sums
+over the segments of a flight.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base import false_alarms
+from ragg_runtime.estimation import prepared_flight, unknown_gradient
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.noise import line_width
+from ragg_runtime.estimation.passes import Piece, flight_segments
+from ragg_runtime.estimation.prepared_flight import PreparedFlight, Projector
+from ragg_runtime.estimation.segments import BLOCKS
+from ragg_runtime.estimation.significance import INDISTINGUISHABLE, log_sf_t
+from ragg_runtime.identification.dictionary import Dictionary, Term
+from ragg_runtime.identification.features import term_unit
+from ragg_runtime.identification.spectral_line import Periodogram
+from ragg_runtime.identification.time_varying import BlockScores
+from ragg_runtime.identification.whitened_terms import Directions, products, squares
+
+Array = NDArray[np.float64]
+Singles = NDArray[np.float32]
+T = TypeVar("T")
+
+FAMILY = false_alarms.REMAINDER
+"""Probability with which anything at all may seem left of an effect-free record."""
+
+SHARES = false_alarms.REMAINDER_SHARES
+"""How the tests divide it: steady terms, terms that come and go, lines in the spectrum."""
+
+OWN = 1e-6
+"""Share of a term's square that must be left of it beside the base's columns for it to have a direction of its own: single
+precision knows no less."""
+
+APART = 0.05
+"""Share of a term's square that must be left of it beside the terms taken before, for its score to count."""
+
+MOST_TERMS = 8
+
+EFFORT = 3.0
+"""How much longer the search of a segment takes than making it."""
+
+SHORTLIST = 400
+"""Terms among which several are sought: those with the largest scores."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A generic term in a residual.
+
+    ``kind`` is ``steady``, ``varying`` (``coefficient`` is then the root mean square of its values in blocks of time) or ``line``
+    (the harmonic then names the frequency).
+
+    Attributes
+    ----------
+    coefficient, std
+        V per SI unit of the product of channels.
+    z
+        Its significance when it was taken, in standard deviations.
+    chi2
+        What it explained then.
+    how
+        In words, how a varying term varies.
+    mean_square
+        Of the term in the residual, V^2 (about its mean, for const terms).
+    centre
+        Means that its auxiliary channels enter less.
+    """
+
+    term: Term
+    coefficient: float
+    std: float
+    z: float
+    chi2: float
+    mean_square: float
+    kind: str = "steady"
+    how: str = ""
+    centre: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Omnibus:
+    """The search over one flight's dictionary.
+
+    ``log_p`` belongs to the most significant finding of all tests; ``chi2`` is what the ``terms`` taken explain
+    of ``square``, the whitened residual's sum of squares.
+    """
+
+    log_p: float
+    tried: int
+    terms: tuple[Found, ...]
+    chi2: float
+    square: float
+
+    @property
+    def significant(self) -> bool:
+        return bool(self.log_p < np.log(FAMILY))
+
+
+class Sums:
+    """What the search needs of every term: sums over segments."""
+
+    def __init__(self, terms: int, basis: int, blocks: BlockScores, spectrum: Periodogram) -> None:
+        self.dot = np.zeros(terms)
+        self.along = np.zeros((terms, basis))
+        self.norm2 = np.zeros(terms)
+        self.raw = np.zeros((2, terms))
+        self.samples = 0
+        self.square = 0.0
+        self.blocks, self.spectrum = blocks, spectrum
+
+    def join(self, other: Sums) -> None:
+        """Count in the sums of further segments."""
+        for name in ("dot", "along", "norm2", "raw"):
+            getattr(self, name)[...] += getattr(other, name)
+        self.samples += other.samples
+        self.square += other.square
+        self.blocks.join(other.blocks)
+        self.spectrum.join(other.spectrum)
+
+
+class Scores:
+    """The dictionary of a flight against its whitened residual, base and chosen effects projected out."""
+
+    def __init__(self, prepared: PreparedFlight, projector: Projector) -> None:
+        self.prepared, self.projector = prepared, projector
+        o = prepared.observation
+        self.dictionary = Dictionary(o.record)
+        self._excluded = None
+        if unknown_gradient.unknown(o):  # there nothing is left of the noise either
+            double, width = 2 * o.record.spin_frequency, 2 / unknown_gradient.KNOT_SECONDS
+            self._excluded = (double - width, double + width)
+        self._longest = max(s.rows.stop - s.rows.start for s in flight_segments(o))
+        self.sums = self._zero()
+
+    def _zero(self) -> Sums:
+        return Sums(
+            len(self.dictionary.terms),
+            len(self.projector.along),
+            BlockScores(self.dictionary.first_order, self.prepared.observation.record.time),
+            Periodogram(self._longest, self.prepared.observation.record.rate, self._excluded),
+        )
+
+    def of(self, piece: Piece, y: Array, Q: Array) -> Sums:
+        """The sums of one segment; y (rows,) is what the projector, with basis Q (rows, k), leaves of it."""
+        s = self._zero()
+        s.square = float(y @ y)
+        s.samples = int(np.sum(piece.observation.record.valid))
+        right = np.column_stack([y, Q])
+        ones = np.ones((len(piece.observation.record.time), 1))
+        s.blocks.level(piece, y)
+        s.spectrum.add(piece, y)
+        for at, x, inner, norm2, X in self._of_terms(
+            Directions(self.prepared, self.dictionary, piece), right
+        ):
+            s.dot[at] = inner[:, 0]
+            s.along[at] = inner[:, 1:]
+            s.norm2[at] = norm2
+            if X is not None:
+                s.blocks.add(piece, y, at, X)
+            s.raw[0, at] = products(x, ones)[:, 0]
+            s.raw[1, at] = squares(x)
+        return s
+
+    def _of_terms(
+        self, d: Directions, right: Array
+    ) -> Iterator[tuple[slice, Singles, Array, Array, Singles | None]]:
+        """Places, series, inner products with ``right`` and squared norms of all terms; some whitened."""
+        terms, slow = self.dictionary.terms, self.dictionary.slow if d.may_be_periodic else None
+        singles = right.astype(np.float32)
+        for at, x, X in d.whitened(terms[:slow]):
+            yield at, x, products(X, singles), squares(X), X
+        if slow is not None:
+            for at, x, inner, norm2 in d.scores(terms[slow:], right):
+                yield slice(slow + at.start, slow + at.stop), x, inner, norm2, None
+
+    def whitened(self, piece: Piece, places: Sequence[int]) -> Singles:
+        """(len(places), rows): the whitened series of some terms over a segment, in order of their places."""
+        d = Directions(self.prepared, self.dictionary, piece)
+        terms = [self.dictionary.terms[k] for k in sorted(places)]
+        slow = sum(k < self.dictionary.slow for k in places)
+        found = [*d.whitened(terms[:slow]), *(d.periodic if d.may_be_periodic else d.whitened)(terms[slow:])]
+        return np.concatenate([X for _, _, X in found])
+
+    def gram(self, places: Sequence[int]) -> Array:
+        """Inner products of some whitened terms, base projected out, by another pass over the flight."""
+
+        def inner(piece: Piece) -> Array:
+            X = self.whitened(piece, places)
+            return np.asarray(X @ X.T)
+
+        G = np.zeros((len(places), len(places)))
+        for part in self.prepared.each(inner):
+            G += part
+        row = np.argsort(np.argsort(places))  # from ascending places to the order asked for
+        A = self.sums.along[list(places)]
+        return G[np.ix_(row, row)] - A @ A.T
+
+    def inflation(self, places: Sequence[int]) -> Array:
+        """How much more than they should the scores of some terms vary between blocks of time, at least 1 (see ``uneven``)."""
+        edges, order = self.prepared.edges, np.sort(places)
+        along = self.sums.along[order]
+
+        def of_blocks(piece: Piece) -> Array:
+            Q = self.projector.basis(piece)
+            y = self.projector.left(piece, Q)
+            X = self.whitened(piece, places) - along @ Q.T
+            block = np.searchsorted(edges, piece.sample, side="right") - 1
+            found = np.zeros((2, BLOCKS, len(order)))
+            for b in np.unique(block):
+                here = block == b
+                found[:, b] = X[:, here] @ y[here], np.sum(X[:, here] ** 2, axis=1)
+            return found
+
+        score, square = sum(self.prepared.each(of_blocks), np.zeros((2, BLOCKS, len(order))))
+        left = score - square * (np.sum(score, axis=0) / np.sum(square, axis=0))  # beside the term itself
+        by = np.maximum(np.sum(left**2, axis=0) / np.sum(square, axis=0), 1.0)
+        return np.asarray(by[np.argsort(np.argsort(places))])
+
+
+def search(
+    prepared: PreparedFlight, projector: Projector, further: Callable[[Piece, Array], T]
+) -> tuple[Omnibus, list[T]]:
+    """What is left of a flight, and what ``further`` makes of every segment and its whitened, projected residual."""
+    scores = Scores(prepared, projector)
+
+    def both(piece: Piece) -> tuple[Sums, T]:
+        Q = projector.basis(piece)
+        y = projector.left(piece, Q)
+        return scores.of(piece, y, Q), further(piece, y)
+
+    found = []
+    for sums, more in prepared.each(both, effort=EFFORT):
+        scores.sums.join(sums)
+        found.append(more)
+    return choose(scores), found
+
+
+def choose(s: Scores) -> Omnibus:
+    """What is left of a flight: steady terms, or else one that comes and goes, or a line."""
+    steady = _steady(s)
+    others = [t for t in (_varying(s), _line(s)) if t is not None]
+    log_p = min([steady.log_p, *(p for p, _ in others)])
+    significant = [(p, found) for p, found in others if p < np.log(FAMILY)]
+    if steady.terms or not significant:
+        return replace(steady, log_p=log_p)
+    found = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
+    return replace(steady, log_p=log_p, terms=found, chi2=max(f.chi2 for f in found))
+
+
+def _varying(s: Scores) -> tuple[float, Found] | None:
+    """The term that varies most; one that the model has, with one coefficient for the whole flight, may vary as well as any other."""
+    v = s.sums.blocks.best(s.sums.norm2 > 0.0)
+    if v is None:
+        return None
+    term = s.dictionary.terms[v.place]
+    size = s.dictionary.size(term)
+    mean_square = v.coefficient**2 * float(s.sums.raw[1, v.place]) / max(s.sums.samples, 1)
+    z = float(np.sqrt(v.chi2))
+    found = Found(term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how)
+    return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
+
+
+def _line(s: Scores) -> tuple[float, Found] | None:
+    """The strongest line of what is left, if it is none beside those that were taken out (of one that wanders something stays)."""
+    if s.prepared.observation.recorded.demodulated:
+        return None  # their noise is only white within the demodulator's band
+    line = s.sums.spectrum.best()
+    width = line_width(s.prepared.observation)
+    if line is None or any(abs(line.frequency - q.frequency) < width for q in s.prepared.noise.lines):
+        return None
+    # back from the whitened residual: the noise's own density at the line
+    volts2 = float(s.prepared.noise_psd(np.array([line.frequency]))[0])
+    mean_square = line.share * volts2 * s.prepared.observation.record.rate / 2
+    chi2, size = line.share * s.sums.square, float(np.sqrt(2 * mean_square))
+    z = float(np.sqrt(chi2))
+    term = Term(f"line {line.frequency:.5g} Hz", ())
+    found = Found(term, size, size / max(z, 1.0), z, chi2, mean_square, "line")
+    return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
+
+
+def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
+    """The largest scores, one by one, while they are significant."""
+    left2 = s.sums.norm2 - np.einsum("ij,ij->i", s.sums.along, s.sums.along)
+    good = left2 > OWN * s.sums.norm2
+    norm = np.sqrt(np.where(good, left2, np.inf))
+    tried = int(np.sum(good))
+    z = s.sums.dot / norm
+    freedom = s.prepared.noise.freedom
+    first = _log_p(z, tried, freedom)
+    if first >= np.log(FAMILY):
+        return Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.sums.square)
+    places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, tried)]
+    sober = np.ones(len(places))
+    if s.prepared.noise.level.parts:
+        sober = np.sqrt(s.inflation([int(k) for k in places]))
+        freedom = min(freedom, BLOCKS - 1.0)
+        first = _log_p(z[places] / sober, tried, freedom)
+        if first >= np.log(FAMILY):
+            return Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.sums.square)
+    G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
+    # a term of which next to nothing is left: where single precision does not know its own square, nothing is known beside another
+    score, left = z[places].copy(), (np.abs(np.diag(G) - 1.0) < APART).astype(np.float64)
+    left[int(np.argmax(np.abs(score) / sober))] = 1.0
+    directions: list[Array] = []  # components of every term along each direction taken
+    taken: list[Found] = []
+    chi2 = 0.0
+    while len(taken) < most:
+        now = np.where(left > APART, score / np.sqrt(np.maximum(left, APART)), 0.0)
+        if _log_p(now / sober, tried, freedom) >= np.log(FAMILY):
+            break
+        near = np.flatnonzero(now**2 > np.max(now**2) - INDISTINGUISHABLE)
+        k = int(min(near, key=lambda n: (s.dictionary.terms[places[n]].order, -abs(now[n]))))
+        length = float(np.sqrt(left[k]))
+        along = (G[:, k] - sum((d * d[k] for d in directions), np.zeros(len(places)))) / length
+        amount = float(score[k]) / length
+        directions.append(along)
+        score = score - along * amount
+        left = left - along**2
+        chi2 += amount**2
+        place = int(places[k])
+        term = s.dictionary.terms[place]
+        std = 1.0 / (float(norm[place]) * length * s.dictionary.size(term))
+        mean, square = s.sums.raw[:, place] / max(s.sums.samples, 1)
+        spread = square - mean**2 if term.harmonic == "const" else square
+        size2 = (amount * std * s.dictionary.size(term)) ** 2 * float(spread)
+        taken.append(
+            Found(
+                term=term,
+                coefficient=amount * std,
+                std=std,
+                z=float(now[k]),
+                chi2=amount**2,
+                mean_square=size2,
+                centre=s.dictionary.centre,
+            )
+        )
+    return Omnibus(log_p=first, tried=tried, terms=tuple(taken), chi2=chi2, square=s.sums.square)
+
+
+def _log_p(z: Array, tried: int, freedom: float = np.inf) -> float:
+    """p-value, as a logarithm, of the largest of so many standard deviates; ``freedom``: from which the noise is known."""
+    top = float(np.max(np.abs(z), initial=0.0))
+    return min(0.0, log_sf_t(top, freedom) + float(np.log(2 * max(tried, 1) / SHARES[0])))
+
+
+@dataclass(frozen=True)
+class Remainder:
+    """What is left of all flights: one search of the dictionary a flight."""
+
+    searches: tuple[Omnibus, ...]
+
+    @property
+    def log_p(self) -> float:
+        """Significance of the largest score of all flights."""
+        return min(0.0, min(s.log_p for s in self.searches) + float(np.log(len(self.searches))))
+
+    @property
+    def significant(self) -> bool:
+        return bool(self.log_p < np.log(FAMILY))
+
+
+def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
+    """Search what is left once base and ``given`` candidate columns are projected out."""
+    found = []
+    for x, triangles in zip(f.prepared, f.triangles, strict=True):
+        lean, projector, _ = prepared_flight.projector(triangles, f.n_base, given).lean(x)
+        found.append(search(lean, projector, lambda piece, y: None)[0])
+    return Remainder(tuple(found))
+
+
+def terms_json(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, object]]:
+    """Generic terms in residuals of these mean squares, V^2, largest first; ``share`` is of the power."""
+    best: dict[tuple[str, str], dict[str, object]] = {}
+    for s, power in zip(rem.searches, mean_squares, strict=True):
+        for t in s.terms:
+            key = (t.term.harmonic, t.term.product)
+            row = {
+                "harmonic": t.term.harmonic,
+                "term": t.term.product,
+                "coefficient": float(t.coefficient),
+                "std": float(t.std),
+                "unit": term_unit(t.term.channels),
+                "share": min(1.0, t.mean_square / power),
+                "z": t.z,
+                "kind": t.kind,
+                "how": t.how,
+            }
+            if key not in best or abs(t.z) > abs(float(str(best[key]["z"]))):
+                best[key] = row
+    return sorted(best.values(), key=lambda x: -abs(float(str(x["z"]))))

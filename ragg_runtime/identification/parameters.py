@@ -1,0 +1,196 @@
+"""Fitted parameters, and the combinations of accelerometers' (Sigma, D^1234, D^12, D^34; Eq. 18-19) that a record sees."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.estimation.columns import Column, spelt
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.instrument.layout import PAPER, Layout
+from ragg_runtime.model.evaluate import named
+from ragg_runtime.model.model import Model
+
+Array = NDArray[np.float64]
+
+SEEN = 0.3
+"""Posterior over prior standard deviation below which a value is the record's own: the record then holds ten times
+the information of the sheet (1/0.3^2 - 1)."""
+
+UNSEEN = 0.9
+"""The same from which a value is the test sheet's, not the record's: the record adds less than a quarter."""
+
+PATTERNS: tuple[tuple[str, tuple[int, int, int, int]], ...] = (
+    ("Sigma", (1, 1, 1, 1)),
+    ("D1234", (1, 1, -1, -1)),
+    ("D12", (1, -1, 0, 0)),
+    ("D34", (0, 0, 1, -1)),
+)
+"""The paper's sums and differences over the four accelerometers."""
+
+
+@dataclass(frozen=True)
+class ParameterValue:
+    """A fitted parameter, or a combination (weights (n,) over the accelerometers; empty of a single one), in its display unit."""
+
+    name: str
+    accelerometer: int | None
+    value: float
+    std: float
+    unit: str
+    weights: tuple[float, ...] = ()
+    accelerometer_name: str = ""
+
+    def as_json(self) -> dict[str, object]:
+        own: dict[str, object] = {
+            "name": self.name,
+            "accelerometer": self.accelerometer,
+            "value": self.value,
+            "std": self.std,
+            "unit": self.unit,
+            **spelt(self.accelerometer, self.accelerometer_name),
+        }
+        return own | ({"weights": list(self.weights)} if self.weights else {})
+
+
+def gains(model: Model, p: Array, name: str) -> Array:
+    """(n,) weight of each accelerometer in G_out, k_VI K1 (Eq. 1), for a parameter of this name, over their mean; ``p`` is the
+    model's parameter vector.
+    """
+    values = named(model.chain, p)
+    g = values["k_VI"] if name == "K1" else values["k_VI"] * values["K1"]
+    return np.asarray(g / np.mean(g))
+
+
+def parameter_values(columns: Sequence[Column], values: Array, covariance: Array) -> list[ParameterValue]:
+    """Fitted parameters (in scales) in their display units."""
+    found = []
+    for k, c in enumerate(columns):
+        factor = c.scale / c.unit_factor
+        found.append(
+            ParameterValue(
+                name=own_name(c),
+                accelerometer=c.accelerometer,
+                value=float(values[k]) * factor,
+                std=float(np.sqrt(covariance[k, k])) * factor,
+                unit=c.unit,
+                accelerometer_name=c.accelerometer_name,
+            )
+        )
+    return found
+
+
+def own_name(c: Column) -> str:
+    """A column's parameter without the id of its effect."""
+    return c.name.split(".", 1)[1] if c.effect else c.name
+
+
+def patterns(columns: Sequence[Column], weight: Array, layout: Layout = PAPER) -> Iterator[tuple[str, Array]]:
+    """Name and (n,) weights of the combinations of a parameter's n columns, in its display unit; ``weight``: its :func:`gains`.
+
+    Of another layout than the paper's: signs times cos and sin of n times the angle on the disc, named by their harmonic.
+    """
+    for pattern, signs in PATTERNS if layout.like_paper else _harmonics(layout):
+        yield f"{pattern} {own_name(columns[0])}", np.array(signs) * weight
+
+
+def _harmonics(layout: Layout) -> Iterator[tuple[str, tuple[float, ...]]]:
+    for o in layout.outputs:
+        for harmonic, weights in o.patterns:
+            w = np.zeros(layout.size)
+            w[list(o.members)] = weights
+            yield f"{o.name} {harmonic}", tuple(float(x) for x in w)
+
+
+@dataclass(frozen=True)
+class Combination:
+    """A parameter, or a combination of accelerometers', that a record sees.
+
+    ``weights`` (n,), in ``unit``, are those of the fitted columns in scales; ``shares`` those of the accelerometers' values
+    in ``unit``, empty of a parameter by itself.
+    """
+
+    name: str
+    weights: Array
+    unit: str
+    shares: tuple[float, ...] = ()
+
+    def of(self, values: Array, root: Array) -> tuple[float, float]:
+        """Value and standard deviation, in ``unit``, of values (n,) with a root (n, k) of their covariance, in scales."""
+        return float(self.weights @ values), float(np.linalg.norm(self.weights @ root))
+
+
+def combinations_seen(
+    model: Model, p: Array, columns: Sequence[Column], std: Callable[[Array], float]
+) -> list[Combination]:
+    """The combinations of accelerometers' values that the record sees, or the values that it knows far better by themselves.
+
+    ``std`` is that of weights (n,) of values in scales; ``p`` the model's parameter vector.
+    """
+    found = []
+    alone = np.array([std(x) for x in np.eye(len(columns))])
+    for name in dict.fromkeys(c.name for c in columns if c.accelerometer is not None):
+        at = [k for k, c in enumerate(columns) if c.name == name]
+        if len(at) != model.layout.size:
+            continue
+        each = [columns[k] for k in at]
+        known = alone[at] if np.all(alone[at] < SEEN) else np.ones(len(at))
+        factor = np.array([c.scale / c.unit_factor for c in each])
+        for label, shares in patterns(each, gains(model, p, name), model.layout):
+            w = np.zeros(len(columns))
+            w[at] = shares * factor
+            if std(w) < SEEN * float(np.linalg.norm(w[at] * known)):
+                values = tuple(float(x) for x in shares)
+                found.append(Combination(name=label, weights=w, unit=each[0].unit, shares=values))
+    return found
+
+
+def visible_combinations(
+    model: Model, p: Array, columns: Sequence[Column], values: Array, covariance: Array
+) -> list[ParameterValue]:
+    """:func:`combinations_seen` of values (n,) in scales with their covariance."""
+
+    def std(w: Array) -> float:
+        return float(np.sqrt(max(0.0, float(w @ covariance @ w))))
+
+    return [
+        ParameterValue(
+            name=q.name,
+            accelerometer=None,
+            value=float(q.weights @ values),
+            std=std(q.weights),
+            unit=q.unit,
+            weights=q.shares,
+        )
+        for q in combinations_seen(model, p, columns, std)
+    ]
+
+
+def calibrated(f: Fitted, effect: str) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:
+    """The calibrated parameters of an effect that is in the model, and the combinations that are seen."""
+    c = f.calibration
+    mine = [n for n, column in enumerate(c.columns) if column.effect == effect]
+    columns = [c.columns[n] for n in mine]
+    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in mine])
+    covariance = c.covariance[np.ix_(mine, mine)]
+    return (
+        tuple(parameter_values(columns, values, covariance)),
+        tuple(visible_combinations(f.model, c.p, columns, values, covariance)),
+    )
+
+
+def headlines(
+    parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]
+) -> tuple[ParameterValue, ...]:
+    """One value a parameter: of its combinations, or single values, the one that stands out most; known ones (an instant) first."""
+    every: dict[str, list[ParameterValue]] = {}
+    for q in (*combinations, *parameters):
+        every.setdefault(q.name.rpartition(" ")[2], []).append(q)
+    found = []
+    for same in every.values():
+        among = [q for q in same if q.weights] or same
+        found.append(max(among, key=lambda q: abs(q.value) / q.std if q.std > 0.0 else np.inf))
+    return tuple(found)

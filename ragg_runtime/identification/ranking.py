@@ -1,0 +1,295 @@
+"""The effects in order of their evidence, and those on which the record is silent."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Container, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.score import Error, finite
+from ragg_runtime.estimation.significance import INDISTINGUISHABLE
+from ragg_runtime.identification import likelihood_ratio, probability, selection, sheet
+from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification.parameters import ParameterValue, parameter_values, visible_combinations
+from ragg_runtime.identification.probability import Probabilities
+from ragg_runtime.identification.selection import Choice, Field
+from ragg_runtime.identification.strong import Taken
+from ragg_runtime.model.model import Effect
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """One effect and the evidence for it, alone."""
+
+    effect: str
+    log_p: float
+    chi2: float
+    rank: int
+    delta_bic: float
+    before: Error
+    after: Error
+    after_holdout: Error
+    parameters: tuple[ParameterValue, ...]
+    combinations: tuple[ParameterValue, ...]
+    indistinguishable_from: tuple[str, ...]
+    probability: float = 0.0
+
+    @property
+    def p_value(self) -> float:
+        """p-value, corrected for the effect's own sub-blocks (0 where it underflows: see ``log_p``)."""
+        return float(np.exp(self.log_p))
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "effect": self.effect,
+            "p_value": self.p_value,
+            "log10_p": finite(self.log_p / np.log(10.0)),
+            "chi2": finite(self.chi2),
+            "rank": self.rank,
+            "delta_bic": finite(self.delta_bic),
+            "probability": self.probability,
+            "error_before": self.before.as_json(),
+            "error_after": self.after.as_json(),
+            "error_after_holdout": self.after_holdout.as_json(),
+            "parameters": [p.as_json() for p in self.parameters],
+            "combinations": [p.as_json() for p in self.combinations],
+            "indistinguishable_from": list(self.indistinguishable_from),
+        }
+
+
+@dataclass(frozen=True)
+class NotTestable:
+    """An effect on which this record is silent, and why."""
+
+    effect: str
+    why: str
+
+
+def _ranking(
+    f: Fitted,
+    field: Field,
+    choice: Choice,
+    instants: Mapping[str, float],
+    output: Sequence[str] = (),
+    only: Sequence[str] | None = None,
+) -> tuple[list[Ranked], Error]:
+    """Every testable effect, or ``only`` some, with the evidence for it alone, and the error without any."""
+    rivals = selection.rivals(field, choice)
+    asked = choice.tests if only is None else {e: t for e, t in choice.tests.items() if e in only}
+    tested = [(e, t, field.testable(e)) for e, t in asked.items() if t.rank]
+    fits = [f.coefficients(extra) for _, _, extra in tested]
+    vectors = [f.vector(np.zeros(f.n_base))]
+    for (_, _, extra), (c, _) in zip(tested, fits, strict=True):
+        half, _ = f.coefficients(extra, held_out=True)
+        vectors += [f.vector(c, extra), f.vector(half, extra)]
+    first, *scored = f.score(vectors)
+    before = first.whole
+    ranked = []
+    for n, ((e, t, extra), (c, covariance)) in enumerate(zip(tested, fits, strict=True)):
+        own = dict(field.candidates[e])
+        mine = [own[k] for k in extra]
+        values, spread = c[f.n_base :], covariance[f.n_base :, f.n_base :]
+        parameters = parameter_values(mine, values, spread)
+        if e in instants:
+            parameters.append(_instant(instants[e]))
+        indistinguishable = rivals.get(e, ())
+        for main, others in rivals.items():
+            if e in others:
+                indistinguishable = tuple(sorted({main, *others} - {e}))
+        ranked.append(
+            Ranked(
+                effect=e,
+                log_p=t.log_p,
+                chi2=t.chi2,
+                rank=t.rank,
+                delta_bic=float(t.chi2 - t.rank * np.log(f.calibration.rows)),
+                before=before,
+                after=scored[2 * n].whole,
+                after_holdout=scored[2 * n + 1].held_out,
+                parameters=tuple(parameters),
+                combinations=tuple(visible_combinations(f.model, f.calibration.p, mine, values, spread)),
+                indistinguishable_from=indistinguishable,
+            )
+        )
+    certain = Test(log_p=-np.inf, chi2=np.inf, rank=1, which=())
+    ranked += [_unfitted(e, certain, np.inf, before) for e in output]
+    return ranked, before
+
+
+def _ranked_random(f: Fitted, random: Mapping[str, Test], before: Error) -> list[Ranked]:
+    rows = np.log(f.calibration.rows)
+    return [_unfitted(e, t, float(t.chi2 - rows), before) for e, t in random.items()]
+
+
+def _unfitted(effect: str, t: Test, delta_bic: float, before: Error) -> Ranked:
+    """The row of an effect without columns: nothing of it is fitted, so the error stays."""
+    return Ranked(
+        effect=effect,
+        log_p=t.log_p,
+        chi2=t.chi2,
+        rank=t.rank,
+        delta_bic=delta_bic,
+        before=before,
+        after=before,
+        after_holdout=before,
+        parameters=(),
+        combinations=(),
+        indistinguishable_from=(),
+    )
+
+
+def _instant(t_step: float) -> ParameterValue:
+    return ParameterValue(name="t_step", accelerometer=None, value=t_step, std=0.0, unit="s")
+
+
+def staged(
+    steps: Sequence[Taken], chosen: Sequence[Ranked], others: Sequence[Ranked], target: Fitted
+) -> list[Ranked]:
+    """The ranking where effects were derived into the model: each by what the model with those before leaves without and with it;
+    the rest as they stand against the model as it was.
+    """
+    found = [_ranked_taken(t, target) for t in steps] + list(chosen)
+    names = {r.effect for r in found}
+    return [*found, *(r for r in others if r.effect not in names)]
+
+
+def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
+    (before,) = t.before.score([np.zeros(t.before.size)])
+    half = t.after.vector(t.after.coefficients((), held_out=True)[0])
+    after, held_out = t.after.score([np.zeros(t.after.size), half])
+    c = target.calibration
+    own = [n for n, q in enumerate(c.columns) if q.effect == t.effect]
+    columns = [c.columns[n] for n in own]
+    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in own])
+    covariance = c.covariance[np.ix_(own, own)]
+    parameters = parameter_values(columns, values, covariance)
+    if t.instant is not None:
+        parameters.append(_instant(t.instant))
+    return Ranked(
+        effect=t.effect,
+        log_p=t.test.log_p,
+        chi2=t.test.chi2,
+        rank=t.test.rank,
+        delta_bic=float(t.test.chi2 - t.test.rank * np.log(c.rows)),
+        before=before.whole,
+        after=after.whole,
+        after_holdout=held_out.held_out,
+        parameters=tuple(parameters),
+        combinations=tuple(visible_combinations(target.model, c.p, columns, values, covariance)),
+        indistinguishable_from=t.rivals,
+    )
+
+
+def _place(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
+    """Order of the ranking: chosen effects as they were chosen, then by significance."""
+    order = {e: n for n, e in enumerate(chosen)}
+    return lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect)
+
+
+def _not_testable(f: Fitted, field: Field) -> list[NotTestable]:
+    found = []
+    for e in f.model.candidates:
+        missing = sorted({c for o in f.observations for c in e.missing(o.record.wide)})
+        if missing:
+            found.append(NotTestable(e.id, f"the flight has no channel {', '.join(missing)}"))
+        elif e.id in field.candidates and not field.testable(e.id):
+            found.append(NotTestable(e.id, _absorbed(f, field, e)))
+        elif e.kind == "deterministic" and (why := sheet.doubtful(f, e.id)):
+            found.append(NotTestable(e.id, why))
+    return found
+
+
+def _absorbed(f: Fitted, field: Field, e: Effect) -> str:
+    """In words: which parameters of the model absorb an effect, or that it is too weak to be seen."""
+    columns = [n for n, _ in field.candidates[e.id]]
+    n = f.n_base
+    whole = np.linalg.norm(field.T[:, [n + k for k in columns]], axis=0)
+    left = np.linalg.norm(field.P[:, columns], axis=0)
+    k = int(np.argmax(whole))
+    strongest = columns[k]
+    if whole[k] < likelihood_ratio.TESTABLE:
+        return "this record hardly excites it: even a hundred times its plausible size leaves no trace"
+    solution = np.linalg.solve(field.T[:n, :n], field.T[:n, n + strongest])
+    names: dict[str, float] = {}
+    for c, v, norm in zip(
+        f.calibration.columns, solution, np.linalg.norm(field.T[:, :n], axis=0), strict=True
+    ):
+        names[c.name] = names.get(c.name, 0.0) + float(np.abs(v * norm))
+    most = sorted(names, key=lambda x: -names[x])[:3]
+    share = float(left[k] / whole[k]) if whole[k] else 0.0
+    return (
+        f"absorbed by {', '.join(most)} of the model: {share:.1e} of its signature survives the calibration"
+    )
+
+
+@dataclass(frozen=True)
+class Detectable:
+    """Size of an effect's parameter, in its display unit, at which a record would show it at three sigma."""
+
+    effect: str
+    name: str
+    size: float
+    unit: str
+
+    def __str__(self) -> str:
+        return f"{self.name} = {self.size:.3g} {self.unit}"
+
+
+def _sizes(f: Fitted, field: Field) -> list[Detectable]:
+    """For each parameter of each effect that is testable."""
+    rows = []
+    left = np.linalg.norm(field.P, axis=0)
+    for e, columns in field.candidates.items():
+        own = dict(columns)
+        for name in dict.fromkeys(c.name for _, c in columns):
+            best = [(left[n], own[n]) for n in field.testable(e) if own[n].name == name]
+            if best:
+                norm, c = max(best, key=lambda x: float(x[0]))
+                size = 3.0 / norm * c.scale / c.unit_factor
+                rows.append(Detectable(effect=e, name=name.split(".", 1)[1], size=float(size), unit=c.unit))
+    return rows
+
+
+def other_accelerometers(
+    f: Fitted, effect: str, own: Sequence[tuple[int, Column]], columns: Sequence[tuple[int, Column]]
+) -> list[list[tuple[int, Column]]]:
+    """The same parameters of other accelerometers that account for the same, each with its place among the candidates.
+
+    ``own`` are those that were found, ``columns`` all of the effect.
+    """
+    field = selection.field_of(f, [effect])
+    mine, names = {c.accelerometer for _, c in own}, {c.name for _, c in own}
+
+    def chi2(block: Sequence[tuple[int, Column]]) -> float:
+        return likelihood_ratio.explained(field.P, [n for n, _ in block], field.floor)[0]
+
+    found = []
+    for a in range(1, f.instrument.layout.size + 1):
+        other = [(n, c) for n, c in columns if c.accelerometer == a and c.name in names]
+        if a not in mine and other and chi2(own) - chi2(other) < INDISTINGUISHABLE:
+            found.append(other)
+    return found
+
+
+def weighed(field: Field, steps: Sequence[Taken]) -> Probabilities:
+    """The probabilities of what is left, and of what is in the model: there rivals that would do as well share alike."""
+    sets = probability.weighed(field)
+    for t in steps:
+        sets = sets.with_one_of((t.effect, *t.rivals))
+    return sets.probabilities()
+
+
+def with_probability(r: Ranked, found: Probabilities, columns: Container[str]) -> Ranked:
+    """The row with its effect's probability: none where the model has another effect that explains the same; of an effect without
+    columns the largest that the p-value allows, 1 / (1 - e p ln p) (T. Sellke, M. Bayarri, J. Berger, Am. Stat. 55, 2001).
+    """
+    if r.effect in found.of or r.effect in columns:
+        return replace(r, probability=found.of.get(r.effect, 0.0))
+    if r.log_p >= -1.0:
+        return replace(r, probability=0.5)
+    bound = -math.exp(1.0 + r.log_p) * r.log_p if r.log_p > -700.0 else 0.0
+    return replace(r, probability=1.0 / (1.0 + bound))

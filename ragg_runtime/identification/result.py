@@ -1,0 +1,164 @@
+"""The result of a diagnosis."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.estimation.fitted import Fitted, Scored
+from ragg_runtime.estimation.off_sheet import OffSheet
+from ragg_runtime.estimation.score import Error
+from ragg_runtime.identification import as_effect
+from ragg_runtime.identification.comparison import Explained
+from ragg_runtime.identification.features import channel_unit
+from ragg_runtime.identification.line_rival import Steady
+from ragg_runtime.identification.next_motion import Proposal
+from ragg_runtime.identification.omnibus import Found, Remainder, terms_json
+from ragg_runtime.identification.ranking import Detectable, NotTestable, Ranked
+from ragg_runtime.identification.sequential import Change, Evidence
+from ragg_runtime.wording import notebook
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False)
+class Diagnosis:
+    """The result of ``diagnose``: the interface's JSON, and what the report draws."""
+
+    verdict: str
+    fitted: Fitted
+    ranking: tuple[Ranked, ...]
+    found: tuple[str, ...]
+    not_testable: tuple[NotTestable, ...]
+    remainder: Remainder
+    remainder_share: float
+    before: Error
+    scored: Scored
+    noise_floor: float
+    sizes: tuple[Detectable, ...]
+    target: Fitted
+    coefficients: Array
+    next_motion: tuple[Proposal, ...]
+    complaint: str | None = None
+    remark: str | None = None
+    off_sheet: tuple[OffSheet, ...] = ()
+    credible_set: tuple[tuple[str, ...], ...] = ((),)
+    holds: Evidence | None = None
+    explained: Explained | None = None
+    groups: tuple[Group, ...] = ()
+    staged: bool = False
+    """Whether what was found was derived into the model one after the other."""
+
+    @property
+    def converged(self) -> bool:
+        """Whether the calibration with what was chosen in the model has arrived; if not, ``complaint`` says why."""
+        return self.complaint is None
+
+    @property
+    def change(self) -> Change | None:
+        """Where the model ceased to hold, if it held in the beginning."""
+        return None if self.holds is None else self.holds.change
+
+    @property
+    def after(self) -> Error:
+        """Error with the effects chosen (claimed or not) in the model."""
+        return self.scored.whole
+
+    @property
+    def final(self) -> Fitted | None:
+        """The model with the chosen effects derived into it, if that was done."""
+        return None if self.target is self.fitted else self.target
+
+    @cached_property
+    def residual(self) -> list[Array]:
+        """(N,) V of every flight, calibrated, as the model is."""
+        return self.fitted.residuals(np.zeros(self.fitted.n_base))
+
+    @cached_property
+    def residual_after(self) -> list[Array]:
+        """(N,) V of every flight, with the effects chosen (claimed or not) in the model."""
+        return self.target.residuals_of(self.coefficients)
+
+    def terms(self) -> list[dict[str, object]]:
+        """Generic terms in what remains (see :func:`ragg_runtime.identification.omnibus.terms_json`)."""
+        return terms_json(self.remainder, self.scored.mean_square)
+
+    def expression(self) -> str | None:
+        """The strongest unexplained term as a line for ``effects`` in model.toml, under a name of one's own."""
+        found = self._suggested
+        return None if found is None else found[1]
+
+    def needs(self) -> list[str]:
+        """Columns, in words, that a flight must have for :meth:`expression`."""
+        found = self._suggested
+        return [] if found is None else as_effect.columns(found[0].term)
+
+    @cached_property
+    def _suggested(self) -> tuple[Found, str] | None:
+        steady = [t for s in self.remainder.searches for t in s.terms if t.kind == "steady"]
+        for t in sorted(steady, key=lambda t: -abs(t.z)):
+            units = [u for c in t.term.channels if (u := channel_unit(c)) != "1"]
+            line = as_effect.line(t.term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
+            if line is not None:
+                return t, line
+        return None
+
+    def __repr__(self) -> str:
+        errors = (
+            ("before", self.before.rms_Eo),
+            ("after", self.after.rms_Eo),
+            ("noise", self.noise_floor),
+        )
+        return notebook.in_one_line("Diagnosis", notebook.verdict(self.verdict, self.found), *errors)
+
+    def _repr_html_(self) -> str:
+        return notebook.diagnosis(self.as_json())
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "verdict": self.verdict,
+            "converged": self.converged,
+            "reason": self.complaint or self.remark,
+            "off_sheet": [x.as_json() for x in self.off_sheet],
+            "ranking": [r.as_json() for r in self.ranking],
+            "found": list(self.found),
+            "groups": [g.as_json() for g in self.groups],
+            "not_testable": [{"effect": n.effect, "why": n.why} for n in self.not_testable],
+            "unexplained": {
+                "share": self.remainder_share,
+                "log10_p": float(self.remainder.log_p / np.log(10.0)),
+                "terms": self.terms(),
+                "expression": self.expression(),
+                "needs": self.needs(),
+            },
+            "error": {"before": self.before.as_json(), "after": self.after.as_json()},
+            "noise_floor": {"rms_Eo": self.noise_floor},
+            "explained": None if self.explained is None else {"share": self.explained.share},
+            "credible_set": [list(s) for s in self.credible_set],
+            "holds_until_s": None if self.change is None else self.change.until,
+            "holds_until_flight": None if self.change is None else self.change.flight,
+            "next_motion": [p.as_json() for p in self.next_motion],
+            "detectable": [{"effect": s.effect, "three_sigma": str(s)} for s in self.sizes],
+        }
+
+
+@dataclass(frozen=True)
+class Group:
+    """Effects that are one finding, the one that would be added first; ``name``: what they make where only that shows."""
+
+    effects: tuple[str, ...]
+    name: str | None
+
+    def as_json(self) -> dict[str, object]:
+        return {"name": self.name, "effects": list(self.effects)}
+
+
+def groups(found: Sequence[str], ranking: Sequence[Ranked], steady: Sequence[Steady]) -> tuple[Group, ...]:
+    """One group of each effect that is found."""
+    others = {r.effect: r.indistinguishable_from for r in ranking}
+    names = {s.effect: s.name for s in steady}
+    return tuple(Group(effects=(e, *others.get(e, ())), name=names.get(e)) for e in found)

@@ -1,0 +1,237 @@
+"""Which effects: forward selection with swaps, on triangles alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base import false_alarms
+from ragg_runtime.estimation.columns import Column, grouped
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.significance import INDISTINGUISHABLE
+from ragg_runtime.identification import likelihood_ratio, sheet, uneven
+from ragg_runtime.identification.likelihood_ratio import Test
+
+Array = NDArray[np.float64]
+
+FAMILY = false_alarms.CATALOGUE
+"""Probability with which the whole catalogue of an effect-free record may raise a false alarm."""
+
+FURTHER = false_alarms.COMPANION
+"""The same for each effect beside the first: a chance companion would spoil what is found."""
+
+MOST = 4
+"""Most effects that are claimed at once."""
+
+AS_SURE = 7.0
+"""As INDISTINGUISHABLE, of the logarithm of the p-value (a factor of 1,100: 3 sigma beside 5): a rival of many coefficients is none."""
+
+SWAPPED = 2.0
+"""Logarithm of the p-value by which another effect must be better to take the place of a chosen one; ties do not go to and fro."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """A triangle [base | candidates | residual] with the prior in, and the effects in it.
+
+    ``candidates`` are columns after the base, by effect; ``penalty`` the logarithm of the number of variants an effect was chosen
+    from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``blocks``: triangles
+    of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``). ``within``: a field of some of
+    the effects on the same flights, whose tests hold here.
+    """
+
+    T: Array
+    n_base: int
+    candidates: Mapping[str, tuple[tuple[int, Column], ...]]
+    rows: int
+    penalty: Mapping[str, float] = field(default_factory=dict)
+    freedom: float = np.inf
+    blocks: tuple[Array, ...] = ()
+    within: Field | None = None
+    norms: Array = field(init=False)
+    P: Array = field(init=False)
+    _known: dict[tuple[str, ...], Mapping[str, Test]] = field(init=False, default_factory=dict)
+    """Tests by what was given: a selection asks for the same again when it swaps and drops."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "norms", np.linalg.norm(self.T[:, self.n_base :], axis=0))
+        object.__setattr__(self, "P", likelihood_ratio.project(self.T, self.n_base))
+
+    @property
+    def floor(self) -> Array:
+        return np.maximum(likelihood_ratio.TESTABLE, likelihood_ratio.COLLINEAR * self.norms)
+
+    def testable(self, effect: str) -> list[int]:
+        """Columns of an effect that keep enough after projection to be tested."""
+        left = np.linalg.norm(self.P, axis=0)
+        return [n for n, _ in self.candidates[effect] if left[n] > self.floor[n]]
+
+    def onto(self, columns: Sequence[int]) -> tuple[Array, Array]:
+        """P with ``columns`` projected out of all others, and the floor that then holds."""
+        X = self.P[:, list(columns)]
+        keep = np.linalg.norm(X, axis=0) > self.floor[list(columns)]
+        X = X[:, keep]
+        if not X.shape[1]:
+            return self.P, self.floor
+        U, s, _ = np.linalg.svd(X, full_matrices=False)
+        U = U[:, s > s[0] * 1e-7]
+        left = self.P - U @ (U.T @ self.P)
+        # what a column shares with those already in may be all of it: then it cannot be tested either
+        floor = np.maximum(self.floor, 1e-3 * np.linalg.norm(self.P, axis=0))
+        return left, floor
+
+    def tests(self, given: Sequence[str] = ()) -> Mapping[str, Test]:
+        """The test of every effect that is not in ``given``, with those that are projected out."""
+        key = tuple(given)
+        if key not in self._known:
+            self._known[key] = self._tests(key)
+        return self._known[key]
+
+    def _tests(self, given: Sequence[str]) -> dict[str, Test]:
+        known: Mapping[str, Test] = {}
+        if self.within is not None and all(e in self.within.candidates for e in given):
+            known = self.within.tests(given)
+        P, floor = self.P, self.floor
+        if given:
+            P, floor = self.onto([n for e in given for n, _ in self.candidates[e]])
+        found = {
+            e: likelihood_ratio.test(P, columns, floor, self.penalty.get(e, 0.0), self.freedom)
+            for e, columns in self.candidates.items()
+            if e not in given and e not in known
+        }
+        if self.blocks and any(map(self._raises, found.values())):
+            others = [self.n_base + n for e in given for n, _ in self.candidates[e]]
+            beside = uneven.Beside(self.T, self.blocks, self.n_base, others)
+            found |= {e: self._tempered(t, beside, floor) for e, t in found.items() if self._raises(t)}
+        found |= known
+        return {e: found[e] for e in self.candidates if e in found}
+
+    def _raises(self, t: Test) -> bool:
+        """Whether a test says anything: those that do not stay as they are."""
+        return t.rank > 0 and t.log_p <= np.log(FAMILY)
+
+    def _tempered(self, t: Test, beside: uneven.Beside, floor: Array) -> Test:
+        """A test as sure as the scores in blocks of time are."""
+        tested = [self.n_base + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
+        return uneven.tempered(t, uneven.inflation(beside, tested), self.freedom, len(self.blocks))
+
+    def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
+        """(chi-square, rank) of the union of column blocks."""
+        return likelihood_ratio.explained(self.P, [n for b in blocks for n in b], self.floor)
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Effects that together account for what the model lacks, each with its ``blocks``; ``tests`` of single effects with nothing
+    else in, ``conditional`` ones of the rest beside the chosen.
+    """
+
+    chosen: tuple[str, ...]
+    blocks: Mapping[str, tuple[int, ...]]
+    tests: Mapping[str, Test]
+    conditional: Mapping[str, Test]
+    chi2: float
+
+
+def significant(t: Test, count: int, family: float = FAMILY) -> bool:
+    """Whether a test of one of ``count`` effects is significant over the family."""
+    return t.rank > 0 and t.log_p + np.log(max(count, 1)) < np.log(family)
+
+
+def choose(f: Field, *, beside: bool = False) -> Choice:
+    """Forward selection; after each addition every chosen effect may be swapped for a better one. ``beside``: others are in the
+    model.
+    """
+    first = f.tests()
+    count = sum(t.rank > 0 for t in first.values())
+    chosen: list[str] = []
+    blocks: dict[str, tuple[int, ...]] = {}
+    remaining = first
+    seen: set[frozenset[str]] = set()
+    while len(chosen) < MOST and frozenset(chosen) not in seen:
+        seen.add(frozenset(chosen))
+        ranked = sorted((t.log_p, e) for e, t in remaining.items())
+        if not ranked or not significant(
+            remaining[ranked[0][1]], count, FURTHER if chosen or beside else FAMILY
+        ):
+            break
+        best = ranked[0][1]
+        chosen.append(best)
+        blocks[best] = remaining[best].which
+        if len(chosen) > 1:
+            chosen, blocks = _swap(f, chosen, blocks, count)
+        chosen, blocks = _drop(f, chosen, blocks, count)
+        remaining = f.tests(chosen)
+    chi2 = f.joint([blocks[e] for e in chosen])[0] if chosen else 0.0
+    return Choice(chosen=tuple(chosen), blocks=blocks, tests=first, conditional=remaining, chi2=chi2)
+
+
+def _swap(
+    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]], count: int
+) -> tuple[list[str], dict[str, tuple[int, ...]]]:
+    for old in tuple(chosen):
+        others = [e for e in chosen if e != old]
+        conditional = f.tests(others)
+        ranked = sorted((t.log_p, e) for e, t in conditional.items())
+        best = ranked[0][1] if ranked else old
+        if best != old and ranked[0][0] < conditional[old].log_p - SWAPPED:
+            chosen = [*others, best]
+            blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
+    return chosen, blocks
+
+
+def _drop(
+    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]], count: int
+) -> tuple[list[str], dict[str, tuple[int, ...]]]:
+    for e in tuple(chosen):
+        others = [o for o in chosen if o != e]
+        if others and not significant(f.tests(others)[e], count):
+            chosen, blocks = others, {o: blocks[o] for o in others}
+    return chosen, blocks
+
+
+def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
+    """For every chosen effect those that would do as well in its place."""
+    result = {}
+    for e in choice.chosen:
+        others = [o for o in choice.chosen if o != e]
+        conditional = f.tests(others)
+        mine = conditional[e]
+        result[e] = tuple(
+            sorted(
+                o
+                for o, t in conditional.items()
+                if o != e
+                and t.rank
+                and mine.chi2 - t.chi2 < INDISTINGUISHABLE
+                and t.log_p < mine.log_p + AS_SURE
+            )
+        )
+    return result
+
+
+def field_of(
+    f: Fitted, available: Sequence[str], T: Array | None = None, within: Field | None = None
+) -> Field:
+    """The candidates among ``available`` effects, on the triangle of everything or another one of the same columns."""
+    candidates = grouped(f.candidates)
+    kept = {e: tuple(c) for e, c in candidates.items() if e in available}
+    freedom = sum(n.freedom for n in f.calibration.noise)
+    blocks = uneven.telling(t for own in f.triangles for t in own) if f.uneven else ()
+    T = f.whole if T is None else T
+    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks, within=within)
+
+
+def testable_effects(f: Fitted) -> list[str]:
+    """Deterministic candidates of which every flight has the channels, and that are no error of the sheet."""
+    have = [set(o.record.wide) for o in f.observations]
+    return [
+        e.id
+        for e in f.model.candidates
+        if e.kind == "deterministic"
+        and not any(e.missing(h) for h in have)
+        and sheet.doubtful(f, e.id) is None
+    ]

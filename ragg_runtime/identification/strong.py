@@ -1,0 +1,358 @@
+"""Strong effects, one after the other, each derived into the model before the next is asked for.
+
+A signature is first order alone; of a strong effect the second order is significant too. Fits with effects begin at the sheet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.estimation import prepared_flight
+from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation.noise import estimate_noise
+from ragg_runtime.estimation.off_sheet import QUIET
+from ragg_runtime.estimation.segments import BLOCKS
+from ragg_runtime.estimation.significance import INDISTINGUISHABLE
+from ragg_runtime.estimation.square_root import below, fold, prior
+from ragg_runtime.identification import contenders, selection
+from ragg_runtime.identification import steps as special
+from ragg_runtime.identification.contenders import Contest, Extend
+from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification.selection import Choice, Field, field_of, testable_effects
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.model import Model
+
+Array = NDArray[np.float64]
+
+STRONG = 2500.0
+"""Chi-square of an effect from which it counts as strong (50 sigma): a linearisation that is right to 2 % then misses
+one sigma."""
+
+NEAR = 10.0
+"""What an effect leaves over what the best leaves, in chi-square, up to which it is a contender: second orders may turn
+the order of two."""
+
+CONTENDERS = 3
+"""Most effects that are tried in the model at each stage."""
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What is known with some effects in the model: the field of the rest, the flights fitted, and what is chosen."""
+
+    field: Field
+    fitted: Fitted
+    instants: Mapping[str, float]
+    choice: Choice
+
+    @staticmethod
+    def of(f: Fitted, *, beside: bool = False) -> Stage:
+        """``beside``: of what is left beside effects that were taken into the model."""
+        field, fitted, instants = with_steps(f)
+        return Stage(field, fitted, instants, selection.choose(field, beside=beside))
+
+    def without_choice(self) -> Stage:
+        """The same, none of the effects being what is missing."""
+        choice = replace(self.choice, chosen=(), blocks={}, conditional=self.choice.tests, chi2=0.0)
+        return replace(self, choice=choice)
+
+    @property
+    def strong(self) -> bool:
+        """Whether what is chosen is too strong for a linearisation."""
+        return any(self.choice.tests[e].chi2 > STRONG for e in self.choice.chosen)
+
+
+@dataclass(frozen=True)
+class Taken:
+    """An effect that was derived into the model: its linear test, the fits before and after, ``rivals`` that would have done as
+    well, and the instant of a step, s.
+    """
+
+    effect: str
+    test: Test
+    before: Fitted
+    after: Fitted
+    rivals: tuple[str, ...]
+    instant: float | None
+
+
+def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
+    """The strong effects, the strongest first, and the stage at which none is left, or what is missing is not in the catalogue."""
+    found: list[Taken] = []
+    stage = first
+    while extend is not None and stage.strong and len(found) < selection.MOST:
+        one = _strongest(stage, extend)
+        if one is None:
+            return found, stage.without_choice()
+        found.append(one)
+        stage = Stage.of(one.after, beside=True)
+    return found, stage
+
+
+def _unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
+    """Labels of an effect's columns that its test does not need."""
+    return [c.label for n, c in field.candidates[effect] if n not in which]
+
+
+def _strongest(stage: Stage, extend: Extend) -> Taken | None:
+    """The effect that explains most once it is in the model, of those that are possible at the size that they then have.
+
+    ``None`` where only an impossible one leaves but noise, or none of several comes to an optimum.
+    """
+    f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
+
+    def entered(e: str) -> tuple[frozenset[str], tuple[Model, Instrument]]:
+        held = frozenset(_unneeded(stage.field, e, tests[e].which))
+        return held, contenders.derived(f, [e], stage.instants, extend)
+
+    contest = Contest(f, entered)
+    while True:
+        effect, rivals = _best(stage, tests, contest.left)
+        if not contest.arrived:
+            return None
+        found = _in_model(stage, effect, rivals, extend)
+        if len(tests) == 1 or not impossible(found.after, (effect,)):
+            return found
+        if found.after.calibration.excess <= QUIET and not rivals:
+            return None
+        tests.pop(effect)
+
+
+CERTAIN = 5.0
+"""Standard deviations from the only physical value at which an estimate excludes it."""
+
+ROOM = 0.1
+"""What an estimate may be off besides, as a share of that value: by what else the model leaves out."""
+
+
+def impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
+    """Those of the effects, all in the fitted model, whose parameter has a size that it cannot have."""
+    c = f.calibration
+    found = []
+    for e in effects:
+        effect = f.model.effect(e)
+        for q in effect.parameters if effect is not None else ():
+            for n, column in enumerate(c.columns):
+                if q.physical is None or column.name != f"{e}.{q.name}":
+                    continue
+                true = q.physical * column.unit_factor
+                off = abs(float(c.p[c.index[n]]) - true)
+                if off > CERTAIN * column.scale * np.sqrt(c.covariance[n, n]) + ROOM * abs(true):
+                    found.append(e)
+    return tuple(dict.fromkeys(found))
+
+
+def _best(
+    stage: Stage, tests: Mapping[str, Test], score: Callable[[Sequence[str]], dict[str, float]]
+) -> tuple[str, tuple[str, ...]]:
+    """The effect that leaves least by its ``score``, the linear test's choice among equals, and those equals."""
+    total = float(np.sum(stage.field.P[:, -1] ** 2))
+    least = min(total - t.chi2 for t in tests.values())
+    near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
+    near = sorted(near, key=lambda e: (tests[e].log_p, e))
+    tried = near[:CONTENDERS]
+    left = score(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
+    best = min(tried, key=lambda e: (left[e], e))
+    # effects with the same signature are all of its group, however many they are
+    alike = [e for e in near[CONTENDERS:] if _alike(tests[e], tests[best])]
+    left |= score(alike) if alike else {}
+    equal = [e for e in left if left[e] < left[best] + INDISTINGUISHABLE]
+    effect = min(equal, key=near.index)
+    as_near = [
+        e for e in left if left[e] < left[effect] + INDISTINGUISHABLE and _as_sure(tests[e], tests[effect])
+    ]
+    return effect, tuple(sorted({*equal, *as_near} - {effect}))
+
+
+def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend) -> Taken:
+    """An effect of a stage derived into the model, and everything fitted anew."""
+    f = stage.fitted
+    model, instrument = contenders.derived(f, [effect], stage.instants, extend, candidates=True)
+    for x in f.prepared:
+        x.release()  # what is made now takes its place
+    return Taken(
+        effect=effect,
+        test=stage.choice.tests[effect],
+        before=f,
+        after=fit(model, instrument, f.observations),
+        rivals=rivals,
+        instant=stage.instants.get(effect),
+    )
+
+
+def _alike(a: Test, b: Test) -> bool:
+    """Whether two effects explain the same, as surely, as far as a linear test tells."""
+    return abs(a.chi2 - b.chi2) < INDISTINGUISHABLE and _as_sure(a, b)
+
+
+def _as_sure(a: Test, b: Test) -> bool:
+    """Whether the first is no less sure for its many coefficients."""
+    return a.log_p < b.log_p + selection.AS_SURE
+
+
+BESIDE = 20.0
+"""Logarithm of the p-value by which a step must be surer beside the first effect than by itself to be taken at that instant."""
+
+
+@dataclass(frozen=True)
+class _Found:
+    """A step that was found: the first sample after it, and the columns of others beside which it was."""
+
+    sample: int
+    given: Sequence[int]
+
+
+def with_steps(
+    f: Fitted, known: Mapping[str, _Found] = MappingProxyType({})
+) -> tuple[Field, Fitted, dict[str, float]]:
+    """The field of all deterministic candidates, steps at their most likely instant, the flight with the steps' columns put in, and
+    the instants by effect, s.
+
+    Once the instant of a step is ``known`` the noise is estimated again, and everything with it.
+    """
+    available = testable_effects(f)
+    steps = [e for e in f.model.candidates if e.kind == "step"]
+    if len(f.flights) != 1 or not steps:
+        return field_of(f, available), f, {}
+    owned = {e.id: [(n, c) for n, c in enumerate(f.candidates) if c.effect == e.id] for e in steps}
+    places = {e: [f.n_base + n for n, _ in own] for e, own in owned.items()}
+    time, edges = f.observations[0].record.time, f.prepared[0].edges
+    exact = {e: _sharpened(f, step, places[e]) for e, step in known.items()}
+    if exact:
+        f = _from(f, exact)
+    plain = _with_penalty(f, [*available, *exact])
+    first = [n for e in selection.choose(plain).chosen for n, _ in plain.candidates[e]]
+    unknown = [e for e in owned if e not in exact]
+    likeliest = _scanned(f, [owned[e] for e in unknown], first) if unknown else []
+    scans = dict(zip(unknown, likeliest, strict=True))
+    samples = {e: step.sample for e, (step, _) in scans.items()}
+    scanned = {e: places[e] for e in samples}
+    found: dict[str, _Found] = {}
+    root = _root(f, edges, samples, places)
+    # blocks of time do not judge a step yet: one that is in the noise makes it uneven
+    unjudged = replace(plain, blocks=()) if plain.blocks else plain
+    for n, (e, (step, given)) in enumerate(scans.items()):
+        so_far = [*samples][: n + 1]
+        field = _with_penalty(f, [*available, *exact, *so_far], _picked(root, f, so_far, scanned), unjudged)
+        if e in selection.choose(replace(field, blocks=())).chosen:
+            step = special.refined(f.prepared, step, f.n_base, given, owned[e], f.to_nominal)
+            found[e] = _Found(_sharpened(f, _Found(step.sample, given), places[e]), given)
+            samples[e] = found[e].sample
+            root = _root(f, edges, samples, places)
+    if found and not known:
+        instants = {e: float(time[x.sample]) for e, x in found.items()}
+        noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
+        calmer = fit(f.model, f.instrument, f.observations, noise, f.calibration.p)
+        return with_steps(calmer, found)
+    if found:  # the columns themselves, to the sample, and through the filter
+        exact |= {e: x.sample for e, x in found.items()}
+        f = _from(f, exact)
+    rest = {e: k for e, k in samples.items() if e not in exact}
+    instants = {e: float(time[k]) for e, k in (exact | rest).items()}
+    f = _begun(f, edges, rest, places)
+    f = replace(f, prepared=tuple(x.with_steps(instants, places) for x in f.prepared))
+    return _with_penalty(f, [*available, *instants], within=plain), f, instants
+
+
+def _sharpened(f: Fitted, step: _Found, places: Sequence[int]) -> int:
+    everything = [t for own in f.triangles for t in own]
+    projector = prepared_flight.projector(everything, f.n_base, step.given)
+    return special.sharpened(f.prepared, step.sample, projector, places)
+
+
+def _from(f: Fitted, exact: Mapping[str, int]) -> Fitted:
+    """The same with the columns of steps from these samples on, made anew and put through the filter."""
+    time = f.observations[0].record.time
+    instants = {e: float(time[k]) for e, k in exact.items()}
+    prepared = [replace(x.released(), at=replace(x.at, instants=instants)) for x in f.prepared]
+    triangles, sums = zip(*(prepared_flight.blocks(x) for x in prepared), strict=True)
+    return replace(f, prepared=tuple(prepared), triangles=triangles, sums=sums)
+
+
+def _scanned(
+    f: Fitted, owned: Sequence[Sequence[tuple[int, Column]]], first: Sequence[int]
+) -> list[tuple[special.Step, Sequence[int]]]:
+    """The most likely step of each effect, and the columns of others beside which it was found."""
+    edges = [int(k) for k in f.prepared[0].edges[1:-1]]
+
+    def steps(given: Sequence[int]) -> list[tuple[special.Step, Sequence[int]]]:
+        found = special.best_steps(f.triangles, edges, f.n_base, given, owned, f.to_nominal)
+        return [(step, given) for step in found]
+
+    # By itself, unless it explains far more beside the first choice.
+    return [
+        ways[-1] if ways[-1][0].test.log_p < ways[0][0].test.log_p - BESIDE else ways[0]
+        for ways in zip(*map(steps, [[], first] if first else [[]]), strict=True)
+    ]
+
+
+def _begun(
+    f: Fitted,
+    edges: Sequence[int] | NDArray[np.intp],
+    samples: Mapping[str, int],
+    places: Mapping[str, Sequence[int]],
+) -> Fitted:
+    """The same with triangles and sums in which the columns of steps are zero in blocks of time that begin before them."""
+    sums = tuple(own.copy() for own in f.sums)
+    for own in sums:
+        for e, k in samples.items():
+            own[np.ix_(np.asarray(edges)[:-1] < k, np.array(places[e]))] = 0.0
+    return replace(f, triangles=tuple(_stepped(t, edges, samples, places) for t in f.triangles), sums=sums)
+
+
+def _stepped(
+    triangles: Sequence[Array],
+    edges: Sequence[int] | NDArray[np.intp],
+    samples: Mapping[str, int],
+    places: Mapping[str, Sequence[int]],
+) -> tuple[Array, ...]:
+    """The triangles of blocks of time, in each the columns of steps put to zero that come after its first edge."""
+    found = tuple(t.copy() for t in triangles)
+    for t, start in zip(found, edges[:-1], strict=True):
+        for e, sample in samples.items():
+            if start < sample:
+                t[:, list(places[e])] = 0.0
+    return found
+
+
+def _root(
+    f: Fitted,
+    edges: Sequence[int] | NDArray[np.intp],
+    samples: Mapping[str, int],
+    places: Mapping[str, Sequence[int]],
+) -> Array:
+    """Triangle of a flight, the prior in it, whose last columns are those of the steps from their instants on."""
+    n, m = f.size + 1, sum(len(places[e]) for e in samples)
+    blocks = []
+    for own in f.triangles:
+        for T, start in zip(own, edges[:-1], strict=True):
+            begun = [T[:, list(places[e])] * float(start >= samples[e]) for e in samples]
+            blocks.append(np.hstack([T, *begun]))
+    sheet = np.hstack([prior(range(f.n_base), n, f.to_nominal), np.zeros((f.n_base, m))])
+    return fold([*blocks, sheet])
+
+
+def _picked(root: Array, f: Fitted, steps: Sequence[str], places: Mapping[str, Sequence[int]]) -> Array:
+    """Of :func:`_root` the triangle (n, n) in which some steps begin at their instants."""
+    column = list(range(f.n_base, f.size + 1))
+    first = f.size + 1
+    for e, own in places.items():
+        for n, k in enumerate(own):
+            if e in steps:
+                column[k - f.n_base] = first + n
+        first += len(own)
+    return below(root, f.n_base, column)
+
+
+def _with_penalty(
+    f: Fitted, effects: Sequence[str], T: Array | None = None, within: Field | None = None
+) -> Field:
+    """The field of effects, steps among them charged for the choice of their instant; on another triangle if one is given."""
+    steps = [e.id for e in f.model.candidates if e.kind == "step"]
+    return replace(field_of(f, effects, T, within), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))

@@ -1,0 +1,209 @@
+"""Terms that come and go: a coefficient that is not the same throughout a flight.
+
+Four questions are asked of every term, on its scores in short intervals of time: do the coefficients fitted in each
+block of time scatter; does it act in one window only; does it jump; does it swing with a period? All are asked of the
+whitened residual, with everything known projected out, against its own level nearby, so that noise that is not quite
+stationary or not quite white raises no alarm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from ragg_runtime.estimation.passes import Piece
+from ragg_runtime.estimation.segments import block_edges
+from ragg_runtime.estimation.significance import log_sf
+from ragg_runtime.identification.whitened_terms import products, squares
+
+Array = NDArray[np.float64]
+
+PARTS = 4
+"""Stretches in a block of time."""
+
+WINDOWS = (1, 2, 4, 8, 16)
+"""Lengths of windows, in intervals; each is moved by half of it."""
+
+CYCLES = np.arange(1, 61) / 2
+"""Cycles of a swing in a flight. The shortest is three intervals long."""
+
+ONE_SIDED = 0.01
+"""Share of a term's information that must lie on either side of an instant for a jump there to be told from the whole."""
+
+ONE_PHASE = 0.01
+"""Determinant of a cosine and a sine of one period, over the product of their squares, below which they are one and the same."""
+
+QUESTIONS = 4
+
+
+@dataclass(frozen=True)
+class Varying:
+    """The term whose coefficient varies most.
+
+    ``place`` is the term's; ``coefficient`` the root mean square of its coefficient over the flight, in units of the
+    term's series, and ``std`` its standard deviation; ``how`` says in words how it varies.
+    """
+
+    log_p: float
+    place: int
+    chi2: float
+    coefficient: float
+    std: float
+    how: str
+
+
+class BlockScores:
+    """Scores of some terms in every interval of time: sums over segments."""
+
+    def __init__(self, count: int, time: Array) -> None:
+        self.count = count
+        blocks = block_edges(len(time))
+        inner = [np.linspace(a, b, PARTS + 1)[:-1] for a, b in pairwise(blocks)]
+        self.edges = np.concatenate([*inner, blocks[-1:]]).astype(np.intp)
+        at = np.minimum(self.edges, len(time) - 1)
+        self.time = np.asarray(time[at], dtype=np.float64)
+        intervals = len(self.edges) - 1
+        self.dot, self.norm2 = np.zeros((intervals, count)), np.zeros((intervals, count))
+        self.square, self.rows = np.zeros(intervals), np.zeros(intervals)
+
+    def join(self, other: BlockScores) -> None:
+        """Count in the sums of further segments."""
+        for name in ("dot", "norm2", "square", "rows"):
+            getattr(self, name)[...] += getattr(other, name)
+
+    def _runs(self, piece: Piece) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Where, among the whitened rows of a segment, runs within one interval begin; and their intervals."""
+        which = np.searchsorted(self.edges, piece.sample, side="right") - 1
+        starts = np.flatnonzero(np.diff(which, prepend=-1))
+        return starts, which[starts]
+
+    def level(self, piece: Piece, y: Array) -> None:
+        """Count in the residual of a segment, (rows,)."""
+        starts, intervals = self._runs(piece)
+        np.add.at(self.square, intervals, np.add.reduceat(y**2, starts))
+        np.add.at(self.rows, intervals, np.diff(starts, append=len(y)).astype(np.float64))
+
+    def add(self, piece: Piece, y: Array, at: slice, X: NDArray[np.float32]) -> None:
+        """Count in the whitened series X (terms, rows) of the terms at places ``at``; others than ours are left."""
+        if at.start >= self.count:
+            return
+        at = slice(at.start, min(at.stop, self.count))
+        X = X[: at.stop - at.start]
+        starts, intervals = self._runs(piece)
+        for a, b, interval in zip(starts, [*starts[1:], len(y)], intervals, strict=True):
+            self.dot[interval, at] += products(X[:, a:b], y[a:b, None])[:, 0]
+            self.norm2[interval, at] += squares(X[:, a:b])
+
+    def best(self, good: NDArray[np.bool_]) -> Varying | None:
+        """The most variable of the ``good`` terms."""
+        terms = np.flatnonzero(good[: self.count])
+        used = self.rows > 0
+        if np.sum(used) < 2 or not len(terms):
+            return None
+        # over the whole the residual is as loud as its noise model says; blocks may be louder or quieter
+        block = np.arange(len(self.rows)) // PARTS
+        square, rows = np.bincount(block, self.square), np.bincount(block, self.rows)
+        level = square / np.maximum(rows, 1.0) / (np.sum(square) / np.sum(rows))
+        d, v = self.dot[:, terms], self.norm2[:, terms] * level[block][:, None]
+        known = float(np.mean(rows[rows > 0]))
+        found = [self._scatter(d, v, block), self._window(d, v, known), self._jump(d, v), self._swing(d, v)]
+        best = min((f for f in found if f is not None), key=lambda f: f.log_p)
+        log_p = min(0.0, best.log_p + float(np.log(len(terms) * QUESTIONS)))
+        return Varying(
+            log_p=log_p,
+            place=int(terms[best.place]),
+            chi2=best.chi2,
+            coefficient=best.coefficient,
+            std=best.std,
+            how=best.how,
+        )
+
+    def _scatter(self, d: Array, v: Array, block: NDArray[np.intp]) -> Varying:
+        starts = np.flatnonzero(np.diff(block, prepend=-1))
+        d, v = np.add.reduceat(d, starts, axis=0), np.add.reduceat(v, starts, axis=0)
+        chi2 = np.sum(_ratio(d**2, v), axis=0)
+        k = int(np.argmax(chi2))
+        freedom = int(np.sum(v[:, k] > 0.0))
+        size2 = float(np.mean(v[v[:, k] > 0.0, k])) if freedom else np.inf
+        excess = max(0.0, float(chi2[k]) - freedom) / max(freedom, 1)
+        log_p = log_sf(float(chi2[k]), max(freedom, 1))
+        how = "varies from block to block of time"
+        return Varying(
+            log_p=log_p,
+            place=k,
+            chi2=float(chi2[k]),
+            coefficient=float(np.sqrt(excess / size2)),
+            std=float(size2**-0.5),
+            how=how,
+        )
+
+    def _window(self, d: Array, v: Array, rows: float) -> Varying:
+        # the level of a block is known from its rows alone: Student's t
+        D, V = (np.concatenate([np.zeros((1, x.shape[1])), np.cumsum(x, axis=0)]) for x in (d, v))
+        spans = [(a, a + n) for n in WINDOWS if n < len(d) for a in range(0, len(d) - n + 1, max(1, n // 2))]
+        a, b = np.array(spans).T
+        amount, variance = D[b] - D[a], V[b] - V[a]
+        return self._single(amount, variance, (b - a) / len(d), [self._between(*s) for s in spans], rows)
+
+    def _jump(self, d: Array, v: Array) -> Varying:
+        """The coefficient after an instant less that before it, the mean of both taken out."""
+        at = np.arange(PARTS, len(d) - PARTS + 1, PARTS)
+        D, V = np.cumsum(d[::-1], axis=0)[::-1], np.cumsum(v[::-1], axis=0)[::-1]
+        share = _ratio(V[at], V[0])
+        amount = D[at] - share * D[0]
+        variance = np.where((share > ONE_SIDED) & (share < 1.0 - ONE_SIDED), V[at] * (1.0 - share), 0.0)
+        since = 1.0 - at / len(d)
+        return self._single(
+            amount, variance, since * (1.0 - since), [f"since {self.time[n]:.4g} s" for n in at]
+        )
+
+    def _between(self, a: int, b: int) -> str:
+        return f"from {self.time[a]:.4g} to {self.time[b]:.4g} s"
+
+    @staticmethod
+    def _single(
+        amount: Array, variance: Array, share: Array, how: list[str], rows: float = np.inf
+    ) -> Varying:
+        """The largest of scores of one degree of freedom, (variants, terms); ``share``: mean square of each shape."""
+        chi2 = _ratio(amount**2, variance)
+        n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
+        z = float(np.sqrt(chi2[n, k]))
+        share_beyond = 0.0 if np.isinf(rows) else float(special.stdtr(rows, -z))
+        # so far out that the density underflows the normal distribution serves
+        tail = float(np.log(share_beyond) if share_beyond > 0.0 else special.log_ndtr(-z))
+        log_p = tail + float(np.log(2 * len(chi2)))
+        std = float(np.sqrt(share[n] / max(float(variance[n, k]), 1e-300)))
+        return Varying(
+            log_p=log_p, place=int(k), chi2=float(chi2[n, k]), coefficient=std * z, std=std, how=how[n]
+        )
+
+    def _swing(self, d: Array, v: Array) -> Varying:
+        middle = (self.time[1:] + self.time[:-1]) / 2
+        duration = float(self.time[-1] - self.time[0])
+        angle = 2 * np.pi * np.outer(CYCLES, (middle - self.time[0]) / duration)
+        c, s = np.cos(angle), np.sin(angle)
+        C, S, cc, ss, cs = c @ d, s @ d, c**2 @ v, s**2 @ v, (c * s) @ v
+        determinant = cc * ss - cs**2
+        clear = determinant > ONE_PHASE * cc * ss
+        chi2 = np.where(clear, _ratio(C**2 * ss + S**2 * cc - 2 * C * S * cs, determinant), 0.0)
+        n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
+        std = float(1.0 / np.sqrt(max(float(np.sum(v[:, k])), 1e-300)))
+        log_p = -float(chi2[n, k]) / 2 + float(np.log(len(CYCLES)))
+        how = f"with a period of {duration / CYCLES[n]:.3g} s"
+        return Varying(
+            log_p=log_p,
+            place=int(k),
+            chi2=float(chi2[n, k]),
+            coefficient=std * float(np.sqrt(chi2[n, k])),
+            std=std,
+            how=how,
+        )
+
+
+def _ratio(a: Array, b: Array) -> Array:
+    """a / b, zero where b is not positive."""
+    return np.asarray(np.where(b > 0.0, a / np.where(b > 0.0, b, 1.0), 0.0))

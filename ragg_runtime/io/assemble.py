@@ -1,0 +1,434 @@
+"""From a file's columns to a flight: SI units, what is missing, what can be derived."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.interpolate import make_interp_spline
+
+from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.instrument.layout import PAPER
+from ragg_runtime.instrument.layout import Layout as Accelerometers
+from ragg_runtime.instrument.units import Units, units
+from ragg_runtime.io.angular_acceleration import HEAD, Derivative, planned
+from ragg_runtime.io.record import (
+    ANGULAR_ACCELERATION,
+    ANGULAR_RATE,
+    AUXILIARY,
+    DEMODULATED,
+    GRADIENT,
+    RATES,
+    SI_UNITS,
+    SPECIFIC_FORCE,
+    Array,
+    Flight,
+    Mask,
+    is_disc_angle,
+)
+from ragg_runtime.io.sampling import Grid, uniform
+from ragg_runtime.io.source import Heading, Rows, passed_over
+from ragg_runtime.signals.derivative import runs
+
+BRIDGED = 2.0
+"""Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded."""
+
+ENDLESS = 1e100  # in SI: beyond it a value counts as missing, as infinity does
+_TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
+_NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
+
+
+MOST_UNUSED = 0.5
+"""Share of a file's samples from which on, if something lacks in them, the rest is no evidence."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The columns of one file with their SI units, checked once; :meth:`flight` turns rows into a flight."""
+
+    path: Path
+    columns: tuple[Heading, ...]
+    si_units: dict[str, str]
+    known: Units
+    need_output: bool
+    accelerometers: Accelerometers = PAPER
+
+    def flight(self, rows: Rows, *, name: str, digest: str) -> Flight:
+        """The flight of these rows (file's units)."""
+        si = {c.name: self.converted(c, rows[c.name]) for c in self.columns}
+        time = si.pop("time")
+        grid = uniform(time, self.path)
+        notes = list(grid.notes)
+        slower = self._slower(time, si, notes)
+        derivative = self._derivative(time, si)
+        _drop_empty(si, notes, self.path)
+        if self.need_output:
+            _check_output(self.path, list(si), self.accelerometers)
+        placed = {c: slower[c].at(grid.time) if c in slower else _placed(v, grid) for c, v in si.items()}
+        notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
+        named = (*self.accelerometers.columns, *DEMODULATED)
+        outputs = {c: placed.pop(c) for c in named if c in placed}
+        valid = _valid(placed | outputs, outputs, grid, notes)
+        _derive_outputs(outputs, notes, self.accelerometers)
+        channels = {c: _filled(v, c) for c, v in placed.items()}
+        _derive_acceleration(channels, placed, grid, valid, notes, derivative)
+        _check_gradient(channels, notes)
+        if not valid.any():
+            raise UserError("no sample of the flight is complete", where=self.path, found="; ".join(notes))
+        return Flight(
+            time=grid.time,
+            channels=channels,
+            outputs=outputs,
+            name=name,
+            path=self.path,
+            digest=digest,
+            notes=tuple(notes),
+            valid=valid,
+            units=self.si_units,
+            written={c.name: c.unit for c in self.columns},
+        )
+
+    def _slower(self, time: Array, si: dict[str, Array], notes: list[str]) -> dict[str, Slow]:
+        """Auxiliary channels of a lower rate; those that cannot be interpolated are taken out of ``si``."""
+        whole = float(time[-1] - time[0])
+        # One value in two seconds: more often than that, blanks are bridged where they stand.
+        most = 1000 + 2 * int(min(whole / BRIDGED, ENDLESS))
+        found = {}
+        for name in [n for n in si if n not in SI_UNITS or n in AUXILIARY]:
+            there = np.isfinite(si[name])
+            count = int(np.sum(there))
+            if not 0 < count < min((1 - SPARSE) * len(there), most + 1):
+                continue
+            values = si[name][there]
+            channel = judged(time[there], np.unwrap(values) if self.si_units[name] == "rad" else values)
+            if isinstance(channel, Slow) and channel.covered < (1 - MOST_UNUSED) * whole:
+                channel = f"its values cover {channel.covered:.4g} s of {whole:.4g} s"
+            lacking = len(there) - count
+            if isinstance(channel, Slow):
+                found[name] = channel
+                notes.append(
+                    f"{name}: recorded every {channel.step:.4g} s; interpolated (at {lacking} samples)"
+                )
+            else:
+                del si[name]
+                notes.append(f"{name}: without a value at {samples_of(lacking)}; left out: {channel}")
+        return found
+
+    def _derivative(self, time: Array, si: Mapping[str, Array]) -> Derivative:
+        """How to differentiate the rates, by the first rows of the file."""
+        if ANGULAR_ACCELERATION[0] in si:
+            return Derivative()
+        grid = uniform(time[:HEAD], self.path)
+        return planned([evenly(_placed(si[n][:HEAD], grid), grid) for n in ANGULAR_RATE], 1 / grid.step)
+
+    def converted(self, column: Heading, values: Array) -> Array:
+        """Values of a column in SI; NaN for what is beyond all bounds."""
+        where = at(self.path, f"column {column.name!r}")
+        result = self.known.to_si(values, column.unit, self.si_units[column.name], where)
+        with np.errstate(invalid="ignore"):
+            return np.where(np.abs(result) < ENDLESS, result, np.nan)
+
+
+def layout(
+    path: Path,
+    columns: Sequence[Heading],
+    g0: float,
+    *,
+    need_output: bool = True,
+    accelerometers: Accelerometers = PAPER,
+    passed: Sequence[str] = (),
+) -> Layout:
+    """Check names and units of a file's columns; UserError if one is missing or does not convert. ``g0``: the model's
+    g, m/s^2; ``passed``: further columns of the file, for messages.
+    """
+    known = units(g0)
+    names = [c.name for c in columns]
+    _need(path, names, _NEEDED, "the motion needs", passed)
+    if any(n in names for n in ANGULAR_ACCELERATION):
+        _need(path, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs", passed)
+    if need_output:
+        _check_output(path, names, accelerometers, passed)
+    fixed = {**SI_UNITS, **dict.fromkeys(accelerometers.columns, "V")}
+    fixed |= {d.angle_column: "rad" for d in accelerometers.discs}
+    si_units = {}
+    for c in columns:
+        where = at(path, f"column {c.name!r}")
+        si_units[c.name] = fixed[c.name] if c.name in fixed else known.base_unit(c.unit, where)
+        known.to_si(1.0, c.unit, si_units[c.name], where)  # a wrong dimension is told before the file is read
+    return Layout(
+        path=path,
+        columns=tuple(columns),
+        si_units=si_units,
+        known=known,
+        need_output=need_output,
+        accelerometers=accelerometers,
+    )
+
+
+def enough(flight: Flight, rows: int) -> Flight:
+    """The flight, unless half of the file's rows or more lack something: what is left must not acquit a model."""
+    used = int(np.sum(flight.valid))
+    if used > (1 - MOST_UNUSED) * rows:
+        return flight
+    raise UserError(
+        "most samples of the flight are incomplete: the rest would be no evidence",
+        where=flight.path,
+        found=f"{rows - used} of {rows} samples cannot be used ({'; '.join(flight.notes)})",
+        expected=f"fewer than {100 * MOST_UNUSED:.0f} % without a value",
+        remedy="record all columns at one rate, or resample the file to the slowest that it needs",
+    )
+
+
+def _found(names: Sequence[str], passed: Sequence[str]) -> str:
+    return "the columns " + ", ".join(names) + (f"; {passed_over(passed)}" if passed else "")
+
+
+def _check_output(path: Path, names: Sequence[str], a: Accelerometers, passed: Sequence[str] = ()) -> None:
+    if any(o.name in names or a.voltages(o, names) is not None for o in a.outputs):
+        return
+    if len(a.outputs) == 1 and all(n in names for n in DEMODULATED):
+        return
+    volts = " ".join(a.voltage_columns(j)[0] for j in a.outputs[0].members)
+    one = f"{a.output_names[0]}, or {volts}"
+    further = f"; likewise {', '.join(a.output_names[1:])}" if len(a.outputs) > 1 else ", or inline and cross"
+    raise UserError(
+        "the instrument's output is missing",
+        where=path,
+        found=_found(names, passed),
+        expected=one + further,
+        remedy=next(
+            filter(None, (did_you_mean(n, (*a.columns, *DEMODULATED)) for n in names if n not in SI_UNITS)),
+            None,
+        ),
+    )
+
+
+def _need(path: Path, names: list[str], needed: Sequence[str], what: str, passed: Sequence[str]) -> None:
+    missing = [n for n in needed if n not in names]
+    if missing:
+        spare = [n for n in (*names, *passed) if n not in SI_UNITS]
+        near = did_you_mean(missing[0], spare)
+        raise UserError(
+            ("the columns " if len(missing) > 1 else "the column ")
+            + ", ".join(missing)
+            + (" are missing" if len(missing) > 1 else " is missing"),
+            where=path,
+            found=_found(names, passed),
+            expected=f"{what} " + ", ".join(needed),
+            remedy=None if near is None else f"is {near[13:-1]} meant for {missing[0]}?",
+        )
+
+
+def _drop_empty(si: dict[str, Array], notes: list[str], path: Path) -> None:
+    """Leave out columns without a single number, unless the motion would be incomplete."""
+    for name in [n for n, v in si.items() if np.isnan(v).all()]:
+        if name in _NEEDED:
+            raise UserError(
+                "the column holds no number",
+                where=at(path, f"column {name!r}"),
+                found="empty cells alone",
+                expected="numbers: the motion needs it",
+                remedy="check the recorder or the export",
+            )
+        del si[name]
+        notes.append(f"{name}: the column holds no number; it is left out")
+
+
+def _placed(values: Array, grid: Grid) -> Array:
+    """Values on the whole grid, NaN where the file has no sample."""
+    if len(values) == len(grid.time):
+        return values
+    whole = np.full(len(grid.time), np.nan)
+    whole[grid.index] = values
+    return whole
+
+
+def _valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, notes: list[str]) -> Mask:
+    """Samples at which everything stands that has to; counts the others in ``notes``."""
+    present = np.zeros(len(grid.time), dtype=np.bool_)
+    present[grid.index] = True
+    valid = present.copy()
+    for name, values in columns.items():
+        if not np.isnan(np.sum(values)):  # cheap, and true wherever something is missing
+            continue
+        missing = np.isnan(values)
+        if not np.any(missing & present):
+            continue
+        count = int(np.sum(missing & present))
+        bridged = np.zeros_like(missing)
+        if (name not in SI_UNITS or name in AUXILIARY) and name not in outputs:
+            for run in runs(missing & present):
+                inside = run.start > 0 and run.stop < len(missing)
+                bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
+        kept = int(np.sum(bridged & present))
+        if kept:
+            notes.append(f"{name}: without a value at {samples_of(kept)}, interpolated")
+        if count > kept:
+            notes.append(f"{name}: without a value at {samples_of(count - kept)}, not used")
+        valid &= ~missing | bridged
+    return valid
+
+
+def samples_of(count: int) -> str:
+    return "1 sample" if count == 1 else f"{count} samples"
+
+
+def _filled(values: Array, name: str) -> Array:
+    if not np.isnan(np.sum(values)):
+        return values
+    missing = np.isnan(values)
+    if not missing.any():
+        return values
+    result = values.copy()
+    places = np.flatnonzero(~missing)
+    there = values[places]
+    if is_disc_angle(name):
+        there = np.unwrap(there)
+    result[missing] = np.interp(np.flatnonzero(missing), places, there)
+    return result
+
+
+def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Accelerometers) -> None:
+    """Outputs that are not recorded from their voltages; where both are, they must agree."""
+    for o in a.outputs:
+        columns = a.voltages(o, outputs)
+        if columns is None:
+            continue
+        sum_, formula = o.combined(np.stack([outputs[c] for c in columns])), a.formula(o, columns)
+        if o.name not in outputs:
+            outputs[o.name] = sum_
+            notes.append(f"{o.name} is derived: {formula}")
+            continue
+        there = np.isfinite(sum_) & np.isfinite(outputs[o.name])
+        difference = np.sqrt(np.mean((sum_ - outputs[o.name])[there] ** 2)) if there.any() else 0.0
+        size = np.sqrt(np.mean(outputs[o.name][there] ** 2)) if there.any() else 0.0
+        if difference > 1e-3 * size:
+            notes.append(
+                f"{o.name} differs from {formula} by {difference:.3g} V rms, with {size:.3g} V rms "
+                "of its own: check the order and the signs of the voltages"
+            )
+
+
+def _derive_acceleration(
+    channels: dict[str, Array],
+    placed: dict[str, Array],
+    grid: Grid,
+    valid: Mask,
+    notes: list[str],
+    derivative: Derivative,
+) -> None:
+    missing = [n for n in ANGULAR_ACCELERATION if n not in channels]
+    if not missing:
+        return
+    for name, rate_name in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
+        derived, sure = differentiated(placed[rate_name], grid, derivative)
+        # A sample that stands alone between two gaps has no derivative.
+        valid &= sure
+        channels[name] = _filled(derived, name)
+    notes.append(derivative.note)
+
+
+def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:
+    given = [n for n in GRADIENT if n in channels]
+    if given and len(given) < len(GRADIENT):
+        notes.append("of the gravity gradient only " + ", ".join(given) + " are given")
+    if all(n in given for n in ("Gamma_xx", "Gamma_yy", "Gamma_zz")):
+        trace = float(np.max(np.abs(sum(channels[n] for n in ("Gamma_xx", "Gamma_yy", "Gamma_zz")))))
+        if trace > _TRACE_NOTED:
+            notes.append(
+                f"Gamma_xx + Gamma_yy + Gamma_zz reaches {trace / 1e-9:.3g} Eo; outside matter it is 0"
+            )
+
+
+DEGREE = 5
+"""Of the splines: their derivative is as good as the finite differences'."""
+
+FEWEST = DEGREE + 3
+"""Samples from which one is drawn."""
+
+
+def differentiated(x: Array, grid: Grid, derivative: Derivative) -> tuple[Array, Mask]:
+    """Time derivative at the samples' own instants, and where it is good; where they jitter, by way of the even grid."""
+    resampled = evenly(x, grid)
+    slope, sure = derivative.of(resampled, 1 / grid.step)
+    there = np.isfinite(slope)
+    if resampled is x or np.sum(there) < FEWEST:
+        return slope, sure
+    even = _even(grid)
+    return np.where(there, make_interp_spline(even[there], slope[there], DEGREE)(grid.time), np.nan), sure
+
+
+def evenly(x: Array, grid: Grid) -> Array:
+    """Samples at evenly spaced instants; themselves where they do not jitter."""
+    there = np.isfinite(x)
+    if not grid.jitters or np.sum(there) < FEWEST:
+        return x
+    return np.where(there, make_interp_spline(grid.time[there], x[there], DEGREE)(_even(grid)), np.nan)
+
+
+def _even(grid: Grid) -> Array:
+    n = len(grid.time)
+    return np.asarray(np.polyval(np.polyfit(np.arange(n), grid.time, 1), np.arange(n)))
+
+
+SPARSE = 0.5
+"""Share of rows without a value from which a channel is one of a lower rate (rather than one with blanks)."""
+
+FEWEST_VALUES = 8
+"""Values that are needed to judge a channel."""
+
+REGULAR = 0.8
+"""Share of the channel's steps that must be within a half of the median step."""
+
+BRIDGED_STEPS = 3.0
+"""Longest gap, in steps of the channel, that is interpolated."""
+
+SLOW = 0.3
+"""Largest error, over the channel's standard deviation, of a value that is interpolated between its neighbours. Of a
+sinusoid that is one of eight values in a period; between the values, where half the step is bridged, the error is a
+fourth of it at most, rms a twentieth."""
+
+
+@dataclass(frozen=True)
+class Slow:
+    """The values of a channel at its own instants, and its step, s."""
+
+    time: Array
+    values: Array
+    step: float
+
+    @property
+    def covered(self) -> float:
+        """Time, s, in which there is a value."""
+        steps = np.diff(self.time)
+        return float(np.sum(steps[steps <= BRIDGED_STEPS * self.step]))
+
+    def at(self, time: Array) -> Array:
+        """(N,): interpolated; NaN before the first value, after the last and in gaps of more than ``BRIDGED_STEPS`` steps."""
+        found = np.interp(time, self.time, self.values)
+        after = np.clip(np.searchsorted(self.time, time), 1, len(self.time) - 1)
+        wide = self.time[after] - self.time[after - 1] > BRIDGED_STEPS * self.step
+        inside = (time > self.time[after - 1]) & (time < self.time[after])
+        outside = (time < self.time[0]) | (time > self.time[-1])
+        found[(wide & inside) | outside] = np.nan
+        return np.asarray(found)
+
+
+def judged(time: Array, values: Array) -> Slow | str:
+    """The channel, from its values (n,) and their instants, s; or why it cannot be interpolated linearly, in words."""
+    if len(values) < FEWEST_VALUES:
+        return f"it has {len(values)} value{'s' * (len(values) != 1)}"
+    steps = np.diff(time)
+    step = float(np.median(steps))
+    if np.mean(np.abs(steps - step) <= 0.5 * step) < REGULAR:
+        return "it is not recorded at regular intervals"
+    spread = float(np.std(values))
+    a, b = steps[:-1], steps[1:]
+    between = (values[:-2] * b + values[2:] * a) / (a + b)
+    near = np.maximum(a, b) <= BRIDGED_STEPS * step
+    error = float(np.sqrt(np.mean((values[1:-1] - between)[near] ** 2))) if near.any() else np.inf
+    if error > SLOW * spread:
+        return f"it changes too fast for one value in {step:.3g} s"
+    return Slow(time, values, step)

@@ -1,0 +1,279 @@
+"""``mapping.toml``: which column of a foreign file is what, in which unit, sign, axis and clock. Plain data.
+
+[file]
+line = "LINE"                   # column that tells flight lines apart
+lines = ["1010", "1020"]        # only these
+part = "flight/imu"             # group (HDF5), structure (MATLAB) or sheet (Excel)
+
+[time]
+column = "UTC"                  # or two: ["DATE", "CLOCK"], ["WEEK", "SECOND"]
+format = "seconds"              # or "iso", "clock", "date clock", "gps"
+unit = "s"                      # of "seconds"
+origin = 2026-03-01T00:00:00Z   # of "seconds": when they were 0, if that is known
+
+[columns]
+a_x = { column = "ACC1", unit = "g", sign = -1, scale = 1.0, offset = 0.0 }
+
+[axes]                          # the measurement frame's axes among the recorder's; a rotation
+x = "y"
+y = "x"
+z = "-z"
+
+[demodulator]                   # how inline and cross were made; further keys: instrument/demodulation.py
+kind = "butterworth"
+cutoff = "0.18 Hz"
+order = 6
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from ragg_runtime.base.errors import UserError, at, check_keys, did_you_mean
+from ragg_runtime.base.files import read_text
+from ragg_runtime.base.names import is_column, read_name
+from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
+from ragg_runtime.instrument.units import units
+from ragg_runtime.io.instants import WAYS
+
+UNKNOWN = "?"
+"""What ``ragg map`` writes where the answer is not in the file."""
+
+_TABLES = ("file", "time", "columns", "axes", "demodulator")
+_KEYS: Mapping[str, tuple[str, ...]] = {
+    "file": ("line", "lines", "part"),
+    "time": ("column", "format", "unit", "origin"),
+    "axes": ("x", "y", "z"),
+    "columns": ("column", "unit", "sign", "scale", "offset"),
+}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A channel: the file's column and unit; a value is ``factor`` times the file's, plus ``offset`` (in the unit)."""
+
+    column: str
+    unit: str
+    factor: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class Time:
+    """Where time stands and how it is written; ``origin``: when plain seconds were 0."""
+
+    columns: tuple[str, ...]
+    format: str = "seconds"
+    unit: str = "s"
+    origin: datetime | None = None
+
+
+@dataclass(frozen=True)
+class Mapped:
+    """A mapping as it was read; see the module's text for the file.
+
+    ``axes``: for x, y, z of the measurement frame, the recorder's axis (0, 1, 2) and its sign. ``digest``: SHA-256 of
+    the text. ``kept``: it is the model's own, and does not apply to files that have none of its columns.
+    """
+
+    path: Path
+    time: Time
+    channels: Mapping[str, Entry]
+    axes: tuple[tuple[int, float], ...] | None = None
+    line: str | None = None
+    lines: tuple[str, ...] | None = None
+    part: str | None = None
+    demodulator: Demodulation | None = None
+    digest: str = ""
+    kept: bool = False
+
+    @property
+    def columns(self) -> frozenset[str]:
+        """Every column of the file that is needed."""
+        named = {e.column for e in self.channels.values()} | set(self.time.columns)
+        return frozenset(named | ({self.line} if self.line is not None else set()))
+
+    def without(self, channels: frozenset[str]) -> Mapped:
+        """The mapping without some of the channels."""
+        return replace(self, channels={n: e for n, e in self.channels.items() if n not in channels})
+
+
+def read_mapping(path: Path) -> Mapped:
+    """The mapping in a file; UserError if something in it cannot be, or is not answered yet."""
+    return parse_mapping(read_text(path), path)
+
+
+def parse_mapping(text: str, path: Path) -> Mapped:
+    """The mapping in a text; ``path`` is where it stands."""
+    try:
+        data = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # ValueError: numbers of thousands of digits
+        raise UserError(
+            "not valid TOML", where=path, found=str(error) or "tables nested too deeply"
+        ) from None
+    check_keys(data, _TABLES, path)
+    for key, value in data.items():
+        if not isinstance(value, dict):
+            raise UserError(f"[{key}] is not a table", where=path, found=repr(value)[:60])
+        if key in _KEYS and key != "columns":
+            check_keys(value, _KEYS[key], at(path, f"[{key}]"))
+    file = data.get("file", {})
+    lines = file.get("lines")
+    if lines is not None and not (
+        isinstance(lines, list) and lines and all(isinstance(x, str) for x in lines)
+    ):
+        raise UserError(
+            "lines is not a list of names",
+            where=at(path, "[file]"),
+            found=repr(lines)[:60],
+            expected='["1010", "1020"]',
+        )
+    channels = {n: _entry(n, v, at(path, f"[columns] {n}")) for n, v in data.get("columns", {}).items()}
+    if "time" not in data:
+        raise UserError("[time] is missing", where=path, expected='[time] column = "...", unit = "s"')
+    if "time" in channels:
+        raise UserError(
+            "time has a table of its own", where=at(path, "[columns]"), expected='[time] column = "..."'
+        )
+    return Mapped(
+        path=path,
+        time=_time(data["time"], at(path, "[time]")),
+        channels=MappingProxyType(channels),
+        axes=_axes(data["axes"], at(path, "[axes]")) if "axes" in data else None,
+        line=_word(file.get("line"), "line", at(path, "[file]")),
+        lines=tuple(lines) if lines is not None else None,
+        part=_word(file.get("part"), "part", at(path, "[file]")),
+        demodulator=read_demodulation(data.get("demodulator"), at(path, "[demodulator]")),
+        digest=hashlib.sha256(text.encode()).hexdigest(),
+    )
+
+
+def _entry(name: str, raw: Any, where: str) -> Entry:
+    if not is_column(name):
+        read_name(name, where, "temperature")
+    if isinstance(raw, str):
+        raw = {"column": raw}
+    if not isinstance(raw, dict) or "column" not in raw:
+        raise UserError(
+            "the column of the file is not named",
+            where=where,
+            found=repr(raw)[:60],
+            expected=f'{name} = {{ column = "its name in the file", unit = "..." }}',
+        )
+    check_keys(raw, _KEYS["columns"], where)
+    sign = _number(raw.get("sign", 1), "sign", where)
+    if sign not in (1.0, -1.0):
+        raise UserError(
+            "sign is 1 or -1", where=where, found=raw["sign"], remedy="for other factors there is scale"
+        )
+    scale = _number(raw.get("scale", 1), "scale", where)
+    if scale == 0.0:
+        raise UserError("a scale of zero leaves nothing", where=where)
+    return Entry(
+        column=_word(raw["column"], "column", where) or "",
+        unit=_unit(raw.get("unit", ""), where),
+        factor=sign * scale,
+        offset=_number(raw.get("offset", 0), "offset", where),
+    )
+
+
+def _time(raw: Mapping[str, Any], where: str) -> Time:
+    columns = raw.get("column")
+    names = (columns,) if isinstance(columns, str) else tuple(columns) if isinstance(columns, list) else ()
+    written = _word(raw.get("format", "seconds"), "format", where) or ""
+    if written != "seconds" and written not in WAYS:
+        raise UserError(
+            "no such format of time",
+            where=where,
+            found=repr(written),
+            expected="seconds, " + ", ".join(f"{n} ({w.example})" for n, w in WAYS.items()),
+            remedy=did_you_mean(written, ("seconds", *WAYS)),
+        )
+    count = WAYS[written].columns if written in WAYS else 1
+    if len(names) != count or not all(isinstance(n, str) and n for n in names):
+        raise UserError(
+            f"time as {written!r} stands in {'two columns' if count == 2 else 'one column'}",
+            where=where,
+            found=repr(columns)[:60],
+            expected='column = ["DATE", "CLOCK"]' if count == 2 else 'column = "..."',
+        )
+    origin = raw.get("origin")
+    if origin is not None and not isinstance(origin, datetime):
+        raise UserError(
+            "origin is not an instant", where=where, found=repr(origin)[:60], expected="2026-03-01T00:00:00Z"
+        )
+    if origin is not None and origin.tzinfo is None:
+        origin = origin.replace(tzinfo=UTC)
+    if origin is not None and written != "seconds":
+        raise UserError(f"time as {written!r} has its own origin", where=where, remedy="leave origin out")
+    unit = _unit(raw.get("unit", "" if written == "seconds" else "s"), where)
+    return Time(columns=names, format=written, unit=unit, origin=origin)
+
+
+def _axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
+    found = []
+    for axis in "xyz":
+        text = str(raw.get(axis, axis)).strip().lstrip("+")
+        bare = text.lstrip("-")
+        if bare not in ("x", "y", "z") or len(text) > 2:
+            raise UserError(
+                "not an axis", where=at(where, axis), found=repr(raw.get(axis))[:40], expected='"x", "-y" ...'
+            )
+        found.append(("xyz".index(bare), -1.0 if text.startswith("-") else 1.0))
+    order = [k for k, _ in found]
+    if len(set(order)) < 3:
+        raise UserError("an axis appears twice", where=where, found=dict(raw))
+    parity = 1.0 if order in ([0, 1, 2], [1, 2, 0], [2, 0, 1]) else -1.0
+    if parity * math.prod(s for _, s in found) < 0:
+        raise UserError(
+            "the axes are a mirror image, not a rotation",
+            where=where,
+            found=", ".join(f"{a} = {raw.get(a, a)}" for a in "xyz"),
+            expected="a right-handed frame, such as x = y, y = x, z = -z between NED and ENU",
+            remedy="if a sensor is wired the other way round, give its column sign = -1",
+        )
+    return tuple(found)
+
+
+def _unit(raw: Any, where: str) -> str:
+    if raw == UNKNOWN:
+        raise UserError(
+            "the unit is not answered yet",
+            where=where,
+            found='unit = "?"',
+            expected="the unit in which the file has it; 1 for a pure number",
+            remedy="look it up where the file was made; it is not guessed",
+        )
+    unit = _word(raw, "unit", where) or ""
+    if unit:
+        units(9.8).parse(unit, where)  # whether a text is a unit does not depend on the model's g
+    return unit
+
+
+def _word(raw: Any, key: str, where: str) -> str | None:
+    if raw is not None and (not isinstance(raw, str) or (raw.strip() in ("", UNKNOWN) and key != "unit")):
+        raise UserError(
+            f"{key} is not answered" if raw == UNKNOWN else f"{key} is not a text",
+            where=where,
+            found=repr(raw)[:60],
+        )
+    return raw
+
+
+def _number(raw: Any, key: str, where: str) -> float:
+    if (
+        isinstance(raw, bool)
+        or not isinstance(raw, int | float)
+        or not math.isfinite(raw)
+        or abs(raw) > 1e100
+    ):
+        raise UserError(f"{key} is not a number", where=where, found=repr(raw)[:60])
+    return float(raw)

@@ -1,1 +1,0 @@
-"""What no known effect explains: a dictionary of generic terms, searched in the whitened remainder."""

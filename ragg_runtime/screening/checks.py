@@ -1,0 +1,206 @@
+"""What can be told from a record by itself: too short, too slow, stuck, or columns that contradict each other."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import Disc
+from ragg_runtime.io import Flight
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE
+from ragg_runtime.model.model import Model
+from ragg_runtime.signals.derivative import differentiate
+
+Array = NDArray[np.float64]
+
+LIKE = 0.9
+"""Correlation from which two series are taken for the same thing."""
+
+UNLIKE = 0.5
+"""Correlation with its own rate below which an angular acceleration that follows another one has its axis exchanged."""
+
+SAME_SIZE = 2.0
+"""Factor within which an angular acceleration has the size of its rate's derivative: smoothing and noise stay below it."""
+
+NEAR = 1.25
+"""Factor within which a ratio of the two is one that a mistake of units makes."""
+
+FEWEST = 64
+"""Samples from which two series can be compared."""
+
+SAME_SPIN = 2e-3
+"""Relative distance of the encoder's rate from the model's spin rate that a disc's own slowness may have."""
+
+IN_DEGREES = 1e-2
+"""The same, of a rate that degrees taken for radians would make."""
+
+_LONGEST = 1 << 16  # samples that a comparison of columns takes
+_DEGREE = np.pi / 180
+_FACTORS = (
+    (3600.0, "deg/h for deg/s"),
+    (1 / 3600.0, "deg/s for deg/h"),
+    (1 / _DEGREE, "degrees for radians"),
+    (_DEGREE, "radians for degrees"),
+    (3600.0 / _DEGREE, "deg/h for rad/s"),
+    (_DEGREE / 3600.0, "rad/s for deg/h"),
+)
+
+
+def require(model: Model, instrument: Instrument, flight: Flight) -> None:
+    """UserError if the flight cannot be held against this model at all."""
+    where = flight.path or flight.name
+    for e in model.effects:
+        missing = e.missing(flight.channels)
+        if missing:
+            raise UserError(
+                f"the effect {e.id} of the model needs a channel that the flight lacks",
+                where=where,
+                found=f"no {', '.join(missing)}",
+                expected="a column of that name with its unit",
+                remedy=f"record it, or take the effect out: ragg remove MODEL_DIR {e.id}",
+            )
+    f = max(abs(d.spin_frequency) for d in instrument.layout.discs)
+    if 0 < flight.duration * f < 1:
+        raise UserError(
+            "the flight is shorter than one revolution of the disc",
+            where=where,
+            found=f"{len(flight)} samples in {flight.duration:.6g} s",
+            expected=f"more than {1 / f:.6g} s (spin_frequency {f:.6g} Hz), usually half an hour",
+            remedy="give a longer record; check the unit of time (s, ms, min) and spin_frequency",
+        )
+    if f > 0 and flight.rate <= 4 * f:
+        raise UserError(
+            "the flight is sampled too slowly for the disc",
+            where=where,
+            found=f"{flight.rate:.6g} Hz",
+            expected=f"more than {4 * f:.6g} Hz: the gradient stands at twice the spin rate of {f:.6g} Hz",
+            remedy="give the record at its full rate; check the unit of time (s, ms, min) and spin_frequency",
+        )
+    for name, values in flight.outputs.items():
+        if name not in instrument.layout.columns:
+            continue
+        usable = flight.valid & np.isfinite(values)
+        if name not in DEMODULATED:
+            _fast_enough(name, flight, usable, f)
+        still = _still(values, usable)
+        if still is not None:
+            raise UserError(
+                "the output does not change",
+                where=at(where, f"column {name!r}"),
+                found=f"{still:.6g} V in all {np.count_nonzero(usable)} samples",
+                expected="the voltage of a turning disc",
+                remedy="a stuck or disconnected recorder? check the column",
+            )
+
+
+def _fast_enough(name: str, flight: Flight, usable: NDArray[np.bool_], f: float) -> None:
+    """UserError if an output before demodulation was recorded more seldom than the motion, and too seldom for the disc."""
+    if f == 0.0 or 2 * np.count_nonzero(usable[1:] & usable[:-1]) > len(usable):
+        return  # most have a neighbour, and the flight is fast enough
+    at_samples = np.flatnonzero(usable)
+    if len(at_samples) < 2:
+        return
+    rate = flight.rate / float(np.median(np.diff(at_samples)))
+    if rate <= 4 * f:
+        raise UserError(
+            "the output is sampled too slowly for the disc",
+            where=at(flight.path or flight.name, f"column {name!r}"),
+            found=f"{rate:.6g} Hz, beside motion at {flight.rate:.6g} Hz",
+            expected=f"more than {4 * f:.6g} Hz: the gradient stands at twice the spin rate of {f:.6g} Hz",
+            remedy="give the output at its full rate, or demodulated (inline and cross) before it is thinned out",
+        )
+
+
+def remarks(instrument: Instrument, flight: Flight) -> list[str]:
+    """Columns that stand still or contradict each other, in sentences that name the likely mistake."""
+    encoders = (x for d in instrument.layout.discs for x in _encoder(d, flight))
+    return [*_stuck(flight), *_rates(flight), *encoders]
+
+
+def _stuck(flight: Flight) -> list[str]:
+    still = [
+        n
+        for n in (*SPECIFIC_FORCE, *ANGULAR_RATE)
+        if n in flight.channels and _still(flight.channels[n], flight.valid) is not None
+    ]
+    if not still:
+        return []
+    if len(still) == 6:
+        return ["the motion does not change at all: a record at rest tells little about an instrument"]
+    verb = "does" if len(still) == 1 else "do"
+    return [f"{', '.join(still)} {verb} not change at all: a stuck sensor?"]
+
+
+def _still(values: Array, there: NDArray[np.bool_]) -> float | None:
+    """The one value that a column holds wherever there is one; ``None`` if it changes, or holds none."""
+    first: float | None = None
+    for start in range(0, len(values), _LONGEST):
+        part = np.asarray(values[start : start + _LONGEST])[there[start : start + _LONGEST]]
+        first = float(part[0]) if first is None and len(part) else first
+        if np.any(part != first):
+            first = None
+            break
+    return first
+
+
+def _rates(flight: Flight) -> list[str]:
+    """The recorded angular acceleration against the derivative of the recorded rate."""
+    part = slice(0, min(len(flight), _LONGEST))
+    valid = flight.valid[part]
+    given, wanted = [], []
+    for rate, change in zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True):
+        if change not in flight.channels:
+            return []
+        given.append(np.where(valid, flight.channels[change][part], np.nan))
+        wanted.append(differentiate(flight.channels[rate][part], flight.rate, valid))
+    there = np.isfinite(given).all(axis=0) & np.isfinite(wanted).all(axis=0)
+    if np.sum(there) < FEWEST:
+        return []
+    G, W = np.array(given)[:, there], np.array(wanted)[:, there]
+    sizes = np.outer(np.std(G, axis=1), np.std(W, axis=1))
+    if np.any(sizes == 0):
+        return []
+    like = (G - G.mean(axis=1, keepdims=True)) @ (W - W.mean(axis=1, keepdims=True)).T / G.shape[1] / sizes
+    said = []
+    for k, (rate, change) in enumerate(zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True)):
+        best = int(np.argmax(np.abs(like[k])))
+        factor = float(np.std(G[k]) / np.std(W[k]))
+        if abs(like[k, best]) < LIKE:
+            continue
+        if best != k and abs(like[k, k]) < UNLIKE:
+            said.append(f"{change} is the derivative of {ANGULAR_RATE[best]}, not of {rate}: axes exchanged?")
+        elif best == k and like[k, k] < 0:
+            said.append(f"{change} is minus the derivative of {rate}: the sign of one of them is reversed")
+        elif best == k and not 1 / SAME_SIZE < factor < SAME_SIZE:
+            near = [text for x, text in _FACTORS if 1 / NEAR < factor / x < NEAR]
+            meant = f": {near[0]}?" if near else ": check the units of both"
+            said.append(f"{change} is {factor:.4g} times the derivative of {rate}{meant}")
+    return said
+
+
+def _encoder(disc: Disc, flight: Flight) -> list[str]:
+    """The encoder's rate against the model's spin rate."""
+    column, f = disc.angle_column, disc.spin_frequency
+    if column not in flight.channels or f == 0.0:
+        return []
+    part = slice(0, min(len(flight), _LONGEST))
+    angle = np.unwrap(flight.channels[column][part])
+    time = flight.time[part]
+    rate = float(np.median(np.diff(angle) / np.diff(time))) / (2 * np.pi)
+    if abs(rate - f) < SAME_SPIN * abs(f):
+        return []
+    if abs(rate + f) < SAME_SPIN * abs(f):
+        return [f"{column} runs backwards, at {rate:.6g} Hz: the sign of the encoder is reversed?"]
+    nyquist = flight.rate / 2
+    if any(
+        abs((x - rate + nyquist) % (2 * nyquist) - nyquist) < IN_DEGREES * abs(f)
+        for x in (f / _DEGREE, f * _DEGREE)
+    ):
+        return [f"{column} turns at {rate:.6g} Hz, the model's disc at {f:.6g} Hz: degrees for radians?"]
+    percent = 100 * (rate / f - 1)
+    return [
+        f"{column} turns at {rate:.6g} Hz, {percent:+.2g} % off the model's spin_frequency of {f:.6g} Hz:"
+        " the angle is used; is spin_frequency right?"
+    ]
