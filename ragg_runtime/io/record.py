@@ -66,6 +66,34 @@ def is_disc_angle(name: str) -> bool:
     return name.startswith("spin_angle")
 
 
+@dataclass(frozen=True)
+class Flag:
+    """Something odd about some samples of a record, and what that means for a verdict.
+
+    Attributes
+    ----------
+    columns
+        Names of the columns that it is about; empty: the whole record.
+    reason
+        What is odd, and what was done about it, as one sentence for people: the note that a user reads.
+    samples
+        How many samples are affected.
+    time
+        First and last instant of them, s, if they have any.
+    open
+        Whether it is still in the record: nothing is claimed of such a record but what ``effects`` says.
+    effects
+        Ids of effects that describe the same, and may be claimed beside it.
+    """
+
+    columns: tuple[str, ...]
+    reason: str
+    samples: int = 0
+    time: tuple[float, float] | None = None
+    open: bool = False
+    effects: tuple[str, ...] = ()
+
+
 @dataclass(frozen=True, eq=False)
 class Flight:
     """A uniformly sampled record of motion, auxiliary channels and output, in SI, float64.
@@ -74,7 +102,8 @@ class Flight:
     (s^-2), ``spin_angle`` (rad), auxiliaries; interpolated where the file has none. ``outputs``: name -> (N,),
     ``G_out`` and ``V_1`` ... in V, ``inline`` and ``cross`` in s^-2; NaN where the file has none. ``valid`` (N,): False
     where a sample is missing or incomplete. ``units``: SI, of every column; ``written``: those of the file. ``digest``:
-    SHA-256 of the file. ``demodulation``: how ``inline`` and ``cross`` were made, if the mapping says so.
+    SHA-256 of the file. ``demodulation``: how ``inline`` and ``cross`` were made, if the mapping says so. ``flags``: what
+    was found odd (each is among the ``notes``, too). ``resolution``: column -> the step in which it was recorded, SI.
     """
 
     time: Array
@@ -88,6 +117,8 @@ class Flight:
     units: Mapping[str, str] = field(default_factory=dict)
     written: Mapping[str, str] = field(default_factory=dict)
     demodulation: Demodulation | None = None
+    flags: tuple[Flag, ...] = ()
+    resolution: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         time = _read_only(self.time)
@@ -142,6 +173,11 @@ class Flight:
             valid[(since >= first) & (since <= last)] = False
             notes.append(left_out(first, last))
         return dataclasses.replace(self, valid=valid, notes=tuple(notes))
+
+    def flagged(self, flags: Sequence[Flag]) -> Flight:
+        """The flight with further flags, each of them a note as well."""
+        notes = (*self.notes, *(f.reason for f in flags))
+        return dataclasses.replace(self, flags=(*self.flags, *flags), notes=notes)
 
     def part(self, rows: slice) -> Flight:
         """A stretch of the flight, as views."""

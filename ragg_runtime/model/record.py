@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -54,7 +54,8 @@ class Record:
     ``halo`` = (before, after) further samples. ``rate``, ``spin_frequency``: Hz. ``angle_column``: of the disc that the
     output belongs to. ``phase``, rad: a gradient shows as T_1 sin(2 phi + phase) + T_2 cos(2 phi + phase). ``axes``:
     first two of the disc at rest in the measurement frame; ``None``: x and y. ``every``: samples from one recorded
-    inline and cross to the next. ``whole``: what this is a part of.
+    inline and cross to the next. ``whole``: what this is a part of. ``resolution``: column -> the step in which it was
+    recorded, SI; columns that are not in it have none to speak of.
     """
 
     time: Array
@@ -70,6 +71,7 @@ class Record:
     demodulation: Demodulation = OURS
     every: int = 1
     whole: Record | None = None
+    resolution: Mapping[str, float] = field(default_factory=dict)
 
     @cached_property
     def low_pass(self) -> Demodulator:
@@ -331,6 +333,7 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         turning=turning,
         axes=None if disc.level else disc.across,
         demodulation=flight.demodulation or instrument.demodulation or OURS,
+        resolution=flight.resolution,
     )
 
 

@@ -23,6 +23,7 @@ from ragg_runtime.screening import checks
 from ragg_runtime.screening.filled_in import without_filling
 from ragg_runtime.screening.identify import LikelyMistake, derived_rates, likely_mistake
 from ragg_runtime.screening.quick_fit import explain
+from ragg_runtime.screening.resolution import resolution_of
 from ragg_runtime.screening.spikes import glitches, note_of, parts, spikes
 from ragg_runtime.screening.subsample import CHUNK, Picker, picker
 
@@ -46,7 +47,7 @@ def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
         If the flight cannot be held against the model: it is too short, too slow, lacks a channel, or holds
         a mistake of units, signs, axes, order or spin rate, which the message names.
     """
-    flight, notes = without_filling(flight)
+    flight, notes = without_filling(dataclasses.replace(flight, resolution=resolution_of(flight)))
     checks.require(model, instrument, flight)
     flight = _without_motion_spikes(flight)
     notes += checks.remarks(instrument, flight)
