@@ -226,6 +226,7 @@ class Compensated:
         thin = rate / s.every
         self.before, self.after = Density(thin), Density(thin)
         self.count = 0
+        self.holds = p.change is None or p.change.holds
         self.bits = dict.fromkeys(Quality, 0)
         self.squares, self.good = np.zeros(2), 0
 
@@ -244,6 +245,8 @@ class Compensated:
         parts = [x.rows for x in self._parts(self._rows())]
         for rows in parts:
             x = series(self.setting, rows, holes=holes)
+            if not self.holds:
+                x = replace(x, quality=x.quality | int(Quality.CALIBRATION))
             self._count(x)
             progress.step(float(len(x.quality)))
             yield x

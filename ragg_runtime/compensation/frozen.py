@@ -28,10 +28,12 @@ from ragg_runtime.estimation.segments import segments, spread
 from ragg_runtime.estimation.square_root import join
 from ragg_runtime.identification import comparison as compare
 from ragg_runtime.identification.comparison import Comparison
+from ragg_runtime.instrument.form import ANGLE_ORIGINS
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import start_of
 
 Array = NDArray[np.float64]
 
@@ -50,6 +52,9 @@ what a million samples take, and tells the standard deviation of what passes the
 LISTENED = 80_000
 """Most samples of these segments together: segments are of 15,000 to 30,000 by how long the flight is, and the estimate would take
 so much longer of one flight than of another."""
+
+BETTER = 5.0
+"""Factor by which chi-square must fall for another origin of the disc angle to be named: as for mistakes (screening)."""
 
 SUSPECTS = 5
 """Parameters that are named, at most, where the calibration does not hold."""
@@ -198,7 +203,7 @@ class Held:
 
     In ``comparison``, ``calibrated`` and ``holdout`` are the frozen error. ``root`` (n, k): of the covariance of the
     calibration, in the scales of the fitted columns. ``free``, ``free_holdout``: errors if parameters were fitted to
-    these flights.
+    these flights. ``origin``: that it would hold with disc angles from elsewhere, in words.
     """
 
     comparison: Comparison
@@ -207,6 +212,7 @@ class Held:
     free: Error
     free_holdout: Error
     change: Change
+    origin: str | None = None
 
     @property
     def p_value(self) -> float:
@@ -248,6 +254,7 @@ class Held:
             f"the calibration of {self.saved.time} on {', '.join(self.saved.flights)} {verdict} here: chi-square of the"
             f" step to the free fit {self.change.chi2:.1f} in {len(self.change.z)} directions (p = {self.p_value:.2g});"
             f" error frozen {self.comparison.calibrated.rms_Eo:.4g} Eo, free {self.free.rms_Eo:.4g} Eo rms"
+            + ("" if self.origin is None else f"; {self.origin}")
         )
 
     def drift(self) -> list[dict[str, Any]]:
@@ -278,6 +285,7 @@ class Held:
             "suspects": self.suspects(),
             "free": {"calibrated": self.free.as_json(), "holdout": self.free_holdout.as_json()},
             "drift": self.drift(),
+            "angle_origin": self.origin,
         }
         return self.comparison.as_json() | {"frozen": frozen}
 
@@ -292,13 +300,15 @@ def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved:
     half_covariance = root(saved, model, instrument)
     # nothing of these flights was fitted: all of their time is held out
     comparison = compare.concluded(f, nominal.whole, frozen, frozen.whole)
+    change = changed(f, half_covariance)
     return Held(
         comparison=comparison,
         root=half_covariance,
         saved=saved,
         free=fitted.whole,
         free_holdout=held_out.held_out,
-        change=changed(f, half_covariance),
+        change=change,
+        origin=other_origin(model, instrument, flights, saved, change),
     )
 
 
@@ -331,6 +341,26 @@ def changed(f: Fitted, root: Array) -> Change:
     both = (U.T @ T[:n])[informed] / np.sqrt(1.0 + s[informed] ** 2)[:, None]
     total = float(np.sum(T[:, n] ** 2))
     return Change(z=both[:, n], signatures=both[:, :n], squares=(total, float(T[n, n] ** 2)))
+
+
+def other_origin(
+    model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved, change: Change
+) -> str | None:
+    """That a calibration which does not hold holds plainly better with disc angles from elsewhere, in words; ``None``: it does not."""
+    here = [start_of(x, instrument) for x in flights]
+    for origin in ANGLE_ORIGINS:
+        other = replace(instrument, angle_origin=origin)
+        encoders = all(d.angle_column in x.channels for d in instrument.layout.discs for x in flights)
+        if change.holds or encoders or [start_of(x, other) for x in flights] == here:
+            continue
+        observations = observations_of(flights, other)
+        c = calibration(saved, model, other, observations)
+        if BETTER * looked(model, other, observations, saved, c).chi2 < change.chi2:
+            return (
+                f"with disc angles counted from {'t = 0' if origin == 'zero' else 'the first sample'} it fits far better: "
+                f'is angle_origin = "{origin}" missing under [model] of model.toml?'
+            )
+    return None
 
 
 def warning(made: str, change: Change) -> str:

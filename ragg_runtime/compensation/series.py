@@ -129,6 +129,7 @@ class Quality(IntFlag):
     BRIDGED = 4
     MOTION = 8
     AUXILIARY = 16
+    CALIBRATION = 32
 
 
 NO_VALUE = Quality.EDGE | Quality.GAP
@@ -140,6 +141,7 @@ MEANING = {
     Quality.BRIDGED: "a missing or saturated sample within reach was bridged",
     Quality.MOTION: "a motion channel is beyond the range that the calibration knows",
     Quality.AUXILIARY: "an auxiliary channel is beyond the range that the calibration knows",
+    Quality.CALIBRATION: "the frozen calibration does not hold for this flight",
 }
 """What each bit says."""
 

@@ -12,7 +12,6 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT
 
 from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.instrument.form import PAPER
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS
@@ -84,14 +83,23 @@ def remove_effect(text: str, effect_id: str) -> str:
     return tomlkit.dumps(document)
 
 
+def with_full_kinematics(text: str) -> str:
+    """``text`` with ``[model] kinematics = "full"``, where it has no ``[model]`` (nor ``disc-spin``, which is another way to it)."""
+    document = _document(text)
+    if "model" in document or _place(document.get("effects", []), "disc-spin") is not None:
+        return text
+    return f'{text.rstrip()}\n\n[model]\nkinematics = "full"\n'
+
+
 def model_text(instrument: Instrument) -> str:
     """A whole model.toml for an instrument, in display units; reads back to the same SI numbers."""
     layout, form = instrument.layout, instrument.form
     document: dict[str, Any] = {"effects": []}
     if not layout.of_paper:
         document["g0"] = f"{instrument.g0!r} m/s^2"
-    if form != PAPER:
-        document["model"] = {"kinematics": form.kinematics, "order": form.preset or dict(form.order)}
+    document["model"] = {"kinematics": form.kinematics, "order": form.preset or dict(form.order)}
+    if instrument.angle_origin is not None:
+        document["model"]["angle_origin"] = instrument.angle_origin
     if instrument.demodulation is not None:
         document["demodulator"] = dict(instrument.demodulation.entries())
     if layout.of_paper:

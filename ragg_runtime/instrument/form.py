@@ -12,6 +12,7 @@ from ragg_runtime.base.errors import UserError, at, check_keys, did_you_mean
 KINEMATICS = ("platform", "full")
 MOUNTING: tuple[int | str, ...] = (1, 2, "exact")
 MISALIGNMENT: tuple[int | str, ...] = (1, "exact")
+ANGLE_ORIGINS = ("zero", "first-sample")
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,7 @@ def read_form(table: object, path: Path | None = None) -> Form:
     if not isinstance(table, dict):
         raise UserError("model must be a table", where=path, found=repr(table), expected="[model]")
     where = at(path, "[model]")
-    check_keys(table, ("kinematics", "order"), where)
+    check_keys(table, ("kinematics", "order", "angle_origin"), where)
     kinematics = _one_of(table.get("kinematics", PAPER.kinematics), KINEMATICS, f"{where} kinematics")
     order = table.get("order", "paper")
     where = f"{where} order"
@@ -89,6 +90,13 @@ def read_form(table: object, path: Path | None = None) -> Form:
     }
     chosen = {k: _one_of(v, known[k], f"{where}: {k}") for k, v in order.items()}
     return Form(kinematics=str(kinematics), **dict[str, Any]({**PAPER.order, **chosen}))
+
+
+def read_angle_origin(table: object, path: Path | None = None) -> str | None:
+    """``angle_origin`` of the table ``[model]`` that :func:`read_form` has read; ``None``: it is not there."""
+    if not isinstance(table, dict) or "angle_origin" not in table:
+        return None
+    return str(_one_of(table["angle_origin"], ANGLE_ORIGINS, f"{at(path, '[model]')} angle_origin"))
 
 
 _EXPECTED = '"paper", "exact" or { mounting = 1, misalignment = 1, second_order_angles = false }'

@@ -63,6 +63,8 @@ class Instrument:
 
     ``sigmas``: how sure the sheet is of some parameters, name -> (n,). ``radius`` and ``spin_frequency`` are those of
     the first accelerometer and its disc. ``widths``: kind of parameter -> how many times wider than usual its prior is.
+    ``angle_origin``: where the angle of a disc without an encoder is 0, ``zero`` (of ``time``) or ``first-sample``; ``None``: at
+    zero of seconds, at the first of stamps that are instants.
     """
 
     radius: float
@@ -76,6 +78,7 @@ class Instrument:
     layout: Layout = PAPER
     demodulation: Demodulation | None = None
     widths: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    angle_origin: str | None = None
 
     def __post_init__(self) -> None:
         if self.layout.of_paper:  # the paper's one disc, described by radius and spin frequency
@@ -94,6 +97,7 @@ class Instrument:
         layout: Layout | None = None,
         sigmas: Mapping[str, ArrayLike] | None = None,
         demodulation: Demodulation | None = None,
+        angle_origin: str | None = None,
     ) -> Instrument:
         """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0; by default the paper's layout."""
         layout = paper(radius, spin_frequency) if layout is None else layout
@@ -117,6 +121,7 @@ class Instrument:
             form=form,
             demodulation=demodulation,
             sigmas=MappingProxyType({name: _vector(v, layout.size) for name, v in (sigmas or {}).items()}),
+            angle_origin=angle_origin,
         )
         _check_physical(made)
         return made

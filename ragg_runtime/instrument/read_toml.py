@@ -16,7 +16,7 @@ from ragg_runtime.base.errors import UserError, at, check_keys
 from ragg_runtime.base.files import read_text
 from ragg_runtime.base.names import is_name, read_name
 from ragg_runtime.instrument.demodulation import read_demodulation
-from ragg_runtime.instrument.form import read_form
+from ragg_runtime.instrument.form import read_angle_origin, read_form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument, _finite
 from ragg_runtime.instrument.layout import (
     PAPER,
@@ -73,6 +73,7 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         path=path,
         layout=layout,
         form=read_form(table.get("model"), path),
+        angle_origin=read_angle_origin(table.get("model"), path),
         demodulation=read_demodulation(table.get("demodulator"), at(path, "[demodulator]")),
     )
 

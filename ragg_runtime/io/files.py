@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ from ragg_runtime.io.assemble import enough, layout
 from ragg_runtime.io.formats import ending_of, writable
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.io.record import SI_UNITS, Array, Flight
-from ragg_runtime.io.source import Heading, Source, Written
+from ragg_runtime.io.source import Heading, Rows, Source, Written
 from ragg_runtime.io.sources import open_sources
 
 
@@ -77,7 +78,8 @@ def _flight(
     with _line_named(source, several):
         rows = source.rows()
         made = enough(plan.flight(rows, name=name, digest=file_digest(source.path)), len(rows["time"]))
-    return replace(made, notes=(*source.notes, *made.notes), demodulation=source.demodulation)
+    notes = (*source.notes, *made.notes)
+    return replace(made, notes=notes, demodulation=source.demodulation, instants=source.instants)
 
 
 @contextlib.contextmanager
@@ -168,21 +170,39 @@ class Converted:
 
 
 def convert(source: Path, target: Path, mapping: Mapped | None = None) -> Converted:
-    """Write the flights of one file to another, in the format of its ending; values as they are, instants in seconds."""
+    """Write the flights of one file to another, in the format of its ending; values as they are.
+
+    Instants become seconds since the first of them, of every line its own: the angle of a disc without an encoder counts from there,
+    in the new file and in what is cut out of it.
+    """
     if source.resolve() == target.resolve():
         raise UserError("a file cannot be converted into itself", where=source, remedy="name another file")
     writable(target)  # before a long file is read for nothing
     sources = open_sources(source, mapping, lenient=True)
-    tables = []
+    tables, begins = [], []
     for s in sources:
-        rows = s.rows()
+        rows, zero = _from_first(s)
+        begins += [zero] if zero is not None else []
         tables.append(Written([(c, rows[c.name]) for c in s.columns], s.line if len(sources) > 1 else None))
     write_tables(target, tables)
     notes = list(dict.fromkeys(n for s in sources for n in s.notes))
     bare = [c.name for c in sources[0].columns if not c.unit]
     if bare:
         notes.append(f"without a unit, as in the file: {', '.join(bare)}")
-    if sources[0].origin is not None:
-        notes.append(f"time counts from {sources[0].origin.isoformat().replace('+00:00', 'Z')}")
+    notes += dict.fromkeys(begins)
     count = sum(len(t.columns[0][1]) for t in tables if t.columns)
     return Converted(len(tables), count, tuple(c.name for c in sources[0].columns), tuple(notes))
+
+
+def _from_first(s: Source) -> tuple[Rows, str | None]:
+    """Rows with instants as seconds since the first; and when ``time`` is 0, in words, if that is known."""
+    rows = s.rows()
+    time, line = rows["time"], "" if s.line is None else f"line {s.line}: "
+    there = time[np.isfinite(time)]
+    first = float(there[0]) if s.instants and len(there) else 0.0
+    if s.origin is not None:
+        zero = (s.origin + timedelta(seconds=first)).isoformat().replace("+00:00", "Z")
+        return {**rows, "time": time - first}, f"{line}time counts from {zero}"
+    if s.instants:
+        return {**rows, "time": time - first}, f"{line}time counts from {first:.10g} s after midnight"
+    return rows, None

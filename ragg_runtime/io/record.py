@@ -104,6 +104,8 @@ class Flight:
     where a sample is missing or incomplete. ``units``: SI, of every column; ``written``: those of the file. ``digest``:
     SHA-256 of the file. ``demodulation``: how ``inline`` and ``cross`` were made, if the mapping says so. ``flags``: what
     was found odd (each is among the ``notes``, too). ``resolution``: column -> the step in which it was recorded, SI.
+    ``instants``: whether the file's stamps are instants (dates, GPS time), not seconds. ``began``: time, s, of the first
+    sample of the record that this is, or is a part of.
     """
 
     time: Array
@@ -119,6 +121,8 @@ class Flight:
     demodulation: Demodulation | None = None
     flags: tuple[Flag, ...] = ()
     resolution: Mapping[str, float] = field(default_factory=dict)
+    instants: bool = False
+    began: float | None = None
 
     def __post_init__(self) -> None:
         time = _read_only(self.time)
@@ -128,6 +132,8 @@ class Flight:
         set_field = object.__setattr__  # the way of frozen dataclasses to normalise what they are given
         set_field(self, "time", time)
         set_field(self, "valid", valid)
+        if self.began is None:
+            set_field(self, "began", float(time[0]) if len(time) else 0.0)
         for group in ("channels", "outputs"):
             columns = {name: _read_only(v) for name, v in getattr(self, group).items()}
             for name, column in columns.items():

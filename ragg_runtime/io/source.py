@@ -73,7 +73,8 @@ class Source:
 
     ``line`` is the flight line, where the file has several; ``origin`` the instant at which ``time`` is 0, if
     it is known (UTC, or GPS time where the file counts in that); ``notes`` say what was made of the file,
-    ``demodulation`` how its channels were made, if that is known; ``passed`` names columns that are none of a flight.
+    ``demodulation`` how its channels were made, if that is known; ``passed`` names columns that are none of a flight;
+    ``instants`` whether the file's stamps are instants, not seconds.
     """
 
     path: Path
@@ -84,6 +85,7 @@ class Source:
     notes: tuple[str, ...] = ()
     demodulation: Demodulation | None = None
     passed: tuple[str, ...] = ()
+    instants: bool = False
 
 
 def passed_over(names: Sequence[str]) -> str:

@@ -106,7 +106,7 @@ def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
         if dropped and not lenient:
             raise not_numbers(table.path, dropped[0].name, "text")
         rows = table.rows
-        dated = False
+        dated, instants = False, False
         if any(h.text for h in kept):
             whole = dict(table.rows())
             where = at(table.path, "column 'time'")
@@ -114,7 +114,7 @@ def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
             if way is None:
                 raise not_numbers(table.path, "time", "text that is no instant")
             whole["time"], origin = seconds(way, [whole["time"]], where, origin)
-            rows, dated = partial(dict, whole), way.dated
+            rows, dated, instants = partial(dict, whole), way.dated, True
             kept = tuple(Heading("time", "s") if h.text else h for h in kept)
         if not lenient:
             check_units(table.path, kept)
@@ -132,6 +132,7 @@ def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
                 origin=origin if dated else None,
                 notes=notes,
                 passed=passed,
+                instants=instants,
             )
         )
     return found
@@ -195,6 +196,7 @@ def _mapped(tables: Sequence[Table], mapping: Mapped) -> list[Source]:
                 origin=origin if way is None or way.dated else None,
                 notes=notes,
                 demodulation=mapping.demodulator,
+                instants=way is not None,
             )
         )
     return found

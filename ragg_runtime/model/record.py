@@ -50,12 +50,13 @@ CHUNK = 1 << 16
 class Record:
     """What of a flight enters a model: the whole of it, or a part.
 
-    ``time`` (N,) s since the first sample of the flight. ``wide``: name -> (before + N + after,), SI, of a part with
-    ``halo`` = (before, after) further samples. ``rate``, ``spin_frequency``: Hz. ``angle_column``: of the disc that the
-    output belongs to. ``phase``, rad: a gradient shows as T_1 sin(2 phi + phase) + T_2 cos(2 phi + phase). ``axes``:
-    first two of the disc at rest in the measurement frame; ``None``: x and y. ``every``: samples from one recorded
-    inline and cross to the next. ``whole``: what this is a part of. ``resolution``: column -> the step in which it was
-    recorded, SI; columns that are not in it have none to speak of.
+    ``time`` (N,) s since the first sample of the flight; ``start``, s: from angle 0 of a disc without an encoder to that
+    sample. ``wide``: name -> (before + N + after,), SI, of a part with ``halo`` = (before, after) further samples.
+    ``rate``, ``spin_frequency``: Hz. ``angle_column``: of the disc that the output belongs to. ``phase``, rad: a
+    gradient shows as T_1 sin(2 phi + phase) + T_2 cos(2 phi + phase). ``axes``: first two of the disc at rest in the
+    measurement frame; ``None``: x and y. ``every``: samples from one recorded inline and cross to the next. ``whole``:
+    what this is a part of. ``resolution``: column -> the step in which it was recorded, SI; columns that are not in it have
+    none to speak of.
     """
 
     time: Array
@@ -72,6 +73,7 @@ class Record:
     every: int = 1
     whole: Record | None = None
     resolution: Mapping[str, float] = field(default_factory=dict)
+    start: float = 0.0
 
     @cached_property
     def low_pass(self) -> Demodulator:
@@ -85,10 +87,10 @@ class Record:
 
     @cached_property
     def phi(self) -> Array:
-        """(N,) rad: the disc angle, the encoder's or 2 pi frac(spin_frequency time)."""
+        """(N,) rad: the disc angle, the encoder's or 2 pi frac(spin_frequency (start + time))."""
         if self.angle_column in self.wide:
             return self._inner(self.wide[self.angle_column])
-        return disc_angle(self.time, self.spin_frequency)
+        return disc_angle(self.time, self.spin_frequency, self.start)
 
     @cached_property
     def demodulation_angle(self) -> Array:
@@ -200,7 +202,7 @@ class Record:
         time = np.array(self.time[rows])
         if self.every > 1:
             return time, *self._quarters(time)
-        phi = disc_angle(time, self.spin_frequency)
+        phi = disc_angle(time, self.spin_frequency, self.start)
         if self.angle_column in self.wide:
             phi = np.array(self.wide[self.angle_column][rows])
         return time, np.asarray(np.cos(2 * phi)), np.asarray(np.sin(2 * phi))
@@ -288,8 +290,11 @@ def _half(rate: float) -> int:
     return min(max(round(SPIN_WINDOW * rate), DEGREES[0]), HALO)
 
 
-def disc_angle(time: Array, spin_frequency: float) -> Array:
-    """2 pi frac(spin_frequency t), rad, with the rounding error of the product kept (Dekker)."""
+def disc_angle(time: Array, spin_frequency: float, start: float = 0.0) -> Array:
+    """2 pi frac(spin_frequency (start + t)), rad, with the rounding errors of the products kept (Dekker); ``time`` (N,) s."""
+    if start:
+        first = disc_angle(np.array([start]), spin_frequency)
+        return np.asarray(disc_angle(time, spin_frequency) + first)
     turns = spin_frequency * time
     split = 134217729.0
     f_high = (f := split * spin_frequency) - (f - spin_frequency)
@@ -309,6 +314,16 @@ STANDING = 1e-3
 def phase(g: complex) -> float:
     """rad, between -pi and pi; 0 of a real number, whatever its sign: that is the sign of the scale factor."""
     return 0.0 if abs(g.imag) <= 1e-12 * abs(g) else float(np.angle(g))
+
+
+def start_of(flight: Flight, instrument: Instrument) -> float:
+    """Time, s, from angle 0 of a disc without an encoder to the first sample of a flight.
+
+    Seconds count from 0 of ``time`` whatever the first sample is; instants from the first sample of the record, of which the flight
+    may be a part; ``[model] angle_origin`` overrides both.
+    """
+    first = instrument.angle_origin == "first-sample" or (flight.instants and instrument.angle_origin is None)
+    return float(flight.time[0]) - (flight.began or 0.0 if first else 0.0)
 
 
 def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
@@ -334,6 +349,7 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         axes=None if disc.level else disc.across,
         demodulation=flight.demodulation or instrument.demodulation or OURS,
         resolution=flight.resolution,
+        start=start_of(flight, instrument),
     )
 
 

@@ -17,7 +17,7 @@ from ragg_runtime.io.sampling import JITTER_NOTED
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.native import Evaluator
-from ragg_runtime.model.record import disc_angle
+from ragg_runtime.model.record import start_of
 from ragg_runtime.model.recorded import recorded
 from ragg_runtime.screening import checks
 from ragg_runtime.screening.filled_in import without_filling
@@ -51,6 +51,7 @@ def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     checks.require(model, instrument, flight)
     flight = _without_motion_spikes(flight)
     notes += checks.remarks(instrument, flight)
+    notes += _angle_notes(instrument, flight)
     places = [k for k in range(len(instrument.layout.outputs)) if recorded(flight, instrument.layout, k)]
     p = picker(flight, instrument, tuple(model.chain.INPUTS), places[0])
     if not p.usable.any():
@@ -63,7 +64,8 @@ def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     notes += _saturated(p)
     found = likely_mistake(model, instrument, p)
     if found is not None:
-        if found.factor > SENSELESS and not found.timing:
+        asked = found.origin and instrument.angle_origin is None  # nobody has answered yet
+        if asked or (found.factor > SENSELESS and not found.timing):
             raise _refused(flight, found, notes)
         notes.append(_remark(found))
     valid, said = _output_spikes(model, instrument, p)
@@ -91,6 +93,23 @@ def _left(share: float) -> str:
     if share < 1:
         return f"the model leaves {100 * share:.2g} % of the output unexplained"
     return f"the model misses the output by {share:.2g} times its size"
+
+
+def _angle_notes(instrument: Instrument, flight: Flight) -> list[str]:
+    """From where the angle of a disc without an encoder counts, where that is not the first sample of a file that begins at 0."""
+    turning = [d for d in instrument.layout.discs if d.spin_frequency != 0.0]
+    if all(d.angle_column in flight.channels for d in turning):
+        return []
+    first, start = float(flight.time[0]), start_of(flight, instrument)
+    if instrument.angle_origin is None and flight.instants:
+        return [
+            "the stamps are instants: the disc angle counts from the first sample (a column spin_angle, or angle_origin"
+            " under [model] of model.toml, says otherwise)"
+        ]
+    if start != 0.0:
+        side = "before" if start > 0 else "after"
+        return [f"the disc angle counts from t = 0, {abs(start):.6g} s {side} the first sample"]
+    return [] if first == 0.0 else [f"the disc angle counts from the first sample (t = {first:.6g} s)"]
 
 
 def _remark(found: LikelyMistake) -> str:
@@ -182,9 +201,6 @@ def _left_over(model: Model, evaluator: Evaluator, p: Picker, fitted: Array, row
 BETTER = 1.1
 """Factor by which the model's residual must fall for jittering instants to be taken otherwise than they stand."""
 
-CONVINCING = 5.0
-"""The same for the origin of a disc angle where nothing jitters."""
-
 LEAST = 64
 """Samples of a record from which its clock is looked at: with fewer the model fits any."""
 
@@ -192,9 +208,7 @@ LEAST = 64
 def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, str] | None:
     """The flight with the clock that explains it best, and a note; ``None`` if its instants are right.
 
-    Its own instants, or a steady clock through them; and, without an encoder, the disc's angle 0 at the first
-    instant, at the steady clock's first tick (a first sample that came late does not delay the disc), or at
-    t = 0 of the file's time.
+    Its own instants, or a steady clock through them.
     """
     x = p.flight
     if p.recorded.demodulated or len(x) < LEAST:
@@ -204,38 +218,23 @@ def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, s
     for a in range(0, len(x), CHUNK):
         k = np.flatnonzero(x.valid[a : a + CHUNK]) + a
         worst = max(worst, float(np.max(np.abs(x.time[k] - (first + step * k)), initial=0.0)) / step)
-    jitters = worst > JITTER_NOTED
-    discs = instrument.layout.discs
-    # without an angle to find: recorded, standing still, or those of several discs
-    encoder = p.disc.angle_column in x.channels or len(discs) > 1 or p.disc.spin_frequency == 0.0
-    start = float(x.time[0])
-    if not jitters and (encoder or start == 0.0):
+    if worst <= JITTER_NOTED:
         return None
     rows = p.rows()
     own = explain(model, instrument, p.pick(rows)).rms
-    tried: list[tuple[float, bool, float]] = []  # residual, even instants, where the disc's angle is 0
-    if jitters:
-        tried.append((explain(model, instrument, p.pick(rows, even=True)).rms, True, first))
-    f = p.disc.spin_frequency
-    for origin in () if encoder else (first, 0.0) if jitters else (0.0,):
-        late = float(disc_angle(np.array([start]), f)[0] - disc_angle(np.array([origin]), f)[0])
-        tried.append((explain(model, instrument, p.pick(rows, phase=late)).rms, False, origin))
-    left, evenly, origin = min(tried)
-    if left * (BETTER if jitters else CONVINCING) > own:
+    left = explain(model, instrument, p.pick(rows, even=True)).rms
+    if left * BETTER > own:
         return None
-    if evenly:
-        note = (
-            f"the instants in the file scatter by up to {worst:.2g} of a step, but the output was sampled"
-            f" evenly: the times are replaced by even ones ({own / left:.3g} times less is left unexplained)"
-        )
-        even = np.asarray(first + step * np.arange(len(x)), dtype=np.float64)
-        return dataclasses.replace(x, time=even, channels={**x.channels, **_rederived(x, step)}), note
-    angle = disc_angle(x.time, f) - disc_angle(np.array([origin]), f)[0]
     note = (
-        f"the disc stood at angle 0 at t = {origin:.6g} s, not at the first sample (t = {start:.6g} s):"
-        f" its angle is counted from there ({own / left:.3g} times less is left unexplained)"
+        f"the instants in the file scatter by up to {worst:.2g} of a step, but the output was sampled"
+        f" evenly: the times are replaced by even ones ({own / left:.3g} times less is left unexplained)"
     )
-    return dataclasses.replace(x, channels={**x.channels, "spin_angle": np.unwrap(angle)}), note
+    even = np.asarray(first + step * np.arange(len(x)), dtype=np.float64)
+    began = (
+        (x.began or 0.0) + first - float(x.time[0])
+    )  # a first sample that came late does not delay the disc
+    channels = {**x.channels, **_rederived(x, step)}
+    return dataclasses.replace(x, time=even, began=began, channels=channels), note
 
 
 def _rederived(x: Flight, step: float) -> dict[str, NDArray[np.float64]]:

@@ -69,6 +69,8 @@ class LikelyMistake:
         What the model leaves of the record as it stands, and with the mistake undone.
     timing
         Whether only motion and output are apart in time.
+    origin
+        Whether the disc angle counts from elsewhere.
     """
 
     what: str
@@ -77,6 +79,7 @@ class LikelyMistake:
     before: Explained
     after: Explained
     timing: bool
+    origin: bool = False
 
     @property
     def factor(self) -> float:
@@ -92,6 +95,7 @@ class _Tried:
     left: Explained
     timing: bool = False
     calming: bool = True
+    origin: bool = False
 
 
 def likely_mistake(model: Model, instrument: Instrument, p: Picker) -> LikelyMistake | None:
@@ -115,7 +119,13 @@ def likely_mistake(model: Model, instrument: Instrument, p: Picker) -> LikelyMis
     ]
     tried += [
         _Tried(
-            what=s.what, remedy=s.remedy, plainness=s.plainness, left=s.left, timing=s.shift, calming=False
+            what=s.what,
+            remedy=s.remedy,
+            plainness=s.plainness,
+            left=s.left,
+            timing=s.shift,
+            calming=s.origin,
+            origin=s.origin,
         )
         for s in searches(model, instrument, p)
     ]
@@ -160,6 +170,7 @@ def _chosen(before: Explained, tried: Sequence[_Tried]) -> LikelyMistake | None:
         before=before,
         after=first.left,
         timing=first.timing,
+        origin=first.origin,
     )
 
 

@@ -16,7 +16,7 @@ from ragg_runtime.instrument.layout import PAPER, Disc, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
-from ragg_runtime.model.record import GRADIENTS, SPIN, differentiated, disc_angle, spin, spin_degree
+from ragg_runtime.model.record import GRADIENTS, SPIN, differentiated, disc_angle, spin, spin_degree, start_of
 from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.derivative import differentiate
 from ragg_runtime.signals.fir import convolved
@@ -168,14 +168,14 @@ class Picker:
         rows = rows[inside]
         run = _run(rows)
         x = self.flight
-        time = _picked(x.time, run) - x.time[0]
+        time, start = _picked(x.time, run) - x.time[0], start_of(x, self.instrument)
         if even:
-            time = rows * self.even[1]
+            time, start = rows * self.even[1], start + self.even[0] - x.time[0]
         f = self.disc.spin_frequency if spin_frequency is None else spin_frequency
         if self.disc.angle_column in x.channels and spin_frequency is None:
             phi = _picked(x.channels[self.disc.angle_column], run)
         else:
-            phi = disc_angle(time, f)
+            phi = disc_angle(time, f, start)
         moved = _later(run, shift)
         channels = {name: _picked(v, moved) for name, v in (*x.channels.items(), *self.derived.items())}
         if spin_frequency is not None:

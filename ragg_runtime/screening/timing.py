@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +11,15 @@ from scipy import fft, optimize
 
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import disc_angle, start_of
 from ragg_runtime.screening.quick_fit import Explained, explain, explain_all
 from ragg_runtime.screening.subsample import Picker
 from ragg_runtime.signals.demodulate import demodulable, low_pass
 
 Array = NDArray[np.float64]
+
+LATEST = 1e4
+"""Start of a record after angle 0 of its disc, s, up to which the spin rate is looked for: the grid is the finer."""
 
 FARTHEST = 60.0
 """Longest shift of the motion record that is looked for, s."""
@@ -51,6 +55,7 @@ class Found:
     left: Explained
     shift: bool = False
     plainness: int = 3
+    origin: bool = False
 
 
 def searches(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
@@ -61,8 +66,31 @@ def searches(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     if not p.recorded.demodulated:  # a demodulator at the wrong rate lets nothing through
         found += _spin(model, instrument, p)
     if p.disc.angle_column not in p.flight.channels or p.recorded.demodulated:
-        found += _phase(model, instrument, p)
+        found += _origin(model, instrument, p) + _phase(model, instrument, p)
     return found
+
+
+def _origin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
+    """The disc angle counted from the first sample in the place of t = 0, or the other way round."""
+    x, f = p.flight, p.disc.spin_frequency
+    here = start_of(x, instrument)
+    origin = "zero" if here == float(x.time[0]) - (x.began or 0.0) else "first-sample"
+    there = start_of(x, replace(instrument, angle_origin=origin))
+    at_first = [float(disc_angle(np.zeros(1), f, s)[0]) for s in (here, there)]
+    if abs(np.angle(np.exp(1j * (at_first[1] - at_first[0])))) < LEAST_PHASE:
+        return []
+    told = {"zero": "at t = 0", "first-sample": f"at the first sample (t = {x.time[0]:.6g} s)"}
+    taken = told["zero" if origin == "first-sample" else "first-sample"]
+    return [
+        Found(
+            f"the disc stood at angle 0 {told[origin]}, not {taken}",
+            f'write angle_origin = "{origin}" under [model] of model.toml if that is so, else angle_origin = '
+            f'"{"zero" if origin == "first-sample" else "first-sample"}"; or record spin_angle',
+            explain(model, instrument, p.pick(p.rows(), phase=at_first[1] - at_first[0])),
+            plainness=0,
+            origin=True,
+        )
+    ]
 
 
 def _spin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
@@ -70,6 +98,9 @@ def _spin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     f0 = p.disc.spin_frequency
     encoder = p.disc.angle_column in p.flight.channels
     x = p.flight
+    late = 0.0 if encoder else abs(start_of(x, instrument))
+    if late > LATEST:
+        return []
     best, width = f0, SPIN_RANGE * f0
     span = min(x.duration, 0.5 / width * 2)
 
@@ -80,7 +111,7 @@ def _spin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
 
     while True:
         last = max(2, min(len(x), int(span * x.rate)))
-        step = 0.1 / (last / x.rate)
+        step = 0.1 / (late + last / x.rate)
         grid = best + step * np.arange(-np.ceil(width / step), np.ceil(width / step) + 1)
         best = float(grid[int(np.argmin(left(grid.tolist(), last)))])
         if last == len(x):
@@ -126,11 +157,16 @@ def _phase(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     if abs(best) < LEAST_PHASE:
         return []
     final = explain(model, instrument, p.pick(p.rows(), phase=best))
+    taken = float(disc_angle(np.zeros(1), p.disc.spin_frequency, start_of(p.flight, instrument))[0])
+
+    def at_first(angle: float) -> float:
+        return float(np.rad2deg((angle + np.pi) % (2 * np.pi) - np.pi))
+
     return [
         Found(
-            f"the disc stood at {np.rad2deg(best):.4g} degrees at the first sample, not at 0"
+            f"the disc stood at {at_first(taken + best):.4g} degrees at the first sample, not at {at_first(taken):.4g}"
             " (a file cut out of a longer one?)",
-            "record spin_angle, or keep the record from the instant of angle 0 on",
+            "record spin_angle, or let time count from an instant of angle 0",
             final,
         )
     ]

@@ -120,9 +120,9 @@ class Compensation:
     def as_json(self) -> dict[str, Any]:
         return dict(self.result)
 
-    def write(self, path: Path) -> None:
+    def write(self, path: Path | str) -> None:
         """The series of all flights, one after the other, into a file of the format that its ending names."""
-        write_series(path, self.series, self.units)
+        write_series(Path(path), self.series, self.units)
 
 
 QUALITY: Mapping[str, str] = MappingProxyType({str(q.name): text for q, text in MEANING.items()})
@@ -135,7 +135,7 @@ def compensate(
     flights: Sequence[Flight],
     calibration: Kind | Literal["online"] = "self",
     demodulator: str = "fir",
-    output: Path | None = None,
+    output: Path | str | None = None,
     *,
     noise: float | None = None,
     walk: float | None = None,
@@ -195,7 +195,8 @@ def compensate(
         told = {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
         result["frozen"] = told | p.change.as_json()
         if not p.change.holds:
-            result["notes"] = [_frozen.warning(saved.time, p.change)]
+            origin = _frozen.other_origin(m.model, m.instrument, p.flights, saved, p.change)
+            result["notes"] = [_frozen.warning(saved.time, p.change), *([] if origin is None else [origin])]
     found = Compensation(name=m.name, result=result, series=tuple(kept), units=MappingProxyType(table.units))
     if output is not None:
         found.write(output)
@@ -205,7 +206,7 @@ def compensate(
 def _online(
     m: Loaded,
     flights: Sequence[Flight],
-    output: Path | None,
+    output: Path | str | None,
     noise: float | None,
     walk: float | None,
     forget: float,

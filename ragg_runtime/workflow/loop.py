@@ -10,7 +10,6 @@
 from __future__ import annotations
 
 import hashlib
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
@@ -31,7 +30,7 @@ from ragg_runtime.identification.comparison import Comparison, climb
 from ragg_runtime.identification.next_motion import LIMITS
 from ragg_runtime.identification.parameters import ParameterValue, calibrated
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.instrument.edit_toml import add_effect, remove_effect
+from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, with_full_kinematics
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.read_toml import parse_instrument
@@ -351,10 +350,9 @@ def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
     return [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)]
 
 
-NO_FORM = (
-    'model.toml has no [model], which means kinematics = "platform" and order = "paper": as in Eq. 9 of the paper '
-    "the accelerometers do not feel that they turn with the disc. Real ones do: with "
-    '[model] kinematics = "full" the model knows it'
+FULL_KINEMATICS = (
+    'the sheet has no [model]: kinematics = "full" was written into model.toml, as real accelerometers feel that they turn with the '
+    'disc; the model of Eq. 9 of the paper, without that, is [model] kinematics = "platform"'
 )
 
 
@@ -385,15 +383,15 @@ class Loaded:
 def new(path: Path | str, source: Path | None = None, mapping: Path | None = None) -> Loaded:
     """Make a model directory from a test sheet (a model.toml), by default the packaged example, and keep ``mapping`` there."""
     kept = None if mapping is None else mapping_text(Path(mapping))
-    if source is None:
-        text = _example_text()
-    else:
-        text = read_text(Path(source))
-    instrument = parse_instrument(text, Path(source) if source else None)
-    history = (Step("new", now(), text=text),)
-    made = create_model_dir(path, text, generated=derive.files_of(instrument), history=history, mapping=kept)
+    text = _example_text() if source is None else read_text(Path(source))
+    completed = with_full_kinematics(text)
+    instrument = parse_instrument(completed, Path(source) if source else None)
+    history = (Step("new", now(), text=completed),)
+    made = create_model_dir(
+        path, completed, generated=derive.files_of(instrument), history=history, mapping=kept
+    )
     m = loaded(made)
-    return m if tomllib.loads(text).get("model") else replace(m, notes=(*m.notes, NO_FORM))
+    return m if completed == text else replace(m, notes=(*m.notes, FULL_KINEMATICS))
 
 
 def example() -> Instrument:

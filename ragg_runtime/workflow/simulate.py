@@ -18,6 +18,7 @@ from ragg_runtime.instrument.units import units
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.model.model import Effect, packaged
+from ragg_runtime.model.record import start_of
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.chain import Auxiliary
@@ -77,18 +78,20 @@ def simulated(
     form = instrument.form
     if not form.second_order_angles:
         effects.setdefault("second-order-misalignment", {"kappa": np.array(0.0)})
-    record = None
+    record, start = None, 0.0
     if motion is None:
         flown = _drawn(seed, duration, rate, shape)
     else:
         record = read_flight(motion, instrument.g0, need_output=False, mapping=mapping)
-        flown, duration, rate = _recorded(record)
+        start = start_of(record, instrument)
+        flown, duration, rate = _recorded(record, start)
     with _bounded():
         s = reference.simulate(
             perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
             flown,
             duration,
             rate,
+            start=start,
             gravity=draw_gradient(np.random.default_rng([seed, 13])),
             record_gradient=not no_gradient,
             noise=_noise(noise, instrument.radius),
@@ -98,7 +101,7 @@ def simulated(
             effects=effects,
             seed=seed,
             auxiliaries=_auxiliaries(seed, effects, instrument.layout.size),
-            turning=turning_of(spin, instrument.layout, record),
+            turning=turning_of(spin, instrument.layout, record, start),
         )
         return _finite(s.flight("simulated", voltages=voltages), record is None)
 
@@ -142,10 +145,12 @@ def _noise(density: float, radius: float) -> Noise | None:
     return Noise(alpha=0.05 * white.omega_T, b=1.0, omega_T=white.omega_T) if density else None
 
 
-def _recorded(x: Flight) -> tuple[reference.Motion, float, float]:
-    """The motion of a flight, the time, s, in which it was sampled, and its rate, Hz: flown, it has as many samples."""
+def _recorded(x: Flight, start: float) -> tuple[reference.Motion, float, float]:
+    """The motion of a flight, from ``start``, s, on, the time, s, in which it was sampled, and its rate, Hz: flown, it has as many
+    samples.
+    """
     a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
-    return reference.recorded_motion(x.time - x.time[0], a, omega), len(x) / x.rate, x.rate
+    return reference.recorded_motion(x.time - x.time[0] + start, a, omega), len(x) / x.rate, x.rate
 
 
 def _drawn(seed: int, duration: float, rate: float, shape: str | None) -> reference.Motion:
@@ -208,9 +213,13 @@ FORM = "[DISC:]HZ[,RAD@HZ[@RAD]]..."
 """A steady rate (negative: backwards, 0: none) and swings: amplitude, frequency, phase at the beginning."""
 
 
-def turning_of(given: Sequence[str], layout: Layout, motion: Flight | None = None) -> dict[str, Turning]:
-    """Name of a disc -> how it turns; ``given`` are texts FORM, for the disc named or for all, before the angles of ``motion``."""
-    found = {} if motion is None else _recorded_turning(motion, layout)
+def turning_of(
+    given: Sequence[str], layout: Layout, motion: Flight | None = None, start: float = 0.0
+) -> dict[str, Turning]:
+    """Name of a disc -> how it turns; ``given`` are texts FORM, for the disc named or for all, before the angles of
+    ``motion``, which begins at ``start``, s.
+    """
+    found = {} if motion is None else _recorded_turning(motion, layout, start)
     for text in given:
         name, colon, profile = text.rpartition(":")
         known = [d.name for d in layout.discs]
@@ -224,9 +233,9 @@ def turning_of(given: Sequence[str], layout: Layout, motion: Flight | None = Non
     return found
 
 
-def _recorded_turning(motion: Flight, layout: Layout) -> dict[str, Turning]:
+def _recorded_turning(motion: Flight, layout: Layout, start: float) -> dict[str, Turning]:
     columns: Mapping[str, Array] = motion.channels
-    time = motion.time - motion.time[0]
+    time = motion.time - motion.time[0] + start
     return {
         d.name: Turning.of_record(time, columns[d.angle_column])
         for d in layout.discs

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -107,10 +108,23 @@ def test_what_is_compensated_by_a_calibration_that_does_not_hold_says_so(
 ) -> None:
     monkeypatch.setattr(frozen, "LOOKED", length)  # of a long flight stretches are looked at
     m = loop.load(kept[0])
-    c = after.compensate(m, [flights(1e-6)[1]], "frozen").as_json()
+    found = after.compensate(m, [flights(1e-6)[1]], "frozen")
+    c = found.as_json()
     assert c["frozen"]["holds"] is False
     assert c["frozen"]["chi2"] > 100
     assert "does NOT hold" in c["notes"][0]
+    assert found.series[0]["quality"].all()
+
+
+def test_a_disc_angle_from_elsewhere_is_told_and_nothing_is_called_good(kept: tuple[Any, ...]) -> None:
+    m, x = loop.load(kept[0]), flights()[1]
+    late = dataclasses.replace(
+        x, time=x.time + 10.0, began=None
+    )  # half a turn by the convention, none by its own
+    found = after.compensate(m, [late], "frozen")
+    assert found.as_json()["frozen"]["holds"] is False
+    assert 'angle_origin = "first-sample"' in found.as_json()["notes"][1]
+    assert found.series[0]["quality"].all()
 
 
 def test_stretches_of_a_long_flight_do_not_contradict_a_calibration_that_holds(

@@ -88,20 +88,24 @@ def test_what_is_no_form_is_refused_with_a_remedy(table: str, words: tuple[str, 
         assert word in str(refused.value)
 
 
-def test_new_says_what_a_sheet_without_a_form_means(
+def test_new_writes_full_kinematics_where_the_sheet_has_no_form_and_says_so(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "sheet.toml").write_text(sheet(""))
     _, _, said = ragg(capsys, "new", tmp_path / "from-sheet", "--from", tmp_path / "sheet.toml")
     assert "no [model]" in said
     assert 'kinematics = "full"' in said
-    assert (tmp_path / "from-sheet" / "model.toml").read_text() == sheet("")
+    assert (tmp_path / "from-sheet" / "model.toml").read_text().startswith(sheet("").rstrip())
+    (tmp_path / "platform.toml").write_text(sheet("[model]"))
+    _, _, said = ragg(capsys, "new", tmp_path / "platform", "--from", tmp_path / "platform.toml")
+    assert said == ""
+    assert loop.load(tmp_path / "platform").model is packaged()
     _, _, said = ragg(capsys, "new", tmp_path / "own")
     assert said == ""
     m = loop.load(tmp_path / "own")
     assert m.instrument.form == Form(kinematics="full")
     assert m.model is packaged("full")
-    assert loop.load(tmp_path / "from-sheet").model is packaged()
+    assert loop.load(tmp_path / "from-sheet").model is packaged("full")
 
 
 def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> None:
@@ -198,7 +202,7 @@ def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
 
 
 def test_a_paper_model_lacks_the_spin_and_adding_it_brings_the_error_to_the_noise(tmp_path: Path) -> None:
-    (tmp_path / "sheet.toml").write_text(sheet(""))
+    (tmp_path / "sheet.toml").write_text(sheet("[model]"))
     m = loop.new(tmp_path / "paper", tmp_path / "sheet.toml")
     flight = simulated(replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=600.0)
     same = simulated(m.instrument, ["disc-spin:share=1"], seed=4, duration=600.0)

@@ -59,6 +59,7 @@ def document(c: Contents) -> dict[str, Any]:
         "model": c.name,
         "origin": c.origin,
         "derivation": c.model.digest,
+        "angle_origin": c.instrument.angle_origin or "zero",
         "g0": {"value": c.instrument.g0, "unit": "m/s^2"},
         "effects": [
             {"id": e.id, "title": e.title, "physics": e.physics, "equation": e.equation, "source": e.source}

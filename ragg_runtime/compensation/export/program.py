@@ -150,7 +150,7 @@ def _columns(c: Contents) -> list[str]:
     }  # fmt: skip
     place = {
         "TIME": 0, "DISC_ANGLE": -1, "OMEGA": omega, "OMEGADOT": omegadot,
-        "FIRST_OUTPUT": len(columns) - len(outputs),
+        "FIRST_OUTPUT": len(columns) - len(outputs), "FROM_FIRST": int(c.instrument.angle_origin == "first-sample"),
     }  # fmt: skip
     needed = {*motion} - {*ANGULAR_ACCELERATION} - {n for n in motion if is_gradient(n)} | {"time"}
     volts = {o.name for o in outputs}

@@ -25,7 +25,7 @@ static void output(const ragg_record *r, size_t which, size_t at, size_t size, d
     const double *in[INPUTS], *angle = ragg_inputs(r, which, at, in);
     MODEL(which, size, r->seconds + at, in, PARAMETER, angle, G);
     for (size_t i = 0; i < size; ++i) {
-        int whole = !angle || !isnan(angle[i]);
+        int whole = !isnan(angle[i]);
         for (size_t k = 0; k < INPUTS; ++k) {
             whole = whole && !isnan(in[k][i]);
         }

@@ -33,8 +33,8 @@ static int take(const ragg_record *r, size_t i, double t) {
             x[k] = gradient[k] ? 0.0 : *in[k];
         }
         double G = r->column[FIRST_OUTPUT + (int)which][i];
-        G = angle && isnan(*angle) ? (double)NAN : G;
-        if (ragg_online_step(&filters[n], t, x, angle ? *angle : (double)NAN, G)) {
+        G = isnan(*angle) ? (double)NAN : G;
+        if (ragg_online_step(&filters[n], t, x, *angle, G)) {
             latest[n] = ragg_online_gradient(&filters[n]);
             any = 1;
         }

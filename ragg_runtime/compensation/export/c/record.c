@@ -548,6 +548,23 @@ static void derive_series(ragg_record *r) {
     }
 }
 
+/* 2 pi frac(f t), with the rounding error of the product kept. */
+static double turned(double f, double t) {
+    const double turns = f * t;
+    return 2.0 * 3.141592653589793 * ((turns - nearbyint(turns)) + fma(f, t, -turns));
+}
+
+/* The angles of discs without an encoder. */
+static void derive_angles(ragg_record *r) {
+    for (size_t d = 0; d < DISCS; ++d) {
+        const int k = DISC[d].column;
+        const double f = PARAMETER[DISC[d].spin], first = turned(f, FROM_FIRST ? 0.0 : r->column[TIME][0]);
+        for (size_t i = 0; i < r->n && !r->there[k]; ++i) {
+            r->column[k][i] = turned(f, r->seconds[i]) + first;
+        }
+    }
+}
+
 void ragg_read(ragg_record *r, FILE *file, int outputs) {
     int place[COLUMNS];
     memset(r, 0, sizeof *r);
@@ -567,6 +584,7 @@ void ragg_read(ragg_record *r, FILE *file, int outputs) {
     }
     derive_acceleration(r);
     derive_series(r);
+    derive_angles(r);
 }
 
 const double *ragg_inputs(const ragg_record *r, size_t output, size_t at, const double *in[INPUTS]) {
@@ -574,7 +592,7 @@ const double *ragg_inputs(const ragg_record *r, size_t output, size_t at, const 
     for (size_t k = 0; k < INPUTS; ++k) {
         in[k] = (INPUT[k].column == DISC_ANGLE ? r->spin[disc][INPUT[k].derivative - 1] : r->series[k]) + at;
     }
-    return r->there[DISC[disc].column] ? r->column[DISC[disc].column] + at : NULL;
+    return r->column[DISC[disc].column] + at;
 }
 
 void ragg_free(ragg_record *r) {

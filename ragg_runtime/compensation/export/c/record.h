@@ -2,7 +2,7 @@
  *
  * The CSV has a header, one `name [unit]` a column, in SI units; the columns that are needed stand in values.h, others are
  * passed over. Gradients that are not there are zero; omegadot, where it is not there, is derived from omega as Python
- * derives it; without a disc's encoder its angle is 2 pi spin_frequency t from the first row on. */
+ * derives it; without a disc's encoder its angle is 2 pi spin_frequency t, from t = 0 or from the first row (FROM_FIRST). */
 #ifndef RAGG_RECORD_H
 #define RAGG_RECORD_H
 
@@ -31,7 +31,7 @@ typedef struct {
 void ragg_read(ragg_record *r, FILE *file, int outputs);
 void ragg_free(ragg_record *r);
 
-/* The inputs of an output from sample at on; returns its encoder's angles, or NULL. */
+/* The inputs of an output from sample at on; returns the angles of its disc. */
 const double *ragg_inputs(const ragg_record *r, size_t output, size_t at, const double *in[INPUTS]);
 
 #endif

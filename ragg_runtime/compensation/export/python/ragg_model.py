@@ -2,7 +2,7 @@
 
 MOTION.csv has a header, one `name [unit]` per column, in the SI units of model.json. Gradients that are not there are zero;
 omegadot, where it is not there, is derived from omega; without an encoder's column (spin_angle) the angle of a disc is
-2 pi spin_frequency t from the first row on.
+2 pi spin_frequency t, from t = 0 or from the first row, as model.json's "angle_origin" says.
 """
 
 import csv
@@ -47,7 +47,10 @@ def voltage(o, columns, t):
     """An output (N,), V, by its entry of MODEL["outputs"]."""
     encoder = columns.get(o["spin_angle"])
     series = np.array([read_input(x, o, encoder, columns, t) for x in MODEL["inputs"]])
-    phi = disc_angle(t, o["spin_frequency"]) if encoder is None else encoder
+    phi = encoder
+    if encoder is None:
+        start = 0.0 if MODEL["angle_origin"] == "first-sample" else columns["time"][0]
+        phi = disc_angle(t, o["spin_frequency"]) + disc_angle(start, o["spin_frequency"])
     c, s, added, taken = np.cos(phi), np.sin(phi), np.zeros(len(t)), np.zeros(len(t))
     for j, sign in zip(o["accelerometers"], o["signs"]):
         into = added if sign > 0 else taken
