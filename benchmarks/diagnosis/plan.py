@@ -49,7 +49,7 @@ WHAT = {
 DURATION, QUIET_DURATION = 400.0, 300.0
 RATE = 16.0
 
-RECORD = Path(__file__).parents[2] / "examples" / "demo-flight.parquet"
+RECORD = Path(__file__).parent / "motion.parquet"
 """A flight whose motion channels are flown again."""
 
 OFF_SHEET = {"dR": 1e-3, "beta_x": 5e-3, "beta_z": 5e-3, "vartheta_y": 5e-3, "vartheta_z": 5e-3} | {
@@ -198,7 +198,7 @@ def _later(part: Sequence[Signal], by: float) -> tuple[Signal, Signal, Signal]:
 
 
 def _recorded(rng: np.random.Generator, duration: float) -> Motion:
-    x = read_flight(RECORD, 9.8)
+    x = read_flight(RECORD, 9.8, need_output=False)
     a, omega = (np.stack([x.channels[f"{q}_{k}"] for k in "xyz"]) for q in ("a", "omega"))
     spare = x.time[-1] - x.time[0] - duration - 2.0
     return recorded_motion(x.time - x.time[0] - 1.0 - spare * rng.random(), a, omega)

@@ -20,7 +20,7 @@ SPIN = 0.25
 
 MILLI_G = 9.8e-3
 
-_QUARTERS = np.array([0.0, np.pi, np.pi / 2, 3 * np.pi / 2])
+QUARTERS = np.array([0.0, np.pi, np.pi / 2, 3 * np.pi / 2])
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,11 @@ def flat(f: Array) -> Array:
     return np.ones_like(f)
 
 
+def _in_proportion(size: Array) -> Loudness:
+    """To the size of something, with a floor of a fifth."""
+    return Loudness(flat, 0.2 + size / np.sqrt(np.mean(size**2)))
+
+
 def white(x: Table, rng: np.random.Generator) -> Loudness:
     return Loudness(flat)
 
@@ -52,10 +57,9 @@ def red(x: Table, rng: np.random.Generator) -> Loudness:
 
 def walk(x: Table, rng: np.random.Generator) -> Loudness:
     """f^-2: a random walk that in 15 minutes drifts by one to three standard deviations of the white noise."""
-    drift = rng.uniform(1.0, 3.0)
     rate = 1.0 / float(x["time"][1] - x["time"][0])
     # of a walk the variance grows by 2 pi^2 c a second where the density is c f^-2, and the white noise has rate / 2
-    c = drift**2 * (rate / 2) / (2 * np.pi**2 * 900.0)
+    c = rng.uniform(1.0, 3.0) ** 2 * (rate / 2) / (2 * np.pi**2 * 900.0)
     return Loudness(lambda f: 1.0 + c / f**2)
 
 
@@ -65,22 +69,19 @@ def bump(x: Table, rng: np.random.Generator) -> Loudness:
 
 
 def along_axes(x: Table, rng: np.random.Generator) -> Loudness:
-    """Each accelerometer's noise in proportion to the force along its input axis, with a floor of a fifth."""
-    psi = 2 * np.pi * SPIN * x["time"][None] + _QUARTERS[:, None]
-    f = np.abs(x["a_y"] * np.cos(psi) - x["a_x"] * np.sin(psi))
-    return Loudness(flat, 0.2 + f / np.sqrt(np.mean(f**2)))
+    """Each accelerometer's noise in proportion to the force along its input axis."""
+    psi = 2 * np.pi * SPIN * x["time"][None] + QUARTERS[:, None]
+    return _in_proportion(np.abs(x["a_y"] * np.cos(psi) - x["a_x"] * np.sin(psi)))
 
 
 def with_size(x: Table, rng: np.random.Generator) -> Loudness:
     """In proportion to |a|."""
-    a = np.sqrt(x["a_x"] ** 2 + x["a_y"] ** 2 + x["a_z"] ** 2)
-    return Loudness(flat, 0.2 + a / np.sqrt(np.mean(a**2)))
+    return _in_proportion(np.sqrt(x["a_x"] ** 2 + x["a_y"] ** 2 + x["a_z"] ** 2))
 
 
 def with_ax(x: Table, rng: np.random.Generator) -> Loudness:
     """In proportion to |a_x|."""
-    a = np.abs(x["a_x"])
-    return Loudness(flat, 0.2 + a / np.sqrt(np.mean(a**2)))
+    return _in_proportion(np.abs(x["a_x"]))
 
 
 def with_temperature(x: Table, rng: np.random.Generator) -> Loudness:
@@ -104,7 +105,7 @@ def louder_part(x: Table, rng: np.random.Generator) -> Loudness:
 
 
 def bursts(x: Table, rng: np.random.Generator) -> Loudness:
-    """One to four stretches of 2 to 8 s that are 3 to 20 times as noisy."""
+    """One to four times 2 to 8 s that are 3 to 20 times as noisy."""
     t = x["time"] - x["time"][0]
     factor = np.ones(len(t))
     for _ in range(int(rng.integers(1, 5))):

@@ -120,6 +120,12 @@ def least_p(x: Line) -> tuple[float, float, float]:
     return effects, terms, min(1.0, 2.0 * min(effects, terms))
 
 
+def mean_change(outcomes: Sequence[tuple[str, str]]) -> str:
+    """What pairs of outcomes, before and after, are worth: mean change, and its 90 % interval."""
+    change = [WORTH[b] - WORTH[a] for a, b in outcomes]
+    return f"{np.mean(change):+.3f} ± {1.6449 * float(np.std(change)) / np.sqrt(len(change)):.3f}"
+
+
 Row = dict[str, str]
 """What is kept of a flight in a file of results, as text."""
 

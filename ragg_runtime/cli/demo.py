@@ -2,23 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli import terminal
+from ragg_runtime.identification.parameters import ParameterValue
 from ragg_runtime.io import write_flight
 from ragg_runtime.report import in_words
 from ragg_runtime.report.add_page import add_html
 from ragg_runtime.report.diagnose_page import diagnose_html
+from ragg_runtime.wording import notebook
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 
-HIDDEN = "thermal-scale:dK1_dT=0/0/6e-8/0"
+HIDDEN = ("thermal-scale", "dK1_dT", (0.0, 0.0, 6e-8, 0.0))
+"""What is hidden in the flight: effect, parameter, its values in A1 ... A4, 1/K."""
+
+COMBINATIONS = {"Sigma": (1, 1, 1, 1), "D1234": (1, 1, -1, -1), "D12": (1, -1, 0, 0), "D34": (0, 0, 1, -1)}
 
 
 def make_flight(path: Path) -> None:
-    """Write the flight: twelve minutes with a temperature-dependent scale factor in A3."""
-    write_flight(simulated(loop.example(), [HIDDEN], seed=2026, duration=720.0, rate=16.0), path)
+    """Write the flight: twelve minutes at 1 g in turbulence, with a temperature-dependent scale factor in A3."""
+    effect, name, values = HIDDEN
+    hidden = f"{effect}:{name}={'/'.join(f'{x:g}' for x in values)}"
+    write_flight(simulated(loop.example(), [hidden], seed=2026, duration=720.0, rate=16.0), path)
+
+
+def _recovered(parameters: Sequence[ParameterValue]) -> list[str]:
+    """What was hidden beside what was found: of the combination of accelerometers that the record determines best."""
+    effect, _, values = HIDDEN
+    q = max(parameters, key=lambda q: abs(q.value) / q.std if q.std else 0.0)
+    weights = COMBINATIONS[q.name.split()[0]]
+    true = sum(w * x for w, x in zip(weights, values, strict=True))
+    return [
+        f"hidden:    {effect}: {q.name} = {true:.4g} {q.unit}",
+        f"recovered: {effect}: {notebook.parameter(q.as_json() | {'weights': ()})}",
+    ]
 
 
 def _say(command: str) -> None:
@@ -77,7 +97,8 @@ def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -
     report = output / "report.html"
     report.write_text(page, "utf-8")
     fell = f"{result.before.calibrated.rms_Eo:.3g} Eo to {result.after.calibrated.rms_Eo:.3g} Eo"
-    print(f"\nThe error fell from {fell}; the noise is {result.after.noise_floor:.3g} Eo.")
+    print("\n" + "\n".join(_recovered(result.combinations)))
+    print(f"The error fell from {fell}; the noise is {result.after.noise_floor:.3g} Eo.")
     print(f"Reports: {output / 'diagnosis.html'}  {report}")
     print(f"To see and touch all this: ragg studio {model} {flight}   (from a clone: make studio)")
     return report

@@ -165,10 +165,17 @@ def history(model_dir: Path, json_file: str | None) -> None:
     help="How a disc turns (all, if none is named): a rate, negative backwards, 0 none, and swings of so many rad at so "
     "many Hz, from a phase on. Its encoder is recorded. An encoder in --motion is flown, too.",
 )
-@click.option("--no-gradient", is_flag=True, help="Leave the gravity gradient unrecorded.")
+@click.option(
+    "--gradient/--no-gradient", default=False, show_default=True, help="Record the gravity gradient."
+)
 @click.option("--voltages", is_flag=True, help="Record V_1 ... V_4 too.")
 def simulate(
-    model_dir: Path, output: str, hidden: Sequence[str], mapping: Path | None, **options: Any
+    model_dir: Path,
+    output: str,
+    hidden: Sequence[str],
+    mapping: Path | None,
+    gradient: bool,
+    **options: Any,
 ) -> None:
     """A flight from the numerical reference, with hidden effects on request."""
     from ragg_runtime.io import write_flight
@@ -177,7 +184,9 @@ def simulate(
 
     m = load(model_dir)
     under_way("flying")
-    flight = simulated(m.instrument, hidden, mapping=mapping_of(m, mapping), **options)
+    flight = simulated(
+        m.instrument, hidden, mapping=mapping_of(m, mapping), no_gradient=not gradient, **options
+    )
     write_flight(flight, output)
     click.echo(f"{one_line(str(output))}: {len(flight.time)} samples at {flight.rate:g} Hz")
 

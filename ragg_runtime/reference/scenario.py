@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -82,12 +82,12 @@ def draw_motion(
     shape: str | None = None,
     bursts: float | None = None,
     turbulence_scale: float = 1.0,
+    linear: Sequence[tuple[float, float]] = LINEAR,
 ) -> Motion:
-    """Turbulent motion of a stabilised platform: 10/10/30 mg about 15/15/100 mg, 150 about 100 deg/h; ``duration`` in
-    s.
+    """Turbulent motion of a stabilised platform for ``duration`` seconds: ``linear`` accelerations, 150 about 100 deg/h.
 
     ``shape``, ``bursts`` as in ``turbulence``; ``None`` draws one for each component. ``turbulence_scale``: factor on
-    the rms values.
+    the rms values. ``linear``: mean and rms of a_x, a_y, a_z, mg (default: those of the paper).
     """
     intensity = rng.uniform(0, 0.6) if bursts is None else bursts
 
@@ -101,7 +101,7 @@ def draw_motion(
             bursts=intensity,
         )
 
-    a_x, a_y, a_z = (component(mean, rms, _MILLI_G) for mean, rms in LINEAR)
+    a_x, a_y, a_z = (component(mean, rms, _MILLI_G) for mean, rms in linear)
     omega_x, omega_y, omega_z = (component(*ANGULAR, _DEG_PER_HOUR) for _ in range(3))
     return Motion((a_x, a_y, a_z), (omega_x, omega_y, omega_z))
 

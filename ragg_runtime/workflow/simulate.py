@@ -36,6 +36,12 @@ Array = NDArray[np.float64]
 MOST_SAMPLES = 1e8
 """Eleven days at 100 Hz: what is simulated is held in memory, some hundreds of bytes a sample."""
 
+IN_FLIGHT = ((15.0, 20.0), (15.0, 20.0), (1000.0, 50.0))
+"""Mean and rms of a_x, a_y, a_z, mg: upright in light turbulence."""
+
+GEOLOGY = 20e-9
+"""Rms of the varying gradient, each component, s^-2."""
+
 
 def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
     """A flight of a model directory's instrument; ``effects`` and ``options`` are those of :func:`simulated`."""
@@ -52,13 +58,13 @@ def simulated(
     noise: float = 2.0,
     shape: str | None = None,
     sheet_error: float = 1.0,
-    no_gradient: bool = False,
+    no_gradient: bool = True,
     voltages: bool = False,
     motion: Path | str | None = None,
     mapping: Mapped | None = None,
     spin: Sequence[str] = (),
 ) -> Flight:
-    """A flight with hidden effects, of model.toml's order and kinematics.
+    """A flight at 1 g in turbulence, over a varying gradient, with hidden effects; of model.toml's order and kinematics.
 
     Parameters
     ----------
@@ -68,6 +74,8 @@ def simulated(
         s, Hz, Eo/sqrt(Hz) of the cross channel.
     sheet_error
         How far the true instrument lies from its test sheet; 1 is usual.
+    no_gradient
+        Whether the gravity gradient is left unrecorded, as on a survey.
     motion
         A flight file whose motion is flown, as long and as densely sampled as it is, and its disc angles where it has
         some; else one is drawn. ``mapping`` says what its columns are, where it has names of its own.
@@ -92,7 +100,7 @@ def simulated(
             duration,
             rate,
             start=start,
-            gravity=draw_gradient(np.random.default_rng([seed, 13])),
+            gravity=draw_gradient(np.random.default_rng([seed, 13]), GEOLOGY),
             record_gradient=not no_gradient,
             noise=_noise(noise, instrument.radius),
             rotations=_ROTATIONS[form.mounting],
@@ -161,7 +169,7 @@ def _drawn(seed: int, duration: float, rate: float, shape: str | None) -> refere
             expected=f"at most {MOST_SAMPLES:.0e} samples",
             remedy="simulate several shorter flights",
         )
-    return draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
+    return draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape, linear=IN_FLIGHT)
 
 
 def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:

@@ -33,10 +33,10 @@ def of_paper() -> Instrument:
 @pytest.mark.parametrize("layout", ["paper", "complements"])
 def test_exact_model_of_full_kinematics_is_the_simulated_instrument(layout: str, spin: str) -> None:
     i = of_paper() if layout == "paper" else instrument(layout, sheets.EXACT)
-    flight = simulated(i, (), duration=60.0, noise=0.0, sheet_error=0.0, spin=[spin])
+    flight = simulated(i, (), duration=60.0, noise=0.0, sheet_error=0.0, no_gradient=False, spin=[spin])
     assert "spin_angle" in flight.channels
     assert worst(i, flight) < LIMIT
-    steady = simulated(i, (), duration=60.0, noise=0.0, sheet_error=0.0)
+    steady = simulated(i, (), duration=60.0, noise=0.0, sheet_error=0.0, no_gradient=False)
     name = i.layout.output_names[0]
     away = np.std(flight.outputs[name] - steady.outputs[name])
     assert away > 0.1 * np.std(steady.outputs[name])  # it does matter how the disc turns
@@ -50,7 +50,7 @@ def test_the_rate_of_a_clean_encoder_follows_a_fast_swing(five: bool, spin: str)
     places = zip((0.0, 70.0, 100.0, 200.0, 300.0), (1, 1, -1, 1, -1), strict=True)
     disc = sheets.disc("A", [sheets.accelerometer(f"A{k}", a, s) for k, (a, s) in enumerate(places)])
     i = parse_instrument(sheets.sheet([disc], 5, sheets.EXACT)) if five else of_paper()
-    flight = simulated(i, (), duration=120.0, noise=0.0, sheet_error=0.0, spin=[spin])
+    flight = simulated(i, (), duration=120.0, noise=0.0, sheet_error=0.0, no_gradient=False, spin=[spin])
     assert worst(i, flight, slice(None)) < LIMIT
 
 
@@ -76,7 +76,9 @@ def test_a_gap_in_the_encoder_stays_where_it_is() -> None:
 
 def test_each_disc_turns_as_it_is_told() -> None:
     i = instrument("umbrella", sheets.EXACT)
-    flight = simulated(i, (), duration=60.0, noise=0.0, sheet_error=0.0, spin=["A:0.2", "C:0,3@0.02"])
+    flight = simulated(
+        i, (), duration=60.0, noise=0.0, sheet_error=0.0, no_gradient=False, spin=["A:0.2", "C:0,3@0.02"]
+    )
     assert {"spin_angle_A", "spin_angle_C"} == {n for n in flight.channels if n.startswith("spin_angle")}
     found = np.unwrap(flight.channels["spin_angle_A"])
     assert found == pytest.approx(2 * np.pi * 0.2 * flight.time, abs=1e-12)
@@ -88,9 +90,11 @@ def test_each_disc_turns_as_it_is_told() -> None:
 
 def test_the_encoder_of_a_record_is_flown(tmp_path: Path) -> None:
     i = instrument("complements", sheets.EXACT)
-    first = simulated(i, (), duration=60.0, noise=0.0, sheet_error=0.0, spin=[SPINS["varies"]])
+    first = simulated(
+        i, (), duration=60.0, noise=0.0, sheet_error=0.0, no_gradient=False, spin=[SPINS["varies"]]
+    )
     write_flight(first, tmp_path / "first.csv")
-    again = simulated(i, (), noise=0.0, sheet_error=0.0, motion=tmp_path / "first.csv")
+    again = simulated(i, (), noise=0.0, sheet_error=0.0, no_gradient=False, motion=tmp_path / "first.csv")
     read = read_flight(tmp_path / "first.csv", i.g0, accelerometers=i.layout).channels["spin_angle"]
     np.testing.assert_allclose(again.time, first.time, atol=1e-9)  # as many samples
     gap = np.angle(np.exp(1j * (again.channels["spin_angle"] - read)))

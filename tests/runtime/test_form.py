@@ -137,7 +137,7 @@ def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> No
 def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -> None:
     """Nominal error below 0.1 Eo; measured below 1e-5."""
     instrument = replace(parse_instrument(EXAMPLE), form=form)
-    flight = simulated(instrument, (), noise=0.0, sheet_error=0.0, duration=120.0)
+    flight = simulated(instrument, (), noise=0.0, sheet_error=0.0, duration=120.0, no_gradient=False)
     model = derive.without_signatures(instrument, form)
     p = vector(model, instrument)
     r = record(flight, instrument)
@@ -153,7 +153,7 @@ def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -
 def test_folded_and_chain_of_full_kinematics_are_one_model() -> None:
     """Two derived forms, in NumPy and in C, to rounding: 1e-6 Eo."""
     model, instrument = packaged("full"), parse_instrument(EXAMPLE)
-    flight = simulated(instrument, (), noise=0.0, sheet_error=0.0, duration=30.0)
+    flight = simulated(instrument, (), noise=0.0, sheet_error=0.0, duration=30.0, no_gradient=False)
     r = record(flight, instrument)
     p = vector(model, instrument)
     chain = output(model.chain, r, p)
@@ -219,12 +219,12 @@ def test_a_paper_model_lacks_the_spin_and_adding_it_brings_the_error_to_the_nois
 
 def test_the_ladder_says_what_each_step_is_worth(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     m = loop.new(tmp_path / "m")
-    flight = simulated(m.instrument, (), seed=5, duration=300.0)
+    flight = simulated(m.instrument, (), seed=5, duration=300.0, no_gradient=False)
     c = loop.compare(m, [flight], ladder=True)
     assert [r.form for r in c.ladder] == list(STEPS)
     steps = [r.step.rms_Eo for r in c.ladder if r.step is not None]
     assert steps[0] > 1e4  # the spin: the centripetal force of all four, seen by their misalignment
-    assert all(s < 10 for s in steps[1:])
+    assert all(s < 50 for s in steps[1:])
     by_form = {r.form: r for r in c.ladder}
     mine = by_form[m.instrument.form]
     assert mine.nominal.rms_Eo == pytest.approx(c.nominal.rms_Eo, rel=1e-4)  # k_ggi as calibrated
