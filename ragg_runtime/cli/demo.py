@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.cli import terminal
+from ragg_runtime.cli.shared import next_command, notes_of
 from ragg_runtime.identification.parameters import ParameterValue
 from ragg_runtime.io import write_flight
-from ragg_runtime.report import in_words
-from ragg_runtime.report.add_page import add_html
-from ragg_runtime.report.diagnose_page import diagnose_html
-from ragg_runtime.wording import notebook
+from ragg_runtime.report.page import Origin
+from ragg_runtime.report.pages import add_page, diagnose_page
+from ragg_runtime.wording import describe, numbers
+from ragg_runtime.wording.sections import Section, render_text
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 
@@ -36,13 +36,15 @@ def _recovered(parameters: Sequence[ParameterValue]) -> list[str]:
     weights = COMBINATIONS[q.name.split()[0]]
     true = sum(w * x for w, x in zip(weights, values, strict=True))
     return [
-        f"hidden:    {effect}: {q.name} = {true:.4g} {q.unit}",
-        f"recovered: {effect}: {notebook.parameter(q.as_json() | {'weights': ()})}",
+        f"hidden:    {effect}: {describe.parameter_label(q.as_json())} = {numbers.with_unit(numbers.number(true, 2), q.unit)}",
+        f"recovered: {effect}: {describe.parameter_line(q.as_json())}",
     ]
 
 
-def _say(command: str) -> None:
+def _show(command: str, sections: tuple[Section, ...] = ()) -> None:
     print(f"\n\033[1m$ {command}\033[0m", flush=True)
+    if sections:
+        print(render_text(sections))
 
 
 def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -> Path:
@@ -55,50 +57,40 @@ def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -
         make_flight(flight)
 
     model = output / "model"
-    _say(f"ragg new {model}")
+    _show(f"ragg new {model}")
     m = loop.new(model)
     flights = loop.read_flights(m, [flight])
 
-    check = terminal.command("diagnose", model, flights)
-    _say(terminal.command("compare", model, flights))
-    before = loop.compare(m, flights)
-    print(terminal.with_notes(in_words.compared(before, [x.name for x in flights], check), flights))
+    check = next_command("diagnose", model, flights)
+    before = loop.compare(m, flights).as_json()
+    said = describe.describe_comparison(before, [x.name for x in flights], check)
+    _show(next_command("compare", model, flights), (*said, *notes_of(flights)))
 
-    _say(check)
     diagnosis = loop.diagnose(m, flights)
-    said = in_words.diagnosed(diagnosis, terminal.next_add(model, flights, None, diagnosis.found))
-    print(terminal.with_notes(said, flights))
-    origin = loop.sources(m, flights)
-    page = diagnose_html(diagnosis, title="Demonstration: diagnosis", command=command, sources=origin)
-    (output / "diagnosis.html").write_text(page, "utf-8")
+    then = next_command("add", model, flights, None, diagnosis.found[0]) if diagnosis.found else ""
+    _show(check, describe.describe_diagnosis(diagnosis.as_json(), then))
+    origin = Origin("Demonstration: diagnosis", command, loop.sources(m, flights))
+    (output / "diagnosis.html").write_text(diagnose_page(diagnosis, origin), "utf-8")
     if diagnosis.verdict != "missing-effect":
         raise UserError("the demonstration did not find the hidden effect", found=diagnosis.verdict)
 
     for effect in diagnosis.found:
-        _say(terminal.command("add", model, flights, effect=effect))
         result = loop.add(m, effect, flights)
-        print(terminal.added(result, flights))
         m = result.loaded
+        said = describe.describe_addition(result.as_json(), [e.id for e in m.model.effects])
+        _show(next_command("add", model, flights, effect=effect), said)
     assert result.before is not None
     assert result.after is not None
 
-    _say(f"ragg history {model}")
     steps = [s.as_json() for s in m.directory.history]
-    print(in_words.history(steps))
-    page = add_html(
-        steps,
-        result.before,
-        result.after,
-        diagnosis,
-        title="Demonstration: the effect added",
-        command=command,
-        sources=loop.sources(m, flights),
-    )
+    _show(f"ragg history {model}", describe.describe_history(steps))
+    origin = Origin("Demonstration: the effect added", command, loop.sources(m, flights))
     report = output / "report.html"
-    report.write_text(page, "utf-8")
-    fell = f"{result.before.calibrated.rms_Eo:.3g} Eo to {result.after.calibrated.rms_Eo:.3g} Eo"
-    print("\n" + "\n".join(_recovered(result.combinations)))
-    print(f"The error fell from {fell}; the noise is {result.after.noise_floor:.3g} Eo.")
-    print(f"Reports: {output / 'diagnosis.html'}  {report}")
-    print(f"To see and touch all this: ragg studio {model} {flight}   (from a clone: make studio)")
+    report.write_text(add_page(steps, result.before, result.after, origin, diagnosis), "utf-8")
+    last = (
+        *_recovered(result.combinations),
+        f"Reports: {output / 'diagnosis.html'}  {report}",
+        f"In a browser: ragg studio {model} {flight}",
+    )
+    print(f"\n{render_text([Section(sentences=last)])}")
     return report

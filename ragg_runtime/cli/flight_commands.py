@@ -1,4 +1,4 @@
-"""Commands that hold a model against flights: ``ragg compare``, ``diagnose``, ``add``, ``survey``."""
+"""Commands that compare a model with flights, and what comes after: calibration, compensation, export."""
 
 from __future__ import annotations
 
@@ -12,300 +12,273 @@ from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.cli import shared
 from ragg_runtime.cli.shared import (
-    DIRECTORY,
+    PLACE,
     Command,
     Finite,
     OutputFile,
-    about,
-    asked,
     command_line,
-    emit,
-    json_option,
+    conclude,
+    flights_argument,
+    limit_option,
     load,
     mapping_option,
-    report_option,
+    model_argument,
+    next_command,
+    origin_of,
+    read,
     series_option,
-    telling,
     under_way,
-    write_report,
 )
 
 if TYPE_CHECKING:
     from ragg_runtime.workflow.loop import Added, Loaded
 
 
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.command(cls=Command, report=True)
+@model_argument
+@flights_argument
 @mapping_option
-@click.option("--ladder", is_flag=True, help="Show what each simplification of the model is worth, too.")
-@click.option(
-    "--frozen", is_flag=True, help="Fit nothing: the parameters as `ragg calibrate --save` kept them."
-)
-@click.option("--calibration", type=click.Choice(["frozen", "self"]), default="self", hidden=True)
-@json_option
-@report_option
+@click.option("--ladder", is_flag=True, help="Show what each simplification of the model costs, too.")
+@click.option("--calibration", type=click.Choice(["frozen", "self"]), default="self", show_default=True,
+              help="As `ragg calibrate --save` kept it; fitted to these flights.")  # fmt: skip
+@click.option("--frozen", is_flag=True, help="The same as --calibration frozen.")
 def compare(
     model_dir: Path,
     flights: Sequence[Path],
     mapping: Path | None,
     ladder: bool,
-    frozen: bool,
     calibration: str,
-    json_file: str | None,
-    report_file: str | None,
+    frozen: bool,
 ) -> None:
-    """How far is the model from the flight, and where does it fail?"""
-    from ragg_runtime.cli import terminal
-    from ragg_runtime.report import in_words
+    """Show how far the model is from flights, and where."""
+    from ragg_runtime.wording import describe
     from ragg_runtime.workflow import loop
 
     m = load(model_dir)
     if frozen or calibration == "frozen":
-        compare_frozen(m, flights, mapping, json_file, report_file)
+        _compare_frozen(m, flights, mapping)
         return
-    under_way(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights, mapping)
+    records = read(m, flights, mapping)
     under_way("calibrating and comparing")
-    with progress.shown("compare", sum(map(len, read))):
-        c = loop.compare(m, read, ladder=ladder)
+    with progress.shown("compare", sum(map(len, records))):
+        c = loop.compare(m, records, ladder=ladder)
 
     def page() -> str:
-        from ragg_runtime.report.compare_page import compare_html
+        from ragg_runtime.report.pages import compare_page
 
-        return compare_html(c, **about(m, read))
+        return compare_page(c, origin_of(m, records))
 
-    write_report(report_file, page)
-    emit(
-        c.as_json() | loop.origin(m, read, command_line()),
-        json_file,
-        terminal.with_notes(
-            in_words.compared(
-                c, [x.name for x in read], terminal.command("diagnose", model_dir, read, mapping)
-            ),
-            read,
-        ),
-    )
+    result = c.as_json()
+    then = next_command("diagnose", model_dir, records, mapping)
+    said = describe.describe_comparison(result, [x.name for x in records], then)
+    conclude(result | loop.origin(m, records, command_line()), said, page, records)
 
 
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
-@click.option(
-    "--limit",
-    "limits",
-    multiple=True,
-    metavar="WHAT=SIZE",
-    help="largest amplitude of a motion to fly next: a=50mg, omega=500deg/h",
-)
+def _compare_frozen(m: Loaded, flights: Sequence[Path], mapping: Path | None) -> None:
+    """``ragg compare --frozen``."""
+    from ragg_runtime.wording import describe
+    from ragg_runtime.workflow import after, loop
+
+    odd = _calibration_notes(m)
+    records = read(m, flights, mapping)
+    under_way("comparing with the saved calibration")
+    with progress.shown("compare", sum(map(len, records))):
+        h = after.compare_frozen(m, records)
+
+    def page() -> str:
+        from ragg_runtime.report.pages import compare_page
+
+        title = f"{m.name}, frozen, and {', '.join(x.name for x in records)}"
+        return compare_page(h.comparison, origin_of(m, records, title, odd), h)
+
+    result = h.as_json()
+    then, again = (next_command(v, m.directory.path, records, mapping) for v in ("diagnose", "calibrate"))
+    said = describe.describe_held(result, [x.name for x in records], then, again)
+    origin = loop.origin(m, records, command_line()) | {"notes": [*odd, *loop.notes(m, records)]}
+    conclude(result | origin, said, page, records)
+
+
+def _calibration_notes(m: Loaded) -> list[str]:
+    """What is odd about the saved calibration, also on stderr."""
+    from ragg_runtime.workflow import after
+
+    odd = after.calibration_notes(m)
+    for note in odd:
+        click.echo(printable(f"note: {note}"), err=True)
+    return odd
+
+
+@click.command(cls=Command, report=True)
+@model_argument
+@flights_argument
+@limit_option
 @mapping_option
-@json_option
-@report_option
-def diagnose(
-    model_dir: Path,
-    flights: Sequence[Path],
-    mapping: Path | None,
-    limits: Sequence[str],
-    json_file: str | None,
-    report_file: str | None,
-) -> None:
-    """Which physical effect is missing?"""
-    from ragg_runtime.cli import terminal
-    from ragg_runtime.report import in_words
+def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], mapping: Path | None) -> None:
+    """Find which physical effect is missing."""
+    from ragg_runtime.wording import describe
     from ragg_runtime.workflow import loop
 
     m = load(model_dir)
-    under_way(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights, mapping)
-    under_way("calibrating, then testing every effect of the catalogue")
     allowed = loop.motion_limits(m, limits)
-    with progress.shown("diagnose", sum(map(len, read))):
-        d = loop.diagnose(m, read, allowed)
+    records = read(m, flights, mapping)
+    under_way("calibrating, then testing every effect of the catalogue")
+    with progress.shown("diagnose", sum(map(len, records))):
+        d = loop.diagnose(m, records, allowed)
 
     def page() -> str:
-        from ragg_runtime.report.diagnose_page import diagnose_html
+        from ragg_runtime.report.pages import diagnose_page
 
-        return diagnose_html(d, **about(m, read))
+        return diagnose_page(d, origin_of(m, records))
 
-    write_report(report_file, page)
-    emit(
-        d.as_json() | loop.origin(m, read, command_line()),
-        json_file,
-        terminal.with_notes(
-            in_words.diagnosed(d, terminal.next_add(model_dir, read, mapping, d.found)), read
-        ),
+    result = d.as_json()
+    then = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
+    conclude(
+        result | loop.origin(m, records, command_line()),
+        describe.describe_diagnosis(result, then),
+        page,
+        records,
     )
 
 
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
-@click.option(
-    "--jobs", type=click.IntRange(1), help="Processes on this machine (default: one per processor)."
-)
-@click.option(
-    "--scheduler",
-    metavar="tcp://HOST:PORT",
-    help="Let the workers of a Dask cluster do it. What answers there can run code here: trusted addresses only.",
-)
-@click.option(
-    "--resume",
-    type=DIRECTORY,
-    metavar="FILE",
-    help="Results file: continue what stands in it, add what is done.",
-)
-@click.option(
-    "--table",
-    "table_file",
-    type=OutputFile(records=True),
-    metavar="FILE.parquet",
-    help="Write a table with a row a flight.",
-)
+@click.command(cls=Command, report=True)
+@model_argument
+@click.argument("effect", shell_complete=shared.complete_addable)
+@click.argument("flights", type=PLACE, nargs=-1)
 @mapping_option
-@json_option
-@report_option
-def survey(
-    model_dir: Path,
-    flights: Sequence[Path],
-    mapping: Path | None,
-    jobs: int | None,
-    scheduler: str | None,
-    resume: Path | None,
-    table_file: str | None,
-    json_file: str | None,
-    report_file: str | None,
-) -> None:
-    """Diagnose many flights, each by itself, and sum them up."""
-    from ragg_runtime.report import survey_text as text
-    from ragg_runtime.survey import run
-    from ragg_runtime.survey.result import check_place
-    from ragg_runtime.workflow import loop
-    from ragg_runtime.workflow.loop import of_survey
-
-    m = load(model_dir)
-    if table_file is not None:
-        check_place(Path(table_file))
-    with run.results_file(resume) as file, run.shown() as show:
-        s = loop.survey(
-            m,
-            flights,
-            jobs=jobs,
-            scheduler=scheduler,
-            resume=file,
-            progress=show,
-            mapping=mapping,
-        )
-    origin, about_page = of_survey(m, s, command_line())
-
-    def page() -> str:
-        from ragg_runtime.report.survey_page import survey_html
-
-        return survey_html(s, **about_page)
-
-    if table_file is not None:
-        from ragg_runtime.survey.result import parquet
-
-        asked().write(table_file, parquet(s.records))
-    write_report(report_file, page)
-    emit(s.as_json() | origin, json_file, text.surveyed(s, model_dir))
-
-
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.argument("effect", shell_complete=shared.addable)
-@click.argument("flights", type=DIRECTORY, nargs=-1)
-@mapping_option
-@json_option
-@report_option
-def add(
-    model_dir: Path,
-    effect: str,
-    flights: Sequence[Path],
-    mapping: Path | None,
-    json_file: str | None,
-    report_file: str | None,
-) -> None:
-    """Put an effect into the model, derive again, calibrate, show the error fall."""
-    from ragg_runtime.cli import terminal
+def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | None) -> None:
+    """Add an effect: derive again, calibrate, show the error."""
+    from ragg_runtime.wording import describe
     from ragg_runtime.workflow import loop
 
     m = load(model_dir)
-    if report_file is not None and not flights:
+    if shared.running().report_file is not None and not flights:
         raise UserError("a report of `add` needs a flight", remedy="name a flight file after the effect")
-    under_way(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights, mapping)
-    under_way(f"deriving the model with {effect}, calibrating")
+    records = read(m, flights, mapping) if flights else []
+    under_way(f"deriving the model with {effect}{', calibrating' if flights else ''}")
 
     def tell(result: Added) -> None:
         def page() -> str:
-            from ragg_runtime.report.add_page import add_html
+            from ragg_runtime.report.pages import add_page
 
             assert result.before is not None
             assert result.after is not None
-            return add_html(
-                [s.as_json() for s in result.loaded.directory.history],
-                result.before,
-                result.after,
-                **about(result.loaded, read, f"{m.name}: {effect} added"),
-            )
+            steps = [s.as_json() for s in result.loaded.directory.history]
+            origin = origin_of(result.loaded, records, f"{m.name}: {effect} added")
+            return add_page(steps, result.before, result.after, origin)
 
-        with telling():
-            write_report(report_file, page)
-            origin = loop.origin(result.loaded, read, command_line(), before=m)
-            emit(result.as_json() | origin, json_file, terminal.added(result, read, mapping))
+        found = result.as_json()
+        then = next_command("diagnose", m.directory.path, records, mapping)
+        said = describe.describe_addition(found, [e.id for e in result.loaded.model.effects], then)
+        with shared.before_change():
+            origin = loop.origin(result.loaded, records, command_line(), before=m)
+            conclude(found | origin, said, page, records)
 
-    with progress.shown("add", sum(map(len, read))):
-        result = loop.add(m, effect, read, tell)
+    with progress.shown("add", sum(map(len, records))):
+        result = loop.add(m, effect, records, tell)
     if not result.converged:
-        asked().place()  # report and JSON say why; they are the result
+        shared.running().place()  # report and JSON say why; they are the result
         raise UserError(
             "nothing was added: the model is as it was",
-            where=", ".join(x.name for x in read),
+            where=", ".join(x.name for x in records),
             found=result.after.complaint if result.after else None,
-            remedy=f"see what else is missing: {terminal.command('diagnose', model_dir, read, mapping)}; "
+            remedy=f"see what else is missing: {next_command('diagnose', model_dir, records, mapping)}; "
             "or what is wrong with the record",
         )
 
 
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.command("next-motion", cls=Command, report=True)
+@model_argument
+@flights_argument
 @click.option(
-    "--save",
-    is_flag=True,
-    help="Keep the calibration (and the mapping, if one is given) in the model directory, for --frozen.",
+    "-o",
+    "--output",
+    type=OutputFile(records=True),
+    required=True,
+    metavar="MOTION",
+    help="Motion file to write.",
 )
+@limit_option
+@click.option(
+    "--band",
+    type=float,
+    nargs=2,
+    default=None,
+    metavar="LOW HIGH",
+    help="Hz (default: all that the rate holds).",
+)
+@click.option("--duration", type=click.FloatRange(60.0, 86400.0), default=600.0, show_default=True, help="s")
+@click.option("--rate", type=click.FloatRange(1.0, 1000.0), default=None, help="Hz (default: the flights').")
 @mapping_option
-@json_option
-def calibrate(
-    model_dir: Path, flights: Sequence[Path], save: bool, mapping: Path | None, json_file: str | None
+def next_motion(
+    model_dir: Path,
+    flights: Sequence[Path],
+    output: str,
+    limits: Sequence[str],
+    mapping: Path | None,
+    **options: Any,
 ) -> None:
-    """Fit the model's parameters: values, how sure they are, what the record sees of them."""
-    from ragg_runtime.cli import terminal
+    """Design the motion to fly next.
+
+    The motion separates effects that these flights cannot distinguish.
+    """
+    from ragg_runtime.wording import describe
+    from ragg_runtime.workflow import loop
+    from ragg_runtime.workflow.next_flight import next_flight, write_motion
+
+    m = load(model_dir)
+    records = read(m, flights, mapping)
+    found = next_flight(m, records, loop.motion_limits(m, limits), **options)
+    write_motion(found, Path(output))
+    said = describe.describe_next_motion(found.as_json(), output)
+
+    def page() -> str:
+        from ragg_runtime.report.pages import info_page
+
+        return info_page(said, [found.motion()], origin_of(m, records))
+
+    conclude(found.as_json() | loop.origin(m, records, command_line()), said, page)
+
+
+@click.command(cls=Command, report=True)
+@model_argument
+@flights_argument
+@click.option("--save", is_flag=True,
+              help="Keep the calibration (and a mapping that is given) in the model directory, for --frozen.")  # fmt: skip
+@mapping_option
+def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, mapping: Path | None) -> None:
+    """Fit the parameters, with their uncertainty."""
+    from ragg_runtime.wording import describe
     from ragg_runtime.workflow import after, loop
 
     m = load(model_dir)
-    under_way(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights, mapping)
+    records = read(m, flights, mapping)
     under_way("calibrating")
-    with progress.shown("compare", sum(map(len, read))):
-        kept = after.calibrate(m, read, save, mapping)
-    origin = loop.origin(kept.loaded, read, command_line())
-    emit(kept.as_json() | origin, json_file, terminal.calibrated(kept, read))
+    with progress.shown("compare", sum(map(len, records))):
+        kept = after.calibrate(m, records, save, mapping)
+    use = f"{next_command('compensate', m.directory.path, records)} -o compensated.csv --calibration frozen"
+    said = describe.describe_calibration(kept.as_json(), [x.name for x in records], use if kept.saved else "")
+
+    def page() -> str:
+        from ragg_runtime.report.pages import calibrate_page
+
+        return calibrate_page(said, kept.calibrated.fitted, origin_of(m, records))
+
+    conclude(kept.as_json() | loop.origin(kept.loaded, records, command_line()), said, page, records)
 
 
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.command(cls=Command, report=True)
+@model_argument
+@flights_argument
 @series_option
 @click.option(
     "--calibration",
     type=click.Choice(["frozen", "self", "crossed", "online"]),
     default="self",
     show_default=True,
-    help="As saved; fitted to these flights; each block of time fitted to all others; sample by sample, as a computer on "
-    "board would (`export --c`: the same filter in C).",
+    help="As `ragg calibrate --save` kept it; fitted to these flights; each block of time fitted to all others; sample by "
+    "sample, as on board (`export --c` is the same filter in C).",
 )
+@click.option("--frozen", is_flag=True, help="The same as --calibration frozen.")
 @click.option(
     "--demodulator",
     type=click.Choice(["fir", "butterworth", "causal"]),
@@ -313,42 +286,35 @@ def calibrate(
     show_default=True,
     help="FIR 0.2 Hz; order 6, 0.18 Hz, forward and backward; the same forward alone.",
 )
-@click.option(
-    "--noise",
-    type=Finite(0.0, min_open=True),
-    help="online: Eo/sqrt(Hz), cross channel (default: what the saved calibration left).",
-)
-@click.option(
-    "--walk",
-    type=Finite(0.0),
-    help="online: how fast the gradient may wander, Eo/sqrt(s) (default: as fast as a low-pass of 0.2 Hz follows it).",
-)
-@click.option(
-    "--forget",
-    type=Finite(0.0, min_open=True),
-    help="online: time constant, s, of what is forgotten (default: nothing).",
-)
+@click.option("--noise", type=Finite(0.0, min_open=True),
+              help="online: Eo/sqrt(Hz) of the cross channel (default: from the saved calibration).")  # fmt: skip
+@click.option("--walk", type=Finite(0.0),
+              help="online: how fast the gradient may wander, Eo/sqrt(s) (default: as a low-pass of 0.2 Hz).")  # fmt: skip
+@click.option("--forget", type=Finite(0.0, min_open=True),
+              help="online: time constant of forgetting, s (default: nothing is forgotten).")  # fmt: skip
 @mapping_option
-@json_option
 def compensate(
     model_dir: Path,
     flights: Sequence[Path],
     output: str,
     calibration: Literal["frozen", "self", "crossed", "online"],
+    frozen: bool,
     demodulator: str,
     noise: float | None,
     walk: float | None,
     forget: float | None,
     mapping: Path | None,
-    json_file: str | None,
 ) -> None:
-    """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
-    from ragg_runtime.cli import terminal
-    from ragg_runtime.report import in_words
+    """Remove modelled motion errors, demodulate.
+
+    The result is the gravity gradient as the instrument saw it, with its uncertainty.
+    """
+    from ragg_runtime.wording import describe
     from ragg_runtime.workflow import after, loop
 
     out = Path(output)
     after.check_output(out)
+    calibration = "frozen" if frozen else calibration
     if calibration != "online" and any(x is not None for x in (noise, walk, forget)):
         raise UserError(
             "--noise, --walk and --forget are of the recursive filter", expected="--calibration online"
@@ -356,30 +322,30 @@ def compensate(
     m = load(model_dir)
     kept = calibration == "frozen" or (calibration == "online" and m.directory.calibration is not None)
     odd = _calibration_notes(m) if kept else []
-    under_way(f"reading {len(flights)} flight(s)")
-    read = after.read_for_compensation(m, flights, mapping)
-    under_way(
-        {"frozen": "compensating", "online": "following"}.get(calibration, "calibrating and compensating")
-    )
-    with progress.shown("compare", sum(map(len, read))):
+    under_way(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
+    records = after.read_for_compensation(m, flights, mapping)
+    under_way("compensating" if calibration in ("frozen", "online") else "calibrating and compensating")
+    with progress.shown("compare", sum(map(len, records))):
         c = after.compensate(
-            m, read, calibration, demodulator, out, noise=noise, walk=walk, forget=forget or float("inf")
+            m, records, calibration, demodulator, out, noise=noise, walk=walk, forget=forget or float("inf")
         )
     result = c.as_json()
-    notes = [*result.get("notes", ()), *odd, *loop.notes(m, read)]
-    origin = loop.origin(m, read, command_line()) | {"notes": notes}
-    emit(
-        result | {"output": str(out)} | origin,
-        json_file,
-        terminal.with_notes(
-            (in_words.watched if calibration == "online" else in_words.compensated)(result, out), read
-        ),
-    )
+    made = describe.describe_online if calibration == "online" else describe.describe_compensation
+    said = made(result, output)
+
+    def page() -> str:
+        from ragg_runtime.report.pages import compensate_page
+
+        return compensate_page(said, c.series, origin_of(m, records, notes=odd))
+
+    notes = [*result.get("notes", ()), *odd, *loop.notes(m, records)]
+    origin = loop.origin(m, records, command_line()) | {"notes": notes}
+    conclude(result | {"output": str(out)} | origin, said, page, records)
 
 
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.argument("folder", type=DIRECTORY, metavar="DIR")
+@click.command(cls=Command, json=False)
+@model_argument
+@click.argument("folder", type=PLACE, metavar="DIR")
 @click.option(
     "--c", "form", flag_value="c", help="A C17 program: make -C DIR; ragg_model < MOTION.csv > OUT.csv."
 )
@@ -387,14 +353,13 @@ def compensate(
 @click.option(
     "--json", "form", flag_value="json", help="One document: description, parameters with units, an example."
 )
-@click.option(
-    "--harmonics",
-    "form",
-    flag_value="harmonics",
-    help="Outputs as harmonics of the disc's angle: LaTeX and NumPy, without effects.",
-)
+@click.option("--harmonics", "form", flag_value="harmonics",
+              help="Outputs as harmonics of the disc's angle: LaTeX and NumPy, without effects.")  # fmt: skip
 def export(model_dir: Path, folder: Path, form: str | None) -> None:
-    """The model with its values, to run elsewhere: those of `calibrate --save`, else of model.toml."""
+    """Write the model with its values as C, NumPy or JSON.
+
+    The values are those of `ragg calibrate --save`, else of model.toml.
+    """
     from ragg_runtime.workflow import after
 
     if form is None:
@@ -409,99 +374,51 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
     click.echo("\n".join([f"with {exported.origin}", *exported.limits()]))
 
 
-def compare_frozen(
-    m: Loaded,
-    flights: Sequence[Path],
-    mapping: Path | None,
-    json_file: str | None,
-    report_file: str | None,
-) -> None:
-    """``ragg compare --frozen``."""
-    from ragg_runtime.cli import terminal
-    from ragg_runtime.report import in_words
-    from ragg_runtime.workflow import after, loop
-
-    odd = _calibration_notes(m)
-    under_way(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights, mapping)
-    under_way("comparing with the calibration that was kept")
-    with progress.shown("compare", sum(map(len, read))):
-        h = after.compare_frozen(m, read)
-
-    def page() -> str:
-        from ragg_runtime.report.compare_page import compare_html
-
-        own = about(m, read, f"{m.name}, frozen, and {', '.join(x.name for x in read)}")
-        return compare_html(h.comparison, **own | {"notes": [h.in_words(), *odd, *own["notes"]], "frozen": h})
-
-    write_report(report_file, page)
-    origin = loop.origin(m, read, command_line())
-    then = [terminal.command(verb, m.directory.path, read, mapping) for verb in ("diagnose", "calibrate")]
-    emit(
-        h.as_json() | origin | {"notes": [*odd, *loop.notes(m, read)]},
-        json_file,
-        terminal.with_notes(in_words.held(h, [x.name for x in read], *then), read),
-    )
-
-
-def _calibration_notes(m: Loaded) -> list[str]:
-    """What is odd about the saved calibration, told on stderr as well."""
-    from ragg_runtime.workflow import after
-
-    odd = after.calibration_notes(m)
-    for note in odd:
-        click.echo(printable(f"note: {note}"), err=True)
-    return odd
-
-
-@click.command("next-motion", cls=Command)
-@click.argument("model_dir", type=click.Path(path_type=Path))
-@click.argument("flights", type=click.Path(path_type=Path), nargs=-1, required=True)
+@click.command(cls=Command, report=True)
+@model_argument
+@flights_argument
 @click.option(
-    "-o",
-    "--output",
-    type=OutputFile(records=True),
-    required=True,
-    metavar="MOTION",
-    help="Motion file to write.",
+    "--jobs", type=click.IntRange(1), help="Processes on this machine (default: one per processor)."
 )
 @click.option(
-    "--limit",
-    "limits",
-    multiple=True,
-    metavar="WHAT=SIZE",
-    help="a=50mg, omega=500deg/h; rates of change: jerk=1m/s^3, alpha=1deg/s^2.",
+    "--scheduler",
+    metavar="tcp://HOST:PORT",
+    help="Let the workers of a Dask cluster do it. What answers there can run code here: trusted addresses only.",
 )
-@click.option(
-    "--band",
-    type=float,
-    nargs=2,
-    default=None,
-    metavar="LOW HIGH",
-    help="Hz (default: all that the rate holds).",
-)
-@click.option("--duration", type=click.FloatRange(60.0, 86400.0), default=600.0, show_default=True, help="s")
-@click.option("--rate", type=click.FloatRange(1.0, 1000.0), default=None, help="Hz (default: the flights').")
+@click.option("--resume", type=PLACE, metavar="FILE", help="Results file: continue it, and add what is done.")
+@click.option("--table", "table_file", type=OutputFile(records=True), metavar="FILE.parquet",
+              help="Write a table with a row for each flight.")  # fmt: skip
 @mapping_option
-@click.option(
-    "--json", "json_file", type=OutputFile(), metavar="FILE", help="Write the result as JSON (- is stdout)."
-)
-def next_motion(
+def survey(
     model_dir: Path,
     flights: Sequence[Path],
-    output: str,
-    limits: Sequence[str],
+    jobs: int | None,
+    scheduler: str | None,
+    resume: Path | None,
+    table_file: str | None,
     mapping: Path | None,
-    json_file: str | None,
-    **options: Any,
 ) -> None:
-    """Which flight next: a motion that tells apart the effects that these flights cannot."""
-    from ragg_runtime.cli.shared import emit, load
+    """Diagnose many flights, one by one."""
+    from ragg_runtime.survey import run
+    from ragg_runtime.survey.result import check_place, parquet
     from ragg_runtime.workflow import loop
-    from ragg_runtime.workflow.next_flight import next_flight, write_motion
+    from ragg_runtime.workflow.loop import of_survey
 
     m = load(model_dir)
-    read = loop.read_flights(m, flights, mapping)
-    found = next_flight(m, read, loop.motion_limits(m, limits), **options)
-    write_motion(found, Path(output))
-    emit(found.as_json(), json_file, f"{output}: {found.in_words()}")
+    if table_file is not None:
+        check_place(Path(table_file))
+    with run.results_file(resume) as file, run.shown() as show:
+        s = loop.survey(
+            m, flights, jobs=jobs, scheduler=scheduler, resume=file, progress=show, mapping=mapping
+        )
+    origin, about = of_survey(m, s, command_line())
+
+    def page() -> str:
+        from ragg_runtime.report.page import Origin
+        from ragg_runtime.report.pages import survey_page
+
+        return survey_page(s, Origin(**about))
+
+    if table_file is not None:
+        shared.running().write(table_file, parquet(s.records))
+    conclude(s.as_json() | origin, s.sections(model_dir), page)

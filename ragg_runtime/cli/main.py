@@ -16,33 +16,28 @@ import click
 
 from ragg_runtime.base.errors import UserError, one_line, printable
 
-COMMANDS: Mapping[str, str] = MappingProxyType(
+GROUPS: Mapping[str, Mapping[str, str]] = MappingProxyType(
     {
-        "new": "cli.model_commands",
-        "compare": "cli.flight_commands",
-        "diagnose": "cli.flight_commands",
-        "add": "cli.flight_commands",
-        "remove": "cli.model_commands",
-        "history": "cli.model_commands",
-        "survey": "cli.flight_commands",
-        "calibrate": "cli.flight_commands",
-        "compensate": "cli.flight_commands",
-        "export": "cli.flight_commands",
-        "next-motion": "cli.flight_commands",
-        "simulate": "cli.model_commands",
-        "effects": "cli.model_commands",
-        "convert": "cli.model_commands",
-        "map": "cli.model_commands",
-        "derive": "cli.model_commands",
-        "demo": "cli.model_commands",
-        "studio": "studio.command",
+        "Model": dict.fromkeys(("new", "effects", "history", "remove"), "cli.model_commands"),
+        "Flights": dict.fromkeys(("info", "map", "convert"), "cli.model_commands")
+        | dict.fromkeys(("compare", "diagnose", "add", "next-motion"), "cli.flight_commands"),
+        "After": dict.fromkeys(("calibrate", "compensate", "export"), "cli.flight_commands"),
+        "Tools": {
+            "survey": "cli.flight_commands",
+            "studio": "studio.command",
+            "simulate": "cli.model_commands",
+            "demo": "cli.model_commands",
+            "derive": "cli.model_commands",
+        },
     }
 )
-"""Command -> module of ``ragg_runtime`` that defines it, imported when the command is asked for."""
+"""Group -> command -> module of ``ragg_runtime`` that defines it, imported when the command is asked for."""
+
+COMMANDS: Mapping[str, str] = {name: place for group in GROUPS.values() for name, place in group.items()}
 
 
 class _Commands(click.Group):
-    """Commands in the order in which they are used, each from its module (click's documentation: lazy loading)."""
+    """Commands in groups and in the order in which they are used, each from its module (click: lazy loading)."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -51,8 +46,13 @@ class _Commands(click.Group):
         if cmd_name not in COMMANDS:
             return None
         module = import_module(f"ragg_runtime.{COMMANDS[cmd_name]}")
-        found = (x for x in vars(module).values() if isinstance(x, click.Command) and x.name == cmd_name)
-        return next(found)
+        return next(x for x in vars(module).values() if isinstance(x, click.Command) and x.name == cmd_name)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        for title, names in GROUPS.items():
+            found = [(name, self.get_command(ctx, name)) for name in names]
+            with formatter.section(title):
+                formatter.write_dl([(n, c.get_short_help_str(60)) for n, c in found if c and not c.hidden])
 
 
 @click.group(
@@ -62,7 +62,7 @@ class _Commands(click.Group):
 def cli() -> None:
     """Instrument models of a rotating-accelerometer gravity gradiometer, derived symbolically.
 
-    Compare the model with recorded flights, learn which physical effect it lacks, add it, watch the error
+    Compare a model with recorded flights, find the physical effect that is missing, add it, see the error
     fall: ragg new, compare, diagnose, add.
     """
 
@@ -120,6 +120,6 @@ def hold_streams() -> None:
             os.fstat(number)
         except OSError:
             os.open(os.devnull, flags)  # the lowest free number, which is this one
-    # Python has none where it found them closed. Without stdout no result can be told: commands say so (cli.shared).
+    # Python has none where it found them closed. Without stdout commands refuse (cli.shared).
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115

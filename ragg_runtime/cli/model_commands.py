@@ -1,4 +1,4 @@
-"""Commands about a model directory and the catalogue: all that needs no flight, and the simulator."""
+"""Commands about a model directory, the catalogue and flight files, and the simulator."""
 
 from __future__ import annotations
 
@@ -11,17 +11,16 @@ import click
 from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.cli import shared
 from ragg_runtime.cli.shared import (
-    DIRECTORY,
+    PLACE,
     Command,
     Finite,
     OutputFile,
-    asked,
     command_line,
-    emit,
-    json_option,
+    conclude,
     load,
     mapping_option,
-    telling,
+    model_argument,
+    series_option,
     under_way,
 )
 
@@ -29,115 +28,116 @@ if TYPE_CHECKING:
     from ragg_runtime.workflow.loop import Loaded
 
 
-@click.command(cls=Command)
-@click.option(
-    "--out", type=DIRECTORY, help="Root of the project to write to (default: where ragg is installed)."
-)
+@click.command(cls=Command, json=False, hidden=True)
+@click.option("--out", type=PLACE, help="Root of the project to write to (default: where ragg is installed).")
 @click.option("--check", is_flag=True, help="Only say whether the committed code matches the derivation.")
 def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code."""
     from ragg_runtime.model_dir import publish
 
     root = publish.HOME if out is None else out
-    if check:
-        found = publish.checked(root)
-        if found.difference:
-            raise UserError(
-                "the committed code does not match the derivation",
-                where=root,
-                found="\n" + found.difference,
-                expected="the same files, byte for byte",
-                remedy=found.versions
-                or "run: make derive   (or: ragg derive), look at the change, and commit it",
-            )
-        click.echo("The committed code is what the derivation yields, byte for byte.")
-        if found.versions:
-            click.echo(f"note: it was derived with SymPy {found.committed_with}, and is the same here")
+    if not check:
+        changed = publish.rederived(root)
+        for name in changed:
+            click.echo(one_line(f"written: {root / name}"))
+        click.echo(
+            f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived."
+        )
         return
-    changed = publish.rederived(root)
-    for name in changed:
-        click.echo(one_line(f"written: {root / name}"))
-    click.echo(f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived.")
+    found = publish.checked(root)
+    if found.difference:
+        raise UserError(
+            "the committed code does not match the derivation",
+            where=root,
+            found="\n" + found.difference,
+            expected="the same files, byte for byte",
+            remedy=found.versions
+            or "run: make derive   (or: ragg derive), look at the change, and commit it",
+        )
+    click.echo("The committed code is what the derivation yields, byte for byte.")
+    if found.versions:
+        click.echo(f"note: it was derived with SymPy {found.committed_with}, and is the same here")
 
 
 @click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.option("--from", "source", type=DIRECTORY, metavar="FILE.toml", help="Test sheet to start from.")
+@model_argument
+@click.option("--from", "source", type=PLACE, metavar="FILE.toml", help="Test sheet to start from.")
 @mapping_option
 def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
     """Make a model directory from a test sheet."""
+    from ragg_runtime.wording.sections import Section
     from ragg_runtime.workflow import loop
 
     m = loop.new(model_dir, source, mapping)
     for note in m.notes:
         click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
-    place, effects = one_line(str(m.directory.path)), ", ".join(e.id for e in m.model.effects)
-    click.echo(f"{place}: made, effects: {effects or 'none'}")
-    click.echo(f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT")
+    place, effects = one_line(str(m.directory.path)), [e.id for e in m.model.effects]
+    said = (
+        f"{place}: made; effects in the model: {', '.join(effects) or 'none'}",
+        f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT",
+    )
+    result = {"model": place, "effects": effects} | loop.origin(m, (), command_line())
+    conclude(result, [Section(sentences=said)])
 
 
 @click.command(cls=Command)
-@click.argument("identifier", metavar="[ID]", required=False, shell_complete=shared.catalogued)
-@json_option
-def effects(identifier: str | None, json_file: str | None) -> None:
-    """The catalogue of physical effects; with ID one of them in full."""
+@click.argument("identifier", metavar="[ID]", required=False, shell_complete=shared.complete_effect)
+def effects(identifier: str | None) -> None:
+    """List the catalogue of effects; with ID, one in full."""
+    from ragg_runtime.wording import describe
     from ragg_runtime.workflow.catalogue import effects as catalogue
-    from ragg_runtime.workflow.catalogue import in_words
 
     found = catalogue()
     if identifier is None:
-        emit(found.as_json(), json_file, repr(found))
+        conclude(found.as_json(), found.sections())
     else:
-        emit(dict(found[identifier]), json_file, in_words(found[identifier]))
+        conclude(dict(found[identifier]), describe.describe_effect(found[identifier]))
 
 
 @click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.argument("effect", shell_complete=shared.present)
-@json_option
-def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
+@model_argument
+@click.argument("effect", shell_complete=shared.complete_present)
+def remove(model_dir: Path, effect: str) -> None:
     """Take an effect out of the model."""
+    from ragg_runtime.wording.sections import Section
     from ragg_runtime.workflow import loop
 
     before = load(model_dir)
 
     def tell(m: Loaded) -> None:
         left = [e.id for e in m.model.effects]
-        with telling():
-            emit(
-                {"effect": effect, "effects": left} | loop.origin(m, (), command_line(), before=before),
-                json_file,
-                f"removed {effect}; effects left: {', '.join(left) or 'none'}",
-            )
+        text = f"removed {effect}; effects in the model: {', '.join(left) or 'none'}"
+        result = {"effect": effect, "effects": left} | loop.origin(m, (), command_line(), before=before)
+        with shared.before_change():
+            conclude(result, [Section(sentences=(text,))])
 
     loop.remove(before, effect, tell)
 
 
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@json_option
-def history(model_dir: Path, json_file: str | None) -> None:
-    """The error after every step."""
+@click.command(cls=Command, report=True)
+@model_argument
+def history(model_dir: Path) -> None:
+    """Show the error after every step."""
     from ragg_runtime.base.provenance import provenance
     from ragg_runtime.model_dir.directory import identity, load_model_dir
-    from ragg_runtime.report import in_words
+    from ragg_runtime.wording import describe
 
-    d = load_model_dir(model_dir)  # not derived: a model that no longer can be is told its steps, too
+    d = load_model_dir(model_dir)  # not derived: the steps of a model that no longer can be are shown, too
     steps = [s.as_json() for s in d.history]
-    origin = provenance(command_line(), identity(d))
-    emit({"steps": steps, "provenance": origin}, json_file, in_words.history(steps))
+
+    def page() -> str:
+        from ragg_runtime.report.page import Origin
+        from ragg_runtime.report.pages import history_page
+
+        return history_page(steps, Origin(f"{d.path.name}: history", command_line(), ()))
+
+    result = {"steps": steps, "provenance": provenance(command_line(), identity(d))}
+    conclude(result, describe.describe_history(steps), page)
 
 
 @click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.option(
-    "-o",
-    "--output",
-    type=OutputFile(records=True),
-    required=True,
-    metavar="FLIGHT",
-    help="File to write (.csv, .parquet, .nc).",
-)
+@model_argument
+@series_option
 @click.option(
     "--effect",
     "hidden",
@@ -153,9 +153,9 @@ def history(model_dir: Path, json_file: str | None) -> None:
     "--shape", type=click.Choice(["flat", "dryden", "kolmogorov", "resonant"]), help="Spectrum of the motion."
 )
 @click.option("--sheet-error", type=Finite(0.0), default=1.0, show_default=True,
-              help="How far the true instrument lies from the test sheet (0: not at all).")  # fmt: skip
+              help="How far the true instrument is from the test sheet (0: not at all).")  # fmt: skip
 @click.option(
-    "--motion", type=DIRECTORY, metavar="FILE", help="Fly this motion (a flight file; its length and rate)."
+    "--motion", type=PLACE, metavar="FILE", help="Fly this motion (a flight file; its length and rate)."
 )
 @mapping_option
 @click.option(
@@ -177,42 +177,70 @@ def simulate(
     gradient: bool,
     **options: Any,
 ) -> None:
-    """A flight from the numerical reference, with hidden effects on request."""
+    """Simulate a flight, hidden effects on request."""
     from ragg_runtime.io import write_flight
-    from ragg_runtime.workflow.loop import mapping_of
+    from ragg_runtime.wording.sections import Section
+    from ragg_runtime.workflow.loop import mapping_of, origin
     from ragg_runtime.workflow.simulate import simulated
 
     m = load(model_dir)
-    under_way("flying")
+    under_way("simulating")
     flight = simulated(
         m.instrument, hidden, mapping=mapping_of(m, mapping), no_gradient=not gradient, **options
     )
     write_flight(flight, output)
-    click.echo(f"{one_line(str(output))}: {len(flight.time)} samples at {flight.rate:g} Hz")
+    text = f"{one_line(output)}: {len(flight.time)} samples at {flight.rate:g} Hz"
+    result = {"output": output, "samples": len(flight.time), "rate_Hz": flight.rate, "effects": list(hidden)}
+    conclude(result | origin(m, (), command_line()), [Section(sentences=(text,))])
 
 
-@click.command(cls=Command)
-@click.option(
-    "--output", type=DIRECTORY, default=Path("ragg-demo"), show_default=True, help="Folder to make."
-)
+@click.command(cls=Command, json=False)
+@click.option("--output", type=PLACE, default=Path("ragg-demo"), show_default=True, help="Folder to make.")
 def demo(output: Path) -> None:
-    """The main job on a simulated flight: find a hidden effect, add it, watch the error fall."""
+    """Find a hidden effect in a simulated flight, add it."""
     from ragg_runtime.cli import demo as _demo
 
     _demo.main(output, command=command_line())
 
 
+@click.command(cls=Command, report=True)
+@click.argument("flight", type=PLACE)
+@mapping_option
+def info(flight: Path, mapping: Path | None) -> None:
+    """Show what a flight file holds, and what is assumed."""
+    from ragg_runtime.io.info import STANDARD_G, describe_flight
+    from ragg_runtime.io.mapping import read_mapping
+    from ragg_runtime.wording import describe
+
+    how = None if mapping is None else read_mapping(mapping)
+    found = describe_flight(flight, how)
+    said = describe.describe_flight_file(found.as_json())
+
+    def page() -> str:
+        from ragg_runtime.io import read_flights
+        from ragg_runtime.report.page import Origin
+        from ragg_runtime.report.pages import info_page
+
+        usable = not any(r.refused for r in found.records)
+        records = read_flights(flight, STANDARD_G, mapping=how) if usable else []
+        return info_page(said, records, Origin(flight.name, command_line(), [(found.path, found.sha256)]))
+
+    conclude(found.as_json(), said, page)
+
+
 @click.command(cls=Command)
-@click.argument("source", metavar="IN", type=DIRECTORY)
-@click.argument("target", metavar="OUT", type=DIRECTORY)
+@click.argument("source", metavar="IN", type=PLACE)
+@click.argument("target", metavar="OUT", type=PLACE)
 @mapping_option
 def convert(source: Path, target: Path, mapping: Path | None) -> None:
-    """Write a flight file in another format, by the ending of OUT: same numbers, names and units.
+    """Write a flight file in another format.
 
-    Reads CSV, Parquet, NetCDF, HDF5, MATLAB and Excel; writes CSV, Parquet and NetCDF.
+    The ending of OUT says which; numbers, names and units stay. Reads CSV, Parquet, NetCDF, HDF5, MATLAB and Excel; writes
+    CSV, Parquet and NetCDF.
     """
     from ragg_runtime.io.files import convert as _convert
     from ragg_runtime.io.mapping import read_mapping
+    from ragg_runtime.wording.sections import Section
 
     if mapping is not None and mapping.resolve() == target.resolve():
         raise UserError("OUT is the mapping itself", where=target, remedy="name another file")
@@ -220,18 +248,21 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
     for note in done.notes:
         click.echo(printable(f"note: {note}"), err=True)
     lines = f"{done.lines} lines, " if done.lines > 1 else ""
-    click.echo(printable(f"{target}: {lines}{done.rows} rows of {len(done.columns)} columns"))
+    text = f"{target}: {lines}{done.rows} rows of {len(done.columns)} columns"
+    result = {"output": str(target), "lines": done.lines, "rows": done.rows, "columns": list(done.columns)}
+    conclude(result | {"notes": list(done.notes)}, [Section(sentences=(text,))])
 
 
-@click.command(name="map", cls=Command)
-@click.argument("flight", type=DIRECTORY)
+@click.command(name="map", cls=Command, json=False)
+@click.argument("flight", type=PLACE)
 @click.option(
     "-o", "--output", type=OutputFile(), metavar="mapping.toml", help="File to write (default: stdout)."
 )
 def map_command(flight: Path, output: str | None) -> None:
-    """Write a first mapping for a foreign file: which column is what, in which unit, and how time is written.
+    """Draft a mapping for a file with columns of its own.
 
-    What the file does not say is marked with "?" and asked for: units are never guessed.
+    It says which column is what, in which unit, and how time is written. What the file does not say is marked with "?" and
+    asked for: units are never guessed.
     """
     from ragg_runtime.io.guess import draft
 
@@ -243,10 +274,10 @@ def map_command(flight: Path, output: str | None) -> None:
             raise UserError(
                 "the mapping exists already", where=output, remedy="choose another name or remove it first"
             )
-        asked().write(output, made.text)
-        click.echo(printable(f"{output}: written; look it over, then: --map {output}"), err=True)
+        shared.running().write(output, made.text)
+        click.echo(printable(f"{output}: written; check it, then use it: --map {output}"), err=True)
     if made.questions:
         count = len(made.questions)
-        click.echo(f'{count} question{"s are" if count > 1 else " is"} left, marked with "?":', err=True)
+        click.echo(f'{count} question{"s are" if count > 1 else " is"} open, marked with "?":', err=True)
         for question in made.questions:
             click.echo(printable(f"  {question}"), err=True)

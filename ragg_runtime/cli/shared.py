@@ -5,8 +5,9 @@ from __future__ import annotations
 import contextlib
 import math
 import os
+import shlex
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +19,16 @@ from ragg_runtime.base.files import Target
 
 if TYPE_CHECKING:
     from ragg_runtime.io import Flight
+    from ragg_runtime.report.page import Origin
+    from ragg_runtime.wording.sections import Section
     from ragg_runtime.workflow.loop import Loaded
+
+STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
+"""Names of stdout; where JSON is asked for there, it is all that is written there."""
+
+_RUN = f"{__name__}.run"
+_OF_A_MODEL = (("model.toml", "history.json", "calibration.json", "mapping.toml"), ("generated",))
+"""A model directory's own files, and folders with all in them."""
 
 
 class OutputFile(click.Path):
@@ -41,15 +51,23 @@ class OutputFile(click.Path):
         return name
 
 
-DIRECTORY = click.Path(path_type=Path)
-OUTPUT = OutputFile()
-json_option = click.option(
-    "--json", "json_file", type=OUTPUT, metavar="FILE", help="Write the result as JSON (- is stdout)."
-)
+class Finite(click.FloatRange):
+    """A number in a range: neither infinite nor none."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        found = super().convert(value, param, ctx)
+        if not math.isfinite(found):
+            self.fail(f"{value!r} is no finite number", param, ctx)
+        return found
+
+
+PLACE = click.Path(path_type=Path)
+model_argument = click.argument("model_dir", type=PLACE)
+flights_argument = click.argument("flights", type=PLACE, nargs=-1, required=True)
 mapping_option = click.option(
     "--map",
     "mapping",
-    type=DIRECTORY,
+    type=PLACE,
     metavar="FILE",
     help="What the columns of the flight files are (ragg map).",
 )
@@ -61,19 +79,85 @@ series_option = click.option(
     metavar="OUT",
     help="File to write (.csv, .parquet, .nc).",
 )
-report_option = click.option(
-    "--report", "report_file", type=OUTPUT, metavar="FILE.html", help="Write a self-contained report."
+limit_option = click.option(
+    "--limit",
+    "limits",
+    multiple=True,
+    metavar="WHAT=SIZE",
+    help="Largest motion to fly next: a=50mg, omega=500deg/h, jerk=1m/s^3, alpha=1deg/s^2.",
 )
+_JSON = click.Option(
+    ["--json", "json_file"], type=OutputFile(), metavar="FILE", help="Write the result as JSON (- is stdout)."
+)
+_REPORT = click.Option(
+    ["--report", "report_file"], type=OutputFile(), metavar="FILE.html", help="Write a self-contained report."
+)
+_VERBOSE = click.Option(["-v", "--verbose"], is_flag=True, help="Show all details.")
 
 
-class Finite(click.FloatRange):
-    """A number in a range: neither infinite nor none."""
+class Run:
+    """What a command was asked to write, ready to be written; :meth:`place` puts all of it in its place."""
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        found = super().convert(value, param, ctx)
-        if not math.isfinite(found):
-            self.fail(f"{value!r} is no finite number", param, ctx)
-        return found
+    def __init__(self, targets: dict[str, Target], options: Mapping[str, Any]) -> None:
+        self._targets = targets
+        self._written: list[Target] = []
+        self.json_file: str | None = options.get("json_file")
+        self.report_file: str | None = options.get("report_file")
+        self.verbose = bool(options.get("verbose"))
+
+    def write(self, name: str, content: str | bytes) -> None:
+        """Write one of the files; nothing is in its place yet, but what goes to stdout is written at once."""
+        if name in STDOUT:
+            self._targets[name] = Target(Path("/dev/stdout"))
+        self._targets[name].write(content.encode() if isinstance(content, str) else content)
+        self._written.append(self._targets[name])
+
+    def place(self) -> None:
+        for t in self._written:
+            t.place()
+        self._written.clear()
+
+    def close(self) -> None:
+        for t in self._targets.values():
+            t.close()
+
+
+class Command(click.Command):
+    """A command whose outputs are made ready before it begins; all other paths that it takes are inputs.
+
+    With ``json`` and ``report`` it has these options: :func:`conclude` writes what they ask for.
+    """
+
+    def __init__(self, *args: Any, json: bool = True, report: bool = False, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.params += [
+            *([_JSON] if json else []),
+            *([_REPORT] if report else []),
+            *([_VERBOSE] if json else []),
+        ]
+
+    def invoke(self, ctx: click.Context) -> Any:
+        if sys.stdout is None:
+            raise UserError(
+                "the result cannot be written: stdout is closed",
+                remedy="if it is not wanted, send it away: > /dev/null",
+            )
+        inputs = [Path(os.fsdecode(p)) for p in _paths(self, ctx, outputs=False)]
+        targets = _opened(_paths(self, ctx, outputs=True), inputs)
+        options: dict[str, Any] = {
+            k: ctx.params.pop(k) for k in ("json_file", "report_file", "verbose") if k in ctx.params
+        }
+        with contextlib.closing(Run(targets, options)) as run:
+            ctx.meta[_RUN] = run
+            result = super().invoke(ctx)
+            run.place()
+        return result
+
+
+def running() -> Run:
+    """The outputs of the command that runs."""
+    found: Run = click.get_current_context().meta[_RUN]
+    return found
 
 
 def under_way(text: str) -> None:
@@ -91,44 +175,64 @@ def load(model_dir: Path) -> Loaded:
     return m
 
 
-def about(m: Loaded, read: Sequence[Flight], title: str | None = None) -> dict[str, Any]:
-    """What a page says about itself: its title (else those of model and flights), command, sources and notes."""
+def read(m: Loaded, flights: Sequence[Path], mapping: Path | None) -> list[Flight]:
+    """The flights, read and examined."""
     from ragg_runtime.workflow import loop
 
-    return {
-        "title": f"{m.name} and {', '.join(x.name for x in read)}" if title is None else title,
-        "command": command_line(),
-        "sources": loop.sources(m, read),
-        "notes": loop.notes(m, read),
-    }
+    under_way(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
+    return loop.read_flights(m, flights, mapping)
 
 
-def emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
-    """Text to stdout, JSON where asked (then stdout is the JSON alone if it is ``-``)."""
+def origin_of(
+    m: Loaded, flights: Sequence[Flight], title: str | None = None, notes: Sequence[str] = ()
+) -> Origin:
+    """What a page says about itself: its title (else those of model and flights), command, sources and notes."""
+    from ragg_runtime.report.page import Origin
+    from ragg_runtime.workflow import loop
+
+    return Origin(
+        title=title or f"{m.name} and {', '.join(x.name for x in flights)}",
+        command=command_line(),
+        sources=loop.sources(m, flights),
+        notes=(*notes, *loop.notes(m, flights)),
+        digest=m.model.digest,
+    )
+
+
+def conclude(
+    result: Mapping[str, Any],
+    sections: Sequence[Section],
+    page: Callable[[], str] | None = None,
+    flights: Sequence[Flight] = (),
+) -> None:
+    """Write the report and the JSON where they are asked for, and say the result on stdout.
+
+    If JSON goes to stdout it is all that is written there. ``flights``: what the reader did to them is said below.
+    """
     import json
 
-    if json_file is not None:
-        from ragg_runtime.base.provenance import provenance
+    from ragg_runtime.wording.sections import render_text
 
-        made = {} if "provenance" in result else {"provenance": provenance(command_line())}
-        result = result | made
-    if json_file in STDOUT:
-        click.echo(json.dumps(result, indent=1, allow_nan=False))
-        return
-    if json_file is not None:
-        asked().write(json_file, json.dumps(result, indent=1, allow_nan=False) + "\n")
-    click.echo(printable(text))
-
-
-def write_report(file: str | None, make: Callable[[], str]) -> None:
-    if file is not None:
+    run = running()
+    if run.report_file is not None and page is not None:
         under_way("writing the report")
-        asked().write(file, make())
-        click.echo(one_line(f"report: {file}"), err=True)
+        run.write(run.report_file, page())
+        click.echo(one_line(f"report: {run.report_file}"), err=True)
+    if run.json_file is not None:
+        if "provenance" not in result:
+            from ragg_runtime.base.provenance import provenance
+
+            result = {**result, "provenance": provenance(command_line())}
+        text = json.dumps(result, indent=1, allow_nan=False)
+        if run.json_file in STDOUT:
+            click.echo(text)
+            return
+        run.write(run.json_file, text + "\n")
+    click.echo(printable(render_text([*sections, *notes_of(flights)], verbose=run.verbose)))
 
 
 @contextlib.contextmanager
-def telling() -> Iterator[None]:
+def before_change() -> Iterator[None]:
     """While a result is written on which the change of a model waits: it must not be lost on the way."""
     try:
         yield
@@ -141,14 +245,45 @@ def telling() -> Iterator[None]:
         ) from None
 
 
+def notes_of(flights: Sequence[Flight]) -> list[Section]:
+    """What the reader did to flights, every note once, with the flights that it is about."""
+    from ragg_runtime.wording.sections import Section
+
+    about: dict[str, list[str]] = {}
+    for x in flights:
+        for note in x.notes:
+            about.setdefault(str(note), []).append(x.name)
+    lines = []
+    for note, names in about.items():
+        which = (
+            ""
+            if len(flights) == 1
+            else f"{len(names)} flights: "
+            if len(names) > 3
+            else f"{', '.join(names)}: "
+        )
+        lines.append(f"note: {which}{note}")
+    return [Section(sentences=tuple(lines))] if lines else []
+
+
 def command_line() -> str:
-    """The command that runs, as it stands in results."""
+    """The command that runs, as it is written in results."""
     from ragg_runtime.base.provenance import command
 
     return command()
 
 
-def catalogued(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+def next_command(
+    verb: str, model_dir: Path, flights: Sequence[Flight], mapping: Path | None = None, effect: str = ""
+) -> str:
+    """A command on the same model and flights, as a shell takes it: ``ragg add my-model lag day-1/flight.csv``."""
+    files = dict.fromkeys(str(x.path) for x in flights if x.path is not None)
+    words = [verb, str(model_dir), *([effect] if effect else []), *files]
+    words += [] if mapping is None else ["--map", str(mapping)]
+    return one_line(f"ragg {shlex.join(words)}{'' if files else ' FLIGHT'}")
+
+
+def complete_effect(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Effects of the catalogue, each with its title where the shell shows it."""
     from ragg_runtime.workflow.catalogue import effects
 
@@ -156,15 +291,15 @@ def catalogued(ctx: click.Context, param: click.Parameter, incomplete: str) -> l
     return [CompletionItem(e, help=title) for e, title in found if e.startswith(incomplete)]
 
 
-def addable(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+def complete_addable(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """The catalogue's, and those that the model lists, without those that it has with values."""
     listed = _listed(ctx.params.get("model_dir"))
     own = [e for e, has_values in listed.items() if not has_values and e.startswith(incomplete)]
-    others = [x for x in catalogued(ctx, param, incomplete) if x.value not in listed]
+    others = [x for x in complete_effect(ctx, param, incomplete) if x.value not in listed]
     return [*(CompletionItem(e, help="listed in model.toml") for e in own), *others]
 
 
-def present(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+def complete_present(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Effects that the model lists."""
     return [CompletionItem(e) for e in _listed(ctx.params.get("model_dir")) if e.startswith(incomplete)]
 
@@ -173,7 +308,6 @@ def _listed(model_dir: Any) -> dict[str, bool]:
     """Effects of a model.toml -> whether they have values; nothing of one that cannot be read: completion never fails."""
     import tomllib
 
-    from ragg_runtime.base.errors import UserError
     from ragg_runtime.base.files import read_text
 
     try:
@@ -184,16 +318,6 @@ def _listed(model_dir: Any) -> dict[str, bool]:
         return {}
 
 
-STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
-"""Names of stdout; where JSON is asked for there, it is all that stands there."""
-
-_KEY = f"{__name__}.outputs"
-_OF_A_MODEL = (
-    ("model.toml", "history.json", "calibration.json", "mapping.toml"),
-    ("generated",),
-)  # files, and folders with all in them
-
-
 def _over(what: str, path: Path, found: str) -> UserError:
     return UserError(
         f"a result would be written over {what}",
@@ -201,53 +325,6 @@ def _over(what: str, path: Path, found: str) -> UserError:
         found=found,
         remedy="name another file, or delete this one first",
     )
-
-
-class Outputs:
-    """The files that a command was asked to write, ready to be written; :meth:`place` ends them all."""
-
-    def __init__(self, targets: dict[str, Target]) -> None:
-        self._targets = targets
-        self._written: list[Target] = []
-
-    def write(self, name: str, content: str | bytes) -> None:
-        """Write one of them; nothing stands in its place yet, but what goes to stdout is said at once."""
-        if name in STDOUT:
-            self._targets[name] = Target(Path("/dev/stdout"))
-        self._targets[name].write(content.encode() if isinstance(content, str) else content)
-        self._written.append(self._targets[name])
-
-    def place(self) -> None:
-        for t in self._written:
-            t.place()
-        self._written.clear()
-
-    def close(self) -> None:
-        for t in self._targets.values():
-            t.close()
-
-
-def asked() -> Outputs:
-    """The outputs of the command that runs."""
-    found: Outputs = click.get_current_context().meta[_KEY]
-    return found
-
-
-class Command(click.Command):
-    """A command whose outputs are made ready before it begins; all other paths that it takes are inputs."""
-
-    def invoke(self, ctx: click.Context) -> Any:
-        if sys.stdout is None:
-            raise UserError(
-                "the result cannot be written: stdout is closed",
-                remedy="if it is not wanted, send it away: > /dev/null",
-            )
-        inputs = [Path(os.fsdecode(p)) for p in _paths(self, ctx, outputs=False)]
-        with contextlib.closing(_opened(_paths(self, ctx, outputs=True), inputs)) as outputs:
-            ctx.meta[_KEY] = outputs
-            result = super().invoke(ctx)
-            outputs.place()
-        return result
 
 
 def _paths(command: click.Command, ctx: click.Context, *, outputs: bool) -> list[str]:
@@ -260,9 +337,8 @@ def _paths(command: click.Command, ctx: click.Context, *, outputs: bool) -> list
     return found
 
 
-def _opened(names: Sequence[str], inputs: Sequence[Path]) -> Outputs:
+def _opened(names: Sequence[str], inputs: Sequence[Path]) -> dict[str, Target]:
     targets: dict[str, Target] = {}
-    outputs = Outputs(targets)
     try:
         for name in names:
             if name in STDOUT:
@@ -273,9 +349,10 @@ def _opened(names: Sequence[str], inputs: Sequence[Path]) -> Outputs:
                     raise UserError("two results would be written to one file", where=name)
             targets[name] = Target(Path(name))
     except BaseException:
-        outputs.close()
+        for t in targets.values():
+            t.close()
         raise
-    return outputs
+    return targets
 
 
 def _check(path: Path, inputs: Iterable[Path]) -> None:

@@ -28,6 +28,7 @@ from ragg_runtime.identification.parameters import (
     own_name,
     parameter_values,
 )
+from ragg_runtime.identification.series import noise_floor_json
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import Model
@@ -172,7 +173,7 @@ class Calibrated:
                 "calibrated": self.error.as_json(),
                 "holdout": self.holdout.as_json(),
             },
-            "noise_floor": {"rms_Eo": noise_floor(self.fitted)},
+            "noise_floor": noise_floor_json(self.fitted, noise_floor(self.fitted)),
             "directions": dict(zip(("seen", "fitted"), self.directions, strict=True)),
             "parameters": parameters,
             "combinations": combinations,

@@ -23,8 +23,9 @@ from ragg_runtime.estimation.linearise import Point
 from ragg_runtime.estimation.noise import estimate_noise
 from ragg_runtime.estimation.noise_spectrum import Noise
 from ragg_runtime.estimation.observation import Observation, observations_of
-from ragg_runtime.estimation.score import Error
+from ragg_runtime.estimation.score import Error, finite
 from ragg_runtime.estimation.segments import segments, spread
+from ragg_runtime.estimation.significance import log_sf
 from ragg_runtime.estimation.square_root import join
 from ragg_runtime.identification import comparison as compare
 from ragg_runtime.identification.comparison import Comparison
@@ -194,6 +195,7 @@ class Change:
             "chi2": self.chi2,
             "degrees_of_freedom": len(self.z),
             "p_value": self.p_value,
+            "log10_p": finite(log_sf(self.chi2, len(self.z)) / np.log(10.0)) if len(self.z) else 0.0,
         }
 
 

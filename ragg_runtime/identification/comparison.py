@@ -16,7 +16,7 @@ from ragg_runtime.estimation.observation import as_output, observations_of
 from ragg_runtime.estimation.off_sheet import OffSheet, off_sheet
 from ragg_runtime.estimation.passes import Piece
 from ragg_runtime.estimation.score import Error, channels
-from ragg_runtime.identification import selection, several_outputs
+from ragg_runtime.identification import selection, series, several_outputs
 from ragg_runtime.identification.dictionary import carrier, harmonics
 from ragg_runtime.identification.omnibus import Remainder, remainder, terms_json
 from ragg_runtime.identification.selection import field_of, testable_effects
@@ -28,7 +28,8 @@ from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulate import demodulable, low_pass
 from ragg_runtime.signals.fir import convolved
-from ragg_runtime.wording import notebook
+from ragg_runtime.wording import describe, numbers
+from ragg_runtime.wording.sections import render_notebook
 
 Array = NDArray[np.float64]
 
@@ -53,6 +54,8 @@ class Comparison:
     remark: str | None = None
     off_sheet: tuple[OffSheet, ...] = ()
     explained: Explained | None = None
+    grounds: tuple[str, ...] = ()
+    """Tests by which the model is not adequate, in words."""
 
     @property
     def converged(self) -> bool:
@@ -81,10 +84,12 @@ class Comparison:
             ("held out", self.holdout.rms_Eo),
             ("noise", self.noise_floor),
         )
-        return notebook.in_one_line("Comparison", "adequate" if self.adequate else "not adequate", *errors)
+        return describe.summarize("Comparison", "adequate" if self.adequate else "not adequate", *errors)
 
     def _repr_html_(self) -> str:
-        return notebook.comparison(self.as_json(), [o.name for o in self.fitted.observations])
+        return render_notebook(
+            describe.describe_comparison(self.as_json(), [o.name for o in self.fitted.observations])
+        )
 
     def as_json(self) -> dict[str, object]:
         f = self.fitted
@@ -99,12 +104,13 @@ class Comparison:
                 "calibrated": self.calibrated.as_json(),
                 "holdout": self.holdout.as_json(),
             },
-            "noise_floor": {"rms_Eo": self.noise_floor},
+            "noise_floor": series.noise_floor_json(f, self.noise_floor),
             "explained": None if self.explained is None else {"share": self.explained.share},
             "converged": self.converged,
             "reason": self.complaint or self.remark,
             "off_sheet": [x.as_json() for x in self.off_sheet],
             "adequate": self.adequate,
+            "grounds": list(self.grounds),
             "where": {
                 "harmonics": self.harmonics,
                 "time": self.by_time(),
@@ -239,8 +245,8 @@ def concluded(
     noise = noise_floor(f)
     output_explained = explained(f, calibrated)
     doubt = output_explained.complaint if judged else None
-    quiet = complaint is None and doubt is None and not loud(f, calibrated, noise)
-    adequate = None if rem is None else quiet and not rem.significant and not (choice and choice.chosen)
+    grounds = [] if rem is None else _grounds(loud(f, calibrated, noise), rem, choice)
+    adequate = None if rem is None else complaint is None and doubt is None and not grounds
     return Comparison(
         fitted=f,
         nominal=nominal,
@@ -252,8 +258,20 @@ def concluded(
         complaint=complaint,
         remark=doubt or disturbed(f),
         explained=output_explained,
+        grounds=tuple(grounds),
         off_sheet=tuple(off_sheet(f.model, f.instrument, f.calibration)),
     )
+
+
+def _grounds(exceeds: bool, rem: Remainder, choice: selection.Choice | None) -> list[str]:
+    """The tests by which a model is not adequate, in words."""
+    found = ["the error is larger than the noise"] if exceeds else []
+    if rem.significant:
+        p = numbers.probability(rem.log_p / np.log(10.0))
+        found.append(f"test of the motion terms: p {p if p.startswith('<') else f'= {p}'}")
+    if choice is not None and choice.chosen:
+        found.append(f"test of the catalogue: {choice.chosen[0]} is significant")
+    return found
 
 
 def loud(f: Fitted, scored: Scored, noise: float) -> bool:
@@ -317,6 +335,7 @@ class Rung:
     def as_json(self) -> dict[str, object]:
         return {
             **self.form.as_json(),
+            "words": self.form.in_short(),
             "nominal": self.nominal.as_json(),
             "calibrated": self.calibrated.as_json(),
             "step": None if self.step is None else self.step.as_json(),

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation.fitted import Fitted, Scored
 from ragg_runtime.estimation.off_sheet import OffSheet
 from ragg_runtime.estimation.score import Error
-from ragg_runtime.identification import as_effect
+from ragg_runtime.identification import as_effect, series
 from ragg_runtime.identification.comparison import Explained
 from ragg_runtime.identification.features import channel_unit
 from ragg_runtime.identification.line_rival import Steady
@@ -20,7 +20,8 @@ from ragg_runtime.identification.next_motion import Proposal
 from ragg_runtime.identification.omnibus import Found, Remainder, terms_json
 from ragg_runtime.identification.ranking import Detectable, NotTestable, Ranked
 from ragg_runtime.identification.sequential import Change, Evidence
-from ragg_runtime.wording import notebook
+from ragg_runtime.wording import describe
+from ragg_runtime.wording.sections import render_notebook
 
 Array = NDArray[np.float64]
 
@@ -113,10 +114,11 @@ class Diagnosis:
             ("after", self.after.rms_Eo),
             ("noise", self.noise_floor),
         )
-        return notebook.in_one_line("Diagnosis", notebook.verdict(self.verdict, self.found), *errors)
+        said = f"{self.verdict}: {', '.join(self.found)}" if self.found else self.verdict
+        return describe.summarize("Diagnosis", said, *errors)
 
     def _repr_html_(self) -> str:
-        return notebook.diagnosis(self.as_json())
+        return render_notebook(describe.describe_diagnosis(self.as_json()))
 
     def as_json(self) -> dict[str, object]:
         return {
@@ -136,7 +138,7 @@ class Diagnosis:
                 "needs": self.needs(),
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
-            "noise_floor": {"rms_Eo": self.noise_floor},
+            "noise_floor": series.noise_floor_json(self.target, self.noise_floor),
             "explained": None if self.explained is None else {"share": self.explained.share},
             "credible_set": [list(s) for s in self.credible_set],
             "holds_until_s": None if self.change is None else self.change.until,

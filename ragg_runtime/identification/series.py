@@ -12,6 +12,7 @@ from scipy import signal
 from ragg_runtime.base import series_name
 from ragg_runtime.estimation.fitted import Fitted, estimated
 from ragg_runtime.estimation.prepared_flight import PreparedFlight
+from ragg_runtime.estimation.score import finite
 from ragg_runtime.estimation.segments import BLOCKS
 from ragg_runtime.signals.demodulate import CUTOFF, WIDTH, low_pass
 from ragg_runtime.signals.derivative import stretches
@@ -146,6 +147,12 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
         return float("nan"), float("nan")
     inline, cross = np.sqrt(np.mean(np.square(values), axis=0))
     return float(inline), float(cross)
+
+
+def noise_floor_json(f: Fitted, rms_Eo: float) -> dict[str, float | None]:
+    """The noise floor as JSON: before demodulation (Eo), and what the noise alone would give in the channels."""
+    inline, cross = channel_noise(f)
+    return {"rms_Eo": rms_Eo, "inline_Eo": finite(inline), "cross_Eo": finite(cross)}
 
 
 def harmonic_noise(f: Fitted, harmonics: Iterable[str]) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""A page: templates with autoescape on, the style sheet inside, and how to make the report again."""
+"""A report: sections as one self-contained HTML document, with how to make it again. The same input gives the same bytes."""
 
 from __future__ import annotations
 
@@ -6,96 +6,114 @@ import base64
 import hashlib
 import platform
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import metadata, resources
-from typing import Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-from markupsafe import Markup
-
+from ragg_runtime.report.plots import draw_plot
 from ragg_runtime.wording import numbers
+from ragg_runtime.wording.sections import Section, escape, render_html
 
-LIBRARIES = ("numpy", "scipy", "sympy", "matplotlib", "jinja2")
+LIBRARIES = ("ragg", "numpy", "scipy", "sympy", "matplotlib")
 """What a report's numbers and looks depend on."""
 
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a report comes from: command line, (name, sha256) of every file read, and notes on the records."""
+    """Where a report comes from: command line, (name, sha256) of every file read, notes on the records, digest of the model."""
 
     title: str
     command: str
     sources: Sequence[tuple[str, str]]
     notes: Sequence[str] = ()
+    digest: str = ""
 
 
-@cache
-def _environment() -> Environment:
-    made = Environment(
-        loader=PackageLoader("ragg_runtime.report"),
-        autoescape=True,  # names of files, channels and effects come from strangers
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    made.filters["number"] = numbers.number
-    made.filters["unit"] = numbers.unit
-    return made
+def render_page(
+    kind: str, sections: Sequence[Section], origin: Origin, facts: Sequence[tuple[str, str]] = ()
+) -> str:
+    """A whole HTML document of sections, the first of which is the verdict.
 
-
-def render(template: str, origin: Origin, context: Mapping[str, Any]) -> str:
-    """A whole HTML document, self-contained, in characters that UTF-8 can write."""
-    text = (
-        _environment()
-        .get_template(template)
-        .render(
-            title=origin.title,
-            command=origin.command,
-            sources=list(origin.sources),
-            notes=list(origin.notes),
-            versions=versions(),
-            style=Markup(_file("style.css")),
-            script=Markup(_file("live.js")),
-            allowed=_digest(_file("live.js")),
-            contents=Markup(CONTENTS),
-            **context,
+    Parameters
+    ----------
+    kind
+        What the report is about, in two or three words.
+    facts
+        (name, value) of what was recorded and fitted, for the foot of the page.
+    """
+    if origin.notes:
+        done = Section(
+            title="What was done to the record", sentences=tuple(origin.notes), detail=len(origin.notes) > 3
         )
+        sections = [*sections, done]
+    first, *others = sections
+    body, contents = _anchored(render_html(others, draw_plot))
+    script = _file("live.js")
+    allowed = "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    return numbers.clean(
+        f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src '{allowed}'; style-src 'unsafe-inline'; img-src data:">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>{escape(origin.title)}</title>
+<style>
+{_file("style.css")}</style>
+</head>
+<body>
+<header>
+<p class="kind">{escape(kind)}</p>
+<h1>{escape(origin.title)}</h1>
+{render_html([first], draw_plot)}
+</header>
+<nav class="contents" aria-label="Contents"><ol>
+{contents}
+</ol></nav>
+<main>
+{body}
+</main>
+{_footer(origin, facts)}
+<script>{script}</script>
+</body>
+</html>
+"""
     )
-    return numbers.clean(_with_contents(text))
 
 
-CONTENTS = "<!-- contents -->"
-"""Where the table of contents stands; names of strangers are escaped, so that none can read like this."""
+def _footer(origin: Origin, facts: Sequence[tuple[str, str]]) -> str:
+    """The command that makes the report again, and what it depends on."""
+    rows = [
+        *facts,
+        ("derived model", origin.digest),
+        ("versions", ", ".join(f"{n} {v}" for n, v in versions())),
+    ]
+    listed = "".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in rows if value)
+    files = "".join(
+        f"<tr><td>{escape(name)}</td><td><code>{escape(sha)}</code></td></tr>" for name, sha in origin.sources
+    )
+    table = f'<div class="wide"><table><tbody>{files}</tbody></table></div>' if files else ""
+    return f'<footer><h2>How this was made</h2><pre>{escape(origin.command)}</pre><dl class="facts">{listed}</dl>{table}</footer>'
 
 
-def _with_contents(text: str) -> str:
-    """The page with its headings numbered for links, and the list of them."""
+def _anchored(text: str) -> tuple[str, str]:
+    """The text with its headings numbered for links, and the list of these links."""
     found: list[str] = []
 
-    def anchored(heading: re.Match[str]) -> str:
+    def anchor(heading: re.Match[str]) -> str:
         found.append(f'<li><a href="#section-{len(found) + 1}">{heading[1]}</a></li>')
         return f'<h2 id="section-{len(found)}">{heading[1]}</h2>'
 
-    text = re.sub(r"<h2>(.*?)</h2>", anchored, text, flags=re.DOTALL)
-    return text.replace(CONTENTS, "\n".join(found), 1)
-
-
-def figure(drawn: str, caption: str) -> dict[str, Any]:
-    """A figure for a template; ``drawn`` is SVG made here, and so not escaped again."""
-    return {"svg": Markup(drawn), "caption": caption}
-
-
-def figures(found: Sequence[Mapping[str, str]]) -> list[dict[str, Any]]:
-    return [figure(x["svg"], x["caption"]) for x in found]
+    text = re.sub(r"<h2>(.*?)</h2>", anchor, text, flags=re.DOTALL)
+    return text, "\n".join(found)
 
 
 def versions() -> list[tuple[str, str]]:
     """(name, version) of Python, this package and the libraries that a report depends on."""
     found = [("Python", platform.python_version())]
-    for name in ("ragg", *LIBRARIES):
+    for name in LIBRARIES:
         try:
             found.append((name, metadata.version(name)))
         except metadata.PackageNotFoundError:
@@ -106,8 +124,3 @@ def versions() -> list[tuple[str, str]]:
 @cache
 def _file(name: str) -> str:
     return resources.files("ragg_runtime.report").joinpath("templates", name).read_text("utf-8")
-
-
-def _digest(script: str) -> str:
-    """How a policy names the one script that may run: whatever else came into the page would not."""
-    return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()

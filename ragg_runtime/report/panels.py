@@ -1,4 +1,4 @@
-"""From fitted flights to the panels of figures, and the rows of tables that all three reports share."""
+"""From fitted flights to plots: the data of every figure that a report shows, in Eo and seconds since the first sample."""
 
 from __future__ import annotations
 
@@ -9,282 +9,298 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.score import Error
-from ragg_runtime.identification import comparison, series
-from ragg_runtime.identification.comparison import Comparison
-from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.report import figures, page
-from ragg_runtime.report.figures import Bar, ChannelPanel, Line, MeasuredPanel, SpectrumPanel, TimePanel
-from ragg_runtime.wording import numbers
+from ragg_runtime.estimation.unknown_gradient import unknown
+from ragg_runtime.identification import budget, comparison, series
+from ragg_runtime.wording import describe, numbers
+from ragg_runtime.wording.sections import Axes, Bar, Bars, Curve, Curves
 
 Array = NDArray[np.float64]
 Residuals = Sequence[Array]
+Lines = Sequence[tuple[str, Residuals]]
+"""(``residual``, ``before`` or ``after``, residual of every flight)."""
 
 FLIGHTS = 4
 """Flights that are drawn one by one, the worst of all that were given."""
 
-ERROR_COLUMNS = ("rms_V", "rms_Eo", "inline_Eo", "inline_Eo_per_rtHz", "cross_Eo", "cross_Eo_per_rtHz")
+MOST_POINTS = 4000
+"""Points of a line above which its envelope is drawn instead."""
+
+TURNS, SAMPLES = 5.0, 2000
+"""Turns of the disc that are drawn sample by sample, and samples at most."""
+
+STEPS = 14
+"""Latest steps of a history that are drawn."""
+
+SECONDS = "time since the first sample, s"
 
 
-def time_panels(f: Fitted, lines: Sequence[tuple[Line, Residuals]], chosen: Sequence[int]) -> list[TimePanel]:
-    """Envelope of the last residual of ``lines``, blocks of time of all."""
-    found = []
+def before_and_after(before: Residuals, after: Residuals | None) -> Lines:
+    """The lines of a figure of a residual, before a step and after it if there was one."""
+    return [("residual", before)] if after is None else [("before", before), ("after", after)]
+
+
+def _role(name: str) -> Any:
+    return "before" if name == "before" else "residual"
+
+
+def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
+    """The error in blocks of time of every line; with ``envelope`` also the last residual itself, above it."""
+    chosen = series.worst(f, lines[0][1], FLIGHTS)
+    axes = []
     for n in chosen:
-        w = f.prepared[n]
+        w, k = f.prepared[n], f.scales[n]
         r = w.observation.record
-        rows, edges = [], r.time
-        for line, residuals in lines:
-            edges, rms = series.blocks(w, residuals[n], f.scales[n])
-            rows.append((line, rms))
-        e = series.envelope(r.time, lines[-1][1][n] / f.scales[n], r.valid)
-        found.append(
-            TimePanel(
-                name=w.observation.name,
-                envelope=e,
-                edges=edges,
-                blocks=rows,
-                noise=series.noise_rms(w, f.scales[n]),
-            )
+        name = w.observation.name if len(f.prepared) > 1 else ""
+        edges, level = r.time, series.noise_rms(w, k)
+        steps = []
+        for label, residuals in lines:
+            edges, rms = series.blocks(w, residuals[n], k)
+            steps.append(Curve(label, edges, rms, _role(label), "steps"))
+        ends = (float(edges[0]), float(edges[-1]))
+        if envelope:
+            e = series.envelope(r.time, lines[-1][1][n] / k, r.valid)
+            band = Curve("min-max", e.time, e.low, "envelope", "band", e.high)
+            around = Curve("± rms", e.time, e.rms, width=0.9), Curve("_", e.time, -e.rms, width=0.9)
+            axes.append(Axes((band, *around), "residual, Eo", name, ends, level, share=1.3))
+        axes.append(
+            Axes(tuple(steps), "rms, Eo", "" if envelope else name, ends, level, signed=False, share=0.85)
         )
-    return found
+    caption = "Error before demodulation in 24 blocks of time."
+    if len(chosen) < len(f.prepared):
+        caption += f" The {len(chosen)} worst of {len(f.prepared)} flights."
+    return Curves("time", "residual over time", caption, tuple(axes), SECONDS)
 
 
-def spectrum_panels(
-    f: Fitted, lines: Sequence[tuple[Line, Residuals]], chosen: Sequence[int]
-) -> list[SpectrumPanel]:
-    """Spectra of each residual, and the noise of ``f``; flights without a long enough stretch are left out."""
-    found = []
-    for n in chosen:
-        w = f.prepared[n]
+def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
+    """Amplitude densities of residuals and of the noise; ``None`` where no part of a record is long enough."""
+    axes = []
+    for n in series.worst(f, lines[0][1], FLIGHTS):
+        w, k = f.prepared[n], f.scales[n]
         r = w.observation.record
-        drawn = []
-        for line, residuals in lines:
-            s = series.spectrum(residuals[n] / f.scales[n], r.valid, r.rate)
-            if s is not None:
-                drawn.append((line, s))
-        if drawn:
-            grid = drawn[0][1].frequency
-            spin = abs(r.spin_frequency)
-            noise = series.Spectrum(grid, series.noise_density(w, f.scales[n], spin, grid))
-            found.append(SpectrumPanel(w.observation.name, drawn, noise, spin))
-    return found
+        found = [(label, series.spectrum(x[n] / k, r.valid, r.rate)) for label, x in lines]
+        curves = [Curve(label, s.frequency, s.density, _role(label)) for label, s in found if s is not None]
+        if not curves:
+            continue
+        grid, spin = curves[0].x, abs(r.spin_frequency)
+        curves.append(Curve("noise, as estimated", grid, series.noise_density(w, k, spin, grid), "noise"))
+        marks = tuple(
+            (j * spin, "Ω" if j == 1 else f"{j}Ω") for j in range(1, 5) if grid[0] < j * spin < grid[-1]
+        )
+        name = w.observation.name if len(f.prepared) > 1 else ""
+        ends = (float(grid[0]), float(grid[-1]))
+        axes.append(Axes(tuple(curves), "residual, Eo/√Hz", name, ends, log=True, marks=marks))
+    if not axes:
+        return None
+    caption = "Amplitude density of the residual and the estimated noise. Dotted: multiples of the spin rate."
+    if any(unknown(o) for o in f.observations):
+        caption += " The notch at 2Ω: the gravity gradient is not recorded, so what varies slowly there is fitted as gradient."
+    return Curves(
+        "spectrum",
+        "spectrum of the residual",
+        caption,
+        tuple(axes),
+        "frequency before demodulation, Hz",
+        "Hz",
+        2.9,
+    )
 
 
-def channel_panels(
-    f: Fitted, lines: Sequence[tuple[Line, Residuals]], chosen: Sequence[int]
-) -> list[ChannelPanel]:
-    """Inline and cross of each residual, of each flight that is long enough for the demodulator."""
-    found = []
-    for n in chosen:
-        w = f.prepared[n]
+def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
+    """The demodulated residual of every line, inline and cross; ``None`` where a record is too short for the low-pass."""
+    axes = []
+    for n in series.worst(f, lines[-1][1], FLIGHTS):
+        w, k = f.prepared[n], f.scales[n]
         r = w.observation.record
-        made = [(line, comparison.demodulated_one(f, n, residuals[n])) for line, residuals in lines]
+        made = [(label, comparison.demodulated_one(f, n, x[n])) for label, x in lines]
         time = made[0][1][0]
         if not len(time):
             continue
-        several = f" — {w.observation.name}" if len(f.prepared) > 1 else ""
+        name = f" of {w.observation.name}" if len(f.prepared) > 1 else ""
         # four samples a cycle of the low-pass's edge draw the whole of it
         step = max(1, int(r.rate / (4.0 * series.DRAWN)))
-        for k, (title, amplitude) in enumerate((("inline", 4.0), ("cross", 2.0)), 1):
-            noise = series.demodulated_noise(w, f.scales[n], abs(r.spin_frequency), 2, amplitude)
-            drawn = [(line, series.broken(time[::step], x[k][::step])) for line, x in made]
-            found.append(
-                ChannelPanel(
-                    title=title + several,
-                    time=drawn[0][1][0],
-                    lines=[(line, y) for line, (_, y) in drawn],
-                    noise=noise,
-                    ends=(float(r.time[0]), float(r.time[-1])),
-                )
-            )
+        for j, (channel, amplitude) in enumerate((("inline", 4.0), ("cross", 2.0)), 1):
+            level = series.demodulated_noise(w, k, abs(r.spin_frequency), 2, amplitude)
+            curves = [c for label, x in made for c in _channel(label, time[::step], x[j][::step])]
+            ends = (float(r.time[0]), float(r.time[-1]))
+            axes.append(Axes(tuple(curves), "error, Eo", channel + name, ends, level))
+    caption = "Demodulated residual: the error of the measured gradients. Dashed: one sigma of the noise."
+    return (
+        Curves("channels", "demodulated residual over time", caption, tuple(axes), SECONDS, height=1.6)
+        if axes
+        else None
+    )
+
+
+def _channel(label: str, time: Array, x: Array) -> list[Curve]:
+    """A line, broken at gaps; its envelope where it has more points than can be drawn."""
+    time, x = series.broken(time, x)
+    if len(x) <= MOST_POINTS:
+        return [Curve(label, time, x, _role(label), width=0.8)]
+    found: list[Curve] = []
+    for run in series.runs(x):
+        columns = max(2, round(MOST_POINTS / 2 * (run.stop - run.start) / len(x)))
+        e = series.envelope(time[run], x[run], np.ones(run.stop - run.start, dtype=bool), columns)
+        found.append(Curve(label if not found else "_", e.time, e.low, _role(label), "band", e.high))
     return found
 
 
-TURNS = 5.0
-"""Turns of the disc that are drawn sample by sample: the harmonics of the spin can be told apart by eye."""
-
-SHOWN_SAMPLES = 2000
-"""Samples at most of such a stretch, and of one of a disc that does not turn."""
-
-
-def measured_panel(f: Fitted, residual: Residuals) -> MeasuredPanel:
-    """Of the worst flight; the stretch lies in the middle of its worst block of time."""
+def plot_measured(f: Fitted, residual: Residuals) -> Curves:
+    """The measured output over the model's: the whole of the worst flight, and a few turns of the disc where it is worst."""
     (n,) = series.worst(f, residual, 1)
     w = f.prepared[n]
-    r = w.observation.record
-    y = series.measured(w)
+    r, y = w.observation.record, series.measured(w)
     edges, rms = series.blocks(w, residual[n], f.scales[n])
-    k = int(np.nanargmax(rms))
-    spin = abs(r.spin_frequency)
-    count = int(min(SHOWN_SAMPLES, TURNS * r.rate / spin if spin > 0.0 else SHOWN_SAMPLES, len(r.time)))
+    k, spin = int(np.nanargmax(rms)), abs(r.spin_frequency)
+    count = int(min(SAMPLES, TURNS * r.rate / spin if spin > 0.0 else SAMPLES, len(r.time)))
     middle = int(np.searchsorted(r.time, 0.5 * (edges[k] + edges[k + 1])))
     first = min(max(0, middle - count // 2), len(r.time) - count)
     part = slice(first, first + count)
-    model = y - residual[n]
-    return MeasuredPanel(
-        measured=series.envelope(r.time, y, r.valid),
-        modelled=series.envelope(r.time, model, r.valid),
-        ends=(float(r.time[0]), float(r.time[-1])),
-        time=r.time[part],
-        samples=np.where(r.valid[part], y[part], np.nan),
-        model=np.where(r.valid[part], model[part], np.nan),
+    model, window = y - residual[n], (float(r.time[first]), float(r.time[first + count - 1]))
+    wide = [series.envelope(r.time, x, r.valid) for x in (y, model)]
+    whole = (
+        Curve("measured", wide[0].time, wide[0].low, "before", "band", wide[0].high),
+        Curve("model", wide[1].time, wide[1].low, "residual", "outline", wide[1].high),
     )
+    near = (
+        Curve("measured", r.time[part], np.where(r.valid[part], y[part], np.nan), "before", width=3.2),
+        Curve("model, calibrated", r.time[part], np.where(r.valid[part], model[part], np.nan), width=0.9),
+    )
+    axes = (
+        Axes(whole, "G_out, V", ends=(float(r.time[0]), float(r.time[-1])), frame=window),
+        Axes(near, "G_out, V", ends=window, share=1.2),
+    )
+    name = f" of {w.observation.name}" if len(f.prepared) > 1 else ""
+    caption = f"Above: min-max, the whole record{name}. Below: the window where the error is largest."
+    return Curves("measured", "measured output over the model's", caption, axes, SECONDS, height=1.5)
 
 
-def measured_section(f: Fitted, residual: Residuals) -> dict[str, Any]:
-    """Measured over model: the output itself, beside which the error is small."""
-    drawn = measured_panel(f, residual)
-    svg = figures.measured_over_model(drawn, "measured", "measured output over the model's")
-    first, last = (numbers.number(float(t), 4) for t in (drawn.time[0], drawn.time[-1]))
-    caption = f"Above: least to greatest value, the whole record. Below: {first} to {last} s, where the error is largest."
-    if len(f.prepared) > 1:
-        caption += " Of the flight with the largest error."
-    return {"title": "Measured over model", "text": [], "figures": [page.figure(svg, caption)]}
-
-
-def harmonic_bars(f: Fitted, coefficients: Array) -> list[Bar]:
-    """Slow error at every harmonic of the spin, in their own order, with what noise alone gives."""
+def plot_harmonics(f: Fitted, coefficients: Array, key: str) -> Bars | None:
+    """The slow error at every harmonic of the spin, with what noise alone gives."""
     rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.harmonic_errors(f, coefficients)}
     noise = series.harmonic_noise(f, rows)
-    # relative uncertainty of the rms of noise in the demodulator's bandwidth, four times over
+    # four times the relative uncertainty of the rms of noise in the demodulator's bandwidth
     seconds = sum(float(w.observation.record.time[-1]) for w in f.prepared)
     limit = 1.0 + 4.0 / np.sqrt(4.0 * series.BAND * max(seconds, 1.0))
-    return [
-        Bar(numbers.harmonic(h), rows[h], noise[h], rows[h] > limit * noise[h]) for h in noise if h in rows
-    ]
-
-
-def terms(rows: Sequence[Mapping[str, Any]], rms_Eo: float) -> list[dict[str, Any]]:
-    """Generic terms of a residual for a table; ``rms`` is their own size in Eo."""
-    found = []
-    for t in rows:
-        found.append(
-            {
-                "label": f"{numbers.harmonic(t['harmonic'])} × {numbers.product(t['term'])}",
-                "coefficient": numbers.plus_minus(float(t["coefficient"]), float(t["std"])),
-                "unit": numbers.unit_of_term(str(t["unit"])),
-                "z": numbers.number(abs(float(t["z"])), 3),
-                "share": numbers.percent(float(t["share"])),
-                "rms": float(np.sqrt(float(t["share"]))) * rms_Eo,
-            }
-        )
-    return found
-
-
-def term_bars(rows: Sequence[Mapping[str, Any]]) -> list[Bar]:
-    ordered = sorted(rows, key=lambda t: -float(t["rms"]))
-    return [Bar(str(t["label"]), float(t["rms"])) for t in ordered]
-
-
-def error_row(label: str, e: Error | None, note: str = "") -> dict[str, Any]:
-    """A row of the table of errors; ``None`` gives dashes."""
-    cells = [numbers.number(getattr(e, k)) if e is not None else numbers.ABSENT for k in ERROR_COLUMNS]
-    return {"label": label, "cells": cells, "note": note}
-
-
-def noise_row(f: Fitted, floor: float) -> dict[str, Any]:
-    """What the estimated noise alone would give in each column."""
-    inline, cross = series.channel_noise(f)
-    return error_row("noise alone", error_of_noise(floor, inline, cross, f.k_ggi))
-
-
-def error_of_noise(floor: float, inline: float, cross: float, k_ggi: float) -> Error:
-    root = float(np.sqrt(series.BAND))
-    return Error(
-        rms_V=floor * k_ggi,
-        rms_Eo=floor,
-        inline_Eo=inline,
-        cross_Eo=cross,
-        inline_Eo_per_rtHz=inline / root,
-        cross_Eo_per_rtHz=cross / root,
+    bars = tuple(
+        Bar(numbers.harmonic(h), rows[h], noise[h], bool(rows[h] > limit * noise[h]))
+        for h in noise
+        if h in rows
+    )
+    if not bars:
+        return None
+    caption = (
+        "Residual by harmonic of the spin, multiplied by 1, 2 cos kΩt or 2 sin kΩt and low-passed at 0.2 Hz as the"
+        " demodulator does; the demodulator reads harmonic 2 as gradient. Grey: not above the noise."
+    )
+    return Bars(
+        f"{key}-harmonic", "error by harmonic of the spin", caption, bars, "slow error, Eo", upright=True
     )
 
 
-def holdout_before(f: Fitted) -> Error:
-    """Held-out error of the model without further effects, as :func:`ragg_runtime.identification.comparison.compare` makes it."""
-    half, _ = f.coefficients((), held_out=True)
-    return f.score([f.vector(half)])[0].held_out
+def plot_terms(terms: Sequence[Mapping[str, Any]], rms_Eo: float, key: str) -> Bars | None:
+    """Generic terms of a residual by their own size, Eo before demodulation."""
+    sizes = [(describe.term_label(t), float(np.sqrt(float(t["share"]))) * rms_Eo) for t in terms]
+    bars = tuple(Bar(label, size) for label, size in sorted(sizes, key=lambda x: -x[1]))
+    caption = "Motion terms that are significant in the residual, by their own size before demodulation."
+    return Bars(f"{key}-terms", "error by motion term", caption, bars, "Eo rms") if bars else None
 
 
-def facts(f: Fitted) -> list[tuple[str, str]]:
-    """What was recorded and what was fitted."""
+def plot_evidence(ranking: Sequence[Mapping[str, Any]], found: Sequence[str], level: float) -> Bars | None:
+    """Evidence of the best effects, -log10 p; ``level`` is that from which the whole catalogue would claim one."""
+    values = [
+        (str(r["effect"]), np.inf if r["log10_p"] is None else -float(r["log10_p"])) for r in ranking[:12]
+    ]
+    if not values:
+        return None
+    finite = [v for _, v in values if np.isfinite(v)]
+    log = bool(finite) and max(finite) > 8.0 * level
+    bars = tuple(Bar(e, v, strong=e in found) for e, v in values)
+    axis = "evidence, −log₁₀ p" + (" (logarithmic scale)" if log else "")
+    caption = "Evidence for each effect alone, best first. Dark: claimed."
+    return Bars(
+        "evidence",
+        "evidence for each effect",
+        caption,
+        bars,
+        axis,
+        log=log,
+        threshold=(level, "needed for a claim"),
+    )
+
+
+def plot_history(steps: Sequence[Mapping[str, Any]], noise: float) -> Bars | None:
+    """The error after every step of a history against the noise floor, held out as dots."""
+    bars: list[Bar] = []
+    last = float("nan")
+    for entry in steps:
+        start, end = (describe.rms_of(entry.get(k)) for k in ("before", "after"))
+        if start is not None and not abs(start - last) <= 0.02 * start:
+            label = "at first" if not bars else "same model,\nother flights"
+            held = describe.rms_of(entry.get("before"), "holdout")
+            bars.append(Bar(label, start, strong=False, dots=(np.nan if held is None else held,)))
+        if end is not None:
+            sign = {"add": "+", "remove": numbers.MINUS}.get(str(entry.get("action", "")), "")
+            label = f"{sign} {entry.get('effect') or entry.get('action', '')}".strip()
+            held = describe.rms_of(entry.get("after"), "holdout")
+            bars.append(Bar(label, end, dots=(np.nan if held is None else held,)))
+            last = end
+    if not bars:
+        return None
+    top, known = max(b.value for b in bars), np.isfinite(noise)
+    caption = "Calibrated error before demodulation after every step." + (
+        " Dashed: the noise floor." if known else ""
+    )
+    return Bars(
+        "loop",
+        "error after every step",
+        caption,
+        tuple(bars[-STEPS:]),
+        "calibrated error, Eo rms",
+        upright=True,
+        log=bool(known and top > 8.0 * noise > 0.0),
+        threshold=(noise, f"noise floor {numbers.number(noise)} Eo") if known else None,
+        dots=("held out",),
+    )
+
+
+def plot_budget(f: Fitted, noise: float) -> Bars:
+    """What each group of calibrated parameters contributes to the output."""
+    rows = budget.contributions(f)
+    bars = tuple(Bar(r.label, r.rms, strong=r.strong, dots=(r.inline, r.cross)) for r in rows)
+    caption = (
+        "What each group of parameters contributes to the output: the change when it is put to zero. Bars: rms before"
+        " demodulation; marks: standard deviation in the channels. Dark: effects that were added."
+    )
+    label = "what each group of parameters contributes"
+    threshold = (noise, "noise before demodulation")
+    return Bars(
+        "budget",
+        label,
+        caption,
+        bars,
+        "contribution, Eo",
+        log=True,
+        threshold=threshold,
+        dots=("inline", "cross"),
+    )
+
+
+def describe_record(f: Fitted) -> list[tuple[str, str]]:
+    """(name, value) of what was recorded and what was fitted."""
     records = [o.unthinned.record for o in f.observations]
-    samples = sum(len(r.time) for r in records)
-    valid = sum(int(np.sum(r.valid)) for r in records)
-    duration = sum(float(r.time[-1]) + 1.0 / r.rate for r in records)
+    samples, valid = (sum(len(r.time) for r in records), sum(int(np.sum(r.valid)) for r in records))
     used = f"{numbers.fixed(samples, 0)} at {numbers.number(records[0].rate, 4)} Hz"
     if valid < samples:
         used += f", {numbers.fixed(samples - valid, 0)} of them not usable"
     thin = {o.record.rate for o in f.observations if o.thin is not None}
     if thin:
-        used += f"; thinned to {numbers.number(min(thin), 4)} Hz, which tells as much"
-    effects = numbers.listed([e.id for e in f.model.effects]) or "none: the paper’s instrument"
+        used += f"; thinned to {numbers.number(min(thin), 4)} Hz without loss of information"
     return [
         ("flights", numbers.listed([numbers.clean(o.name) for o in f.observations])),
-        ("duration", numbers.seconds(duration)),
+        ("duration", numbers.seconds(sum(float(r.time[-1]) + 1.0 / r.rate for r in records))),
         ("samples", used),
         ("output", f.observations[0].recorded.words),
-        ("effects in the model", effects),
+        ("effects in the model", numbers.listed([e.id for e in f.model.effects]) or "none"),
         ("k_ggi", f"{numbers.number(f.k_ggi, 4)} V/Eo"),
         ("spin", f"{numbers.number(f.instrument.spin_frequency, 4)} Hz"),
     ]
-
-
-def where_it_fails(c: Comparison, key: str) -> list[dict[str, str]]:
-    """Figures of harmonics and of motion terms of a comparison's residual; ``key`` begins their ids."""
-    return remainder_figures(c.fitted, np.zeros(c.fitted.size), terms(c.terms(), c.calibrated.rms_Eo), key)
-
-
-def remainder_figures(
-    f: Fitted, coefficients: Array, rows: Sequence[Mapping[str, Any]], key: str
-) -> list[dict[str, str]]:
-    """The same of any residual."""
-    found = []
-    bars = harmonic_bars(f, coefficients)
-    if bars:
-        label = "error by harmonic of the spin"
-        caption = (
-            "Residual by harmonic of the spin: it is multiplied by 1, 2 cos kΩt or 2 sin kΩt and low-passed at"
-            " 0.2 Hz as the demodulator does. Dashed: what the noise alone gives. Harmonics 2 are the ones that"
-            " the demodulator reads as gradient. Bars in grey do not stand out of the noise."
-        )
-        found.append({"svg": figures.harmonics(bars, f"{key}-harmonic", label), "caption": caption})
-    if rows:
-        label = "error by motion term"
-        caption = "Motion terms that stand out of the residual, by their own size before demodulation."
-        shown = term_bars(rows)
-        found.append(
-            {"svg": figures.lying(shown, f"{key}-terms", label, "Eo rms", None, False), "caption": caption}
-        )
-    return found
-
-
-def demodulated_panel(f: Fitted, residual: Residuals, before: Residuals | None = None) -> dict[str, Any]:
-    """The demodulated residual: the error of the measured gradients, before a step (if there was one) and after it."""
-    chosen = series.worst(f, residual, FLIGHTS)
-    lines = [(figures.ONLY, residual)]
-    if before is not None:
-        lines = [(figures.BEFORE, before), (figures.AFTER, residual)]
-    drawn = channel_panels(f, lines, chosen)
-    if not drawn:
-        said = (
-            "The record is too short for the demodulator’s low-pass: there are no inline and cross channels."
-        )
-        return {"title": "Demodulated channels", "text": [said], "figures": []}
-    svg = figures.channels(drawn, "channels", "demodulated residual over time")
-    caption = "Demodulated residual: the error of the measured gradients. Dashed: the noise’s one sigma."
-    return {"title": "Demodulated channels", "text": [], "figures": [page.figure(svg, caption)]}
-
-
-def own_effect_panel(d: Diagnosis) -> list[dict[str, Any]]:
-    """What no known effect explains, as a line for model.toml: the strongest term as an effect of the user's own."""
-    line = None if d.verdict != "unexplained" else d.expression()
-    if line is None:
-        return []
-    text = [
-        "To keep the strongest term as an effect of your own, put this line into effects of model.toml, and add it as any"
-        " other: ragg add MODEL_DIR my-effect FLIGHT. It says what the output follows, not why."
-    ]
-    if d.needs():
-        text.append(f"The flight then needs further columns: {'; '.join(d.needs())}.")
-    return [{"title": "As an effect of your own", "text": text, "code": [line], "figures": []}]

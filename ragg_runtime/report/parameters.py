@@ -1,6 +1,6 @@
-"""Calibrated parameters as tables, and in words what the record can and cannot tell about them.
+"""Calibrated parameters as tables, and what the record determines of them.
 
-The covariance is read in the combinations of four accelerometers that show in G_out: Sigma, D^12, D^34, D^1234 (Eq.
+The covariance is read in the combinations of four accelerometers that G_out depends on: Sigma, D^12, D^34, D^1234 (Eq.
 18-19).
 """
 
@@ -16,7 +16,8 @@ from ragg_runtime.estimation.columns import Column
 from ragg_runtime.estimation.fitted import Fitted, posterior
 from ragg_runtime.identification import parameters as combinations
 from ragg_runtime.identification.parameters import SEEN, UNSEEN
-from ragg_runtime.wording import numbers
+from ragg_runtime.wording import describe, numbers
+from ragg_runtime.wording.sections import Section, Table
 
 Array = NDArray[np.float64]
 
@@ -286,6 +287,68 @@ def _quotient(a: str, b: str) -> str:
 def _single(f: Fitted, n: int) -> Piece:
     column = f.calibration.columns[n]
     return Piece("", "", column.accelerometer_name, symbol_of(column))
+
+
+def describe_parameters(f: Fitted) -> tuple[Section, ...]:
+    """What the record determines of the parameters, and their values, as sections of a page."""
+    v = visibility(f)
+    known = (
+        f"{v.determined} of {v.total} directions of the calibrated parameters are determined by this record"
+    )
+    text = [f"{known}; the others stay where the test sheet puts them."]
+    text += [
+        f"Not observable: {name + ' of ' if name else ''}{', '.join(map(symbol_text, symbols))}."
+        for name, symbols in v.unseen
+    ]
+    for g in v.groups:
+        members = numbers.listed([piece_text(p) for p in g.members])
+        sums = numbers.listed([" ".join(piece_text(p) for p in row) for row in g.seen])
+        text.append(
+            f"Degenerate: of {members} only {sums} {'is' if len(g.seen) == 1 else 'are'} determined."
+            if sums
+            else f"Degenerate: {members}."
+        )
+    determined = Section(
+        title="What the record determines", sentences=tuple(text), detail=True, summary=f"{known}."
+    )
+    names = f.instrument.layout.names
+    single = _table(
+        by_accelerometer(f),
+        names,
+        f"{NOTE} In parentheses: the test sheet's value, to which the record adds little.",
+    )
+    found = [determined, Section(title="Every parameter", table=single, detail=True)]
+    if combined := by_combination(f):
+        meaning = ", ".join(f"{n} = {describe.PATTERNS[n.replace('Σ', 'Sigma')]}" for n, _ in PATTERNS)
+        table = _table(
+            combined, [n for n, _ in PATTERNS], f"{NOTE} {meaning}, each weighted by its scale factor."
+        )
+        found.insert(1, Section(title="Combinations of the accelerometers", table=table, detail=True))
+    return tuple(found)
+
+
+NOTE = "Calibrated value ± standard deviation [nominal value]."
+
+
+def symbol_text(s: Symbol) -> str:
+    """A symbol in one line: ``K_0``."""
+    return "".join(f"_{text}" if lowered else text for text, lowered in s.pieces)
+
+
+def piece_text(p: Piece) -> str:
+    """A term of a combination in one line."""
+    return " ".join(x for x in (p.sign, p.factor and f"{p.factor} ·", p.pattern, symbol_text(p.symbol)) if x)
+
+
+def _table(rows: Sequence[Row], heads: Sequence[str], note: str) -> Table:
+    def cell(c: Cell) -> str:
+        return f"({c.nominal})" if c.state == "unseen" else f"{c.value} [{c.nominal}]"
+
+    cells = [
+        (r.symbol.name, r.unit, *(cell(c) for c in r.cells), *[""] * (len(heads) - len(r.cells)))
+        for r in rows
+    ]
+    return Table(("parameter", "unit", *heads), tuple(cells), words=2, note=note)
 
 
 def pulls(f: Fitted, most: int) -> list[tuple[Piece, float]]:

@@ -27,9 +27,9 @@ def studio(
     port: int,
     no_browser: bool,
 ) -> None:
-    """The loop in a browser: compare, see where the model fails, add what it lacks, watch the error fall.
+    """Work in a browser: compare, diagnose, add, apply.
 
-    Prints the address and serves until interrupted, to this machine alone. Files are read and written below the
+    Prints the address and serves until interrupted, to this machine only. Files are read and written below the
     folders of MODEL and FLIGHT (without them: the working directory) and nowhere else.
     """
     absent = [name for name in NEEDED if importlib.util.find_spec(name) is None]

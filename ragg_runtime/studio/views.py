@@ -16,19 +16,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base import false_alarms
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io.record import WIDEST_SPIKE, left_out
-from ragg_runtime.report import diagnose_page, panels, parameters
-from ragg_runtime.report.add_page import add_html
-from ragg_runtime.report.compare_page import compare_html
-from ragg_runtime.report.diagnose_page import diagnose_html
+from ragg_runtime.report import pages, panels, parameters
+from ragg_runtime.report.page import Origin
 from ragg_runtime.report.parameters import Piece, Row, Symbol
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.studio import tracks
 from ragg_runtime.studio.session import State
-from ragg_runtime.wording import numbers
+from ragg_runtime.wording import describe, numbers
+from ragg_runtime.wording.sections import Section
 from ragg_runtime.workflow import after, loop, versions
 from ragg_runtime.workflow.loop import Loaded, errors_of
 from ragg_runtime.workflow.versions import branches, tree
@@ -49,7 +49,10 @@ def overview(s: State, version: str) -> Json:
         "unexplained": None if s.diagnosed is None else _unexplained(s.diagnosed),
         "next_motion": []
         if s.diagnosed is None
-        else [{**p.as_json(), "words": numbers.clean(p.in_words())} for p in s.diagnosed.next_motion],
+        else [
+            {**x, "words": describe.motion_sentence(x)}
+            for x in (p.as_json() for p in s.diagnosed.next_motion)
+        ],
         "parameters": None if s.compared is None else _parameters(s.compared),
         "sheet": None if s.loaded is None else versions.shown_sheet(s.loaded.instrument),
         "history": None if s.loaded is None else _history(s.loaded),
@@ -104,13 +107,13 @@ def _banner(s: State) -> Json | None:
     c, d = s.compared, s.diagnosed
     if c is None:
         return None
-    state = "wait" if d is None else {"adequate": "good", "missing-effect": "found"}.get(d.verdict, "bad")
-    converged = c.as_json().get("converged")
+    first = None if d is None else describe.describe_diagnosis(d.as_json())[0]
+    errors = c.as_json()
     return {
-        "state": state,
+        "state": "wait" if first is None else first.state,
         "verdict": None if d is None else d.verdict,
-        "headline": "Testing every effect of the catalogue …" if d is None else diagnose_page.headline(d),
-        "lead": [] if d is None else diagnose_page.lead(d, "said with each effect"),
+        "headline": "Testing every effect of the catalogue …" if first is None else first.sentences[0],
+        "lead": [] if first is None else list(first.sentences[1:]),
         "errors": [
             {"label": label, **error(e.rms_Eo, e.as_json()), "about": about}
             for label, e, about in (
@@ -120,47 +123,51 @@ def _banner(s: State) -> Json | None:
             )
         ],
         "noise": {"rms_Eo": c.noise_floor, "text": numbers.number(c.noise_floor)},
-        "converged": converged if isinstance(converged, bool) else None,
+        "converged": c.converged,
         "adequate": c.adequate,
         "k_ggi": c.fitted.k_ggi,
         "kind": c.fitted.observations[0].recorded.kind,
-        "table": [
-            panels.error_row("nominal", c.nominal),
-            panels.error_row("calibrated", c.calibrated),
-            panels.error_row("held out", c.holdout),
-            panels.noise_row(c.fitted, c.noise_floor),
-        ],
-        "facts": panels.facts(c.fitted),
+        "table": _table(describe.describe_comparison(errors, [])[1]),
+        "facts": panels.describe_record(c.fitted),
     }
 
 
 def effects(d: Diagnosis) -> list[Json]:
     """The ranking, best first, each with what the catalogue says of it."""
-    found, sizes = [], dict(diagnose_page.sizes(d))
-    for row, r in zip(diagnose_page.ranking(d), d.ranking, strict=True):
-        values = row["fitted"]
-        probability = r.as_json().get("probability")
+    found: list[Json] = []
+    level = math.log(false_alarms.CATALOGUE / max(1, len(d.ranking)))
+    for r in d.ranking:
+        own: Any = r.as_json()
+        significant = r.rank > 0 and r.log_p < level
         found.append(
             {
                 **_about(d.fitted.model.effect(r.effect)),
                 "id": r.effect,
-                "found": row["found"],
-                "significant": row["significant"],
-                "p": row["p"],
+                "found": r.effect in d.found,
+                "significant": significant,
+                "p": numbers.probability(own["log10_p"]),
                 "evidence": -r.log_p / math.log(10.0),
-                "probability": probability if isinstance(probability, float) else None,
-                "delta_bic": row["delta_bic"],
+                "probability": own["probability"],
                 "after_Eo": r.after.rms_Eo,
                 "holdout_Eo": r.after_holdout.rms_Eo,
                 "testable": r.rank > 0 and r.effect in _linear(d),
-                "seen_from": sizes.get(r.effect, []),
-                "values": []
-                if values is None
-                else [{"name": v.name, "of": v.of, "text": v.text} for v in values.values],
-                "indistinguishable": row["indistinguishable"],
+                "seen_from": [str(s) for s in d.sizes if s.effect == r.effect],
+                "values": _values(own) if significant or r.effect in d.found else [],
+                "indistinguishable": list(r.indistinguishable_from),
             }
         )
     return found
+
+
+def _values(own: Mapping[str, Any]) -> list[list[str]]:
+    """(name, value) of the parameters of an effect that are larger than their uncertainty, the clearest first."""
+    best = describe.best_values(own)
+    return [[describe.parameter_label(p), describe.with_uncertainty(p)] for p in best]
+
+
+def _table(s: Section) -> Json:
+    """A section's table for the page."""
+    return {"heads": list(s.table.heads), "rows": [list(r) for r in s.table.rows]} if s.table else {}
 
 
 def _linear(d: Diagnosis) -> set[str]:
@@ -179,10 +186,15 @@ def _unexplained(d: Diagnosis) -> Json:
     return {
         "significant": d.remainder.significant,
         "share": numbers.percent(d.remainder_share),
-        "p": numbers.probability(d.remainder.log_p),
+        "p": numbers.probability(d.remainder.log_p / math.log(10.0)),
         "terms": [
-            {**shown, "harmonic": t["harmonic"], "product": t["term"]}
-            for shown, t in zip(panels.terms(d.terms(), d.after.rms_Eo), d.terms(), strict=True)
+            {
+                "label": describe.term_label(t),
+                "z": numbers.number(abs(float(str(t["z"])))),
+                "harmonic": t["harmonic"],
+                "product": t["term"],
+            }
+            for t in d.terms()
         ],
         "expression": d.expression(),
         "needs": d.needs(),
@@ -300,14 +312,7 @@ def _trial(s: State) -> Json:
         "holdout_Eo": None if a.after is None else a.after.holdout.rms_Eo,
         "noise_Eo": None if a.after is None else a.after.noise_floor,
         "adequate": a.after is not None and a.after.adequate,
-        "values": [
-            {
-                "name": p.name,
-                "of": p.accelerometer_name,
-                "text": numbers.with_unit(numbers.plus_minus(p.value, p.std), p.unit),
-            }
-            for p in (a.combinations or a.parameters)
-        ],
+        "values": [describe.parameter_line(p.as_json()) for p in (a.combinations or a.parameters)],
     }
 
 
@@ -412,13 +417,10 @@ def take_away(s: State, what: str) -> File:
     return make(s)
 
 
-def _common(s: State) -> dict[str, object]:
+def _origin(s: State, command: str) -> Origin:
     m, flights = s.model, s.flights
-    return {
-        "title": f"{m.name} and {', '.join(x.name for x in flights)}",
-        "sources": loop.sources(m, flights),
-        "notes": loop.notes(m, flights),
-    }
+    title = f"{m.name} and {', '.join(x.name for x in flights)}"
+    return Origin(title, _command(s, command), loop.sources(m, flights), loop.notes(m, flights))
 
 
 def _dumped(s: State, result: dict[str, object], command: str) -> bytes:
@@ -440,15 +442,13 @@ def _wait() -> UserError:
 def _compare_report(s: State) -> File:
     if s.compared is None:
         raise _wait()
-    page = compare_html(s.compared, command=_command(s, "compare"), **_common(s))  # type: ignore[arg-type]
-    return "compare.html", HTML, page.encode()
+    return "compare.html", HTML, pages.compare_page(s.compared, _origin(s, "compare")).encode()
 
 
 def _diagnose_report(s: State) -> File:
     if s.diagnosed is None:
         raise _wait()
-    page = diagnose_html(s.diagnosed, command=_command(s, "diagnose"), **_common(s))  # type: ignore[arg-type]
-    return "diagnosis.html", HTML, page.encode()
+    return "diagnosis.html", HTML, pages.diagnose_page(s.diagnosed, _origin(s, "diagnose")).encode()
 
 
 def _steps_report(s: State) -> File:
@@ -456,7 +456,7 @@ def _steps_report(s: State) -> File:
         raise UserError("there is no step to report yet", remedy="derive an effect into the model first")
     history = s.model.directory.history
     steps = [history[n].as_json() for n in branches(history)[0]]
-    page = add_html(steps, s.previous, s.compared, s.diagnosed, command=_command(s, "history"), **_common(s))  # type: ignore[arg-type]
+    page = pages.add_page(steps, s.previous, s.compared, _origin(s, "history"), s.diagnosed)
     return "steps.html", HTML, page.encode()
 
 

@@ -19,8 +19,9 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.false_alarms import PROMISED, SURVEY
 from ragg_runtime.estimation.significance import log_sf
 from ragg_runtime.survey.task import Record
-from ragg_runtime.wording import notebook
+from ragg_runtime.wording import describe
 from ragg_runtime.wording.numbers import clean
+from ragg_runtime.wording.sections import Section, render_notebook
 
 
 @dataclass(frozen=True, repr=False)
@@ -47,7 +48,13 @@ class Survey:
         return f"<Survey: {counted(self.summary.counts)}>"
 
     def _repr_html_(self) -> str:
-        return notebook.survey(self.records, counted(self.summary.counts), recommended(self, "MODEL_DIR"))
+        return render_notebook(self.sections("MODEL_DIR"))
+
+    def sections(self, model_dir: Path | str) -> tuple[Section, ...]:
+        """What the survey says, with the commands that come next."""
+        return describe.describe_survey(
+            self.as_json(), f"{counted(self.summary.counts)}.", recommended(self, model_dir)
+        )
 
     def as_json(self) -> dict[str, object]:
         return {**self.summary.as_json(), "flights": list(self.records)}

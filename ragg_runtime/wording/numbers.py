@@ -90,17 +90,15 @@ def _digits(value: float, std: float) -> tuple[float, float, int, int]:
     return v, s, min(max(0, 1 - math.floor(math.log10(s))), 15), scale
 
 
-def probability(log_p: float) -> str:
-    """A p-value from its natural logarithm, also where it underflows; ``certain`` for none at all."""
-    log10 = log_p / math.log(10.0)
-    if math.isinf(log10):
-        return "certain"
-    if log10 > -3.0:
-        return number(10.0**log10, 2)
-    exponent = math.floor(log10)
-    if exponent < -99:
-        return power(round(log10))
-    return f"{fixed(10.0 ** (log10 - exponent), 0)}{THIN}×{THIN}{power(exponent)}"
+LEAST_P = -16.0
+"""log10 of the least p-value that is written: below it the figure says no more."""
+
+
+def probability(log10_p: float | None) -> str:
+    """A p-value from its decimal logarithm: ``0.03``, ``2 × 10⁻⁷``, ``< 10⁻¹⁶``; of ``None`` (certain) as well."""
+    if log10_p is None or log10_p < LEAST_P:
+        return f"<{THIN}{power(round(LEAST_P))}"
+    return number(10.0**log10_p, 2) if log10_p > -3.0 else number(10.0**log10_p, 1)
 
 
 def plain(x: float, digits: int = 6) -> str:
@@ -116,6 +114,30 @@ def plain(x: float, digits: int = 6) -> str:
 
 def percent(share: float) -> str:
     return f"{number(100.0 * share, 2)}{THIN}%"
+
+
+_ASCII = str.maketrans(
+    {
+        MINUS: "-", THIN: " ", ABSENT: "-", "±": "+-", "×": "x", "·": "*", "→": "->", "µ": "u", "∞": "inf", "…": "...", "’": "'",
+        "σ": " sigma", "Σ": "Sigma", "ω": "omega", "Ω": "Omega", "χ": "chi", "ϑ": "vartheta", "β": "beta", "Γ": "Gamma",
+        **{c: f"^{n}" for n, c in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")},
+    }
+)  # fmt: skip
+
+
+def to_ascii(text: str) -> str:
+    """The same text as a terminal shows it: ``(5.98 ± 0.05) × 10⁻⁸`` is ``(5.98 +- 0.05)e-8``."""
+
+    def exponent(found: re.Match[str]) -> str:
+        digits = "".join("-" if c == "⁻" else str("⁰¹²³⁴⁵⁶⁷⁸⁹".index(c)) for c in found[2])
+        return f"{'' if found[1] else '1'}e{digits}"
+
+    text = re.sub(rf"({THIN}×{THIN})?(?<![\d.])10([⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)", exponent, text)
+    text = re.sub(rf"(?<=\d){THIN}(?=\d{{3}}(?!\d))", "", text)
+    text = (
+        text.replace("Eo/√Hz", "Eo/sqrt(Hz)").replace("Ωt", "Ω t").replace(f"{THIN}σ", "σ").replace(" σ", "σ")
+    )
+    return re.sub(r"(?<=\d)(?=Ω)", " ", text).translate(_ASCII)
 
 
 def unit(text: str) -> str:
@@ -204,6 +226,11 @@ def seconds(x: float) -> str:
     if x < 120.0:
         return f"{number(x)}{THIN}s"
     return f"{number(x / 60.0)}{THIN}min" if x < 7200.0 else f"{number(x / 3600.0)}{THIN}h"
+
+
+def parameter(name: str) -> str:
+    """A parameter of model.toml as it is written: ``dK1_dT`` is dK1/dT."""
+    return re.sub(r"^(d[A-Za-z0-9]+)_(d[A-Za-z])", r"\1/\2", clean(name))
 
 
 _GREEK = {

@@ -40,7 +40,8 @@ from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import CALIBRATION, replace_model_dir
 from ragg_runtime.model_dir.history import Step
-from ragg_runtime.wording import notebook
+from ragg_runtime.wording import describe
+from ragg_runtime.wording.sections import render_notebook
 from ragg_runtime.workflow.loop import Loaded, mapping_text, read_flights
 
 
@@ -60,7 +61,8 @@ class Kept:
         )
 
     def _repr_html_(self) -> str:
-        return notebook.calibration(self.as_json(), [o.name for o in self.calibrated.fitted.observations])
+        names = [o.name for o in self.calibrated.fitted.observations]
+        return render_notebook(describe.describe_calibration(self.as_json(), names))
 
     def as_json(self) -> dict[str, Any]:
         return self.calibrated.as_json() | {"saved": self.saved}
@@ -115,7 +117,8 @@ class Compensation:
         return f"<compensation of {flights} by {self.name}, {self.result['calibration']}>"
 
     def _repr_html_(self) -> str | None:
-        return None if self.result["calibration"] == "online" else notebook.compensation(self.as_json())
+        online = self.result["calibration"] == "online"
+        return None if online else render_notebook(describe.describe_compensation(self.as_json(), ""))
 
     def as_json(self) -> dict[str, Any]:
         return dict(self.result)

@@ -11,6 +11,8 @@ from typing import Any
 
 from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.model_dir.own_effects import own_entries
+from ragg_runtime.wording import describe
+from ragg_runtime.wording.sections import Section, render_notebook
 
 
 @dataclass(frozen=True, repr=False)
@@ -37,12 +39,14 @@ class Catalogue:
         return found[identifier]
 
     def __repr__(self) -> str:
-        return "\n".join(f"{e['id']:28} {e['title']}" for e in self.entries)
+        return f"<Catalogue: {len(self.entries)} effects>"
+
+    def sections(self) -> tuple[Section, ...]:
+        """A line for every effect."""
+        return describe.describe_catalogue(self.entries)
 
     def _repr_html_(self) -> str:
-        from ragg_runtime.wording import notebook
-
-        return notebook.catalogue(self.entries)
+        return render_notebook(self.sections())
 
     def as_json(self) -> dict[str, object]:
         return {"effects": [dict(e) for e in self.entries]}
@@ -54,18 +58,3 @@ def effects() -> Catalogue:
     assert found is not None and found.origin is not None
     text = Path(found.origin).with_name("manifest.json").read_text("utf-8")
     return Catalogue(entries=(*json.loads(text)["catalogue"], *own_entries()))
-
-
-def in_words(e: Mapping[str, Any]) -> str:
-    """One effect in full, as the command line shows it."""
-    lines = [f"{e['id']}: {e['title']}", "", e["physics"], "", f"  {e['equation']}", ""]
-    for q in e["parameters"]:
-        which = "one value" if q["shared"] else "one value for each accelerometer"
-        lines.append(f"  {q['name']} [{q['unit']}]  {q['meaning']} ({which}; plausible {q['plausible']:g})")
-    lines += [
-        "",
-        f"needs: {', '.join(e['channels']) or 'the motion alone'}",
-        f"limits: {e['limits'] or 'none stated'}",
-        f"source: {e['source']}",
-    ]
-    return "\n".join(lines)

@@ -30,6 +30,7 @@ from ragg_runtime.identification.comparison import Comparison, climb
 from ragg_runtime.identification.next_motion import LIMITS
 from ragg_runtime.identification.parameters import ParameterValue, calibrated
 from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.identification.series import noise_floor_json
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, with_full_kinematics
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER
@@ -51,7 +52,8 @@ from ragg_runtime.model_dir.directory import (
 )
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.screening import check_settings, examined
-from ragg_runtime.wording import notebook
+from ragg_runtime.wording import describe
+from ragg_runtime.wording.sections import render_notebook
 
 if TYPE_CHECKING:
     from ragg_runtime.survey.result import Survey
@@ -160,13 +162,11 @@ class Added:
         after = None if self.after is None else self.after.calibrated.rms_Eo
         noise = None if self.after is None else self.after.noise_floor
         errors = (("before", before), ("after", after), ("noise", noise))
-        return notebook.in_one_line("Added", self.effect, *errors)
+        return describe.summarize("Added", self.effect, *errors)
 
     def _repr_html_(self) -> str:
-        noise, adequate = (
-            (None, False) if self.after is None else (self.after.noise_floor, bool(self.after.adequate))
-        )
-        return notebook.added(self.as_json(), [e.id for e in self.loaded.model.effects], noise, adequate)
+        effects = [e.id for e in self.loaded.model.effects]
+        return render_notebook(describe.describe_addition(self.as_json(), effects))
 
     def as_json(self) -> dict[str, object]:
         return {
@@ -174,8 +174,8 @@ class Added:
             "converged": self.converged,
             "reason": None if self.after is None else self.after.complaint,
             "off_sheet": [] if self.after is None else [x.as_json() for x in self.after.off_sheet],
-            "before": errors_of(self.before),
-            "after": errors_of(self.after),
+            "before": _judged(self.before),
+            "after": _judged(self.after),
             "parameters": [p.as_json() for p in self.parameters],
             "combinations": [p.as_json() for p in self.combinations],
         }
@@ -190,6 +190,14 @@ def errors_of(c: Comparison | None) -> dict[str, object] | None:
         "calibrated": c.calibrated.as_json(),
         "holdout": c.holdout.as_json(),
     }
+
+
+def _judged(c: Comparison | None) -> dict[str, object] | None:
+    """The errors of a comparison with its noise floor, and whether the model is adequate."""
+    if c is None:
+        return None
+    floor = noise_floor_json(c.fitted, c.noise_floor)
+    return {**(errors_of(c) or {}), "noise_floor": floor, "adequate": c.adequate}
 
 
 def add(
@@ -208,7 +216,7 @@ def add(
     distinct(flights)
     setting = _setting(m, effect, flights)
     others = replace(m.instrument, effects=tuple(s for s in m.instrument.effects if s.id != effect))
-    before = _compare.compare(derive.model_of(others), others, flights, judged=False) if flights else None
+    before = _compare.compare(derive.model_of(others), others, flights) if flights else None
     extended = replace(others, effects=(*others.effects, setting))
     model = derive.model_of(extended)
     after: Comparison | None = None
@@ -377,7 +385,7 @@ class Loaded:
 
     def _repr_html_(self) -> str:
         steps = [s.as_json() for s in self.directory.history]
-        return notebook.model(self.name, [e.id for e in self.model.effects], steps)
+        return render_notebook(describe.describe_model(self.name, [e.id for e in self.model.effects], steps))
 
 
 def new(path: Path | str, source: Path | None = None, mapping: Path | None = None) -> Loaded:

@@ -1,19 +1,17 @@
-"""Results in notebooks: the words of the terminal, escaped."""
+"""Results in notebooks and on the terminal: the same sentences, escaped."""
 
 from __future__ import annotations
 
 import html
-import re
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from ragg_runtime.cli import terminal
-from ragg_runtime.report import in_words
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.wording import notebook
+from ragg_runtime.wording import describe, numbers
+from ragg_runtime.wording.sections import render_notebook, render_text
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.loop import Added
 
@@ -64,34 +62,57 @@ def shown(x: Any) -> str:
     return "\n".join(parser.text)
 
 
-def test_a_notebook_shows_what_the_terminal_says(result: Result) -> None:
+def test_the_terminal_and_a_notebook_say_the_same(result: Result) -> None:
     for x, said in (
-        (result.before, in_words.compared(result.before, ["m"], "next")),
-        (result.diagnosis, in_words.diagnosed(result.diagnosis, "next")),
-        (result.step, terminal.added(result.step)),
+        (result.before, describe.describe_comparison(result.before.as_json(), ["m"])),
+        (result.diagnosis, describe.describe_diagnosis(result.diagnosis.as_json())),
+        (result.step, describe.describe_addition(result.step.as_json(), ["thermal-scale"])),
     ):
-        text = shown(x)
-        sentences = [
-            line for line in said.split("\n") if re.match(r"\w+ .*(adequate|ADEQUATE)|MISSING|error|  dK1", line)
-        ]  # fmt: skip
-        assert sentences
-        for sentence in sentences:
-            assert sentence.strip() in text
+        text, lines = shown(x), render_text(said).split("\n")
+        assert lines[0] == numbers.to_ascii(said[0].sentences[0])
+        assert said[0].sentences[0] in text
     assert "demo-flight" in shown(result.before)
-    assert "thermal-scale" in shown(result.diagnosis)
-    assert f"{result.before.calibrated.rms_Eo:.4g}" in shown(result.before)
-    assert f"{result.before.noise_floor:.4g}" in shown(result.before)
-    history = shown(result.step.loaded)
-    assert "thermal-scale" in history
-    assert f"{result.step.after.calibrated.rms_Eo:.4g}" in history if result.step.after else False
+    assert numbers.number(result.step.after.calibrated.rms_Eo) in shown(result.step.loaded)  # type: ignore[union-attr]
 
 
-def test_every_verdict_has_its_words() -> None:
-    assert notebook.verdict("missing-effect", ["lag", "arm-sag"]) == "MISSING: lag and arm-sag"
-    assert notebook.verdict("adequate", []).startswith("ADEQUATE")
-    assert notebook.verdict("unexplained", []).startswith("UNEXPLAINED")
-    with pytest.raises(KeyError):
-        notebook.verdict("fine", [])
+def test_the_terminal_says_what_a_physicist_would(result: Result) -> None:
+    """The verdict first, the determined combination, one noise floor, details on request."""
+    d = result.diagnosis.as_json()
+    brief, full = (render_text(describe.describe_diagnosis(d), verbose=v) for v in (False, True))
+    assert brief.startswith("Missing: thermal-scale. With it the error falls from ")
+    assert "thermal-scale: D34 of dK1/dT = (" in brief
+    assert "D34 = A3 - A4" in brief
+    assert "(-v)" in brief and "(-v)" not in full
+    assert "dK1/dT of A1" not in brief and "dK1/dT of A1" in full
+    assert "1e-2" not in brief and "< 1e-16" in brief
+    a = result.step.as_json()
+    floors = [result.before.as_json()["noise_floor"], a["before"]["noise_floor"]]  # type: ignore[index]
+    assert floors[0] == floors[1]
+    assert (a["before"]["adequate"], a["after"]["adequate"]) == (False, True)  # type: ignore[index]
+    assert set(a["after"]["noise_floor"]) == {"rms_Eo", "inline_Eo", "cross_Eo"}  # type: ignore[index]
+
+
+def test_every_verdict_has_its_sentence(result: Result) -> None:
+    d = result.diagnosis.as_json()
+    term = {
+        "harmonic": "cos 2",
+        "term": "a_x",
+        "coefficient": 1.0,
+        "std": 0.1,
+        "unit": "V/(m/s^2)",
+        "share": 0.5,
+        "z": 10.0,
+    }
+    left: Any = dict(d["unexplained"]) | {"terms": [term]}  # type: ignore[call-overload]
+    partly = d | {"verdict": "partly-explained", "unexplained": left}
+    assert ". Not yet explained: " in describe.verdict_headline(partly)
+    assert describe.verdict_headline(partly).endswith(" Eo, mostly at cos 2Ωt × a_x.")
+    nothing = d | {"verdict": "unexplained", "found": [], "unexplained": left}
+    assert describe.verdict_headline(nothing).startswith("Unexplained: ")
+    assert "Not explained:" in render_text(describe.describe_diagnosis(nothing))
+    assert describe.verdict_headline(d | {"verdict": "adequate"}).startswith("Adequate: ")
+    failed = describe.verdict_headline(d | {"converged": False, "reason": "it was stopped"})
+    assert failed == "No verdict: it was stopped."
 
 
 def hostile(x: Any) -> Any:
@@ -104,36 +125,23 @@ def hostile(x: Any) -> Any:
 
 
 def test_names_of_strangers_are_escaped(result: Result) -> None:
-    error = {"rms_Eo": 1.0}
-    records = [
-        {"flight": HOSTILE, "verdict": "adequate", "found": [HOSTILE], "noise_floor": error,
-         "error": {"calibrated": error, "holdout": None, "after": error}},
-        {"flight": HOSTILE, "error": {"kind": "input", "message": f"{HOSTILE}\nmore"}},
-    ]  # fmt: skip
-    unexplained = hostile(result.diagnosis.as_json()) | {
-        "verdict": "unexplained",
-        "unexplained": {
-            "terms": [{"harmonic": HOSTILE, "term": HOSTILE, "coefficient": 1.0, "unit": HOSTILE, "z": 5.0}],
-            "expression": HOSTILE,
-        },
-    }
+    d = hostile(result.diagnosis.as_json())
     steps = hostile([s.as_json() for s in result.step.loaded.directory.history])
-    pages = [
-        notebook.comparison(hostile(result.before.as_json()), [HOSTILE]),
-        notebook.diagnosis(hostile(result.diagnosis.as_json())),
-        notebook.diagnosis(unexplained),
-        notebook.added(hostile(result.step.as_json()), [HOSTILE], 4.0, True),
-        notebook.model(HOSTILE, [HOSTILE], steps),
-        notebook.survey(records, HOSTILE, [HOSTILE]),
-    ]
-    for page in pages:
+    for said in (
+        describe.describe_comparison(hostile(result.before.as_json()), [HOSTILE]),
+        describe.describe_diagnosis(d),
+        describe.describe_addition(hostile(result.step.as_json()), [HOSTILE]),
+        describe.describe_model(HOSTILE, [HOSTILE], steps),
+    ):
+        page = render_notebook(said)
         assert "<script" not in page
         assert html.escape("<script>alert(1)</script>&") in page
-        assert "\x1b" not in page
-        assert "\u202e" not in page
+        for text in (page, render_text(said, verbose=True)):
+            assert "\x1b" not in text
+            assert "\u202e" not in text
 
 
-def test_a_survey_is_shown_flight_by_flight(result: Result) -> None:
+def test_a_survey_is_shown_flight_by_flight() -> None:
     error = {k: {"rms_Eo": 8.0} for k in ("nominal", "calibrated", "holdout", "after", "after_holdout")}
     common = {"file": "", "notes": [], "ranking": [], "not_testable": [], "parameters": []}
     own = {"verdict": "missing-effect", "found": ["lag"], "indistinguishable": {"lag": []}, "error": error}

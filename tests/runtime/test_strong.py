@@ -13,7 +13,6 @@ import pytest
 
 import ragg_runtime.workflow.loop as ragg
 from ragg_runtime.cli.main import main
-from ragg_runtime.cli.terminal import added as added_text
 from ragg_runtime.estimation import calibrate
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observations_of
@@ -23,6 +22,7 @@ from ragg_runtime.identification.strong import Stage, with_steps
 from ragg_runtime.io.files import write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.wording import describe
 from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
@@ -181,7 +181,7 @@ def test_what_has_not_converged_says_so_and_adds_nothing(
     before = {p: p.read_bytes() for p in sorted((tmp_path / "m").rglob("*")) if p.is_file()}
     added = ragg.add(m, "cubic-input", [flight])
     assert added.as_json()["converged"] is False
-    assert "was NOT added" in added_text(added)
+    assert "was NOT added" in describe.describe_addition(added.as_json(), [])[0].sentences[0]
     write_flight(flight, tmp_path / "f.parquet")
     with pytest.raises(SystemExit) as end:
         main(

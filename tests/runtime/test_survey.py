@@ -25,13 +25,14 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.io import write_flight
 from ragg_runtime.io.source import Heading, Written
-from ragg_runtime.report.survey_page import survey_html
-from ragg_runtime.report.survey_text import surveyed
+from ragg_runtime.report.page import Origin
+from ragg_runtime.report.pages import survey_page
 from ragg_runtime.survey import local, run
 from ragg_runtime.survey import run as survey_run
 from ragg_runtime.survey.result import Survey, parquet
 from ragg_runtime.survey.run import distinct_names, ordered
 from ragg_runtime.survey.task import Record, divided, examine, expanded, job
+from ragg_runtime.wording.sections import render_text
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 from tests.runtime.foreign_files import write
@@ -92,9 +93,9 @@ def test_a_flight_that_cannot_be_read_is_reported_and_stops_nothing(flights: Fli
     assert "damaged" in whole.failed[0]["error"]["message"]
     assert whole.summary.counts["error"] == 1
     assert len(whole.done) == COUNT
-    said = surveyed(whole, flights[0])
+    said = render_text(whole.sections(flights[0]))
     assert "1 in error" in said
-    assert "flight-2b.parquet: " in said
+    assert "flight-2b.parquet  " in said
     advice = whole.summary.advice[0]
     assert (advice.effect, advice.firm) == ("thermal-scale", True)
     assert set(WITH_EFFECT) <= set(advice.flights)
@@ -320,12 +321,12 @@ def test_the_report_and_the_text_escape_what_strangers_wrote(whole: Survey) -> N
         "error": {"kind": "input", "message": f"{hostile}\n<b>"},
     }
     s = Survey(tuple(records))
-    page = survey_html(s, title="<i>", command="ragg survey", digest="0", sources=[])
+    page = survey_page(s, Origin("<i>", "ragg survey", []))
     for raw in ("<script>alert", "<img", "<b>", "<i>", "\x1b"):
         assert raw not in page
     assert "&lt;script&gt;" in page
-    assert "\x1b" not in surveyed(s, "m")
-    assert page == survey_html(s, title="<i>", command="ragg survey", digest="0", sources=[])
+    assert "\x1b" not in render_text(s.sections("m"))
+    assert page == survey_page(s, Origin("<i>", "ragg survey", []))
 
 
 def record(name: str, found: dict[str, list[str]], value: float = 1.0, log10_p: float = -5.0) -> Record:

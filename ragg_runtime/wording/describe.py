@@ -1,0 +1,909 @@
+"""Every result, from its JSON, as sections: the terminal, the pages, notebooks and the studio show these and format nothing themselves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ragg_runtime.wording import numbers
+from ragg_runtime.wording.numbers import clean, listed, number
+from ragg_runtime.wording.sections import Section, Table
+
+Json = Mapping[str, Any]
+Sections = tuple[Section, ...]
+
+ERROR_KEYS = ("rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz")
+ERROR_HEADS = ("error", "rms, Eo", "inline, Eo", "cross, Eo", "inline, Eo/√Hz", "cross, Eo/√Hz")
+
+RANKED = 6
+"""Effects of a ranking that a terminal shows unless it is asked for all."""
+
+PATTERNS = {"Sigma": "A1 + A2 + A3 + A4", "D1234": "A1 + A2 − A3 − A4", "D12": "A1 − A2", "D34": "A3 − A4"}
+"""The combinations of four accelerometers that the paper's output depends on (Eq. 18-19)."""
+
+CLEAR, CLEAR_ALONE = 1.0, 3.0
+"""Standard deviations below which a value is shown on request alone; of a single accelerometer, where combinations are known."""
+
+LISTED = 60
+"""Flights of a survey that are listed one by one."""
+
+
+def eotvos(e: Json | None) -> str:
+    """The error before demodulation of an error object."""
+    return number(None if e is None else e.get("rms_Eo"))
+
+
+def with_uncertainty(p: Json) -> str:
+    """Value, uncertainty and unit of a parameter, the last digits matching."""
+    return numbers.with_unit(numbers.plus_minus(p["value"], p["std"]), p["unit"])
+
+
+def parameter_label(p: Json) -> str:
+    """``D34 of dK1/dT``, ``K_iii of A1``, ``tau``."""
+    of, _, name = str(p["name"]).rpartition(" ")
+    j = p.get("accelerometer")
+    of = of or ("" if j is None else str(p.get("accelerometer_name") or f"A{j}"))
+    return f"{clean(of)} of {numbers.parameter(name)}" if of else numbers.parameter(name)
+
+
+def parameter_line(p: Json) -> str:
+    """A fitted parameter in one line."""
+    return f"{parameter_label(p)} = {with_uncertainty(p)}"
+
+
+def error_text(before: Json | None, after: Json | None) -> str:
+    """The error before and after a step."""
+    return f"error {eotvos(before)} → {eotvos(after)} Eo"
+
+
+def _flights(names: Sequence[str]) -> str:
+    return listed([clean(n) for n in names]) if len(names) < 4 else f"{len(names)} flights"
+
+
+def _effects(names: Sequence[str]) -> str:
+    return f"effects in the model: {', '.join(map(clean, names)) or 'none'}"
+
+
+def errors_section(
+    rows: Sequence[tuple[str, Json | None]], title: str = "Errors", *, detail: bool = False
+) -> Section:
+    """The table of errors, before demodulation and of both channels; a dash where there is none."""
+    cells = [(label, *(number(None if e is None else e.get(k)) for k in ERROR_KEYS)) for label, e in rows]
+    missing = any(e is not None and e.get("inline_Eo") is None for _, e in rows)
+    note = "–: no channels. The disc does not spin, or no part of the record is as long as the demodulator's low-pass."
+    table = Table(heads=ERROR_HEADS, rows=tuple(cells), note=note if missing else "")
+    return Section(title=title, table=table, detail=detail)
+
+
+def floor_row(c: Json) -> tuple[str, Json]:
+    """The noise floor as a row of the table of errors; its densities are those of the demodulator's band."""
+    floor = dict(c["noise_floor"])
+    for channel in ("inline", "cross"):
+        value = floor.get(f"{channel}_Eo")
+        floor[f"{channel}_Eo_per_rtHz"] = None if value is None else value / math.sqrt(0.2)
+    return "noise floor", floor
+
+
+def _next(command: str) -> Sections:
+    return (Section(sentences=(f"next: {command}",)),) if command else ()
+
+
+def _plain(*sentences: str) -> Sections:
+    found = tuple(text for text in sentences if text)
+    return (Section(sentences=found),) if found else ()
+
+
+def term_label(t: Json) -> str:
+    """``cos 2Ωt × ω_z``."""
+    return f"{numbers.harmonic(str(t['harmonic']))} × {numbers.product(str(t['term']))}"
+
+
+def terms_table(terms: Sequence[Json]) -> Table:
+    """Generic terms of a residual, the most significant first."""
+    rows = [
+        (
+            term_label(t),
+            numbers.plus_minus(float(t["coefficient"]), float(t["std"])),
+            numbers.unit_of_term(str(t["unit"])),
+            number(abs(float(t["z"]))),
+            numbers.percent(float(t["share"])),
+        )
+        for t in terms
+    ]
+    heads = ("harmonic × motion term", "coefficient", "unit", "σ", "share of the power")
+    return Table(heads=heads, rows=tuple(rows), brief=5)
+
+
+def _off_sheet(found: Sequence[Json]) -> Section:
+    """Parameters that the record puts far from their test sheet."""
+    lines = [
+        f"{parameter_label(x)} is {number(abs(x['sigmas']))} σ off its test sheet: {numbers.plain(x['value'])} instead of"
+        f" {numbers.with_unit(numbers.plain(x['sheet']), x['unit'])}"
+        for x in found
+    ]
+    return Section(
+        title="Far from the test sheet",
+        sentences=tuple(lines),
+        detail=len(lines) > 3,
+        summary=f"{len(lines)} parameters are far from their test sheet",
+    )
+
+
+def excess(error: float, noise: float) -> float:
+    """What of an error is not noise, Eo: the root of the difference of squares."""
+    return math.sqrt(max(0.0, error**2 - noise**2))
+
+
+def describe_comparison(
+    c: Json,
+    flights: Sequence[str],
+    then: str = "",
+    rows: Sequence[tuple[str, Json]] = (),
+    *,
+    judged: bool = True,
+) -> Sections:
+    """The result of ``compare``; ``rows`` replace the usual errors, not ``judged``: the parameters are others now."""
+    e = c["error"]
+    usual = [("nominal", e["nominal"]), ("calibrated", e["calibrated"]), ("held out", e["holdout"])]
+    sentences = [
+        f"{_flights(flights)}: {numbers.fixed(c['samples'], 0)} samples at {number(c['rate_Hz'])} Hz; {_effects(c['effects'])}."
+    ]
+    if c["converged"] and c["reason"]:
+        sentences.append(f"Note: {clean(c['reason'])}.")
+    head = comparison_headline(c) if judged else ()
+    found = [
+        Section(sentences=(*head, *sentences), state="good" if c["adequate"] else "bad"),
+        errors_section([*(rows or usual), floor_row(c)]),
+    ]
+    where = c["where"]
+    if where["motion"]:
+        found.append(
+            Section(
+                title="Where it fails", table=terms_table(where["motion"]), sentences=tuple(_worst(where))
+            )
+        )
+    if c["off_sheet"]:
+        found.append(_off_sheet(c["off_sheet"]))
+    found += _ladder(c.get("ladder", ()))
+    return (*found, *(_next(then) if judged and not c["adequate"] else ()))
+
+
+def comparison_headline(c: Json) -> tuple[str, ...]:
+    """Whether the model is adequate, with the error, the noise and what says so."""
+    error, noise = c["error"]["calibrated"]["rms_Eo"], c["noise_floor"]["rms_Eo"]
+    if not c["converged"]:
+        return (f"The calibration has not converged: {clean(c['reason'])}.",)
+    if c["adequate"]:
+        return (
+            f"The model is adequate: calibrated, it leaves {number(error)} Eo, which is the noise of this record"
+            f" ({number(noise)} Eo).",
+        )
+    why = "; ".join(map(clean, c.get("grounds", ())))
+    return (
+        f"The model is NOT adequate: calibrated, it leaves {number(error)} Eo where the noise floor is {number(noise)} Eo"
+        f"{f' ({why})' if why else ''}.",
+    )
+
+
+def _worst(where: Json) -> list[str]:
+    """The worst block of time, where it is more than the others."""
+    if not where["time"] or not where["time"][0]["over_noise"] > 1.15:
+        return []
+    b = where["time"][0]
+    return [
+        f"The worst block of time: {number(b['from_s'], 4)} to {number(b['to_s'], 4)} s of {clean(b['flight'])},"
+        f" {number(b['rms_Eo'])} Eo."
+    ]
+
+
+def _ladder(rungs: Sequence[Json]) -> list[Section]:
+    if not rungs:
+        return []
+    rows = [
+        (
+            str(r["words"]),
+            eotvos(r["nominal"]),
+            eotvos(r["calibrated"]),
+            *(number(None if r["step"] is None else r["step"][k]) for k in ERROR_KEYS[:3]),
+        )
+        for r in rungs
+    ]
+    heads = ("form of the model", "nominal, Eo", "calibrated, Eo", "step, Eo", "inline, Eo", "cross, Eo")
+    note = "step: what a form changes in the prediction of the one above it"
+    return [
+        Section(title="What each simplification costs", table=Table(heads=heads, rows=tuple(rows), note=note))
+    ]
+
+
+def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = "") -> Sections:
+    """The result of ``compare --frozen``; ``again`` is the command that calibrates anew."""
+    h = c["frozen"]
+    frozen, free = c["error"]["calibrated"], h["free"]["calibrated"]
+    holds = "holds" if h["holds"] else "does NOT hold"
+    head = (
+        f"The saved calibration {holds} here: it leaves {eotvos(frozen)} Eo, parameters fitted to this record"
+        f" {eotvos(free)} Eo; the noise floor is {eotvos(c['noise_floor'])} Eo.",
+        f"It was made {h['made']} on {_flights(list(h['flights']))}. Test of the step to the free fit: chi-square"
+        f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions (p {_equals(h['log10_p'])}).",
+    )
+    rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))
+    first, *others = describe_comparison(c, flights, then, rows, judged=False)
+    moved = [
+        (
+            clean(r["flight"]),
+            parameter_label(r),
+            numbers.plus_minus(r["frozen"], r["frozen_std"]),
+            numbers.plus_minus(r["value"], r["std"]),
+            numbers.unit(r["unit"]),
+            number(r["z"], 2),
+        )
+        for r in sorted(h["drift"], key=lambda r: -abs(r["z"]))
+        if abs(r["z"]) > 3.0
+    ]
+    heads = ("flight", "parameter", "frozen", "now", "unit", "σ")
+    found = [Section(sentences=(*head, *first.sentences), state="good" if h["holds"] else "bad"), *others]
+    if moved:
+        found.append(
+            Section(title="What moved", table=Table(heads=heads, rows=tuple(moved), words=2, brief=8))
+        )
+    if h["suspects"]:
+        single = [
+            (
+                clean(x["name"]),
+                numbers.with_unit(number(x["change"], 3), x["unit"]),
+                numbers.percent(x["share"]),
+            )
+            for x in h["suspects"]
+        ]
+        title = "Single parameters whose change would explain it"
+        table = Table(heads=("parameter", "change", "explains"), rows=tuple(single))
+        found.append(Section(title=title, table=table))
+    return (
+        *found,
+        *_next("" if h["holds"] or not again else f"if the instrument may have changed: {again} --save"),
+    )
+
+
+def _equals(log10_p: float | None) -> str:
+    text = numbers.probability(log10_p)
+    return text if text.startswith("<") else f"= {text}"
+
+
+def verdict_headline(d: Json) -> str:
+    """What a diagnosis concludes, with its numbers, in one sentence or two."""
+    before, after, noise = d["error"]["before"], d["error"]["after"], d["noise_floor"]
+    found = listed([_group_name(e, d["groups"]) for e in d["found"]])
+    it = "it" if len(d["found"]) == 1 else "them"
+    terms = d["unexplained"]["terms"]
+    mostly = f", mostly at {term_label(terms[0])}" if terms else ""
+    left = excess(after["rms_Eo"], noise["rms_Eo"])
+    if not d["converged"]:
+        return f"No verdict: {clean(d['reason'])}."
+    if d["verdict"] == "adequate":
+        return (
+            f"Adequate: no effect is missing that this record could show. The calibrated model leaves {eotvos(before)} Eo;"
+            f" the noise floor is {eotvos(noise)} Eo."
+        )
+    falls = f"With {it} the error falls from {eotvos(before)} to {eotvos(after)} Eo"
+    if not after["rms_Eo"] < before["rms_Eo"] * (1.0 - 1e-6):
+        falls = f"The error stays {eotvos(before)} Eo"
+    if d["verdict"] == "missing-effect":
+        return f"Missing: {found}. {falls}; the noise floor is {eotvos(noise)} Eo."
+    if d["verdict"] == "partly-explained":
+        return f"Partly explained: {found}. {falls}. Not yet explained: {number(left, 2)} Eo{mostly}."
+    remain = excess(before["rms_Eo"], noise["rms_Eo"])
+    size = (
+        f"the other {number(remain, 2)} Eo"
+        if remain > 0.05 * noise["rms_Eo"]
+        else "the systematic part of it"
+    )
+    return (
+        f"Unexplained: {eotvos(before)} Eo remain where the noise floor is {eotvos(noise)} Eo, and no effect of the catalogue"
+        f" accounts for {size}{mostly}."
+    )
+
+
+def _group_name(effect: str, groups: Sequence[Json]) -> str:
+    for g in groups:
+        if g["effects"][0] == effect and g["name"]:
+            return f"{clean(g['name'])} ({listed([clean(e) for e in g['effects']], 'or')})"
+    return clean(effect)
+
+
+def best_values(r: Json) -> list[Json]:
+    """One value of every parameter of an effect: of its combinations, or single values, the one that stands out most."""
+    every: dict[str, list[Json]] = {}
+    for q in (*r["combinations"], *r["parameters"]):
+        every.setdefault(str(q["name"]).rpartition(" ")[2], []).append(q)
+    chosen = [
+        max([q for q in same if q.get("weights")] or same, key=_significance) for same in every.values()
+    ]
+    clear = [q for q in chosen if _significance(q) > CLEAR]
+    return sorted(clear or chosen, key=_significance, reverse=True)
+
+
+def _significance(p: Json) -> float:
+    return abs(p["value"]) / p["std"] if p["std"] > 0.0 else math.inf
+
+
+def finding(r: Json) -> str:
+    """An effect in one line: what, its value, the error before and after, held out."""
+    values = ", ".join(parameter_line(p) for p in best_values(r)[:3])
+    held = r.get("error_after_holdout")
+    errors = f"{error_text(r['error_before'], r['error_after'])}, held out {eotvos(held)} Eo"
+    return f"{clean(r['effect'])}: {values}{'; ' if values else ''}{errors}"
+
+
+def _clear_values(effects: Sequence[Json]) -> list[Json]:
+    """Values of effects that are larger than their uncertainty."""
+    return [p for e in effects for p in (*e["combinations"], *e["parameters"]) if _is_clear(p, e)]
+
+
+def _is_clear(p: Json, effect: Json) -> bool:
+    alone = p["accelerometer"] is not None and bool(effect["combinations"])
+    return _significance(p) > (CLEAR_ALONE if alone else CLEAR)
+
+
+def patterns_note(values: Sequence[Json]) -> list[str]:
+    """What the combinations are that appear among the values."""
+    named = {str(p["name"]).rpartition(" ")[0] for p in values}
+    said = [f"{name} = {PATTERNS[name]}" for name in PATTERNS if name in named]
+    return [f"{', '.join(said)}, each accelerometer weighted by its scale factor."] if said else []
+
+
+def values_sections(effects: Sequence[Json]) -> Sections:
+    """All values of effects (name, parameters, combinations): those that are larger than their uncertainty, and the others."""
+    every = [(e, p) for e in effects for p in (*e["combinations"], *e["parameters"])]
+    if not every:
+        return ()
+    rows = [(clean(e["effect"]), parameter_label(p), with_uncertainty(p)) for e, p in every]
+    clear = [row for row, (e, p) in zip(rows, every, strict=True) if _is_clear(p, e)]
+    heads = ("effect", "parameter", "value")
+    hidden = len(rows) - len(clear)
+    shown = Section(title="Values", table=Table(heads=heads, rows=tuple(clear), words=3)) if clear else None
+    rest = Section(
+        title="All values",
+        table=Table(heads=heads, rows=tuple(rows), words=3),
+        detail=True,
+        summary=f"{_counted(hidden, 'value')} of little significance",
+    )
+    return tuple(s for s in (shown, rest if hidden else None) if s is not None)
+
+
+def describe_diagnosis(d: Json, then: str = "") -> Sections:
+    """The result of ``diagnose``; ``then`` is the command that adds what was found."""
+    claimed = [r for r in d["ranking"] if r["effect"] in d["found"]]
+    values = _clear_values(claimed)
+    state = {"adequate": "good", "missing-effect": "found", "partly-explained": "found"}.get(
+        d["verdict"], "bad"
+    )
+    first = Section(
+        sentences=(verdict_headline(d), *map(finding, claimed), *_remarks(d), *patterns_note(values)),
+        state=state,
+    )
+    rows = [("model as it is", d["error"]["before"])]
+    if d["found"]:
+        rows.append((f"with {listed([clean(e) for e in d['found']])}", d["error"]["after"]))
+    found = [first, errors_section([*rows, floor_row(d)]), *values_sections(claimed)]
+    terms = d["unexplained"]["terms"]
+    if terms and d["verdict"] in ("unexplained", "partly-explained"):
+        found.append(Section(title="Not explained", table=terms_table(terms)))
+        found += _own_effect(d["unexplained"])
+    found += [*_evidence(d), *_next_motions(d["next_motion"]), *_silent(d)]
+    if d["off_sheet"]:
+        found.append(_off_sheet(d["off_sheet"]))
+    return (*found, *(_next(then) if d["found"] else ()))
+
+
+def _remarks(d: Json) -> list[str]:
+    """What belongs beside the verdict: its reason, groups, flights that disagree, from when on the model fails."""
+    said = (
+        [f"{clean(d['reason'])[:1].upper()}{clean(d['reason'])[1:]}."]
+        if d["reason"] and d["converged"]
+        else []
+    )
+    for g in d["groups"]:
+        main, *others = map(clean, g["effects"])
+        if others and not g["name"]:
+            said.append(
+                f"This record cannot distinguish {main} from {listed(others, 'or')}: they are one finding."
+            )
+    for x in d.get("disagree") or ():
+        what = listed([clean(e) for e in x["found"]]) or "no effect"
+        said.append(
+            f"By itself, {_flights(x['flights'])} {'needs' if len(x['flights']) == 1 else 'need'} {what}."
+        )
+    if d["holds_until_s"] is not None:
+        said.append(
+            f"The fit fails from {number(d['holds_until_s'], 4)} s of {clean(d['holds_until_flight'])} on."
+        )
+    best = d["ranking"][0] if d["ranking"] else None
+    if (
+        d["verdict"] == "unexplained"
+        and d["converged"]
+        and best
+        and best["log10_p"] is not None
+        and best["log10_p"] < -4.0
+    ):
+        said.append(
+            f"Nearest of the catalogue is {clean(best['effect'])} (error {eotvos(best['error_after'])} Eo with it), which is not"
+            " claimed: probabilities compare the effects of the catalogue only, and the cause may be another one."
+        )
+    return said
+
+
+def _evidence(d: Json) -> Sections:
+    if not d["ranking"]:
+        return _plain("No effect of the catalogue could be tested on this record.")
+    rows = [
+        (
+            clean(r["effect"]),
+            numbers.probability(r["log10_p"]),
+            _chance(r["probability"]),
+            eotvos(r["error_after"]),
+            eotvos(r["error_after_holdout"]),
+        )
+        for r in d["ranking"]
+    ]
+    heads = ("effect", "p-value", "probability", "error with it, Eo", "held out, Eo")
+    note = "p-value: chance of so much evidence without the effect; probability: among the effects of the catalogue."
+    brief = max(RANKED, len(d["found"]))
+    return (
+        Section(
+            title="Evidence",
+            table=Table(heads=heads, rows=tuple(rows), strong=frozenset(d["found"]), brief=brief, note=note),
+        ),
+    )
+
+
+def _chance(p: float | None) -> str:
+    """A probability: two digits, never 1 and never 0 for what is neither."""
+    if p is None:
+        return numbers.ABSENT
+    return "> 0.99" if p > 0.995 else "< 0.01" if p < 0.005 else f"{p:.2f}"
+
+
+def _own_effect(u: Json) -> Sections:
+    if not u["expression"]:
+        return ()
+    needs = (f"The flight then needs further columns: {listed(list(u['needs']))}.",) if u.get("needs") else ()
+    text = "To keep the strongest term as an effect of your own, put this line into effects of model.toml and add it:"
+    return (Section(title="As an effect of your own", sentences=(text, *needs), code=(u["expression"],)),)
+
+
+def motion_sentence(p: Json) -> str:
+    """What a motion would separate, from the JSON of a proposal."""
+    if not p["separates"]:
+        return f"no motion within the limits separates {p['effect']} from {p['rival']} (at best {number(p['separation_then'], 2)} σ)"
+    size = (
+        f"{number(p['amplitude'] / 9.80665e-3)} mg"
+        if p["unit"] == "m/s^2"
+        else f"{number(math.degrees(p['amplitude']) * 3600)} deg/h"
+    )
+    return (
+        f"to separate {p['effect']} from {p['rival']}: {number(p['duration_s'])} s of {p['axis']} = {size} at"
+        f" {number(p['frequency_Hz'])} Hz ({p['frequency_over_spin']:g} times the spin), {number(p['separation_now'], 2)} →"
+        f" {number(p['separation_then'])} σ"
+    )
+
+
+def _next_motions(proposals: Sequence[Json]) -> Sections:
+    said = tuple(clean(motion_sentence(p)) for p in proposals)
+    return (Section(title="Next motion", sentences=said),) if said else ()
+
+
+def _silent(d: Json) -> Sections:
+    """Effects that this record cannot test, and how large the others would have to be."""
+    silent = tuple((clean(n["effect"]), clean(n["why"])) for n in d["not_testable"])
+    sizes: dict[str, list[str]] = {}
+    for s in d["detectable"]:
+        sizes.setdefault(s["effect"], []).append(clean(s["three_sigma"]))
+    count = f"{len(silent)} effect{'s' if len(silent) != 1 else ''} of the catalogue cannot be tested on this record"
+    found = []
+    if silent:
+        found.append(
+            Section(
+                title="Not testable",
+                table=Table(("effect", "why"), silent, words=2),
+                detail=True,
+                summary=count,
+            )
+        )
+    if sizes:
+        rows = tuple((clean(e), ", ".join(v)) for e, v in sizes.items())
+        note = (
+            "Size that would stand out at three standard deviations, in the accelerometer that shows it best."
+        )
+        table = Table(("effect", "detection limit (3 σ)"), rows, words=2, note=note)
+        found.append(Section(title="Detection limits", table=table, detail=True))
+    return tuple(found)
+
+
+def describe_step(
+    added: Sequence[str], removed: Sequence[str], before: Json, after: Json, values: Sequence[Json]
+) -> Sections:
+    """What a step of the model did to the error; ``before`` and ``after``: errors, noise floor, whether it is adequate.
+
+    ``values`` are the effects of the model afterwards with their parameters.
+    """
+    done = [
+        f"{what} {listed([clean(e) for e in names])}"
+        for what, names in (("added", added), ("removed", removed))
+        if names
+    ]
+    old, new = (x.get("error", x) for x in (before, after))
+    end = "the model is now adequate" if after["adequate"] else "the model is still NOT adequate"
+    head = listed(done) or "the test sheet changed"
+    text = [
+        f"{head[:1].upper()}{head[1:]}: {error_text(old['calibrated'], new['calibrated'])}, held out {eotvos(new['holdout'])} Eo;"
+        f" the noise floor is {eotvos(after['noise_floor'])} Eo, and {end}."
+    ]
+    if new["holdout"]["rms_Eo"] > old["holdout"]["rms_Eo"]:
+        text.append("Held out, the error does not fall: this record does not confirm the step.")
+    every = _clear_values(values)
+    rows = [
+        ("before", old["calibrated"]),
+        ("after", new["calibrated"]),
+        ("held out", new["holdout"]),
+        floor_row(after),
+    ]
+    first = Section(sentences=(*text, *patterns_note(every)), state="good" if after["adequate"] else "found")
+    return (first, errors_section(rows), *values_sections(values))
+
+
+def describe_addition(a: Json, effects: Sequence[str], then: str = "") -> Sections:
+    """The result of ``add``; ``effects`` are those of the model afterwards."""
+    if not a.get("converged", True):
+        return _plain(f"{clean(a['effect'])} was NOT added: {clean(a['reason'])}.")
+    if a["before"] is None or a["after"] is None:
+        return _plain(f"Added {clean(a['effect'])}; {_effects(effects)}.")
+    found = [
+        *describe_step([a["effect"]], [], a["before"], a["after"], [a]),
+        *_plain(f"{_effects(effects)}."),
+    ]
+    if a["off_sheet"]:
+        found.append(_off_sheet(a["off_sheet"]))
+    return (*found, *(_next(then) if not a["after"]["adequate"] else ()))
+
+
+def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sections:
+    """The result of ``calibrate``."""
+    e, seen = c["error"], c["directions"]
+    head = (
+        f"Calibrated on {_flights(flights)}: {error_text(e['nominal'], e['calibrated'])}, held out {eotvos(e['holdout'])} Eo;"
+        f" the noise floor is {eotvos(c['noise_floor'])} Eo."
+        if c["converged"]
+        else "The calibration has NOT converged: do not rely on these values."
+    )
+    text = (
+        f"The record determines {seen['seen']} of {seen['fitted']} directions of the parameters; the rest stay at their"
+        f" test-sheet values. {_effects(c['effects'])[:1].upper()}{_effects(c['effects'])[1:]}."
+    )
+    rows = [
+        ("nominal", e["nominal"]),
+        ("calibrated", e["calibrated"]),
+        ("held out", e["holdout"]),
+        floor_row(c),
+    ]
+    clear = [p for p in c["combinations"] if _significance(p) > CLEAR]
+    combined = tuple((parameter_label(p), with_uncertainty(p)) for p in clear)
+    note = " ".join(patterns_note(clear))
+    single = tuple(
+        (parameter_label(p), with_uncertainty(p), *(number(p.get(k), 4) for k in ("sheet", "sheet_sigma")))
+        for p in (*c["combinations"], *c["parameters"])
+    )
+    found = [
+        Section(sentences=(head, text), state="good" if c["converged"] else "bad"),
+        errors_section(rows),
+        Section(
+            title="Best-determined combinations",
+            table=Table(("parameter", "value"), combined, words=2, note=note),
+        ),
+        Section(
+            title="Every parameter",
+            table=Table(("parameter", "value", "test sheet", "its uncertainty"), single, words=2),
+            detail=True,
+            summary=f"all {len(single)} combinations and parameters",
+        ),
+    ]
+    if c["drift"]:
+        drift = tuple((clean(q["flight"]), parameter_label(q), with_uncertainty(q)) for q in c["drift"])
+        found.append(
+            Section(title="Each flight alone", table=Table(("flight", "parameter", "value"), drift, words=3))
+        )
+    return (*found, *_next(then))
+
+
+def describe_compensation(r: Json, output: str) -> Sections:
+    """The result of ``compensate``, written to a file."""
+    d = r["demodulator"]
+    lag = f", {number(d['latency_s'])} s late" if d["latency_s"] else ""
+    head = [
+        f"{output}: calibration {r['calibration']}, {d['what']}{lag}."
+        if output
+        else f"Calibration {r['calibration']}, {d['what']}."
+    ]
+    if not r["converged"]:
+        head.append("The calibration has NOT converged: do not rely on these values.")
+    found = [
+        Section(sentences=(*head, *map(clean, r.get("notes", ()))), state="good" if r["converged"] else "bad")
+    ]
+    several = len({x["output"] for x in r["flights"]}) > 1
+    for x in r["flights"]:
+        name = clean(x["flight"]) + (f": {clean(x['output'])}" if several else "")
+        counts = ", ".join(f"{clean(k)} {n}" for k, n in x["quality"].items() if n)
+        text = f"{x['good']} of {x['samples']} samples are good{f' ({counts})' if counts else ''}."
+        removed = [
+            (clean(str(q["of"])), number(q["inline_Eo"]), number(q["cross_Eo"])) for q in x["contributions"]
+        ]
+        found += [
+            Section(title=name, sentences=(text,), table=_channels_table(x)),
+            Section(
+                title="What was removed, rms",
+                table=Table(("", "inline, Eo", "cross, Eo"), tuple(removed), brief=8),
+                detail=several or len(r["flights"]) > 1,
+            ),
+        ]
+    return tuple(found)
+
+
+def _channels_table(x: Json) -> Table:
+    rows = []
+    for channel in ("inline", "cross"):
+        density = [x["density"][k].get(f"{channel}_Eo_per_rtHz") for k in ("before", "after", "noise")]
+        sizes = [x["std"][k][f"{channel}_Eo"] for k in ("noise", "parameters")]
+        rows.append((channel, *map(number, (*density, *sizes))))
+    heads = (
+        "channel",
+        "nominal, Eo/√Hz",
+        "compensated, Eo/√Hz",
+        "noise, Eo/√Hz",
+        "std by noise, Eo",
+        "std by parameters, Eo",
+    )
+    return Table(heads, tuple(rows))
+
+
+def describe_online(r: Json, output: str) -> Sections:
+    """The result of ``compensate --calibration online``, written to a file."""
+    within, forget = r["follows_within_s"], r["forget_s"]
+    follows = "" if within is None else f" and is followed within {number(within)} s"
+    return _plain(
+        f"{output}: sample by sample from the {r['started']}; noise {number(r['noise_Eo_per_rtHz'])} Eo/√Hz.",
+        f"The gradient wanders by {number(r['walk_Eo_per_rts'])} Eo/√s{follows}; the parameters"
+        f" {'forget nothing' if forget is None else f'forget within {number(forget)} s'}.",
+        *(f"{clean(x['flight'])}: {x['samples']} samples" for x in r["flights"]),
+    )
+
+
+def rms_of(entry: Json | None, which: str = "calibrated") -> float | None:
+    """rms_Eo of a step of a history; ``None`` if it has none."""
+    inner = entry.get(which, entry if which == "calibrated" else None) if entry else None
+    value = inner.get("rms_Eo") if inner else None
+    return None if value is None else float(value)
+
+
+def history_table(steps: Sequence[Json]) -> Table:
+    """The error before and after every step."""
+    rows = [
+        (
+            str(s["time"]),
+            clean(str(s["action"])),
+            clean(str(s["effect"] or numbers.ABSENT)),
+            *(
+                number(rms_of(s.get(entry), which))
+                for entry, which in (("before", "calibrated"), ("after", "calibrated"), ("after", "holdout"))
+            ),
+        )
+        for s in steps
+    ]
+    return Table(("when", "step", "effect", "before, Eo", "after, Eo", "held out, Eo"), tuple(rows), words=3)
+
+
+def describe_history(steps: Sequence[Json]) -> Sections:
+    """The steps of a model directory."""
+    return (Section(table=history_table(steps)),)
+
+
+def describe_model(name: str, effects: Sequence[str], steps: Sequence[Json]) -> Sections:
+    """A model directory and its history."""
+    return (Section(sentences=(f"{clean(name)}; {_effects(effects)}",), table=history_table(steps)),)
+
+
+def describe_catalogue(entries: Sequence[Json]) -> Sections:
+    """The catalogue of effects."""
+    rows = tuple((str(e["id"]), str(e["title"]), ", ".join(e["channels"])) for e in entries)
+    return (Section(table=Table(("effect", "what it is", "channels it needs"), rows, words=3)),)
+
+
+def describe_effect(e: Json) -> Sections:
+    """One effect in full."""
+    rows = tuple(
+        (
+            q["name"],
+            q["unit"],
+            f"{q['plausible']:g}",
+            "one value" if q["shared"] else "each accelerometer",
+            q["meaning"],
+        )
+        for q in e["parameters"]
+    )
+    facts = (
+        ("needs", ", ".join(e["channels"]) or "the motion alone"),
+        ("limits", e["limits"] or "none stated"),
+        ("source", e["source"]),
+    )
+    return (
+        Section(sentences=(f"{e['id']}: {e['title']}", e["physics"]), code=(e["equation"],)),
+        Section(
+            title="Parameters", table=Table(("name", "unit", "prior (1 σ)", "for", "meaning"), rows, words=5)
+        ),
+        Section(table=Table(("", ""), facts, words=2)),
+    )
+
+
+def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
+    """The result of ``survey``; ``headline`` counts the verdicts, ``advice`` says what to do, in sentences."""
+    done = [r for r in s["flights"] if "verdict" in r]
+    failed = [r for r in s["flights"] if "verdict" not in r]
+    rows = [
+        (
+            clean(r["flight"]),
+            r["verdict"],
+            *(
+                number((r["error"][k] or {}).get("rms_Eo"))
+                for k in ("nominal", "calibrated", "holdout", "after")
+            ),
+            number(r["noise_floor"]["rms_Eo"]),
+            " ".join(map(clean, r["found"])),
+        )
+        for r in done[:LISTED]
+    ]
+    heads = (
+        "flight",
+        "verdict",
+        "nominal, Eo",
+        "calibrated, Eo",
+        "held out, Eo",
+        "after, Eo",
+        "noise, Eo",
+        "found",
+    )
+    bad = s["counts"]["error"] or s["counts"]["unexplained"]
+    state = "bad" if bad else "good" if s["counts"]["adequate"] == len(done) else "found"
+    found = [Section(sentences=(headline, *advice), state=state)]
+    if rows:
+        more = f"and {len(done) - LISTED} more" if len(done) > LISTED else ""
+        found.append(Section(title="Flights", table=Table(heads, tuple(rows), words=2, note=more)))
+    if s["effects"]:
+        counts = tuple(
+            (clean(e["effect"]), str(e["found"]), str(e["perhaps"]), str(e["testable"])) for e in s["effects"]
+        )
+        note = "found: claimed; perhaps: explains as much as what is claimed; testable: the record could have shown it"
+        found.append(
+            Section(
+                title="Effects", table=Table(("effect", "found", "perhaps", "testable"), counts, note=note)
+            )
+        )
+    if s["unexplained_terms"]:
+        terms = tuple((term_label(t), str(t["flights"])) for t in s["unexplained_terms"])
+        found.append(
+            Section(
+                title="What no effect explains",
+                table=Table(("harmonic × motion term", "flights"), terms, brief=8),
+            )
+        )
+    if s["parameters"]:
+        found.append(_trends(s["parameters"]))
+    if failed:
+        rows_ = tuple(
+            (clean(r["flight"]), " ".join(clean(str(r["error"]["message"])).split())) for r in failed
+        )
+        text = ("The other flights are not affected.",)
+        found.append(
+            Section(
+                title="Flights in error",
+                sentences=text,
+                table=Table(("flight", "what is wrong"), rows_, words=2),
+            )
+        )
+    return tuple(found)
+
+
+def _trends(parameters: Sequence[Json]) -> Section:
+    rows = []
+    for t in parameters:
+        std = min(s for s in t["stds"] if s is not None)
+        label = t["name"] if t["accelerometer"] is None else f"{t['name']}[{t['accelerometer']}]"
+        mean = numbers.with_unit(numbers.rounded(t["mean"], std), t["unit"])
+        cells = (
+            str(t["dof"] + 1),
+            mean,
+            number(t["scatter"], 2),
+            number(t["chi2"] / t["dof"], 2),
+            number(t["slope_z"], 2),
+        )
+        rows.append((clean(label), *cells))
+    varying = sum(bool(t["varies"]) for t in parameters)
+    heads = ("parameter", "flights", "mean", "scatter", "χ²/dof", "slope/sd")
+    text = f"{varying} of {len(rows)} calibrated parameters differ from flight to flight; the least constant first."
+    return Section(
+        title="Parameters from flight to flight", sentences=(text,), table=Table(heads, tuple(rows), brief=12)
+    )
+
+
+def describe_next_motion(r: Json, output: str) -> Sections:
+    """The result of ``next-motion``, written to a file."""
+    head = (
+        f"{output}: {len(r['sinusoids'])} sinusoids, {number(r['duration_s'])} s at {number(r['rate_Hz'])} Hz"
+    )
+    if not r["separations"]:
+        return _plain(
+            head, "No effects are left to separate: a multisine about all axes, which excites every effect."
+        )
+    said = [
+        f"if it is {clean(x['effect'])}: {clean(x['rival'])} is ruled out ({number(x['now'], 2)} → {number(x['then'])} σ)"
+        if x["then"] > 3.0
+        else f"if it is {clean(x['effect'])}: no motion within the limits rules out {clean(x['rival'])}, which acts alike"
+        f" ({number(x['now'], 2)} → {number(x['then'])} σ)"
+        for x in r["separations"]
+    ]
+    return _plain(head, *said)
+
+
+def describe_flight_file(f: Json) -> Sections:
+    """What a flight file holds, and what is assumed: the result of ``info``."""
+    head = f"{clean(f['path'])}: {f['format']}, {numbers.fixed(f['bytes'] / 1e6, 2)} MB, {_counted(len(f['records']), 'record')}."
+    found = [Section(sentences=(head,), state="bad" if any(r["refused"] for r in f["records"]) else "good")]
+    for r in f["records"]:
+        found += _record_sections(r)
+    return tuple(found)
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def _record_sections(r: Json) -> list[Section]:
+    said = [f"{numbers.fixed(r['rows'], 0)} rows"]
+    if r["rate_Hz"] is not None:
+        said.append(
+            f"{number(r['rate_Hz'], 5)} Hz, {numbers.seconds(r['duration_s'])} from {number(r['start_s'], 4)} s on"
+        )
+    if r["origin"]:
+        said.append(f"time 0 is {r['origin']}")
+    text = [f"{'; '.join(said)}."]
+    if r["gap_count"]:
+        longest = max(r["gaps"], key=lambda g: g["samples"])
+        text.append(
+            f"{_counted(r['gap_count'], 'gap')}, {_counted(r['missing'], 'sample')} missing; the longest from"
+            f" {number(longest['from_s'], 5)} to {number(longest['to_s'], 5)} s."
+        )
+    text += [f"note: {clean(n)}" for n in r["notes"]]
+    if r["refused"]:
+        text.append(f"This record cannot be used as it is: {' '.join(clean(r['refused']).split())}")
+    rows = [
+        (
+            clean(c["name"]),
+            numbers.unit(c["unit"]) or "1",
+            *(number(c[k], 4) for k in ("minimum", "mean", "maximum")),
+            str(c["missing"]),
+        )
+        for c in r["columns"]
+    ]
+    table = Table(("column", "unit", "minimum", "mean", "maximum", "missing"), tuple(rows), words=2)
+    gaps = [(number(g["from_s"], 6), number(g["to_s"], 6), str(g["samples"])) for g in r["gaps"]]
+    found = [Section(title=clean(r["name"]), sentences=tuple(text), table=table)]
+    if gaps:
+        found.append(
+            Section(
+                title="Gaps", table=Table(("from, s", "to, s", "samples"), tuple(gaps), words=0), detail=True
+            )
+        )
+    return found
+
+
+def summarize(kind: str, said: str, *errors: tuple[str, float | None]) -> str:
+    """The ``repr`` of a result: what it is, what it says, errors in Eo."""
+    return numbers.to_ascii(f"<{kind}: {said}; {', '.join(f'{name} {number(x)}' for name, x in errors)} Eo>")

@@ -1,0 +1,212 @@
+"""What a result says: a list of sections (sentences, a table, data of plots), and how a terminal and HTML show it."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.wording import numbers
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of text: ``words`` leading columns are left-aligned, rows that begin with one of ``strong`` are bold.
+
+    ``brief``: rows that a terminal shows unless it is asked for all (``None``: all); ``note`` is said below.
+    """
+
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    words: int = 1
+    strong: frozenset[str] = frozenset()
+    brief: int | None = None
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve (N,): a line, steps (``x`` holds N + 1 edges), or a band from ``y`` to ``high``; ``role`` gives its colour."""
+
+    name: str
+    x: Array
+    y: Array
+    role: Literal["residual", "envelope", "before", "noise"] = "residual"
+    kind: Literal["line", "steps", "band", "outline"] = "line"
+    high: Array | None = None
+    width: float = 1.2
+
+
+@dataclass(frozen=True)
+class Axes:
+    """Curves over one abscissa; ``level``: one standard deviation of noise; ``marks``: abscissae with a text; ``frame``: a window."""
+
+    curves: tuple[Curve, ...]
+    y_label: str
+    title: str = ""
+    ends: tuple[float, float] | None = None
+    level: float = float("nan")
+    signed: bool = True
+    log: bool = False
+    marks: tuple[tuple[float, str], ...] = ()
+    frame: tuple[float, float] | None = None
+    share: float = 1.0
+
+
+@dataclass(frozen=True)
+class Curves:
+    """A figure of axes below each other; ``key`` begins the ids of its elements, ``unit`` is that of the abscissa."""
+
+    key: str
+    label: str
+    caption: str
+    axes: tuple[Axes, ...]
+    x_label: str
+    unit: str = "s"
+    height: float = 2.2
+
+
+@dataclass(frozen=True)
+class Bar:
+    """A bar: its label and value, the level that noise alone would give, and other values marked beside it (NaN: none)."""
+
+    label: str
+    value: float
+    noise: float = float("nan")
+    strong: bool = True
+    dots: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Bars:
+    """A figure of bars, upright or lying; ``threshold`` is a dashed line with a text, ``dots`` names the marks."""
+
+    key: str
+    label: str
+    caption: str
+    bars: tuple[Bar, ...]
+    axis: str
+    upright: bool = False
+    log: bool = False
+    threshold: tuple[float, str] | None = None
+    dots: tuple[str, ...] = ()
+
+
+Plot = Curves | Bars
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of what a result says. The first of a result has no title: it is the verdict, and ``state`` gives its colour.
+
+    ``detail``: a terminal shows it on request alone, and a page folds it; ``summary`` then stands for it, in one line.
+    """
+
+    title: str = ""
+    sentences: tuple[str, ...] = ()
+    table: Table | None = None
+    code: tuple[str, ...] = ()
+    plots: tuple[Plot, ...] = ()
+    detail: bool = False
+    summary: str = ""
+    state: str = ""
+
+
+def render_text(sections: Sequence[Section], *, verbose: bool = False) -> str:
+    """The sections for a terminal, in ASCII but for names; ``verbose``: with their details."""
+    parts = []
+    for s in sections:
+        lines = [f"{s.title}:"] if s.title and not s.detail else []
+        indent = "  " if s.title else ""
+        if s.detail and not verbose:
+            parts += [f"{s.summary} (-v)"] if s.summary else []
+            continue
+        if s.detail:
+            lines = [f"{s.title}:"]
+        lines += [f"{indent}{text}" for text in s.sentences]
+        lines += [] if s.table is None else _text_table(s.table, indent, verbose)
+        lines += [f"  {line}" for line in s.code]
+        if lines != [f"{s.title}:"]:
+            parts.append("\n".join(lines))
+    spaced = [
+        p if k == 0 or ("\n" not in p and "\n" not in parts[k - 1]) else f"\n{p}" for k, p in enumerate(parts)
+    ]
+    return numbers.to_ascii(numbers.clean("\n".join(spaced)))
+
+
+def _text_table(t: Table, indent: str, verbose: bool) -> list[str]:
+    rows = t.rows if verbose or t.brief is None else t.rows[: t.brief]
+    cells = [[numbers.to_ascii(x) for x in row] for row in (t.heads, *rows)]
+    wide = [max(len(row[k]) for row in cells) for k in range(len(t.heads))]
+    lines = []
+    for row in cells:
+        padded = [
+            f"{x:{w}}" if k < t.words else f"{x:>{w}}" for k, (x, w) in enumerate(zip(row, wide, strict=True))
+        ]
+        lines.append(f"{indent}{'  '.join(padded)}".rstrip())
+    if not any(t.heads):
+        lines = lines[1:]
+    if len(rows) < len(t.rows):
+        lines.append(f"{indent}and {len(t.rows) - len(rows)} more (-v)")
+    return [*lines, *([f"{indent}{t.note}"] if t.note and (verbose or t.brief is None) else [])]
+
+
+def escape(text: object) -> str:
+    """Text of strangers for HTML: no markup, no control characters, no marks that reverse the line."""
+    return html.escape(numbers.clean(str(text)))
+
+
+def render_html(sections: Sequence[Section], draw: Callable[[Plot], str] = lambda plot: "") -> str:
+    """The sections as HTML without style, details folded; ``draw`` gives a plot as SVG."""
+    return "\n".join(_html_section(s, draw) for s in sections)
+
+
+def _html_section(s: Section, draw: Callable[[Plot], str]) -> str:
+    parts = [f"<p>{escape(text)}</p>" for text in s.sentences]
+    if not s.title:
+        first, *rest = parts or [""]
+        headline = first.replace("<p>", '<p class="headline">', 1)
+        return (
+            f'<div class="verdict {escape(s.state)}">{"".join([headline, *rest])}{_html_body(s, draw)}</div>'
+        )
+    body = "".join(parts) + _html_body(s, draw)
+    if s.detail:
+        short = f" <small>{escape(s.summary)}</small>" if s.summary else ""
+        return f"<details><summary><h2>{escape(s.title)}</h2>{short}</summary>{body}</details>"
+    return f"<section><h2>{escape(s.title)}</h2>{body}</section>"
+
+
+def _html_body(s: Section, draw: Callable[[Plot], str]) -> str:
+    drawn = [(draw(p), p.caption) for p in s.plots]
+    figures = [f"<figure>{svg}<figcaption>{escape(text)}</figcaption></figure>" for svg, text in drawn if svg]
+    table = "" if s.table is None else _html_table(s.table)
+    return "".join([*figures, table, *(f"<pre>{escape(line)}</pre>" for line in s.code)])
+
+
+def _html_table(t: Table) -> str:
+    def cells(tag: str, row: Sequence[str]) -> str:
+        opening = [f"<{tag}>" if k < t.words else f'<{tag} class="n">' for k in range(len(row))]
+        return "".join(f"{begin}{escape(x)}</{tag}>" for begin, x in zip(opening, row, strict=True))
+
+    weight = ("<tr>", '<tr class="strong">')
+    body = "".join(f"{weight[row[0] in t.strong]}{cells('td', row)}</tr>" for row in t.rows)
+    head = f"<thead><tr>{cells('th', t.heads)}</tr></thead>" if any(t.heads) else ""
+    note = f'<p class="note">{escape(t.note)}</p>' if t.note else ""
+    return f'<div class="wide"><table>{head}<tbody>{body}</tbody></table></div>{note}'
+
+
+_NOTEBOOK = (
+    ".ragg td,.ragg th{padding:.15em .7em;text-align:left;white-space:nowrap}.ragg .n{text-align:right}"
+    ".ragg .headline,.ragg .strong{font-weight:600}.ragg h2{font-size:1em;display:inline}.ragg p{margin:.2em 0}"
+)
+
+
+def render_notebook(sections: Sequence[Section]) -> str:
+    """The sections as a fragment of HTML for a notebook."""
+    return f'<div class="ragg"><style>{_NOTEBOOK}</style>{render_html(sections)}</div>'
