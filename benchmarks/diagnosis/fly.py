@@ -240,7 +240,7 @@ def essence(d: Mapping[str, Any]) -> dict[str, Any]:
     kept = [r for k, r in enumerate(d["ranking"]) if k < 6 or r["effect"] in d["found"]]
     return {
         "verdict": d["verdict"],
-        "reason": d["reason"],
+        "reason": d["remark"],
         "found": list(d["found"]),
         "ranking": [
             {

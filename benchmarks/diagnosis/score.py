@@ -6,7 +6,7 @@
   *part* if some of it is and nothing else; *silent* if the verdict is ``adequate``; *unexplained* if nothing is claimed and
   the verdict is ``unexplained``, or the record refused. A reason does not help: the effect was there to be found.
 - Nothing hidden: *right* if ``adequate``, or if nothing is claimed but what was done to the record (``allowed``); *said* if the
-  verdict is ``unexplained``, or the record refused, with a reason that says what is wrong with it; *unexplained* without one.
+  verdict is ``unexplained``, or the record refused, with a remark that says what is wrong with it; *unexplained* without one.
   Of records in which nothing follows the motion ``unexplained`` and refused are *right*, all else *wrong*.
 - Outside the catalogue: any claim is *wrong*; *right* is ``unexplained``; ``adequate`` is *silent*, a refused record *said*.
 - A false alarm is, of a tame record, any verdict but ``adequate`` or a claim of what is allowed.

@@ -6,8 +6,8 @@ Each case is a gradiometer made of the raw packets of a recording (without one, 
 page. Prints a line for every question, and how many hold. An answer holds if
 
 - what is left out is claimed, under whatever verdict, and its values agree with the survey (:func:`agrees`); or
-- what is left out, fixed at the value of the survey, is worth less than :data:`WORTH` sigma on this record, nothing is claimed, and
-  the answer says by name that the record does not suffice: in ``reason``, or among what is not testable.
+- what is left out, fixed at the value of the survey, is worth less than :data:`WORTH` sigma on this record, nothing is claimed without
+  evidence, and the answer says by name that the record does not suffice: in ``reason``, or among what is not testable.
 
 Claims of effects for which the survey has no evidence (all but :data:`FOUNDED`) are counted beside that.
 """
@@ -226,7 +226,7 @@ def agrees(question: str, d: Diagnosis, effect: str, known: Mapping[str, float],
     if not near:
         sigmas = worth(d.fitted, effect, known)
         parts.append(f"worth {sigmas:.1f} sigma")
-        near = sigmas < WORTH and not d.found and effect in _insufficient(d)
+        near = sigmas < WORTH and set(d.found) <= FOUNDED - {effect} and effect in _insufficient(d)
     return Answer.of(question, d, bool(near), "; ".join(parts))
 
 

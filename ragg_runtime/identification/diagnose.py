@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,12 +23,23 @@ from ragg_runtime.estimation.off_sheet import QUIET, off_sheet
 from ragg_runtime.estimation.passes import Piece
 from ragg_runtime.estimation.score import Error
 from ragg_runtime.estimation.thinning import thinned
-from ragg_runtime.identification import comparison, next_motion, omnibus, selection, sequential, strong
+from ragg_runtime.identification import (
+    claims,
+    comparison,
+    contenders,
+    next_motion,
+    omnibus,
+    selection,
+    sequential,
+    strong,
+)
+from ragg_runtime.identification.claims import Regression, Robust
 from ragg_runtime.identification.comparison import Explained, explained
 from ragg_runtime.identification.contenders import Extend
 from ragg_runtime.identification.likelihood_ratio import Test, Variance, pooled
 from ragg_runtime.identification.line_rival import LineRival, Steady, line_rival
 from ragg_runtime.identification.omnibus import Remainder
+from ragg_runtime.identification.parameters import parameter_values, visible_combinations
 from ragg_runtime.identification.ranking import (
     Ranked,
     _not_testable,
@@ -81,155 +93,336 @@ def diagnose_fitted(
     # before strong effects, whose columns take the place of these
     ranked = _ranking(first.fitted, first.field, first.choice, first.instants, output)
     steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend)
-    last, c = confirmed(last, extend)
-    chosen = [*(t.effect for t in steps), *last.choice.chosen]
-    left = _left(steps, last, c)
-    end = _end(last, c, apart)
-    verdict, found = _verdict(left, end, chosen, output)
-    by_terms = sum(s.chi2 for s in left.remainder.searches) if left.remains else 0.0
-    whitened = sum(s.square for s in left.remainder.searches)
-    ranking = _ranked(*ranked, steps, last, end.target, left)
+    last, outcome = confirmed(steps, last, extend)
+    found = Conclusion.of(first, steps, last, outcome, extend, apart, output)
+    outcome, left = found.outcome, found.left
+    ranking = _ranked(*ranked, steps, last, found)
     credence = weighed(last.field, steps)
     rivals = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
-    steady = [s for s in left.steady if s.effect in found]
     return Diagnosis(
-        verdict=verdict,
+        verdict=found.verdict,
         fitted=first.fitted,
         ranking=tuple(
             sorted(
-                (with_probability(r, credence, first.field.candidates) for r in ranking), key=_place(chosen)
+                (with_probability(r, credence, first.field.candidates) for r in ranking),
+                key=_place([*found.claims, *outcome.effects]),
             )
         ),
-        found=tuple(found),
+        found=found.claims,
         not_testable=tuple(_not_testable(first.fitted, first.field)),
-        remainder=left.remainder if left.remains else _without_terms(left.remainder),
-        remainder_share=by_terms / whitened if whitened else 0.0,
+        remainder=left if found.remains else _without_terms(left),
+        remainder_share=_share(outcome, left) if found.remains else 0.0,
         before=ranked[1],
-        scored=end.scored,
-        noise_floor=end.noise_floor,
+        scored=outcome.scored,
+        noise_floor=outcome.noise_floor,
         sizes=tuple(_sizes(first.fitted, first.field)),
-        target=end.target,
-        coefficients=end.coefficients,
+        target=outcome.target,
+        coefficients=outcome.coefficients,
         next_motion=tuple(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(rivals), limits)
         ),
-        complaint=end.complaint,
-        remark=_remark(end.doubt, left, steady, comparison.disturbed(end.target)),
-        explained=end.explained,
-        groups=groups(found, ranking, steady),
+        complaint=outcome.complaint,
+        remark=found.remark(apart),
+        reason=found.reason(apart),
+        explained=outcome.explained,
+        groups=groups(found.claims, ranking, found.steady),
         credible_set=credence.credible,
-        holds=_followed(end.target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
+        holds=_followed(
+            outcome.target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found.claims
+        ),
         staged=bool(steps),
-        off_sheet=tuple(off_sheet(end.target.model, end.target.instrument, end.target.calibration)),
+        off_sheet=tuple(
+            off_sheet(outcome.target.model, outcome.target.instrument, outcome.target.calibration)
+        ),
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Left:
-    """What the chosen effects leave: a remainder, a line of the output, random effects; ``remains``: more than chance does.
+def _share(o: Outcome, left: Remainder) -> float:
+    """Of what the outcome leaves above the noise the share that generic terms explain."""
+    above = sum(s.square for s in left.searches) - o.target.calibration.rows
+    by_terms = sum(s.chi2 for s in left.searches)
+    return min(1.0, by_terms / max(above, by_terms, 1.0))
 
-    ``random_found`` are (log p, effect), the surest first; ``steady`` the chosen effects that act as a constant term.
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """Flights with some ``effects`` in the model, and what they leave.
+
+    Effects that are not derived into the model of ``target`` are in its candidate columns ``given``.
     """
 
+    effects: tuple[str, ...]
+    target: Fitted
+    given: tuple[int, ...]
+    coefficients: Array
+    scored: Scored
     remainder: Remainder
-    line: LineRival | None
-    steady: Sequence[Steady]
     random: Mapping[str, Test]
-    random_found: Sequence[tuple[float, str]]
-    remains: bool
 
+    @staticmethod
+    def of(f: Fitted, effects: Sequence[str], given: Sequence[int]) -> Outcome:
+        v = f.vector(f.coefficients(given)[0], given) if given else np.zeros(f.size)
+        (scored,) = f.score([v])
+        rem, random = _remainder(f, given)
+        return Outcome(
+            effects=tuple(effects),
+            target=f,
+            given=tuple(given),
+            coefficients=v,
+            scored=scored,
+            remainder=rem,
+            random={e: x.test() for e, x in random.items()},
+        )
 
-def _left(steps: Sequence[Taken], last: Stage, c: Confirmed) -> _Left:
-    random = {e: v.test() for e, v in c.random.items()}
-    count = len(last.field.candidates) + len(random)
-    random_found = sorted((t.log_p, e) for e, t in random.items() if selection.significant(t, count))
-    rem = c.remainder
-    line, steady = line_rival(steps, last)
-    if line is not None and not line.better(rem):
-        line = None
-    rem = rem if line is None else line.within(rem)
-    remains = line is not None or rem.significant
-    if remains:
-        random, random_found = {}, []
-    return _Left(
-        remainder=rem,
-        line=line,
-        steady=steady,
-        random=random,
-        random_found=random_found,
-        remains=remains,
-    )
+    @cached_property
+    def robust(self) -> Robust:
+        return Robust.of(Regression.of(self.target, self.given))
+
+    @cached_property
+    def noise_floor(self) -> float:
+        return fitted_.noise_floor(self.target)
+
+    @cached_property
+    def explained(self) -> Explained:
+        return explained(self.target, self.scored)
+
+    @property
+    def complaint(self) -> str | None:
+        """What speaks against the fit, in words."""
+        return self.target.calibration.complaint
+
+    @property
+    def loud(self) -> bool:
+        return comparison.loud(self.target, self.scored, self.noise_floor)
+
+    def significance(self, effect: str, log_p: float | None, *, doubted: bool) -> float:
+        """Logarithm of the p-value of an effect beside the others (see ``claims.Significance.log_p``)."""
+        return self.robust.significance(effect).log_p(log_p, doubted=doubted)
 
 
 @dataclass(frozen=True, eq=False)
-class _End:
-    """The flights with the chosen effects in, how they fit, and what speaks against the fit (in words, or ``None``)."""
+class Conclusion:
+    """The verdict, the effects that are claimed, and what is left beside them.
 
-    target: Fitted
-    coefficients: Array
-    scored: Scored
-    noise_floor: float
-    explained: Explained
-    complaint: str | None
-    doubt: str | None
+    ``open``: effects that the record speaks for, but not surely enough; ``line``, ``steady``: see ``line_rival``.
+    """
+
+    verdict: str
+    claims: tuple[str, ...]
+    outcome: Outcome
+    left: Remainder
+    line: LineRival | None
+    steady: tuple[Steady, ...]
+    open: tuple[str, ...]
+    rival: bool = False
+
+    @property
+    def remains(self) -> bool:
+        return self.verdict in ("unexplained", "partly-explained")
+
+    @staticmethod
+    def of(
+        first: Stage,
+        steps: Sequence[Taken],
+        last: Stage,
+        outcome: Outcome,
+        extend: Extend | None,
+        apart: str | None,
+        output: Sequence[str],
+    ) -> Conclusion:
+        """Judge what the search has chosen."""
+        line, steady = line_rival(steps, last)
+        if line is not None and not line.better(outcome.remainder):
+            line = None
+        count = sum(t.rank > 0 for t in first.choice.tests.values()) + len(outcome.random)
+        log_p = _p_values(last)
+        weak: list[str] = []
+        while not (line or apart) and (e := _weakest(outcome, log_p, count)):
+            weak.append(e)
+            outcome = _without(first, steps, last, outcome, e, extend)
+        left = outcome.remainder if line is None else line.within(outcome.remainder)
+        random = sorted((t.log_p, e) for e, t in outcome.random.items() if selection.significant(t, count))
+        # noise that follows the motion is louder where the motion is: a random effect says so itself
+        remains = line is not None or left.significant or outcome.complaint is not None
+        remains = remains or (outcome.loud and not random)
+        claims: tuple[str, ...] = ()
+        if not (line or apart or outcome.explained.complaint):
+            claims = _claims(first, steps, last, outcome, count)
+        rival = bool(outcome.effects) and not claims and not remains
+        if rival:  # generic terms do as well as what was chosen: they are what is left
+            left = _base(first)
+        doubted = apart is not None or outcome.explained.complaint is not None
+        if remains or rival or doubted:
+            verdict = "partly-explained" if claims else "unexplained"
+        else:
+            claims = (*claims, *(e for _, e in random[:1]), *output)
+            verdict = "missing-effect" if claims else "adequate"
+        beside = last.choice.conditional
+        unsure = sorted((t.log_p, e) for e, t in beside.items() if t.rank and t.log_p < np.log(OPEN))
+        return Conclusion(
+            verdict=verdict,
+            claims=claims,
+            outcome=outcome,
+            left=left,
+            line=line,
+            steady=tuple(s for s in steady if s.effect in claims),
+            open=tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in unsure)) if e not in claims)),
+            rival=rival,
+        )
+
+    def remark(self, apart: str | None) -> str | None:
+        """What is wrong with the record, or what else than the effects found would do, or how the record is disturbed."""
+        doubt = apart or self.outcome.explained.complaint
+        if doubt is not None:
+            return doubt
+        if self.line is not None:
+            return self.line.words
+        disturbed = comparison.disturbed(self.outcome.target)
+        return (
+            "; ".join([*(s.words for s in self.steady), *([] if disturbed is None else [disturbed])]) or None
+        )
+
+    def reason(self, apart: str | None) -> str | None:
+        """In one sentence, why the verdict is not ``adequate``, and what is odd about the record."""
+        remark = self.remark(apart)
+        if self.verdict == "adequate" or apart or self.line or self.outcome.explained.complaint:
+            return remark
+        said = (
+            [f"{listed(self.claims)} {'is' if len(self.claims) == 1 else 'are'} sure"] if self.claims else []
+        )
+        if self.remains:
+            said.append(self._left())
+        if self.open:
+            said.append(
+                f"the record does not suffice to say whether {listed(self.open[:3], 'or')} is there, too"
+            )
+        return "; ".join([*said, *([] if remark is None else [remark])])
+
+    def _left(self) -> str:
+        """What remains, in words."""
+        o = self.outcome
+        terms = [f"{t.term.harmonic} x {t.term.product}" for x in self.left.searches for t in x.terms]
+        if self.rival:
+            return f"{listed(o.effects)} would do, but so would a generic term, {terms[0] if terms else 'a line'}"
+        rms = o.scored.whole.rms_Eo
+        found = [] if o.complaint is None else [o.complaint]
+        if terms:
+            found.append(f"what remains is more than noise, mostly {terms[0]}")
+        return "; ".join(found) or (
+            f"what remains, {rms:.3g} Eo, is more than the noise of {o.noise_floor:.3g} Eo"
+        )
 
 
-def _end(last: Stage, c: Confirmed, apart: str | None) -> _End:
-    f = last.fitted
-    given = [n for e in last.choice.chosen for n, _ in last.field.candidates[e]]
-    target = f if c.final is None else c.final
-    v = f.vector(f.coefficients(given)[0], given) if c.final is None else np.zeros(target.size)
-    (after,) = target.score([v])
-    output_explained = explained(target, after)
-    return _End(
-        target=target,
-        coefficients=v,
-        scored=after,
-        noise_floor=fitted_.noise_floor(target),
-        explained=output_explained,
-        complaint=target.calibration.complaint,
-        doubt=apart or output_explained.complaint,
-    )
+OPEN = 0.1
+"""p-value from which an effect is named as one for which the record does not suffice."""
 
 
-def _verdict(
-    left: _Left, end: _End, chosen: Sequence[str], output: Sequence[str]
-) -> tuple[str, Sequence[str]]:
-    """The verdict, and the effects that are claimed."""
-    # noise that follows the motion is louder where the motion is: a random effect says so itself
-    loud = comparison.loud(end.target, end.scored, end.noise_floor) and not left.random_found
-    if end.complaint is not None or end.doubt is not None or left.remains or loud:
-        return "unexplained", []
-    found = [*chosen, *(e for _, e in left.random_found[:1]), *output]
-    return ("missing-effect" if found else "adequate"), found
+def listed(names: Sequence[str], word: str = "and") -> str:
+    return f" {word} ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+def _p_values(last: Stage) -> dict[str, float]:
+    """Of what the last stage has chosen, each beside the others."""
+    chosen = last.choice.chosen
+    return {e: last.field.tests([o for o in chosen if o != e])[e].log_p for e in chosen}
+
+
+def _weakest(o: Outcome, log_p: Mapping[str, float], count: int) -> str | None:
+    """The effect that is not significant with a variance that its own scores tell, the least significant of several."""
+    doubted = o.remainder.significant
+    level = np.log((selection.FAMILY if len(o.effects) == 1 else selection.FURTHER) / max(count, 1))
+    p = {e: o.significance(e, log_p.get(e), doubted=doubted) for e in o.effects}
+    weakest = max(p, key=lambda e: (p[e], e), default=None)
+    return weakest if weakest is not None and p[weakest] > level else None
+
+
+def _claims(first: Stage, steps: Sequence[Taken], last: Stage, o: Outcome, count: int) -> tuple[str, ...]:
+    """What of an outcome's effects may be claimed (``claims``)."""
+    if not o.effects:
+        return ()
+    steps_ = {e.id for e in first.fitted.model.candidates if e.kind == "step"}
+    lasting = [e for e in o.effects if e not in steps_]  # the instant of a step is from all of the record
+    if any(claims.held_out_gain(o.robust.regression, e) < -claims.WORSE for e in lasting):
+        return ()
+    remains = o.remainder.significant or o.loud
+    tests = {t.effect: t.test for t in steps} | {e: first.choice.tests.get(e) for e in last.choice.chosen}
+    ranks = [max(1, t.rank) if (t := tests.get(e)) is not None else 1 for e in o.effects]
+    spread = max(claims.spread_of(o.remainder), o.target.calibration.excess) if remains else 1.0
+    chi2, rank, base = _explained(first, o), sum(ranks), _base(first)
+    if remains and chi2 - rank < claims.MORE * claims.best_single(base):
+        return ()
+    ahead = claims.evidence(chi2, rank, [count] * len(ranks), spread)
+    # with a cap, if nothing remains: no terms explain more than all
+    ahead -= claims.generic_evidence(base, np.inf if remains else chi2, rank, spread)
+    # of one effect that leaves but noise and generic terms that do as well, the one that is known to occur is taken
+    tie = not remains and len(o.effects) == 1
+    return o.effects if ahead > (-claims.PLAINLY if tie else claims.PLAINLY) else ()
+
+
+def _explained(first: Stage, o: Outcome) -> float:
+    """Chi-square that an outcome's effects explain of what the model leaves without them."""
+    field = first.field
+    known = [e for e in o.effects if e in field.candidates]
+    linear = field.joint([[n for n, _ in field.candidates[e]] for e in known])[0] if known else 0.0
+    if o.given or len(known) < len(o.effects):
+        return linear
+    # second orders of strong effects: what is left once they are derived into the model, with a noise that is estimated anew
+    return max(linear, float(np.sum(field.P[:, -1] ** 2) - o.target.whole[-1, -1] ** 2))
+
+
+def _base(first: Stage) -> Remainder:
+    """What generic terms are in the residual of the model without any effect."""
+    return omnibus.remainder(first.fitted)
+
+
+def _without(
+    first: Stage, steps: Sequence[Taken], last: Stage, o: Outcome, effect: str, extend: Extend | None
+) -> Outcome:
+    """An outcome without one of its effects, fitted again."""
+    kept = [e for e in o.effects if e != effect]
+    if not kept:
+        return Outcome.of(first.fitted, (), ())
+    if extend is None or not (steps or o.target is not last.fitted):
+        given = [n for e in kept for n, _ in last.field.candidates[e]]
+        return Outcome.of(last.fitted, kept, given)
+    instants = dict(last.instants) | {t.effect: t.instant for t in steps if t.instant is not None}
+    model, instrument = contenders.derived(first.fitted, kept, instants, extend)
+    return Outcome.of(fit(model, instrument, first.fitted.observations), kept, ())
 
 
 def _ranked(
-    ranking: Sequence[Ranked],
-    before: Error,
-    steps: Sequence[Taken],
-    last: Stage,
-    target: Fitted,
-    left: _Left,
+    ranking: Sequence[Ranked], before: Error, steps: Sequence[Taken], last: Stage, found: Conclusion
 ) -> list[Ranked]:
     """The effects as they stand in the ranking; ``ranking`` is the first stage's, ``before`` the error without any."""
-    ranking = [*ranking, *_ranked_random(last.fitted, left.random, before)]
+    random = {} if found.remains else found.outcome.random
+    ranking = [*ranking, *_ranked_random(last.fitted, random, before)]
     if steps:
         chosen = last.choice.chosen
         later = (
             _ranking(last.fitted, last.field, last.choice, last.instants, only=chosen)[0] if chosen else []
         )
-        ranking = staged(steps, later, ranking, target)
-    return ranking
+        ranking = staged(steps, later, ranking, found.outcome.target)
+    if found.verdict != "partly-explained":
+        return list(ranking)
+    robust = found.outcome.robust
+    covariance = claims.with_shift(robust.sandwich, claims.shift(robust, found.left))
+    return [_beside_rest(r, found.outcome, covariance) if r.effect in found.claims else r for r in ranking]
 
 
-def _remark(doubt: str | None, left: _Left, steady: Sequence[Steady], disturbed: str | None) -> str | None:
-    """What is wrong with the record, or what else than the effects found would do, or how the record is disturbed."""
-    if doubt is not None:
-        return doubt
-    if left.line is not None:
-        return left.line.words
-    return "; ".join([*(s.words for s in steady), *([] if disturbed is None else [disturbed])]) or None
+def _beside_rest(r: Ranked, o: Outcome, covariance: Array) -> Ranked:
+    """A row with the values as they stand beside all that is claimed, and a covariance that knows of what remains."""
+    c, f = o.target.calibration, o.target
+    every = [*c.columns, *(f.candidates[k] for k in o.given)]
+    E = [k for k, q in enumerate(every) if q.effect == r.effect]
+    columns = [every[k] for k in E]
+    values = (o.robust.value - o.robust.regression.centre)[E]
+    instant = [q for q in r.parameters if q.name == "t_step"]
+    own = covariance[np.ix_(E, E)]
+    return replace(
+        r,
+        parameters=(*parameter_values(columns, values, own), *instant),
+        combinations=tuple(visible_combinations(f.model, c.p, columns, values, own)),
+    )
 
 
 def _followed(
@@ -309,17 +502,8 @@ def _quiet(f: Fitted, observations: Sequence[Observation]) -> bool:
     return calibrated(f.model, f.instrument, observations)[1].excess <= QUIET
 
 
-@dataclass(frozen=True)
-class Confirmed:
-    """What the chosen effects of the last stage leave; without ``final``, the fit with them in the model, all is linear."""
-
-    final: Fitted | None
-    remainder: Remainder
-    random: Mapping[str, Variance]
-
-
-def confirmed(last: Stage, extend: Extend | None) -> tuple[Stage, Confirmed]:
-    """The chosen effects of the last stage fitted in the model; and the stage without those that then have an impossible size."""
+def confirmed(steps: Sequence[Taken], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:
+    """The chosen effects fitted in the model; and the last stage without those that then have an impossible size."""
     f = last.fitted
     final = _derived(f, last.choice.chosen, extend)
     while final is not None and (wrong := strong.impossible(final, last.choice.chosen)):
@@ -327,9 +511,9 @@ def confirmed(last: Stage, extend: Extend | None) -> tuple[Stage, Confirmed]:
         field = replace(last.field, candidates=kept)
         last = replace(last, field=field, choice=selection.choose(field))
         final = _derived(f, last.choice.chosen, extend)
+    chosen = [*(t.effect for t in steps), *last.choice.chosen]
     given = [n for e in last.choice.chosen for n, _ in last.field.candidates[e]]
-    rem, random = _remainder(f, given) if final is None else _remainder(final, ())
-    return last, Confirmed(final=final, remainder=rem, random=random)
+    return last, Outcome.of(f, chosen, given) if final is None else Outcome.of(final, chosen, ())
 
 
 def _derived(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -25,16 +25,30 @@ COLLINEAR = 1e-6
 """Relative size below which what is left of a column after projection is rounding and truncation."""
 
 
+STRENGTHS = np.logspace(0.0, 8.0, 17)
+"""Prior variance of an effect over that of the noise, g: from what hides in the noise to 1e4 times its standard deviation."""
+
+_SHRINK, _COST = 0.5 * STRENGTHS / (1.0 + STRENGTHS), 0.5 * np.log1p(STRENGTHS)
+
+
+def log_bayes(chi2: Array | float, rank: Array | float) -> Array:
+    """log B of explanations against none, with Zellner's prior, g averaged: ``chi2`` is what their ``rank`` coefficients explain."""
+    each = np.multiply.outer(chi2, _SHRINK) - np.multiply.outer(rank, _COST)
+    top = each.max(axis=-1)
+    return np.asarray(top + np.log(np.mean(np.exp(each - top[..., None]), axis=-1)))
+
+
 @dataclass(frozen=True)
 class Test:
     """A likelihood-ratio test of some columns: chi-square with ``rank`` degrees of freedom; ``log_p`` is corrected for the number
-    of sub-blocks tried, of which ``which`` are the best one's columns.
+    of sub-blocks tried, of which ``which`` are the best one's columns; ``log_b``: the log evidence, charged alike.
     """
 
     chi2: float
     rank: int
     log_p: float
     which: tuple[int, ...]
+    log_b: float = 0.0
 
 
 def project(T: Array, onto: int) -> Array:
@@ -105,18 +119,18 @@ def test(
     squares, along = np.sum(small[:, :-1] ** 2, axis=0), small[:, -1] @ small[:, :-1]
     seen = squares > low**2
     alone = np.where(seen, along**2 / np.where(seen, squares, 1.0), 0.0).tolist()
-    best = Test(0.0, 0, 0.0, ())
+    best, charge = Test(0.0, 0, 0.0, ()), 0.0
     for block, count in _ways(_kinds(columns)):
         chi2, rank = (
             (alone[block[0]], int(seen[block[0]])) if len(block) == 1 else explained(small, block, low)
         )
         log_p = min(0.0, log_sf(chi2, rank, freedom) + math.log(count) + penalty)
         if rank and log_p < best.log_p:
-            best = Test(chi2, rank, log_p, tuple(every[k] for k in block))
+            best, charge = Test(chi2, rank, log_p, tuple(every[k] for k in block)), math.log(count)
     if not best.which:
         chi2, rank = explained(small, range(len(every)), low)
         best = Test(chi2, rank, min(0.0, log_sf(chi2, rank, freedom) + penalty), tuple(every))
-    return best
+    return replace(best, log_b=float(log_bayes(best.chi2, best.rank)) - charge - penalty)
 
 
 @dataclass(frozen=True)

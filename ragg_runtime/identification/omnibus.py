@@ -76,6 +76,8 @@ class Found:
         Of the term in the residual, V^2 (about its mean, for const terms).
     centre
         Means that its auxiliary channels enter less.
+    rank
+        Coefficients that ``chi2`` was explained with.
     """
 
     term: Term
@@ -87,14 +89,27 @@ class Found:
     kind: str = "steady"
     how: str = ""
     centre: Mapping[str, float] = field(default_factory=dict)
+    rank: int = 1
 
 
 @dataclass(frozen=True)
 class Omnibus:
     """The search over one flight's dictionary.
 
-    ``log_p`` belongs to the most significant finding of all tests; ``chi2`` is what the ``terms`` taken explain
-    of ``square``, the whitened residual's sum of squares.
+    Attributes
+    ----------
+    log_p
+        Of the most significant finding of all tests.
+    tried
+        Number of terms.
+    terms, chi2, square
+        What is left, in terms, and what these explain of the whitened residual's sum of squares.
+    steady, varying
+        The significant terms, one beside the other, and those that come and go, each by itself.
+    spread
+        Mean square of all terms' scores.
+    shift
+        How far the coefficients of the projected columns move with the steady terms beside them, in scales.
     """
 
     log_p: float
@@ -102,6 +117,10 @@ class Omnibus:
     terms: tuple[Found, ...]
     chi2: float
     square: float
+    steady: tuple[Found, ...] = ()
+    varying: tuple[Found, ...] = ()
+    spread: float = 1.0
+    shift: Array | None = None
 
     @property
     def significant(self) -> bool:
@@ -253,10 +272,12 @@ def choose(s: Scores) -> Omnibus:
     others = [t for t in (_varying(s), _line(s)) if t is not None]
     log_p = min([steady.log_p, *(p for p, _ in others)])
     significant = [(p, found) for p, found in others if p < np.log(FAMILY)]
-    if steady.terms or not significant:
-        return replace(steady, log_p=log_p)
     found = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
-    return replace(steady, log_p=log_p, terms=found, chi2=max(f.chi2 for f in found))
+    varying = tuple(f for f in found if f.kind == "varying")
+    steady = replace(steady, log_p=log_p, steady=steady.terms, varying=varying)
+    if steady.terms or not significant:
+        return steady
+    return replace(steady, terms=found, chi2=max(f.chi2 for f in found))
 
 
 def _varying(s: Scores) -> tuple[float, Found] | None:
@@ -268,7 +289,9 @@ def _varying(s: Scores) -> tuple[float, Found] | None:
     size = s.dictionary.size(term)
     mean_square = v.coefficient**2 * float(s.sums.raw[1, v.place]) / max(s.sums.samples, 1)
     z = float(np.sqrt(v.chi2))
-    found = Found(term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how)
+    found = Found(
+        term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how, rank=v.rank
+    )
     return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
 
 
@@ -286,7 +309,7 @@ def _line(s: Scores) -> tuple[float, Found] | None:
     chi2, size = line.share * s.sums.square, float(np.sqrt(2 * mean_square))
     z = float(np.sqrt(chi2))
     term = Term(f"line {line.frequency:.5g} Hz", ())
-    found = Found(term, size, size / max(z, 1.0), z, chi2, mean_square, "line")
+    found = Found(term, size, size / max(z, 1.0), z, chi2, mean_square, "line", rank=2)
     return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
 
 
@@ -299,8 +322,10 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     z = s.sums.dot / norm
     freedom = s.prepared.noise.freedom
     first = _log_p(z, tried, freedom)
+    spread = float(np.sum(z**2)) / max(tried, 1)
+    nothing = Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.sums.square, spread=spread)
     if first >= np.log(FAMILY):
-        return Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.sums.square)
+        return nothing
     places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, tried)]
     sober = np.ones(len(places))
     if s.prepared.noise.level.parts:
@@ -308,13 +333,14 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         freedom = min(freedom, BLOCKS - 1.0)
         first = _log_p(z[places] / sober, tried, freedom)
         if first >= np.log(FAMILY):
-            return Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.sums.square)
+            return replace(nothing, log_p=first)
     G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
     # a term of which next to nothing is left: where single precision does not know its own square, nothing is known beside another
     score, left = z[places].copy(), (np.abs(np.diag(G) - 1.0) < APART).astype(np.float64)
     left[int(np.argmax(np.abs(score) / sober))] = 1.0
     directions: list[Array] = []  # components of every term along each direction taken
     taken: list[Found] = []
+    order: list[int] = []
     chi2 = 0.0
     while len(taken) < most:
         now = np.where(left > APART, score / np.sqrt(np.maximum(left, APART)), 0.0)
@@ -329,6 +355,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         score = score - along * amount
         left = left - along**2
         chi2 += amount**2
+        order.append(k)
         place = int(places[k])
         term = s.dictionary.terms[place]
         std = 1.0 / (float(norm[place]) * length * s.dictionary.size(term))
@@ -346,7 +373,12 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
                 centre=s.dictionary.centre,
             )
         )
-    return Omnibus(log_p=first, tried=tried, terms=tuple(taken), chi2=chi2, square=s.sums.square)
+    shift = None
+    if order:
+        # together the terms take so much of each, in whitened units, and with it what of each the columns explain
+        each = np.linalg.lstsq(G[np.ix_(order, order)], z[places[order]], rcond=None)[0] / norm[places[order]]
+        shift = -s.projector.to_basis @ (s.sums.along[places[order]].T @ each)
+    return replace(nothing, log_p=first, terms=tuple(taken), chi2=chi2, shift=shift)
 
 
 def _log_p(z: Array, tried: int, freedom: float = np.inf) -> float:

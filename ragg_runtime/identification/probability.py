@@ -15,16 +15,13 @@ from itertools import chain, combinations, compress
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.identification.likelihood_ratio import sub_blocks
+from ragg_runtime.identification.likelihood_ratio import log_bayes, sub_blocks
 from ragg_runtime.identification.selection import Field
 
 Array = NDArray[np.float64]
 
 LARGEST = 3
 """Most effects of a set."""
-
-STRENGTHS = np.logspace(0.0, 8.0, 17)
-"""Prior variance of an effect over that of the noise, g: from what hides in the noise to 1e4 times its standard deviation."""
 
 HELD = 0.95
 """Probability that the credible set holds together."""
@@ -172,11 +169,7 @@ def _evidence(blocks: Sequence[_Block], sets: NDArray[np.intp]) -> Array:
             G = inner[rest[:, None], rest] - np.einsum("aks,als->kls", shared, shared)
             chi2[members] += _explained(G, y[rest] - np.einsum("aks,as->ks", shared, y[at]))
     weight = np.sum(np.array([b.weight for b in blocks])[sets], axis=1)
-    shrink = STRENGTHS / (1.0 + STRENGTHS)
-    each = 0.5 * chi2[:, None] * shrink - 0.5 * freedom[:, None] * np.log1p(STRENGTHS)
-    top = each.max(axis=1)
-    averaged: Array = top + np.log(np.mean(np.exp(each - top[:, None]), axis=1)) + weight
-    return averaged
+    return np.asarray(log_bayes(chi2, freedom) + weight)
 
 
 def _explained(G: Array, y: Array) -> Array:

@@ -186,7 +186,7 @@ def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
 
 def _place(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
     """Order of the ranking: chosen effects as they were chosen, then by significance."""
-    order = {e: n for n, e in enumerate(chosen)}
+    order = {e: n for n, e in enumerate(dict.fromkeys(chosen))}
     return lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect)
 
 

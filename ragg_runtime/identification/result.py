@@ -46,6 +46,7 @@ class Diagnosis:
     next_motion: tuple[Proposal, ...]
     complaint: str | None = None
     remark: str | None = None
+    reason: str | None = None
     off_sheet: tuple[OffSheet, ...] = ()
     credible_set: tuple[tuple[str, ...], ...] = ((),)
     holds: Evidence | None = None
@@ -58,6 +59,11 @@ class Diagnosis:
     def converged(self) -> bool:
         """Whether the calibration with what was chosen in the model has arrived; if not, ``complaint`` says why."""
         return self.complaint is None
+
+    @property
+    def remains(self) -> bool:
+        """Whether something significant remains beside what is found."""
+        return self.verdict in ("unexplained", "partly-explained")
 
     @property
     def change(self) -> Change | None:
@@ -124,9 +130,10 @@ class Diagnosis:
         return {
             "verdict": self.verdict,
             "converged": self.converged,
-            "reason": self.complaint or self.remark,
+            "reason": self.reason,
+            "remark": self.complaint or self.remark,
             "off_sheet": [x.as_json() for x in self.off_sheet],
-            "ranking": [r.as_json() for r in self.ranking],
+            "ranking": [{"place": n, **r.as_json()} for n, r in enumerate(self.ranking, 1)],
             "found": list(self.found),
             "groups": [g.as_json() for g in self.groups],
             "not_testable": [{"effect": n.effect, "why": n.why} for n in self.not_testable],

@@ -27,10 +27,12 @@ MOST = 4
 """Most effects that are claimed at once."""
 
 AS_SURE = 7.0
-"""As INDISTINGUISHABLE, of the logarithm of the p-value (a factor of 1,100: 3 sigma beside 5): a rival of many coefficients is none."""
+"""Log evidence (a factor of 1,100: 3 sigma beside 5) by which many coefficients may cost an effect that explains as much; with more it
+is no alternative.
+"""
 
 SWAPPED = 2.0
-"""Logarithm of the p-value by which another effect must be better to take the place of a chosen one; ties do not go to and fro."""
+"""Log evidence by which another effect must be better to take the place of a chosen one; ties do not go to and fro."""
 
 
 @dataclass(frozen=True)
@@ -153,12 +155,10 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
     seen: set[frozenset[str]] = set()
     while len(chosen) < MOST and frozenset(chosen) not in seen:
         seen.add(frozenset(chosen))
-        ranked = sorted((t.log_p, e) for e, t in remaining.items())
-        if not ranked or not significant(
-            remaining[ranked[0][1]], count, FURTHER if chosen or beside else FAMILY
-        ):
+        level = FURTHER if chosen or beside else FAMILY
+        best = _best({e: t for e, t in remaining.items() if significant(t, count, level)})
+        if best is None:
             break
-        best = ranked[0][1]
         chosen.append(best)
         blocks[best] = remaining[best].which
         if len(chosen) > 1:
@@ -169,15 +169,19 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
     return Choice(chosen=tuple(chosen), blocks=blocks, tests=first, conditional=remaining, chi2=chi2)
 
 
+def _best(tests: Mapping[str, Test]) -> str | None:
+    """The effect of the greatest evidence."""
+    return min(tests, key=lambda e: (-tests[e].log_b, e), default=None)
+
+
 def _swap(
     f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]], count: int
 ) -> tuple[list[str], dict[str, tuple[int, ...]]]:
     for old in tuple(chosen):
         others = [e for e in chosen if e != old]
         conditional = f.tests(others)
-        ranked = sorted((t.log_p, e) for e, t in conditional.items())
-        best = ranked[0][1] if ranked else old
-        if best != old and ranked[0][0] < conditional[old].log_p - SWAPPED:
+        best = _best({e: t for e, t in conditional.items() if significant(t, count)})
+        if best is not None and conditional[best].log_b > conditional[old].log_b + SWAPPED:
             chosen = [*others, best]
             blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
     return chosen, blocks
@@ -207,7 +211,7 @@ def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
                 if o != e
                 and t.rank
                 and mine.chi2 - t.chi2 < INDISTINGUISHABLE
-                and t.log_p < mine.log_p + AS_SURE
+                and t.log_b > mine.log_b - AS_SURE
             )
         )
     return result

@@ -151,23 +151,19 @@ def impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
 def _best(
     stage: Stage, tests: Mapping[str, Test], score: Callable[[Sequence[str]], dict[str, float]]
 ) -> tuple[str, tuple[str, ...]]:
-    """The effect that leaves least by its ``score``, the linear test's choice among equals, and those equals."""
+    """The effect that leaves least by its ``score``, and those that leave as little."""
     total = float(np.sum(stage.field.P[:, -1] ** 2))
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
-    near = sorted(near, key=lambda e: (tests[e].log_p, e))
+    near = sorted(near, key=lambda e: (-tests[e].log_b, e))
     tried = near[:CONTENDERS]
     left = score(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
-    best = min(tried, key=lambda e: (left[e], e))
+    least_left = min(tried, key=lambda e: (left[e], near.index(e)))
     # effects with the same signature are all of its group, however many they are
-    alike = [e for e in near[CONTENDERS:] if _alike(tests[e], tests[best])]
+    alike = [e for e in near[CONTENDERS:] if _alike(tests[e], tests[least_left])]
     left |= score(alike) if alike else {}
-    equal = [e for e in left if left[e] < left[best] + INDISTINGUISHABLE]
-    effect = min(equal, key=near.index)
-    as_near = [
-        e for e in left if left[e] < left[effect] + INDISTINGUISHABLE and _as_sure(tests[e], tests[effect])
-    ]
-    return effect, tuple(sorted({*equal, *as_near} - {effect}))
+    best = min(left, key=lambda e: (left[e], near.index(e)))
+    return best, tuple(sorted(e for e in left if e != best and left[e] < left[best] + INDISTINGUISHABLE))
 
 
 def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend) -> Taken:
@@ -187,13 +183,13 @@ def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend
 
 
 def _alike(a: Test, b: Test) -> bool:
-    """Whether two effects explain the same, as surely, as far as a linear test tells."""
+    """Whether two effects explain the same, with as much evidence, as far as a linear test tells."""
     return abs(a.chi2 - b.chi2) < INDISTINGUISHABLE and _as_sure(a, b)
 
 
 def _as_sure(a: Test, b: Test) -> bool:
     """Whether the first is no less sure for its many coefficients."""
-    return a.log_p < b.log_p + selection.AS_SURE
+    return a.log_b > b.log_b - selection.AS_SURE
 
 
 BESIDE = 20.0

@@ -54,6 +54,7 @@ class Varying:
     coefficient: float
     std: float
     how: str
+    rank: int = 1
 
 
 class BlockScores:
@@ -120,6 +121,7 @@ class BlockScores:
             coefficient=best.coefficient,
             std=best.std,
             how=best.how,
+            rank=best.rank,
         )
 
     def _scatter(self, d: Array, v: Array, block: NDArray[np.intp]) -> Varying:
@@ -139,6 +141,7 @@ class BlockScores:
             coefficient=float(np.sqrt(excess / size2)),
             std=float(size2**-0.5),
             how=how,
+            rank=max(freedom, 1),
         )
 
     def _window(self, d: Array, v: Array, rows: float) -> Varying:
@@ -201,6 +204,7 @@ class BlockScores:
             coefficient=std * float(np.sqrt(chi2[n, k])),
             std=std,
             how=how,
+            rank=2,
         )
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.significance import log_sf
-from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 
 Array = NDArray[np.float64]
 
@@ -94,4 +94,5 @@ def tempered(t: Test, by: float, freedom: float, blocks: int) -> Test:
         return t
     known = min(freedom, t.rank * (blocks - 1.0))
     change = log_sf(t.chi2 / by, t.rank, known) - log_sf(t.chi2, t.rank, freedom)
-    return replace(t, log_p=min(0.0, t.log_p + change))
+    less = float(log_bayes(t.chi2, t.rank) - log_bayes(t.chi2 / by, t.rank))
+    return replace(t, log_p=min(0.0, t.log_p + change), log_b=t.log_b - less)

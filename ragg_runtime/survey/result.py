@@ -63,6 +63,7 @@ class Survey:
 _VERDICTS = {
     "adequate": "adequate",
     "missing-effect": "missing an effect",
+    "partly-explained": "partly explained",
     "unexplained": "unexplained",
     "error": "in error",
 }
@@ -121,7 +122,7 @@ CERTAIN = -30.0
 BEYOND = -1e6
 """The same of an effect that is seen in the values themselves (a saturated output): certain."""
 
-VERDICTS = ("adequate", "missing-effect", "unexplained")
+VERDICTS = ("adequate", "missing-effect", "partly-explained", "unexplained")
 
 
 @dataclass(frozen=True)

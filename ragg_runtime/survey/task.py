@@ -213,7 +213,7 @@ def _figures(f: Fitted, flight: Flight) -> Record:
         "noise_floor": {"rms_Eo": d.noise_floor},
         "parameters": [p.as_json() for p in _parameters(d)],
     }
-    if d.verdict == "unexplained":
+    if d.remains:
         record["terms"] = d.terms()
     # floats of Python print and read back exactly: the same figures whichever way a record takes
     return {key: _plain(value) for key, value in record.items()}

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ragg_runtime.estimation.segments import ROWS
-from ragg_runtime.identification import probability, sequential
+from ragg_runtime.identification import likelihood_ratio, probability, sequential
 
 ROOT = Path(__file__).parents[2]
 TEXT = (ROOT / "docs" / "formulas.md").read_text("utf-8")
@@ -55,7 +55,7 @@ def test_every_reference_is_cited_and_every_citation_is_there() -> None:
 
 def test_evidence_and_e_value_are_those_of_the_page() -> None:
     """ln B_S(g) for one effect against the code's, and an e-value from its formula."""
-    g = probability.STRENGTHS
+    g = likelihood_ratio.STRENGTHS
     assert (g[0], g[-1]) == (1.0, 1e8)
     block = probability._Block(effect="e", Q=np.eye(3)[:, :2], along=np.array([3.0, -1.0]), weight=0.0)
     log_b = 10.0 / 2 * g / (1 + g) - 2 / 2 * np.log(1 + g)

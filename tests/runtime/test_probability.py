@@ -9,7 +9,8 @@ from scipy import stats
 
 from ragg_runtime.estimation.columns import Column
 from ragg_runtime.estimation.score import Error
-from ragg_runtime.identification.probability import HELD, STRENGTHS, Probabilities, weighed
+from ragg_runtime.identification.likelihood_ratio import STRENGTHS
+from ragg_runtime.identification.probability import HELD, Probabilities, weighed
 from ragg_runtime.identification.ranking import Ranked, with_probability
 from ragg_runtime.identification.selection import Field
 

@@ -177,7 +177,7 @@ def test_what_has_not_converged_says_so_and_adds_nothing(
         assert result["converged"] is False
         assert "not converged: it was stopped" in str(result["reason"])
     assert not c.adequate
-    assert (d.verdict, d.found) == ("unexplained", ())
+    assert (d.verdict, d.found) == ("partly-explained", ("cubic-input",))
     before = {p: p.read_bytes() for p in sorted((tmp_path / "m").rglob("*")) if p.is_file()}
     added = ragg.add(m, "cubic-input", [flight])
     assert added.as_json()["converged"] is False
