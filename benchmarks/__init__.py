@@ -1,21 +1,9 @@
-"""Measurements of speed. A benchmark is a module of this package with a function ``run() -> list[Row]``.
+"""Measurements of speed. A benchmark is a module of this package with a function ``run() -> list[Row]``; nothing is registered.
 
-To add one, write ``benchmarks/<name>.py``::
-
-    from benchmarks import Row, timing
-
-    def run() -> list[Row]:
-        flight = ...                                       # set up, not timed
-        found = timing.interleaved({"diagnose, 30 min": lambda: diagnose(flight)}, repeats=3)
-        return [Row("diagnose, 30 min", found["diagnose, 30 min"].median, "s")]
-
-Nothing has to be registered. ``python -m benchmarks [NAME ...]`` runs all benchmarks or those named, each in a
-process of its own (so import heavy things inside ``run``; ``ENVIRONMENT``, a mapping, adds to the
-environment of that process), prints tables, and keeps ``build/bench.json``; a run of all of them writes
-``docs/benchmarks.md`` too. All together take 10 to 20 minutes (``make bench``).
-
-What a row should be: a time or a rate, with its spread, and beside it the *ratio to something fixed, measured
-interleaved in the same run* (``timing.interleaved``), since machines and their load differ.
+``python -m benchmarks [NAME ...]`` runs all or those named, each in a process of its own (so import heavy things inside
+``run``; ``ENVIRONMENT`` adds to the environment of that process), prints tables and keeps ``build/bench.json``; a run of all
+writes ``docs/contributors/speed.md`` too. A row should be a time or a rate, and beside it the *ratio to something fixed,
+measured interleaved in the same run* (``timing.interleaved``), since machines and their load differ.
 """
 
 from __future__ import annotations
@@ -28,20 +16,9 @@ RATIO = "x"
 
 @dataclass(frozen=True)
 class Row:
-    """One measured number.
+    """One measured number: the median over repetitions, with ``low`` and ``high`` quartiles.
 
-    Attributes
-    ----------
-    name, value, unit
-        ``value`` is the median over repetitions, if there are any; ``unit`` is "x" for a ratio.
-    note
-        How it was measured, if the name does not say it.
-    target
-        What it is held against, in words; ``None`` if nothing.
-    low, high
-        Spread over the repetitions (lower and upper quartile).
-    met
-        Whether the target is met, where that can be said.
+    ``target``: what it is held against, in words; ``met``: whether it is.
     """
 
     name: str
@@ -52,3 +29,11 @@ class Row:
     low: float | None = None
     high: float | None = None
     met: bool | None = None
+
+
+def at_most(name: str, value: float, unit: str, limit: float | None, note: str = "", **spread: float) -> Row:
+    """A row that is held against an upper limit, if there is one."""
+    target = (
+        None if limit is None else f"at most {limit:g} {'' if unit == RATIO else unit.split()[0]}".rstrip()
+    )
+    return Row(name, value, unit, note, target, met=None if limit is None else value <= limit, **spread)

@@ -1,28 +1,36 @@
-"""Run the benchmarks of this package: all, or those named; tables, ``build/bench.json``, ``docs/benchmarks.md``."""
+"""Run the benchmarks of this package: all, or those named; tables, ``build/bench.json``, ``docs/contributors/speed.md``."""
 
 from __future__ import annotations
 
 import argparse
 import importlib
 import json
+import math
 import os
 import pkgutil
+import platform
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
+from importlib import metadata
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import benchmarks
-from benchmarks import Row, machine, page
+from benchmarks import Row
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "build" / "bench.json"
-PAGE = ROOT / "docs" / "benchmarks.md"
+PAGE = ROOT / "docs" / "contributors" / "speed.md"
+HEAD = """\
+# Speed
+
+Written by `make bench` (10 to 20 minutes; spreads and notes in `build/bench.json`); one alone: `python -m benchmarks NAME`.
+Medians; rivals are timed in turn with ours, in one process, and ratios are taken round by round.
+"""
 
 
 def modules() -> Mapping[str, ModuleType]:
@@ -34,7 +42,6 @@ def modules() -> Mapping[str, ModuleType]:
 
 def measure(name: str, module: ModuleType) -> dict[str, Any]:
     """One benchmark in a process of its own: its rows, or how it failed."""
-    start = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "rows.json"
         environment = {**os.environ, **getattr(module, "ENVIRONMENT", {})}
@@ -42,12 +49,66 @@ def measure(name: str, module: ModuleType) -> dict[str, Any]:
         done = subprocess.run(command, cwd=ROOT, env=environment, stdout=sys.stderr, check=False)
         if done.returncode:
             return {"failed": f"exit status {done.returncode}", "rows": []}
-        rows = json.loads(file.read_text("utf-8"))
-    return {"seconds": round(time.perf_counter() - start, 1), "rows": rows}
+        return {"rows": json.loads(file.read_text("utf-8"))}
 
 
-def rows_of(result: Mapping[str, Any]) -> list[Row]:
-    return [Row(**r) for r in result["rows"]]
+def describe_machine() -> dict[str, str]:
+    """Processor, cores, vector instructions, system, Python and packages; nothing that names a host."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text("utf-8").split("\n\n", 1)[0].splitlines()
+    except OSError:
+        lines = []
+    cpu = {key.strip(): value.strip() for key, _, value in (line.partition(":") for line in lines)}
+    flags = cpu.get("flags", cpu.get("Features", "")).split()
+    vectors = [v for v in ("avx512f", "avx2", "avx", "sse4_2", "asimd", "sve") if v in flags]
+    caches = sorted(Path("/sys/devices/system/cpu/cpu0/cache").glob("index*/size"))
+    return {
+        "processor": cpu.get("model name", platform.machine()),
+        "cores": str(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()),
+        "vector instructions": " ".join(vectors) or "unknown",
+        "clock": f"{float(cpu['cpu MHz']) / 1e3:.2f} GHz" if "cpu MHz" in cpu else "unknown",
+        "last cache": caches[-1].read_text("utf-8").strip() if caches else "unknown",
+        "system": f"{platform.system()} {platform.machine()}",
+        "Python": platform.python_version(),
+        **{name: metadata.version(name) for name in ("numpy", "scipy", "sympy")},
+    }
+
+
+def number(value: float) -> str:
+    """Three digits, without an exponent where that can be helped."""
+    if not math.isfinite(value) or value == 0:
+        return str(value)
+    digits = max(0, 2 - math.floor(math.log10(abs(value))))
+    return f"{value:,.{digits}f}" if digits <= 8 else f"{value:.2e}"
+
+
+def _target(r: Row) -> str:
+    return f"{r.target or ''}{'' if r.met is None else ': met' if r.met else ': not met'}"
+
+
+def text(rows: Sequence[Row]) -> str:
+    """Rows as lines for a terminal."""
+    width = max((len(r.name) for r in rows), default=0)
+    lines = []
+    for r in rows:
+        spread = "" if r.low is None or r.high is None else f"{number(r.low)} ... {number(r.high)}"
+        extra = "; ".join(p for p in (spread, r.note, _target(r)) if p)
+        lines.append(f"  {r.name:<{width}}  {number(r.value):>10} {r.unit:<9} {extra}".rstrip())
+    return "\n".join(lines)
+
+
+def page(everything: Mapping[str, Any], titles: Mapping[str, str]) -> str:
+    """The page of the documentation: values and targets; spreads and notes are in the JSON."""
+    lines = [HEAD, "Machine: " + "; ".join(f"{k} {v}" for k, v in everything["machine"].items()) + ".", ""]
+    for name, result in everything["results"].items():
+        lines += [f"## {name}", "", titles.get(name, ""), ""]
+        if "failed" in result:
+            lines += [f"Failed: {result['failed']}.", ""]
+            continue
+        rows = [Row(**x) for x in result["rows"]]
+        lines += ["| what | value | target |", "|---|---:|---|"]
+        lines += [*(f"| {r.name} | {number(r.value)} {r.unit} | {_target(r)} |" for r in rows), ""]
+    return "\n".join(lines)
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -64,25 +125,21 @@ def main(arguments: Sequence[str]) -> int:
         rows = [asdict(r) for name in options.names for r in known[name].run()]
         options.rows.write_text(json.dumps(rows), "utf-8")
         return 0
-
     kept = json.loads(RESULTS.read_text("utf-8")) if RESULTS.exists() else {}
     results: dict[str, Any] = {n: r for n, r in kept.get("results", {}).items() if n in known}
-    failed = []
     for name in options.names or known:
         print(f"... {name}", file=sys.stderr, flush=True)
-        results[name] = {**measure(name, known[name]), "load": round(machine.load(), 2)}
-        if "failed" in results[name]:
-            failed.append(name)
-            print(f"{name}: {results[name]['failed']}", file=sys.stderr)
-            continue
-        print(f"{name}\n{page.text(rows_of(results[name]))}\n", flush=True)
+        results[name] = measure(name, known[name])
+        print(f"{name}\n{text([Row(**r) for r in results[name]['rows']])}\n", flush=True)
     RESULTS.parent.mkdir(exist_ok=True)
-    everything = {"machine": machine.describe(), "results": dict(sorted(results.items()))}
+    everything = {"machine": describe_machine(), "results": dict(sorted(results.items()))}
     RESULTS.write_text(json.dumps(everything, indent=1) + "\n", "utf-8")
     if not options.names:
         titles = {n: (m.__doc__ or n).splitlines()[0] for n, m in known.items()}
-        PAGE.write_text(page.page(everything, titles), "utf-8")
+        PAGE.write_text(page(everything, titles), "utf-8")
         print(f"written: {PAGE.relative_to(ROOT)}", file=sys.stderr)
+    failed = [n for n in options.names or known if "failed" in results[n]]
+    print(*(f"{n}: {results[n]['failed']}" for n in failed), sep="\n", file=sys.stderr)
     return 1 if failed else 0
 
 

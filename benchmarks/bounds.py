@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import ctypes
-import time
+import platform
+import re
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks import RATIO, Row
 from benchmarks.rivals import compile_c
+from benchmarks.timing import interleaved
 
 Array = NDArray[np.float64]
 
@@ -59,7 +62,11 @@ class Bounds:
 
     def __init__(self) -> None:
         streams = " ".join(f"+ x[{k} * n + i]" for k in range(15))
-        flags = FLAGS if _is_x86() else tuple(f for f in FLAGS if "prefer" not in f)
+        flags = (
+            FLAGS
+            if platform.machine() in ("x86_64", "AMD64")
+            else tuple(f for f in FLAGS if "prefer" not in f)
+        )
         self._library = compile_c("bounds", SOURCE % {"sum": streams, "lanes": LANES}, flags=flags)
         self._library.arithmetic.restype = ctypes.c_double
 
@@ -94,8 +101,6 @@ class Bounds:
 
 def instructions() -> int:
     """Arithmetic of the generated C, a sample, with FMA counted once."""
-    import re
-
     from ragg_runtime.model.model import packaged
 
     text = packaged().sources["folded.c"]
@@ -112,16 +117,5 @@ def instructions() -> int:
     return fused + plain
 
 
-def _best(work: object) -> float:
-    times = []
-    for _ in range(10):
-        start = time.process_time()
-        work()  # type: ignore[operator]
-        times.append(time.process_time() - start)
-    return min(times)
-
-
-def _is_x86() -> bool:
-    import platform
-
-    return platform.machine() in ("x86_64", "AMD64")
+def _best(work: Callable[[], object]) -> float:
+    return interleaved({"": work}, 10)[""].least

@@ -1,10 +1,9 @@
 """How long evaluating the analytical model takes, a sample, on one core: ours, other ways, and the machine's bounds.
 
-A million samples, all fifteen channels as series ("streaming": everything comes from memory), and some
-thousand again and again ("in cache"). Processor time of a process held to one core, calls from Python
-included; all get series that begin at multiples of 64 bytes. The rivals (``benchmarks/rivals.py``) are timed in
-turn with us. What each yields is compared with the 50-digit value first: the rivals form omega t in float64
-and lose there.
+A million samples, all fifteen channels as series ("streaming": everything comes from memory), and some thousand again and again
+("in cache"). Processor time of a process held to one core, calls from Python included; all get series that begin at multiples
+of 64 bytes. What each yields is compared with the 50-digit value first: the rivals (``benchmarks/rivals.py``) form omega t in
+float64 and lose there. Generated C of other instruments and orders is timed against the paper's.
 """
 
 from __future__ import annotations
@@ -13,10 +12,11 @@ import math
 import os
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import Any
 
-from benchmarks import RATIO, Row
+from benchmarks import Row
 from benchmarks.rivals import aligned
 from benchmarks.timing import Timing, interleaved, ratio
 
@@ -27,18 +27,19 @@ ENVIRONMENT = {
     "CUDA_VISIBLE_DEVICES": "",
     "JAX_PLATFORMS": "cpu",
 }
-STREAMING, IN_CACHE = 1_000_000, 16_000
+SIZES = {"streaming": (1_000_000, 1), "in cache": (16_000, 20)}
+"""Samples, and calls in a row."""
 START, RATE = 1e4, 100.0  # s, Hz
-OURS, OURS_NUMPY = "generated C, compiled", "generated NumPy"
+OURS, OURS_NUMPY, PAPER = "generated C, compiled", "generated NumPy", "the paper's model"
+SLOW = ("SymPy lambdify", "NumPy in blocks", OURS_NUMPY)
 TARGETS: Mapping[str, tuple[float, float]] = {
     "heyoka cfunc": (1.4, 2.2), "JAX jit": (2.5, 2.5), "numba": (3.0, 3.0),
 }  # fmt: skip
 """Rival -> at least so many times our time, streaming and in cache."""
-NEAR = 1.3
-"""Most times the memory bound that ours may take, streaming."""
 GOALS: Mapping[str, tuple[float, float]] = {OURS: (15.0, 10.0), OURS_NUMPY: (350.0, 350.0)}
 """Largest time a sample, ns, on a machine of 2.5 GHz with AVX-512 and 11 GB/s."""
-SLOW = ("SymPy lambdify", "NumPy in blocks", OURS_NUMPY)
+
+Call = Callable[[Any, Any, Any], object]
 
 
 def instrument_and_motion(n: int) -> tuple[Any, Any, Any]:
@@ -61,13 +62,13 @@ def instrument_and_motion(n: int) -> tuple[Any, Any, Any]:
     return START + np.arange(n) / RATE, inputs, np.array(p)
 
 
-def contenders(p: Any) -> tuple[dict[str, Callable[[Any, Any, Any], object]], dict[str, str]]:
+def contenders(p: Any) -> tuple[dict[str, Call], dict[str, str]]:
     """Name -> (t, inputs, out) -> anything; and what is missing, with the reason."""
     from benchmarks import rivals
     from ragg_runtime.model.model import packaged
 
     compiled, blocks = packaged().compiled("c"), packaged().compiled("numpy")
-    ours = {
+    ours: dict[str, Call] = {
         OURS: lambda t, x, out: compiled.output(t, x, p, out=out),
         OURS_NUMPY: lambda t, x, out: blocks.output(t, x, p, out=out),
     }
@@ -75,7 +76,7 @@ def contenders(p: Any) -> tuple[dict[str, Callable[[Any, Any, Any], object]], di
     return {**ours, **others}, missing
 
 
-def errors(p: Any, functions: Mapping[str, Callable[[Any, Any, Any], object]]) -> dict[str, float]:
+def errors(p: Any, functions: Mapping[str, Call]) -> dict[str, float]:
     """Largest difference from the 50-digit value, Eo."""
     import numpy as np
 
@@ -90,91 +91,104 @@ def errors(p: Any, functions: Mapping[str, Callable[[Any, Any, Any], object]]) -
     for name, f in functions.items():
         out = np.empty(len(t))
         f(t, x, out)
-        values = result(f, out)
-        found[name] = (
-            max(abs(float(fifty.real(float(g)) - v)) for g, v in zip(values, true, strict=True)) / scale
-        )
+        pairs = zip(result(f, out), true, strict=True)
+        found[name] = max(abs(float(fifty.real(float(g)) - v)) for g, v in pairs) / scale
     return found
 
 
-def rows_of(
-    times: Mapping[str, Timing], n: int, label: str, which: int, wrong: Mapping[str, float]
-) -> list[Row]:
-    rows = []
+def rows_of(times: Mapping[str, Timing], label: str, wrong: Mapping[str, float]) -> list[Row]:
+    """Times a sample, and ratios to ours."""
+    n, which = SIZES[label][0], list(SIZES).index(label)
+    rows, ratios = [], []
     for name, timing in times.items():
-        ns = [1e9 * s / n for s in (timing.median, *timing.quartiles)]
-        goal = GOALS.get(name)
-        extra: dict[str, Any] = {}
-        if goal:
-            extra = {"target": f"at most {goal[which]:g}", "met": 1e9 * timing.least / n <= goal[which]}
-        note = f"best {1e9 * timing.least / n:.1f}; off by {wrong[name]:.1e} Eo"
-        rows.append(Row(f"{name}, {label}", ns[0], "ns", note, low=ns[1], high=ns[2], **extra))
-    for name, timing in times.items():
+        middle, low, high = (1e9 * s / n for s in (timing.median, *timing.quartiles))
+        least, goal = 1e9 * timing.least / n, GOALS[name][which] if name in GOALS else None
+        target, met = (None, None) if goal is None else (f"at most {goal:g}", least <= goal)
+        note = f"best {least:.1f}; off by {wrong[name]:.1e} Eo"
+        rows.append(Row(f"{name}, {label}", middle, "ns", note, target, low, high, met))
         if name != OURS:
-            r = ratio(timing, times[OURS])
-            aim = TARGETS.get(name)
-            extra = {"target": f"at least {aim[which]:g}", "met": r.value >= aim[which]} if aim else {}
-            title = f"{name} / {OURS}, {label}"
-            rows.append(Row(title, r.value, RATIO, low=r.low, high=r.high, **extra))
-    return rows
+            aim = f"at least {TARGETS[name][which]:g}" if name in TARGETS else None
+            ratios.append(ratio(f"{name} / {OURS}, {label}", timing, times[OURS], aim))
+    return rows + ratios
 
 
-def bound_rows(ours: Timing, floor: Timing, n: int, label: str) -> list[Row]:
-    """What the machine allows, and how near we come."""
-    low, high = (1e9 * q / n for q in floor.quartiles)
-    r = ratio(ours, floor)
-    extra = {"target": f"at most {NEAR:g}", "met": r.value <= NEAR} if n == STREAMING else {}
-    return [
-        Row(f"reading 16 series, writing one, {label}", 1e9 * floor.median / n, "ns",
-            "nothing is computed: the memory bound", low=low, high=high),
-        Row(f"{OURS} / memory bound, {label}", r.value, RATIO, low=r.low, high=r.high, **extra),
-    ]  # fmt: skip
+def layouts(p: Any) -> Iterator[tuple[str, Any, Any, float]]:
+    """Name, evaluator, parameters and the largest ratio to the paper's model aimed at; the paper's first."""
+    from ragg_runtime.instrument.form import PRESETS, Form
+    from ragg_runtime.instrument.read_toml import parse_instrument
+    from ragg_runtime.model.evaluate import vector
+    from ragg_runtime.model.model import packaged
+    from ragg_runtime.model_dir import derive
+    from tests.layouts import sheets
+
+    exact = Form(kinematics="full", **dict(PRESETS["exact"]))  # type: ignore[arg-type]
+    yield PAPER, packaged().compiled("c"), p, 1.0
+    yield "full kinematics", packaged("full").compiled("c"), p, 1.3
+    yield "full kinematics and exact order", derive.derived((), (), exact)[0].compiled("c"), p, 2.0
+    for name, discs, count in (
+        ("two complements on a disc, an output", sheets.complements(), 8),
+        ("an umbrella of three discs, an output", sheets.umbrella(), 12),
+    ):
+        i = parse_instrument(sheets.sheet(discs, count))
+        model = derive.derived((), (), i.form, i.layout)[0]
+        yield name, model.compiled("c"), vector(model, i), 1.3
+
+
+def layout_rows(t: Any, x: Any, p: Any) -> list[Row]:
+    """Ratios of other instruments; an output of four accelerometers each, so a ratio a sample is one an accelerometer."""
+    import numpy as np
+
+    turning = np.stack([np.full(len(t), 2 * np.pi * p[1]), np.zeros(len(t))])
+    wide, models = np.vstack([x, turning]), list(layouts(p))
+    found = []
+    for label, (n, inner) in SIZES.items():
+        s, y, out = aligned(t[:n]), aligned(wide[:, :n]), aligned(np.zeros(n))
+        calls = {name: partial(e.output, s, y[: len(e.inputs)], q, out=out) for name, e, q, _ in models}
+        times = interleaved(calls, 15, inner, prime=inner > 1)
+        found += [
+            ratio(f"{name} / {PAPER}, {label}", times[name], times[PAPER], f"at most {limit:g}")
+            for name, _, _, limit in models[1:]
+        ]
+    return found
 
 
 def run() -> list[Row]:
-    """Accuracy, times streaming and in cache, ratios, bounds, other instruments, threads."""
+    """Accuracy, times streaming and in cache, ratios, bounds, other instruments."""
     import numpy as np
 
-    from benchmarks import bounds, instruments
+    from benchmarks import bounds
 
     cores = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
     if cores:
         os.sched_setaffinity(0, cores[:1])  # the rivals' thread pools too
-    t, x, p = instrument_and_motion(STREAMING)
+    t, x, p = instrument_and_motion(SIZES["streaming"][0])
     functions, missing = contenders(p)
     wrong = errors(p, functions)
     limits = bounds.Bounds()
     rows: list[Row] = []
-
-    def timed(n: int, rounds: int, inner: int, among: Mapping[str, Any]) -> dict[str, Timing]:
-        s, y, out = aligned(t[:n]), aligned(x[:, :n]), aligned(np.zeros(n))
-        calls: dict[str, Callable[[], object]] = {
-            name: lambda f=f: f(s, y, out)
-            for name, f in among.items()  # type: ignore[misc]
-        }
-        return interleaved(
-            {**calls, "bound": lambda: limits.traffic(s, y, out)},
-            rounds,
-            inner,
-            clock=time.process_time,
-            prime=inner > 1,
-        )
-
     fast = {name: f for name, f in functions.items() if name not in SLOW}
     few = {name: f for name, f in functions.items() if name in (*SLOW, OURS)}
-    for label, which, n, rounds, inner in (
-        ("streaming", 0, STREAMING, 25, 1),
-        ("in cache", 1, IN_CACHE, 25, 20),
-    ):
-        times = timed(n, rounds, inner, fast)
-        slow = timed(n, 5, 1 if n == STREAMING else 2, few)
+    for label, (n, inner) in SIZES.items():
+        s, y, out = aligned(t[:n]), aligned(x[:, :n]), aligned(np.zeros(n))
+
+        def timed(
+            among: Mapping[str, Call], rounds: int, inner: int, s: Any = s, y: Any = y, out: Any = out
+        ) -> dict[str, Timing]:
+            calls = {name: partial(f, s, y, out) for name, f in among.items()}
+            return interleaved(calls, rounds, inner, time.process_time, prime=inner > 1)
+
+        times = timed({**fast, "bound": limits.traffic}, 25, inner)
+        slow = timed(few, 5, min(inner, 2))
         floor = times.pop("bound")
-        rows += rows_of(times, n, label, which, wrong)
-        slow.pop("bound")
-        rows += [r for r in rows_of(slow, n, label, which, wrong) if not r.name.startswith(OURS)]
-        rows += bound_rows(times[OURS], floor, n, label)
-    rows += limits.rows(1e9 * times[OURS].median / IN_CACHE)
-    rows += instruments.rows(t, x, p)
+        rows += rows_of(times, label, wrong)
+        rows += [r for r in rows_of(slow, label, wrong) if not r.name.startswith(OURS)]
+        low, high = (1e9 * q / n for q in floor.quartiles)
+        name, note = f"reading 16 series, writing one, {label}", "nothing is computed: the memory bound"
+        rows.append(Row(name, 1e9 * floor.median / n, "ns", note, low=low, high=high))
+        near = "at most 1.3" if inner == 1 else None
+        rows.append(ratio(f"{OURS} / memory bound, {label}", times[OURS], floor, near))
+    rows += limits.rows(1e9 * times[OURS].median / n)
+    rows += layout_rows(t, x, p)
     for name, reason in missing.items():
         print(f"missing: {name}: {reason}", file=sys.stderr)
         rows.append(Row(f"{name}: missing", float("nan"), "ns", reason))

@@ -36,19 +36,15 @@ def interleaved(
     functions: Mapping[str, Callable[[], object]],
     repeats: int,
     inner: int = 1,
-    warm: bool = True,
-    clock: Callable[[], float] = time.perf_counter,
+    clock: Callable[[], float] = time.process_time,
     prime: bool = False,
 ) -> dict[str, Timing]:
-    """Call every function once in each of ``repeats`` rounds (``inner`` times in a row, and divide by that).
+    """Call every function once for nothing, then in each of ``repeats`` rounds (``inner`` times in a row, and divide by that).
 
-    ``warm``: call each once before, untimed (compilation, caches). ``clock``: ``time.process_time`` for work on
-    one core of a machine that others use too. ``prime``: call each once, untimed, before its turn, so that its
-    data are in the caches again.
+    ``prime``: call each once, untimed, before its turn, so that its data are in the caches again.
     """
-    if warm:
-        for function in functions.values():
-            function()
+    for function in functions.values():
+        function()
     times: dict[str, list[float]] = {name: [] for name in functions}
     for _ in range(repeats):
         for name, function in functions.items():
@@ -61,8 +57,12 @@ def interleaved(
     return {name: Timing(tuple(t)) for name, t in times.items()}
 
 
-def ratio(over: Timing, under: Timing) -> Row:
-    """``over`` divided by ``under``, round by round: median and quartiles. Name and target are for the caller."""
+def ratio(name: str, over: Timing, under: Timing, target: str | None = None) -> Row:
+    """``over`` divided by ``under``, round by round: median and quartiles; ``target``: "at most X" or "at least X"."""
     rounds = Timing(tuple(a / b for a, b in zip(over.seconds, under.seconds, strict=True)))
     low, high = rounds.quartiles
-    return Row("", rounds.median, RATIO, low=low, high=high)
+    met = None
+    if target is not None:
+        limit = float(target.split()[-1])
+        met = rounds.median <= limit if target.startswith("at most") else rounds.median >= limit
+    return Row(name, rounds.median, RATIO, target=target, low=low, high=high, met=met)

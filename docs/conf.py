@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import shutil
 import sys
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -64,9 +66,11 @@ def _block(self: Any, node: Any) -> None:
 
 
 def _made(app: Sphinx, config: Any) -> None:
-    """What is not written by hand: pages of effects, audit and experiments, the notebook, the reports of the demonstration."""
+    """What is not written by hand: pages from the code, the notebook, figures, the reports of the demonstration."""
+    from benchmarks.compensation import draw_transfer
     from derive import audit, pages
     from derive.simplify.page import page as simplified
+    from docs import made as build
     from ragg_runtime.cli import demo
     from ragg_runtime.experiments.dynamic import dynamic
     from ragg_runtime.experiments.multifrequency import multifrequency
@@ -74,20 +78,29 @@ def _made(app: Sphinx, config: Any) -> None:
     from ragg_runtime.experiments.turbulence import turbulence
 
     made = HERE / "_made"
-    made.mkdir(exist_ok=True)
+    (made / "effects").mkdir(parents=True, exist_ok=True)
     for name in ("first-steps.ipynb", "demo-flight.parquet"):
         _written(made / name, (ROOT / "examples" / name).read_bytes())
-    (made / "effects").mkdir(exist_ok=True)
-    for name, text in pages.effects().items():
+    texts = pages.effects() | {
+        "errata.md": audit.page(),
+        "simplified.md": simplified(),
+        "experiments.md": page([multifrequency(), dynamic(), turbulence()]),
+        "commands.md": build.commands(),
+        "model-toml.md": build.model_toml(),
+    }
+    if not (made / "json.md").exists():
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            texts["json.md"] = build.json_page(build.documents())
+    for name, text in texts.items():
         _written(made / name, text.encode())
-    _written(made / "errata.md", audit.page().encode())
-    _written(made / "simplified.md", simplified().encode())
-    _written(made / "experiments.md", page([multifrequency(), dynamic(), turbulence()]).encode())
+    for name, draw in (("loop.png", build.loop_figure), ("transfer.png", draw_transfer)):
+        if not (made / name).exists():
+            draw(made / name)
     reports = made / "extra" / "reports"
     if not (reports / "report.html").exists():
         shutil.rmtree(made / "extra", ignore_errors=True)
         reports.parent.mkdir(parents=True)
-        demo.main(reports, ROOT / "examples" / "demo-flight.parquet")
+        demo.main(reports, build.FLIGHT)
         shutil.rmtree(reports / "model")
 
 

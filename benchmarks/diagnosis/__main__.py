@@ -3,7 +3,7 @@
 python -m benchmarks.diagnosis [--seed N ...] [--jobs N] [--only KIND] [--real FOLDER] [--save FILE] [--against FILE]
 python -m benchmarks.diagnosis --ablate [--rule ID ...] [--jobs N]
 python -m benchmarks.diagnosis --flight ID      one flight, shown
-python -m benchmarks.diagnosis --page           docs/diagnosis.md, from the results that are committed
+python -m benchmarks.diagnosis --page           docs/explanation/diagnosis.md, from the results that are committed
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from benchmarks.diagnosis.score import Row
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CACHE = ROOT / "build" / "bench-diagnosis.jsonl"
-PAGE = ROOT / "docs" / "diagnosis.md"
+PAGE = ROOT / "docs" / "explanation" / "diagnosis.md"
 RESULTS = {n: HERE / f"{n}.csv" for n in ("reference", "ablation", "array")}
 
 ASIDE = ("report", "studio", "cli", "wording", "survey", "experiments", "compensation")

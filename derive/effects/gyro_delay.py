@@ -30,7 +30,7 @@ EFFECT = Effect(
         "Gyroscopes and accelerometers of a motion sensor pass filters of different delay, or are read one after the "
         "other: the rate that is true at t stands in the record at t + delta, beside the specific force of t."
     ),
-    source="group delays of the digital filters of inertial sensors; found in a record of real ones (docs/real-measurements.md)",
+    source="group delays of the digital filters of inertial sensors; found in a record of real ones (docs/explanation/real-measurements)",
     equation=(
         r"\bm\omega_{im}(t) = \bm\omega_{rec}(t + \delta_\omega),\;"
         r" \dot{\bm\omega}_{im}(t) = \dot{\bm\omega}_{rec}(t + \delta_{\dot\omega})"

@@ -1,4 +1,4 @@
-"""What the page on real measurements (docs/real-measurements.md) computes, from the record beside this file."""
+"""What the page on real measurements (docs/explanation/real-measurements.md) computes, from the record beside this file."""
 
 from __future__ import annotations
 

@@ -40,6 +40,25 @@ class UserError(Exception):
         return (_rebuild, (self.what, self.where, self.found, self.expected, self.remedy))
 
 
+EXTRAS = {
+    **dict.fromkeys(("h5netcdf", "h5py", "openpyxl", "xarray"), "files"),
+    **dict.fromkeys(("latex2mathml", "starlette", "uvicorn"), "studio"),
+    "distributed": "cluster",
+    "matplotlib": "plots",
+}
+"""Package -> the extra of this project that brings it."""
+
+
+def missing_package(error: BaseException) -> UserError | None:
+    """What to install, where the error is that an optional package is missing; else ``None``."""
+    name = (error.name or "").split(".")[0] if isinstance(error, ModuleNotFoundError) else ""
+    if name not in EXTRAS:
+        return None
+    return UserError(
+        f"this needs {name}, which is not installed", remedy=f"pip install 'ragg[{EXTRAS[name]}]'"
+    )
+
+
 def _rebuild(
     what: str, where: str | None, found: str | None, expected: str | None, remedy: str | None
 ) -> UserError:

@@ -14,7 +14,7 @@ from types import MappingProxyType
 
 import click
 
-from ragg_runtime.base.errors import UserError, one_line, printable
+from ragg_runtime.base.errors import UserError, missing_package, one_line, printable
 
 GROUPS: Mapping[str, Mapping[str, str]] = MappingProxyType(
     {
@@ -96,7 +96,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except OSError as error:
         click.echo(f"ragg: {refusal(error)}", err=True)
         sys.exit(2)
-    except Exception:
+    except Exception as error:
+        missing = missing_package(error)
+        if missing is not None:
+            click.echo(f"ragg: {missing}", err=True)
+            sys.exit(2)
         traceback.print_exc()
         click.echo("ragg: this is a fault of the program, not of your input; please report it", err=True)
         sys.exit(1)

@@ -42,8 +42,8 @@ def test_channels_are_the_gradients_with_their_signs(
 
 
 def test_the_page_gives_the_formulas_of_the_code() -> None:
-    """docs/flight-file.md, evaluated: what it says of a pure gradient and of its demodulation is so."""
-    page = (Path(__file__).parents[2] / "docs" / "flight-file.md").read_text("utf-8")
+    """docs/reference/flight-file.md, evaluated: what it says of a pure gradient and of its demodulation is so."""
+    page = (Path(__file__).parents[2] / "docs" / "reference" / "flight-file.md").read_text("utf-8")
     said = dict(re.findall(r"^    (G_out|inline|cross) = (.+)$", page, flags=re.MULTILINE))
     assert {*said} == {"G_out", "inline", "cross"}
     tensor, instrument = np.array([300, 120, 50, 200, -80, -500]) * 1e-9, perfect()

@@ -1,0 +1,149 @@
+"""Pages and figures of the site that are not written by hand: from the code, and from the flight that is shipped."""
+
+from __future__ import annotations
+
+import io
+import json
+import tomllib
+from collections.abc import Iterator
+from contextlib import redirect_stdout
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+
+HERE = Path(__file__).parent
+FLIGHT = HERE.parent / "examples" / "demo-flight.parquet"
+
+
+def commands() -> str:
+    """Every command with its help, as ``--help`` prints it."""
+    from ragg_runtime.cli.main import cli
+
+    text = [
+        "# Commands",
+        "",
+        "Exit status: 0 done, 2 bad input or usage (one message), 1 a fault of the program.",
+        "",
+    ]
+    root = click.Context(cli, info_name="ragg", max_content_width=100)
+    for name in cli.list_commands(root):
+        command = cli.get_command(root, name)
+        if command is None or command.hidden:
+            continue
+        context = click.Context(command, info_name=name, parent=root, max_content_width=100)
+        text += [f"## ragg {name}", "", "```text", command.get_help(context), "```", ""]
+    return "\n".join(text)
+
+
+def model_toml() -> str:
+    """Keys of model.toml: prose with the table of the accelerometers' parameters."""
+    from ragg_runtime.instrument.parameters import PARAMETERS
+
+    rows = ["| key | | unit | usual error | if left out |", "|---|---|---|---|---|"]
+    for p in PARAMETERS:
+        usual = f"{p.plausible:g} of the value" if p.relative else f"{p.plausible:g} {p.display_unit}"
+        absent = "an error" if p.required else "0"
+        rows.append(
+            f"| `{p.name}` | ${p.symbol}$, {p.description} | `{p.display_unit}` | {usual} | {absent} |"
+        )
+    text = (HERE / "reference" / "model-toml.txt").read_text("utf-8")
+    return text.replace("@PARAMETERS@", "\n".join(rows))
+
+
+def keys(value: Any, path: str = "") -> Iterator[tuple[str, str]]:
+    """(path, type) of everything in a JSON document; ``[]`` is any entry of a list."""
+    if isinstance(value, dict) and {"rms_V", "inline_Eo"} <= value.keys():
+        yield path, "error object"
+    elif isinstance(value, dict) and path == "provenance":
+        yield path, "object"
+    elif isinstance(value, dict):
+        for name, x in value.items():
+            yield from keys(x, f"{path}.{name}" if path else name)
+    elif isinstance(value, list):
+        inner = dict(k for x in value for k in keys(x, f"{path}[]"))
+        yield from inner.items() if inner else [(f"{path}[]", "")]
+    else:
+        kind = {bool: "boolean", int: "number", float: "number", str: "string"}.get(type(value), "null")
+        yield path, kind
+
+
+def documents() -> dict[str, Any]:
+    """Command -> what it writes with ``--json`` about the shipped flight."""
+    from ragg_runtime.cli.main import cli
+
+    found = {}
+    lines = {
+        "compare": "compare model FLIGHT",
+        "diagnose": "diagnose model FLIGHT",
+        "add": "add model thermal-scale FLIGHT",
+        "calibrate": "calibrate model FLIGHT --save",
+        "compensate": "compensate model FLIGHT -o gradient.parquet --calibration frozen",
+        "history": "history model",
+    }
+    cli.main(["new", "model"], standalone_mode=False)
+    for name, line in lines.items():
+        said = io.StringIO()
+        with redirect_stdout(said):
+            words = line.replace("FLIGHT", str(FLIGHT)).split()
+            cli.main([*words, "--json", f"{name}.json"], standalone_mode=False)
+        found[name] = json.loads(Path(f"{name}.json").read_text("utf-8"))
+    return found
+
+
+def json_page(found: dict[str, Any]) -> str:
+    """Keys of every command's JSON with type and meaning; a key without a meaning is an error."""
+    meanings = tomllib.loads((HERE / "reference" / "json.toml").read_text("utf-8"))
+    text = ["# JSON", "", meanings["head"], ""]
+    for name, document in found.items():
+        text += [f"## {name}", "", "| key | type | meaning |", "|---|---|---|"]
+        kinds: dict[str, list[str]] = {}
+        for path, kind in keys(document):
+            kinds.setdefault(path, []).append(kind)
+        for path, of in kinds.items():
+            text.append(
+                f"| `{path}` | {' or '.join(dict.fromkeys(filter(None, of)))} | {meaning(path, meanings)} |"
+            )
+        text.append("")
+    return "\n".join(text)
+
+
+def meaning(path: str, meanings: dict[str, Any]) -> str:
+    """Of a key, by its last name."""
+    *outer, last = path.replace("[]", "").split(".")
+    if last in meanings["keys"]:
+        return str(meanings["keys"][last])
+    if outer and outer[-1] in ("quality", "flights"):  # keyed by bits, by flights
+        return f"of {last}"
+    raise KeyError(f"docs/reference/json.toml has no meaning of {path}")
+
+
+def loop_figure(target: Path) -> None:
+    """Residual and its spectrum before and after the missing effect is added."""
+    import matplotlib
+
+    matplotlib.use("agg")
+    import tempfile
+
+    import matplotlib.pyplot as plt
+    from scipy import signal
+
+    import ragg
+
+    with tempfile.TemporaryDirectory() as folder:
+        m = ragg.new(Path(folder) / "model")
+        flights = ragg.read_flights(m, [FLIGHT])
+        before, step = ragg.compare(m, flights), ragg.add(m, "thermal-scale", flights)
+    fig, (left, right) = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained")
+    for c, label in ((before, "before"), (step.after, "after")):
+        assert c is not None
+        residual = c.residual[0] / c.fitted.k_ggi
+        left.plot(flights[0].time, residual, lw=0.4, label=f"{label}: {c.calibrated.rms_Eo:.2f} Eo rms")
+        frequency, density = signal.welch(residual, flights[0].rate, nperseg=2048)
+        right.loglog(frequency[1:], np.sqrt(density[1:]), lw=0.8, label=label)
+    left.set(xlabel="time, s", ylabel="residual, Eo")
+    right.set(xlabel="frequency, Hz", ylabel="residual, Eo/√Hz")
+    for axes in (left, right):
+        axes.legend(loc="upper right")
+    fig.savefig(target, dpi=110)
