@@ -1,16 +1,10 @@
 """Step of a converter at the middle of its scale."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import SensedForce
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:

@@ -1,17 +1,11 @@
 """Unrecorded angular jitter of the platform: its squares are a centrifugal gradient."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
 from derive.symbols import COMPONENTS, symmetric
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

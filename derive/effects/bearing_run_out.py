@@ -1,16 +1,10 @@
 """Run-out of the spin bearing: the disc's centre wanders with the turn."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
 from derive import stages
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 HARMONICS = (1, 2)
 

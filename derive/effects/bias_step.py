@@ -1,16 +1,11 @@
 """A null bias, or an offset of the output, that jumps at an unknown instant."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 
 def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:

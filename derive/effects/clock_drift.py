@@ -1,16 +1,10 @@
 """The clock of the motion record runs at another rate than that of the output."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

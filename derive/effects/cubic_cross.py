@@ -1,16 +1,10 @@
 """Third-order terms of the force across the input axis, and mixed ones."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import SensedForce
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 MONOMIALS: tuple[str, ...] = ("iio", "iip", "ioo", "iop", "ipp", "ooo", "oop", "opp", "ppp")
 """All monomials of third degree in f_i, f_o, f_p but f_i^3, which is the effect ``cubic-input``."""

@@ -1,16 +1,10 @@
 """The accelerometers ride on the disc, which turns against the platform."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import spin_gradient
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 
 def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:

@@ -1,15 +1,9 @@
 """Disc angle off by harmonics of itself."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 HARMONICS = (1, 2, 3, 4)
 

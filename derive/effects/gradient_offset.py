@@ -1,17 +1,10 @@
 """A constant gradient of masses that stand still around the disc."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
-
-if TYPE_CHECKING:
-    from derive.context import Context
-
 
 COMPONENTS = ("xx", "xy", "xz", "yy", "yz")
 

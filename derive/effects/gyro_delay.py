@@ -1,16 +1,10 @@
 """The gyroscopes earlier or later than the accelerometers beside them."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -30,7 +24,7 @@ EFFECT = Effect(
         "Gyroscopes and accelerometers of a motion sensor pass filters of different delay, or are read one after the "
         "other: the rate that is true at t stands in the record at t + delta, beside the specific force of t."
     ),
-    source="group delays of the digital filters of inertial sensors; found in a record of real ones (docs/explanation/real-measurements)",
+    source="group delays of the digital filters of inertial sensors; found in a record of real sensors",
     equation=(
         r"\bm\omega_{im}(t) = \bm\omega_{rec}(t + \delta_\omega),\;"
         r" \dot{\bm\omega}_{im}(t) = \dot{\bm\omega}_{rec}(t + \delta_{\dot\omega})"

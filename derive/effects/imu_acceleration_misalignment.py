@@ -1,17 +1,10 @@
 """Axes of the motion sensor's accelerometers that are not at right angles."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
-
-if TYPE_CHECKING:
-    from derive.context import Context
-
 
 PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
 

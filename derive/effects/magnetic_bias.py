@@ -1,16 +1,10 @@
 """Null bias proportional to the magnetic field along the input axis."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import SensedForce, misalignment_matrix
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 FIELD = ("B_x", "B_y", "B_z")
 

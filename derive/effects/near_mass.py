@@ -1,16 +1,11 @@
 """Third-order gravity tensor of a near mass."""
 
-from __future__ import annotations
-
 from functools import cache
-from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 INDEPENDENT = ("xxx", "xxy", "xxz", "xyy", "xyz", "yyy", "yyz")
 FOURTH = ("xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz")

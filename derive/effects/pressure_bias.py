@@ -1,16 +1,11 @@
 """Null bias proportional to air pressure."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 REFERENCE_PASCAL = sp.Integer(101325)
 """Pressure at which the test sheet's null bias holds; another one is absorbed by K0."""

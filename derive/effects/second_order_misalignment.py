@@ -1,14 +1,8 @@
 """Second-order terms along the accelerometer's true axes (Eq. 5a and 5b)."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import SensedForce
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 
 def second_order(q: SensedForce, f: SensedForce, p: Values, c: Context) -> SensedForce:

@@ -1,16 +1,10 @@
 """Gradient of the platform's own masses as it turns."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 ATTITUDE = ("roll", "pitch")
 COMPONENTS = ("xx", "xy", "xz", "yy", "yz")

@@ -1,16 +1,10 @@
 """Gradient of the carrier's masses as it turns about the vertical around the instrument."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 _MEANING = {
     "G_d": "half of the difference of xx and yy",

@@ -1,17 +1,11 @@
 """The spin axis leans about axes that turn with the disc."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.rotation import lean
 from derive.stages import Geometry
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 
 def geometry(g: Geometry, p: Values, c: Context) -> Geometry:

@@ -1,15 +1,9 @@
 """The disc turns faster or slower than it is believed to."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 
 def disc_angle(p: Values, c: Context) -> sp.Expr:

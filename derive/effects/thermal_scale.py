@@ -1,16 +1,11 @@
 """Scale factor proportional to temperature."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 REFERENCE_KELVIN = sp.Rational(29315, 100)
 """Temperature at which the test sheet's scale factor holds; another one is absorbed by K1."""

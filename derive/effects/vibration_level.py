@@ -1,18 +1,12 @@
 """Unrecorded vibration whose level is recorded, rectified by the second-order coefficients."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import sympy as sp
 
+from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.rectified import rectified
 from derive.stages import SensedForce
 from derive.symbols import COMPONENTS, symmetric
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:

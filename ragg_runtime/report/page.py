@@ -6,14 +6,14 @@ import base64
 import hashlib
 import platform
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import metadata, resources
 
-from ragg_runtime.report.plots import draw_plot
+from ragg_runtime.base.errors import missing_package
 from ragg_runtime.wording import numbers
-from ragg_runtime.wording.sections import Section, escape, render_html
+from ragg_runtime.wording.sections import Plot, Section, escape, render_html
 
 LIBRARIES = ("ragg", "numpy", "scipy", "sympy", "matplotlib")
 """What a report's numbers and looks depend on."""
@@ -28,6 +28,18 @@ class Origin:
     sources: Sequence[tuple[str, str]]
     notes: Sequence[str] = ()
     digest: str = ""
+
+
+def _find_renderer() -> Callable[[Plot], str]:
+    """What draws a plot as SVG; where matplotlib is not installed, a line that says so."""
+    try:
+        from ragg_runtime.report.plots import draw_plot
+    except ModuleNotFoundError as error:
+        missing = missing_package(error)
+        if missing is None:
+            raise
+        return lambda plot: f"<p>no figure: {escape(missing.what)} ({escape(missing.remedy or '')})</p>"
+    return draw_plot
 
 
 def render_page(
@@ -48,6 +60,7 @@ def render_page(
         )
         sections = [*sections, done]
     first, *others = sections
+    draw_plot = _find_renderer()
     body, contents = _anchored(render_html(others, draw_plot))
     script = _file("live.js")
     allowed = "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
