@@ -12,14 +12,27 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
+from importlib import resources
 from typing import Any
 
+import sympy as sp
 from sympy import QQ
 from sympy.polys.rings import PolyElement, PolyRing
 
-from derive.audit.printed import Equation
-from derive.audit.reading import COMBINATIONS, MODEL_RING, REDUNDANT_MOTION, Reader, generators
-from derive.propagation import Collected
+from derive import stages
+from derive.audit.reading import (
+    ANGLE_RING,
+    COMBINATIONS,
+    MODEL_RING,
+    RATE_RING,
+    REDUNDANT_MOTION,
+    Reader,
+    generators,
+    ring_of,
+)
+from derive.propagation import Collected, motion_numbers
+from derive.stages import PAPER
+from derive.symbols import SECOND_ORDER, symbol
 
 Monomial = tuple[int, ...]
 Rational = Any
@@ -220,3 +233,77 @@ def select(p: PolyElement, keep: Callable[[Mapping[str, int]], bool]) -> PolyEle
 def printed_order(powers: Mapping[str, int]) -> bool:
     """The order of counting of Eq. 18 and 19: beta_z to the first power, everything else multiplied out."""
     return powers.get("beta_z", 0) <= 1
+
+
+@dataclass(frozen=True)
+class Equation:
+    """One printed equation: its number, its left side and the terms of its right side, as LaTeX."""
+
+    number: str
+    left: str
+    terms: tuple[str, ...]
+
+
+def _read() -> tuple[Equation, ...]:
+    found: list[tuple[str, str, list[str]]] = []
+    text = resources.files("derive.audit").joinpath("printed.txt").read_text("utf-8")
+    for line in text.splitlines():
+        if line.startswith("  "):
+            found[-1][2].append(line.strip())
+        elif not line.startswith("#"):
+            number, _, left = line.partition(" ")
+            found.append((number, left, []))
+    return tuple(Equation(number, left, tuple(terms)) for number, left, terms in found)
+
+
+PRINTED = _read()
+TRANSDUCER = tuple(e for e in PRINTED if e.number == "5b")
+MOTION = tuple(e for e in PRINTED if e.number == "16")
+ANALYTICAL = tuple(e for e in PRINTED if e.number in ("18", "19"))
+SIMPLIFIED = tuple(e for e in PRINTED if e.number in ("43", "45", "47"))
+
+
+_FORCES = ("f_x", "f_y", "f_z")
+_FULL = ring_of((*_FORCES, "vartheta_x", "vartheta_y", "vartheta_z", *SECOND_ORDER))
+_POWERS = {
+    r"\vartheta_{jz}^*": (0, 1, 0),
+    r"\vartheta_{jy}^*": (0, 0, 1),
+    "K_{j2}^*": (2, 0, 0),
+    "K_{j4}^*": (1, 0, 1),
+    "K_{j5}^*": (0, 2, 0),
+    "K_{j6}^*": (1, 1, 0),
+    "K_{j7}^*": (0, 0, 2),
+    "K_{j8}^*": (0, 1, 1),
+}
+"""Powers of f_x, f_y, f_z that the left sides of Eq. 5b multiply in Eq. 5a."""
+_NEGATIVE = r"\vartheta_{jy}^*"
+"""The one that Eq. 5a subtracts."""
+
+
+def derived_transducer() -> dict[str, PolyElement]:
+    """Eq. 5b by its left sides, from the stages of the derivation: the coefficients of Eq. 5a, without K_0."""
+    x, y, z = (
+        stages.turn(sp.eye(3)[:, n], -symbol(f"vartheta_{k}"), PAPER.rotation) for n, k in enumerate("xyz")
+    )
+    turned = z * y * x * sp.Matrix([symbol(n) for n in _FORCES])
+    f = stages.SensedForce(*(_FULL.from_expr(sp.expand(e)) for e in turned))
+    output = stages.transducer(f, f, generators(_FULL) | {"K0": _FULL.zero})
+    rows: dict[tuple[int, ...], dict[tuple[int, ...], Rational]] = {}
+    for m, c in output.terms():
+        rows.setdefault(m[:3], {})[m[3:]] = c
+    by_left = {left: ANGLE_RING.from_dict(rows[powers]) for left, powers in _POWERS.items()}
+    return by_left | {_NEGATIVE: -by_left[_NEGATIVE]}
+
+
+def derived_motion() -> dict[str, PolyElement]:
+    """T_1 ... S_5 of the derivation, in :data:`RATE_RING`."""
+    return {name: RATE_RING.from_expr(e) for name, e in motion_numbers().items()}
+
+
+def expand_rate(powers: tuple[int, ...]) -> PolyElement:
+    """omega_im^2 by its components."""
+    at = RATE_RING.symbols.index(symbol("omega_im"))
+    kept = tuple(0 if n == at else p for n, p in enumerate(powers))
+    plain = RATE_RING.from_dict({kept: QQ(1)})
+    square = sum((generators(RATE_RING)[f"omega_{k}"] ** 2 for k in "xyz"), RATE_RING.zero)
+    return plain * square if powers[at] else plain

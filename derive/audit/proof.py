@@ -12,7 +12,7 @@ from functools import cache
 from sympy.polys.rings import PolyElement
 
 from derive.audit import direct
-from derive.audit.printed import MOTION
+from derive.audit.compare import MOTION
 from derive.audit.reading import motion_reader
 from derive.propagation import COEFFICIENT_PARAMETERS
 

@@ -1,4 +1,4 @@
-"""Reads the printed LaTeX of :mod:`derive.audit.printed` into polynomials.
+"""Reads the printed LaTeX of :mod:`derive.audit.compare` into polynomials.
 
 The grammar is the paper's own: sums and products of numbers, powers, brackets, symbols with a subscript,
 and the combinations ``D_{X}^{12}``, ``D_{X,Y}^{12,34}``, ``D_{X}^{1234}`` and ``\\sum_{X}``.

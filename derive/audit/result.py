@@ -8,8 +8,12 @@ from functools import cache
 
 from sympy.polys.rings import PolyElement
 
-from derive.audit import definitions, direct, experiment, proof
+from derive.audit import direct, experiment, proof
 from derive.audit.compare import (
+    ANALYTICAL,
+    MOTION,
+    SIMPLIFIED,
+    TRANSDUCER,
     Change,
     Mistake,
     Rational,
@@ -17,13 +21,15 @@ from derive.audit.compare import (
     amplitude,
     compare,
     derived_amplitude,
+    derived_motion,
+    derived_transducer,
     expand_motion,
+    expand_rate,
     printed_order,
     read,
     select,
 )
 from derive.audit.experiment import Cost
-from derive.audit.printed import ANALYTICAL, MOTION, SIMPLIFIED, TRANSDUCER
 from derive.audit.reading import MODEL_RING, model_reader, motion_reader, transducer_reader
 from derive.propagation import collect
 from derive.simplify.terms import simplified as simplified_model
@@ -111,7 +117,7 @@ def audit() -> Audit:
     full = {name: derived_amplitude(collected, name) for name in collected.amplitudes}
     analytical = {n: select(p, printed_order) for n, p in full.items()}
     simplified = {n: derived_amplitude(simple, n) for n in simple.amplitudes}
-    transducer = definitions.derived_transducer()
+    transducer = derived_transducer()
     outcomes = [(r, compare(r, p)) for r, p in readings(analytical, simplified, transducer)]
     points = direct.points(PROOF_POINTS, PROOF_SEED)
     return Audit(
@@ -133,10 +139,10 @@ def readings(
     analytical: Amplitudes, simplified: Amplitudes, transducer: Mapping[str, PolyElement]
 ) -> list[tuple[Reading, PolyElement]]:
     """Every printed equation as read, with its derivation."""
-    motion = definitions.derived_motion()
+    motion = derived_motion()
     reader, expand = model_reader(), expand_motion()
     pairs = [(read(e, transducer_reader()), transducer[e.left]) for e in TRANSDUCER]
-    pairs += [(read(e, motion_reader(), definitions.expand_rate), motion[e.left]) for e in MOTION]
+    pairs += [(read(e, motion_reader(), expand_rate), motion[e.left]) for e in MOTION]
     pairs += [(read(e, reader, expand), analytical[amplitude(e.left)]) for e in ANALYTICAL]
     return pairs + [(read(e, reader, expand), simplified[amplitude(e.left)]) for e in SIMPLIFIED]
 

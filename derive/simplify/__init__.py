@@ -5,10 +5,9 @@ model that follows from the same rule for any other; :func:`certified_bound` say
 amount to, with proof; :func:`critical_conditions` gives Tables I to III.
 """
 
-from derive.simplify.bound import Certificate, certified_bound
-from derive.simplify.critical import AngularMotion, Condition, critical_conditions
 from derive.simplify.envelope import DYNAMIC_EXPERIMENT, PAPER_ENVELOPE, Envelope
-from derive.simplify.terms import Size, dropped, simplified, sizes
+from derive.simplify.page import AngularMotion, Condition, critical_conditions
+from derive.simplify.terms import Certificate, Size, certified_bound, dropped, simplified, sizes
 
 __all__ = [
     "DYNAMIC_EXPERIMENT",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -109,3 +110,60 @@ def _select(generic: Generic, chosen: set[Product]) -> Generic:
                 of_phase[motion] = part
     present = {n for (n, _), terms in reduced.items() if terms} | {0}
     return {key: terms for key, terms in reduced.items() if key[0] in present}
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """Upper bound of |G_full - G_model| / k_ggi over a whole envelope, at any disc angle.
+
+    ``harmonics`` gives the share of each harmonic of the disc, in Eo, exactly; the bound is their sum. It
+    holds for the models as formulas: rounding in their evaluation comes on top.
+    """
+
+    harmonics: Mapping[int, Fraction]
+
+    @property
+    def exact(self) -> Fraction:
+        """The bound in Eo."""
+        return sum(self.harmonics.values(), Fraction(0))
+
+    @property
+    def eotvos(self) -> float:
+        """The bound in Eo: the least float that is not below it."""
+        return round_up(self.exact)
+
+
+def certified_bound(envelope: Envelope, model: Collected, full: Collected | None = None) -> Certificate:
+    """What ``model`` may miss of the analytical model (or of ``full``) anywhere in an envelope."""
+    amplitudes: dict[tuple[int, Powers, Powers], Fraction] = {}
+    for (n, _), terms in dropped(model, full).items():
+        for motion, coefficient in terms.items():
+            for p, c in coefficient.terms():
+                square = Fraction(int(c.numerator), int(c.denominator)) ** 2
+                amplitudes[n, motion, p] = amplitudes.get((n, motion, p), Fraction(0)) + square
+    motions = [envelope.motion()[n] for n in MOTION_NUMBERS]
+    largest = [envelope.parameter(n) for n in COEFFICIENT_PARAMETERS]
+    nominal = [envelope.nominal(n) for n in COEFFICIENT_PARAMETERS]
+    harmonics: dict[int, Fraction] = {}
+    for (n, motion, p), square in amplitudes.items():
+        size = product(motions, motion) * root_up(square * (8 if n % 2 else 16))
+        if balanced(n, p):
+            size *= envelope.departure(p) * product(nominal, p)
+        else:
+            size *= product(largest, p)
+        harmonics[n] = harmonics.get(n, Fraction(0)) + size / envelope.least_scale_factor / EOTVOS
+    return Certificate(dict(sorted(harmonics.items())))
+
+
+def root_up(square: Fraction, digits: int = 20) -> Fraction:
+    """A rational at or above the root of a rational, within 10^-digits; a rational root itself."""
+    scale = 10**digits
+    radicand = square.numerator * square.denominator * scale**2
+    root = math.isqrt(radicand)
+    return Fraction(root + (root * root != radicand), square.denominator * scale)
+
+
+def round_up(x: Fraction) -> float:
+    """The least float at or above ``x``."""
+    nearest = float(x)
+    return nearest if Fraction(nearest) >= x else math.nextafter(nearest, math.inf)

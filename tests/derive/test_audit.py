@@ -9,16 +9,20 @@ from sympy import QQ
 
 from derive.audit import audit
 from derive.audit.compare import (
+    ANALYTICAL,
+    PRINTED,
+    SIMPLIFIED,
+    TRANSDUCER,
+    Equation,
     amplitude,
     compare,
     derived_amplitude,
+    derived_transducer,
     expand_motion,
     printed_order,
     read,
     select,
 )
-from derive.audit.definitions import derived_transducer
-from derive.audit.printed import ANALYTICAL, PRINTED, SIMPLIFIED, TRANSDUCER, Equation
 from derive.audit.reading import NotReadable, model_reader, transducer_reader
 from derive.audit.result import printed_minus_right
 from derive.propagation import collect

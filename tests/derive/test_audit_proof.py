@@ -9,8 +9,7 @@ from fractions import Fraction
 import pytest
 
 from derive.audit import direct, experiment, proof
-from derive.audit.compare import derived_amplitude, printed_order, select
-from derive.audit.definitions import derived_transducer
+from derive.audit.compare import derived_amplitude, derived_transducer, printed_order, select
 from derive.audit.reading import model_reader
 from derive.propagation import collect
 

@@ -22,7 +22,7 @@ from derive.simplify import (
     simplified,
     sizes,
 )
-from derive.simplify.critical import Condition
+from derive.simplify.page import Condition
 from derive.symbols import ANGLES, SECOND_ORDER
 
 G = 9.8
