@@ -12,7 +12,7 @@ from ragg_runtime.estimation.segments import ROWS
 from ragg_runtime.identification import likelihood_ratio, probability, sequential
 
 ROOT = Path(__file__).parents[2]
-TEXT = (ROOT / "docs" / "formulas.md").read_text("utf-8")
+TEXT = (ROOT / "docs" / "explanation" / "formulas.md").read_text("utf-8")
 PYTHON = {p: p.read_text("utf-8") for p in sorted((ROOT / "ragg_runtime").rglob("*.py"))}
 
 
@@ -69,5 +69,5 @@ def test_evidence_and_e_value_are_those_of_the_page() -> None:
 
 
 def test_glossary_states_the_sizes_of_the_code() -> None:
-    glossary = (ROOT / "docs" / "glossary.md").read_text("utf-8")
+    glossary = (ROOT / "docs" / "reference" / "glossary.md").read_text("utf-8")
     assert f"at most {ROWS:,} samples" in glossary
