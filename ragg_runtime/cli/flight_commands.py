@@ -31,7 +31,9 @@ from ragg_runtime.cli.shared import (
 )
 
 if TYPE_CHECKING:
+    from ragg_runtime.identification.motion_design import Criterion
     from ragg_runtime.workflow.loop import Added, Loaded
+    from ragg_runtime.workflow.next_flight import NextFlight
 
 
 @click.command(cls=Command, report=True)
@@ -208,26 +210,43 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
 )
 @click.option("--duration", type=click.FloatRange(60.0, 86400.0), default=600.0, show_default=True, help="s")
 @click.option("--rate", type=click.FloatRange(1.0, 1000.0), default=None, help="Hz (default: the flights').")
+@click.option("--for", "purpose", type=click.Choice(["effects", "calibration"]), default="effects", show_default=True,
+              help="Separate effects, or calibrate what the compensated channels need.")  # fmt: skip
+@click.option("--criterion", type=click.Choice(["A", "D"]), default="A", show_default=True,
+              help="calibration: least mean variance of the channels, or least volume.")  # fmt: skip
+@click.option("--run-sheet", type=OutputFile(), metavar="FILE.md",
+              help="calibration: what whoever flies it reads.")  # fmt: skip
 @mapping_option
 def next_motion(
     model_dir: Path,
     flights: Sequence[Path],
     output: str,
     limits: Sequence[str],
+    purpose: str,
+    criterion: Criterion,
+    run_sheet: str | None,
     mapping: Path | None,
     **options: Any,
 ) -> None:
     """Design the motion to fly next.
 
-    The motion separates effects that these flights cannot distinguish.
+    The motion separates effects that these flights cannot distinguish, or calibrates best.
     """
     from ragg_runtime.wording import describe
     from ragg_runtime.workflow import loop
-    from ragg_runtime.workflow.next_flight import next_flight, write_motion
+    from ragg_runtime.workflow.next_flight import calibration_flight, next_flight, write_motion
 
+    if run_sheet is not None and purpose != "calibration":
+        raise UserError("a run sheet is of a calibration", where="--run-sheet", expected="--for calibration")
     m = load(model_dir)
-    records = read(m, flights, mapping)
-    found = next_flight(m, records, loop.motion_limits(m, limits), **options)
+    records, most = read(m, flights, mapping), loop.motion_limits(m, limits)
+    found: NextFlight
+    if purpose == "calibration":
+        found = planned = calibration_flight(m, records, most, criterion=criterion, **options)
+        if run_sheet is not None:
+            shared.running().write(run_sheet, planned.run_sheet())
+    else:
+        found = next_flight(m, records, most, **options)
     write_motion(found, Path(output))
     said = describe.describe_next_motion(found.as_json(), output)
 
@@ -244,26 +263,35 @@ def next_motion(
 @flights_argument
 @click.option("--save", is_flag=True,
               help="Keep the calibration (and a mapping that is given) in the model directory, for --frozen.")  # fmt: skip
+@click.option("--plan", type=PLACE, metavar="PLAN.json",
+              help="Certify each parameter against a plan of next-motion --for calibration.")  # fmt: skip
 @mapping_option
-def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, mapping: Path | None) -> None:
+def calibrate(
+    model_dir: Path, flights: Sequence[Path], save: bool, plan: Path | None, mapping: Path | None
+) -> None:
     """Fit the parameters, with their uncertainty."""
     from ragg_runtime.wording import describe
     from ragg_runtime.workflow import after, loop
+    from ragg_runtime.workflow.next_flight import certify, read_plan
 
     m = load(model_dir)
+    planned = None if plan is None else read_plan(plan)
     records = read(m, flights, mapping)
     under_way("calibrating")
     with progress.shown("compare", sum(map(len, records))):
         kept = after.calibrate(m, records, save, mapping)
     use = f"{next_command('compensate', m.directory.path, records)} -o compensated.csv --calibration frozen"
-    said = describe.describe_calibration(kept.as_json(), [x.name for x in records], use if kept.saved else "")
+    found = kept.as_json()
+    if planned is not None:
+        found["certificate"] = certify(planned, found["parameters"])
+    said = describe.describe_calibration(found, [x.name for x in records], use if kept.saved else "")
 
     def page() -> str:
         from ragg_runtime.report.pages import calibrate_page
 
         return calibrate_page(said, kept.calibrated.fitted, origin_of(m, records))
 
-    conclude(kept.as_json() | loop.origin(kept.loaded, records, command_line()), said, page, records)
+    conclude(found | loop.origin(kept.loaded, records, command_line()), said, page, records)
 
 
 @click.command(cls=Command, report=True)

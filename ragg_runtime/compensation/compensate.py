@@ -32,14 +32,14 @@ from ragg_runtime.estimation.calibrate import Calibration
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.noise_spectrum import Noise, periodogram
 from ragg_runtime.estimation.observation import Observation, observations_of
-from ragg_runtime.estimation.score import finite
+from ragg_runtime.estimation.score import Tally, finite
 from ragg_runtime.estimation.segments import ROWS, Segment, spread
 from ragg_runtime.estimation.unknown_gradient import spin_frequency
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import sees
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io import Flight
-from ragg_runtime.model.evaluate import scale_factor
+from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
@@ -219,12 +219,13 @@ class Compensated:
             stretches=p.stretches[k],
             noise=noise,
             validity=p.validity,
+            sheet=vector(p.model, p.instrument),
         )
         sought = self._parts(most=max(4096, 2 * len(self.demodulator.taps)))
         U, rest = basis(s, [x.rows for x in spread(sought, SEARCHED)], NEGLECTED)
         self.setting = replace(s, stretches=tuple(x.along(U) for x in s.stretches), rest=rest)
-        thin = rate / s.every
-        self.before, self.after = Density(thin), Density(thin)
+        self.k_ggi, self.after = k_ggi, Density(rate / s.every)
+        self.before = Tally(1, 1, rate, turning=o.record.turning)
         self.count = 0
         self.holds = p.change is None or p.change.holds
         self.bits = dict.fromkeys(Quality, 0)
@@ -252,7 +253,7 @@ class Compensated:
             yield x
 
     def _count(self, x: Series) -> None:
-        self.before.add(x.raw)
+        self.before.join(Tally.of(x.nominal, self.demodulator.rate))
         self.after.add(x.gradient[:: self.setting.every])
         self.count += len(x.quality)
         if x.quality.any():
@@ -275,7 +276,9 @@ class Compensated:
             "quality": {q.name: n for q, n in self.bits.items()},
             "density": {
                 "band_Hz": list(BAND),
-                "before": self.before.as_json(),
+                "before": {
+                    k: x for k, x in self.before.error(0, self.k_ggi).as_json().items() if k.endswith("rtHz")
+                },
                 "after": self.after.as_json(),
                 "noise": dict(zip(("inline_Eo_per_rtHz", "cross_Eo_per_rtHz"), expected, strict=True)),
             },

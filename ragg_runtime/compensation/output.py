@@ -98,6 +98,31 @@ def joined(
 
 
 def write_series(path: Path, series: Sequence[Mapping[str, NDArray[Any]]], units: Mapping[str, str]) -> None:
-    """Write the series of all flights, one after the other, as CSV, Parquet or NetCDF; ``units`` names the columns."""
-    whole = joined(series, list(units))
-    write_tables(path, [Written([(Heading(n, unit), whole[n]) for n, unit in units.items()])])
+    """Write the series of all flights, one after the other, as CSV, Parquet or NetCDF; ``units`` names the columns.
+
+    Each begins and ends where there are values, which have the digits that their uncertainty warrants, and one more.
+    """
+    whole = joined([_with_values(s) for s in series], list(units))
+    rounded = {n: _rounded(n, x, whole) for n, x in whole.items()}
+    write_tables(path, [Written([(Heading(n, unit), rounded[n]) for n, unit in units.items()])])
+
+
+def _with_values(series: Mapping[str, NDArray[Any]]) -> Mapping[str, NDArray[Any]]:
+    """The rows from the first to the last in which a channel has a value; all if none has."""
+    stds = [x for n, x in series.items() if n.endswith("_std")]
+    there = np.flatnonzero(np.any(np.isfinite(stds), axis=0)) if stds else []
+    if not len(there):
+        return series
+    return {n: x[there[0] : there[-1] + 1] for n, x in series.items()}
+
+
+def _rounded(name: str, x: NDArray[Any], columns: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
+    """A column to the second digit of the least of its standard deviations."""
+    std = columns.get(name if name.endswith("_std") else f"{name}_std")
+    if name.startswith("closure"):
+        return np.round(x, 2)
+    known = np.zeros(0) if std is None else std[np.isfinite(std) & (std > 0.0)]
+    if not len(known):
+        return x
+    digits = 1 - int(np.floor(np.log10(np.min(known))))
+    return np.round(x, digits + name.endswith("_std"))

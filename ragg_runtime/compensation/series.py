@@ -18,6 +18,7 @@ from ragg_runtime.compensation.calibrated import base, inverse, with_sheet
 from ragg_runtime.estimation.calibrate import Calibration
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.observation import Observation, as_output
+from ragg_runtime.estimation.score import Stretch as Stretched
 from ragg_runtime.estimation.segments import BLOCKS, block_edges
 from ragg_runtime.estimation.square_root import join
 from ragg_runtime.instrument.instrument import Instrument
@@ -32,6 +33,7 @@ from ragg_runtime.model.native.changes import changes
 from ragg_runtime.model.record import GRADIENTS, Record
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
 from ragg_runtime.signals.means import between
+from ragg_runtime.signals.tensor import across
 
 Array = NDArray[np.float64]
 
@@ -153,7 +155,7 @@ class Setting:
     ``observation``: the whole flight, without recorded gradients, and one of its outputs. ``recorded``: inline + i
     cross (N,), Eo, if the flight was demodulated by its recorder. ``noise``: standard deviations of inline and cross
     that the noise causes, Eo. ``validity``: channel -> range, SI; empty: not flagged. ``rest``: variance, Eo^2, by
-    directions that are not followed.
+    directions that are not followed.  ``sheet`` (size,): the parameters as model.toml has them.
     """
 
     model: Model
@@ -164,6 +166,7 @@ class Setting:
     stretches: tuple[Stretch, ...]
     noise: tuple[float, float]
     validity: dict[str, tuple[float, float]]
+    sheet: Array
     rest: tuple[float, float] = (0.0, 0.0)
 
     @property
@@ -181,14 +184,14 @@ class Setting:
 class Series:
     """Compensated samples.
 
-    ``gradient`` (n,): inline + i cross, Eo, NaN where there is none. ``raw`` (n / every,): without compensation, at
-    every so many samples (:attr:`Setting.every`). ``parameters`` (2, n): standard deviations by the parameters, Eo;
+    ``gradient`` (n,): inline + i cross, Eo, NaN where there is none. ``nominal``: the residual, V, with the sheet's values, of
+    these samples. ``parameters`` (2, n): standard deviations by the parameters, Eo;
     ``std`` (2, n): with the noise. ``quality`` (n,): bits of :class:`Quality`.
     """
 
     rows: slice
     gradient: Complex
-    raw: Complex
+    nominal: Stretched
     parameters: Array
     std: Array
     quality: NDArray[np.int64]
@@ -258,14 +261,10 @@ class Segment:
 
     def put(self, g: Complex) -> None:
         """Let the model see this gradient, Eo, which is across the axis of the disc."""
-        first, second = np.array(self.record.axes or (X_AXIS, Y_AXIS))
-        inline = (np.outer(first, first) - np.outer(second, second)) / 2
-        cross = np.outer(first, second) + np.outer(second, first)
-        channels = EOTVOS * np.stack([g.real, g.imag])
+        axes = self.record.axes or (X_AXIS, Y_AXIS)
+        parts = across(axes, EOTVOS * g.real, EOTVOS * g.imag)
         for name, place in self.places.items():
-            i, k = ("xyz".index(axis) for axis in name.removeprefix("Gamma_"))
-            parts = [w * c for w, c in zip((inline[i, k], cross[i, k]), channels, strict=True) if w]
-            self.x[place] = sum(parts[1:], parts[0]) if parts else None
+            self.x[place] = parts[GRADIENTS.index(name)]
 
     def first_estimate(self) -> Complex:
         """The gradient as an ideal instrument would have seen it; holes are bridged."""
@@ -336,13 +335,12 @@ class Segment:
         total = np.stack([np.sum(changes.real**2, axis=0), np.sum(changes.imag**2, axis=0)])
         return between(total, few, len(self.k))
 
-    def raw(self, every: int) -> Complex:
-        """(n,) Eo: the channels without any compensation, at the first of the segment's own samples and every so many further."""
-        if self.s.recorded is not None:
-            found = np.where(self.record.valid, self.s.recorded[self.first : self.last], 0.0)
-            return np.asarray(found[self.own][::every])
-        mixed = self.mixed(np.where(self.record.valid, self.G, 0.0))
-        return self.s.demodulator.thinly_passed(mixed, self.own, every)
+    def nominal(self) -> Stretched:
+        """The residual of the segment's own samples, V, with the sheet's values and without a gradient."""
+        r, own = self.record, self.own
+        e = self.G - self.s.observation.recorded.through(self.by(self.s.sheet), r)
+        e = np.where(r.valid, e, 0.0)[None, own]
+        return Stretched(e, r.demodulation_angle[own], np.array(r.valid[None, own]), np.array(r.valid[own]))
 
     def quality(self) -> NDArray[np.int64]:
         """(N,): bits of the segment's samples."""
@@ -384,16 +382,16 @@ FELT = 1e-4
 def series(s: Setting, rows: slice, *, holes: bool) -> Series:
     """Compensate one segment."""
     segment = Segment(s, rows, holes=holes)
+    nominal = segment.nominal()
     g = np.array(segment.gradient()[segment.own])
-    raw = segment.raw(s.every)
     variance = segment.variance()[:, segment.own] + np.array(s.rest)[:, None]
     bits = segment.quality()[segment.own]
     parameters, std = np.sqrt(variance), np.sqrt(variance + np.array(s.noise)[:, None] ** 2)
     none = (bits & NO_VALUE) != 0
     if none.any():
-        g[none] = raw[none[:: s.every]] = complex(np.nan, np.nan)
+        g[none] = complex(np.nan, np.nan)
         parameters[:, none] = std[:, none] = np.nan
-    return Series(rows=rows, gradient=g, raw=raw, parameters=parameters, std=std, quality=bits)
+    return Series(rows=rows, gradient=g, nominal=nominal, parameters=parameters, std=std, quality=bits)
 
 
 def basis(s: Setting, samples: Sequence[slice], neglected: float) -> tuple[Array, tuple[float, float]]:

@@ -1,21 +1,39 @@
-"""A multisine about all axes that tells apart, within limits, all effects that a record cannot.
+"""A multisine about all axes, within limits: that separates all effects that a record cannot, or that calibrates best.
 
-The design is D_s-optimal, compound over all pairs (A. Atkinson, A. Donev, R. Tobias, Optimum Experimental Designs, 2007, ch. 10 and
-21); amplitudes by SLSQP (D. Kraft 1988), phases by M. Schroeder (IEEE Trans. Inf. Theory 16, 1970).
+The first is D_s-optimal, compound over all pairs, the second A- or D-optimal for what the parameters add to the variance of the
+compensated channels (A. Atkinson, A. Donev, R. Tobias, Optimum Experimental Designs, 2007, ch. 10 and 21); amplitudes by SLSQP
+(D. Kraft 1988), phases by M. Schroeder (IEEE Trans. Inf. Theory 16, 1970).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import optimize
+from scipy import linalg, optimize
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.identification.next_motion import AT_REST, AXES, RATIOS, Pairs, Sinusoid, kind
+from ragg_runtime.estimation.observation import as_output
+from ragg_runtime.estimation.passes import Piece
+from ragg_runtime.estimation.score import channels
+from ragg_runtime.estimation.square_root import triangle
+from ragg_runtime.identification.next_motion import (
+    AT_REST,
+    AXES,
+    LONGEST,
+    RATIOS,
+    SIMULATED,
+    Alternatives,
+    Separation,
+    Sinusoid,
+    kind,
+    whitened_motion,
+)
 from ragg_runtime.identification.selection import field_of, testable_effects
 
 Array = NDArray[np.float64]
@@ -38,24 +56,11 @@ STEP = 0.02
 LEAST = 0.02
 """Share of a limit below which a sinusoid is left out."""
 
+SWEEPS = 2
+"""In which sinusoids are exchanged; further ones change little."""
+
 ITERATIONS = 25
 """Of the programming; the criterion is flat about its maximum."""
-
-LONGEST = 1800.0
-"""Length of the motion for which separations are predicted, s; those of a longer one grow with the root of its length."""
-
-
-@dataclass(frozen=True)
-class Separation:
-    """By how many standard deviations a rival is ruled out if ``effect`` is what is there: now, and once the motion has been flown."""
-
-    effect: str
-    rival: str
-    now: float
-    then: float
-
-    def as_json(self) -> dict[str, object]:
-        return {"effect": self.effect, "rival": self.rival, "now": self.now, "then": self.then}
 
 
 @dataclass(frozen=True)
@@ -79,31 +84,56 @@ def design(
 
     ``None`` if there is nothing to tell apart, or no frequency within the band.
     """
-    # which of the two is there is not known
-    both = dict.fromkeys([*pairs, *((r, e) for e, r in pairs)])
-    asked = Pairs.of(f, field_of(f, testable_effects(f)), list(both))
+    asked = Alternatives.of(f, field_of(f, testable_effects(f)), pairs, both=True)
     tones = tones_of(f.instrument.spin_frequency, limits, band)
-    if not asked.known or not tones:
+    if not asked.pairs or not tones:
         return None
 
     def worth(motion: Sequence[Sinusoid]) -> float:
         there = asked.separations(asked.rows(motion, duration=duration))
-        return float(np.sum(np.log1p(np.square(there))))
+        return float(np.sum(np.log1p([then**2 for then, _ in there])))
 
+    motion = _best(worth, tones, limits)
+    return Design(sinusoids=motion, separations=tuple(asked.promises(motion, duration)))
+
+
+def _best(worth: Worth, tones: Sequence[Tone], limits: Mapping[str, float]) -> tuple[Sinusoid, ...]:
+    """The multisine of the largest worth: of those sinusoids that alone are worth most, and those that are together."""
     alone = [worth([(*t, 0.0)]) for t in tones]
-    best = sorted(range(len(tones)), key=lambda n: (-alone[n], n))[:CANDIDATES]
+    order = sorted(range(len(tones)), key=lambda n: (-alone[n], n))
+    together = _exchanged(worth, tones, order)
+    best = list(dict.fromkeys([*together, *order]))[:CANDIDATES]
     tones = [tones[n] for n in sorted(best)]
-    found = max((_climbed(worth, tones, limits, x) for x in _starts(tones, alone, best)), key=lambda x: x[1])
-    motion = multisine(tones, found[0])
-    length = min(duration, LONGEST)
-    then = asked.separations(asked.rows(motion, simulated=length, duration=duration))
-    return Design(
-        sinusoids=motion,
-        separations=tuple(
-            Separation(effect=e, rival=r, now=now, then=later)
-            for (e, r), now, later in zip(asked.known, asked.separations(), then, strict=True)
-        ),
-    )
+    starts = even(tones), _mostly([sorted(best).index(n) for n in together], tones)
+    found = max((_climbed(worth, tones, limits, x) for x in starts), key=lambda x: x[1])
+    return multisine(tones, found[0])
+
+
+def _exchanged(worth: Worth, tones: Sequence[Tone], order: Sequence[int]) -> list[int]:
+    """One sinusoid about each axis, the best together: exchanged one after the other (R. Meyer and C. Nachtsheim, Technometrics 37,
+    1995), from those that are best alone.
+    """
+    of_axis = {
+        axis: [n for n, t in enumerate(tones) if t[0] == axis] for axis in dict.fromkeys(t[0] for t in tones)
+    }
+    chosen = {axis: next(n for n in order if n in own) for axis, own in of_axis.items()}
+    for _ in range(SWEEPS):
+        before = dict(chosen)
+        for axis, own in of_axis.items():
+            others = [(*tones[n], 0.0) for other, n in chosen.items() if other != axis]
+            chosen[axis] = max(own, key=lambda n: (worth([*others, (*tones[n], 0.0)]), -n))
+        if chosen == before:
+            break
+    return list(chosen.values())
+
+
+def _mostly(few: Sequence[int], tones: Sequence[Tone]) -> Array:
+    """Shares of the largest amplitudes: nearly all for a few sinusoids."""
+    axes = [axis for axis, _, _ in tones]
+    shares = np.full(len(tones), STEP)
+    for n in few:
+        shares[n] = 1.0 - STEP * axes.count(axes[n])
+    return shares
 
 
 def tones_of(spin: float, limits: Mapping[str, float], band: tuple[float, float]) -> list[Tone]:
@@ -116,17 +146,6 @@ def tones_of(spin: float, limits: Mapping[str, float], band: tuple[float, float]
                 slope = limits.get(SLOPES[kind(axis)], np.inf) / (2 * np.pi * frequency)
                 found.append((axis, frequency, float(min(limits[kind(axis)], slope))))
     return found
-
-
-def _starts(tones: Sequence[Tone], alone: Sequence[float], best: Sequence[int]) -> list[Array]:
-    """Shares of the largest amplitudes: all alike, and the best sinusoid of every axis."""
-    axes = [axis for axis, _, _ in tones]
-    order = {n: k for k, n in enumerate(sorted(best))}
-    first = np.full(len(tones), STEP)
-    for axis in dict.fromkeys(axes):
-        own = [n for n in best if axes[order[n]] == axis]
-        first[order[max(own, key=lambda n: alone[n])]] = 1.0 - STEP * len(own)
-    return [even(tones), first]
 
 
 def even(tones: Sequence[Tone]) -> Array:
@@ -184,3 +203,137 @@ def multisine(tones: Sequence[Tone], x: Array, least: float = LEAST) -> tuple[Si
             if share > least
         ]
     return tuple(found)
+
+
+Criterion = Literal["A", "D"]
+
+MATTER = 1e-3
+"""Share of the channels' variance by parameters below which a direction does not count for D: its volume would be of nothing."""
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A parameter, its standard deviation by the flights so far, and once the motion has been flown as well; in ``unit``."""
+
+    name: str
+    accelerometer: int | None
+    unit: str
+    now: float
+    then: float
+
+    def as_json(self) -> dict[str, object]:
+        return asdict(self)
+
+
+@dataclass(frozen=True)
+class CalibrationDesign:
+    """The multisine that calibrates best, each parameter as planned, and the rms that the parameters' uncertainty adds to inline
+    and cross, Eo, ``now`` and ``then``.
+    """
+
+    sinusoids: tuple[Sinusoid, ...]
+    criterion: Criterion
+    parameters: tuple[Planned, ...]
+    now: tuple[float, float]
+    then: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Knowledge:
+    """What flights know of the parameters, and what of these shows in the compensated channels of their motion.
+
+    ``root`` (n, n): R factor of the information, prior included; ``shown`` (2, n, n): R factors of the mean product of the changes of
+    inline, and of cross, Eo, by a scale of each parameter.
+    """
+
+    f: Fitted
+    root: Array
+    shown: Array
+
+    @staticmethod
+    def of(f: Fitted) -> Knowledge:
+        return Knowledge(f, np.triu(f.whole[: f.n_base, : f.n_base]), _channel_changes(f))
+
+    def with_motion(self, motion: Sequence[Sinusoid], simulated: float, duration: float) -> Array:
+        """(n, n): the inverse of the R factor with so much, s, of a motion."""
+        at = replace(self.f.prepared[0].at, only=())
+        X = triangle(whitened_motion(self.f, at, motion, simulated))
+        return self.inverse(np.vstack([self.root, np.sqrt(duration / simulated) * X]))
+
+    @staticmethod
+    def inverse(rows: Array) -> Array:
+        R = np.linalg.qr(rows, mode="r")
+        return np.asarray(linalg.solve_triangular(R, np.eye(len(R))))
+
+    def channels(self, inverse: Array) -> tuple[float, float]:
+        """The rms that the parameters add to inline and cross, Eo."""
+        inline, cross = (float(np.linalg.norm(G @ inverse)) for G in self.shown)
+        return inline, cross
+
+    def matter(self) -> Array:
+        """(d, n): the directions that make up the channels' variance by the flights so far."""
+        G = np.vstack([*self.shown])
+        U, s, _ = np.linalg.svd(G @ self.inverse(self.root), full_matrices=False)
+        return np.asarray(U[:, s**2 > MATTER * np.sum(s**2)].T @ G)
+
+
+def _channel_changes(f: Fitted) -> Array:
+    x, n = f.prepared[0], f.n_base
+    k_ggi = f.scales[0]
+
+    def changes(piece: Piece) -> Array:
+        r = piece.observation.record
+        return np.array(
+            [channels(e, r, k_ggi, r.valid)[1:] for e in as_output(piece.observation, piece.columns[:n])]
+        )
+
+    found = np.concatenate([*x.each(changes, whitened=False)], axis=2)  # (n, 2, instants)
+    if not found.shape[2]:
+        raise UserError(
+            "no motion can be designed: the flight is too short to demodulate, or its disc does not turn",
+            where=x.observation.name,
+            remedy="give a longer flight of the motion that is to be compensated",
+        )
+    return np.stack([triangle(found[:, k]) for k in range(2)]) / np.sqrt(found.shape[2])
+
+
+@one_thread
+def design_calibration(
+    f: Fitted,
+    limits: Mapping[str, float],
+    *,
+    duration: float,
+    band: tuple[float, float],
+    criterion: Criterion = "A",
+) -> CalibrationDesign:
+    """The motion of ``duration`` s, within limits and a band, Hz, that calibrates best for the motion of the flights.
+
+    Criterion ``A``: least mean variance of inline and cross by the parameters; ``D``: least volume of the uncertainty of the
+    directions that matter to them.
+    """
+    c = Knowledge.of(f)
+    important = c.matter()
+
+    def worth(motion: Sequence[Sinusoid]) -> float:
+        inverse = c.with_motion(motion, SIMULATED, duration)
+        if criterion == "A":
+            return -float(np.log(np.sum(np.square(c.channels(inverse)))))
+        return -float(2 * np.sum(np.log(np.linalg.svd(important @ inverse, compute_uv=False))))
+
+    motion = _best(worth, tones_of(f.instrument.spin_frequency, limits, band), limits)
+    now, then = c.inverse(c.root), c.with_motion(motion, min(duration, LONGEST), duration)
+    return CalibrationDesign(
+        sinusoids=motion,
+        criterion=criterion,
+        parameters=tuple(
+            Planned(
+                q.name,
+                q.accelerometer,
+                q.unit,
+                *(float(np.linalg.norm(x[k])) * q.scale / q.unit_factor for x in (now, then)),
+            )
+            for k, q in enumerate(f.calibration.columns)
+        ),
+        now=c.channels(now),
+        then=c.channels(then),
+    )

@@ -1,20 +1,23 @@
-"""Which motion to fly next: for every pair of rivals the sinusoid about one axis, within limits, that separates them best.
+"""Which motion to fly next: for every pair of alternatives the sinusoid about one axis, within limits, that separates them best.
 
-Separation is what of one effect's fitted signal neither the model nor the rival can imitate, in standard deviations.
+Separation is what of one effect's signal neither the model nor the other effect can imitate, in standard deviations: the root mean
+square over the posterior of the effect's coefficients. Their prior is Gaussian, of one variance that the evidence of the flights
+fixes (D. MacKay, Neural Computation 4, 1992); directions that the flights do not determine promise nothing.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.linearise import Point, linearised
-from ragg_runtime.estimation.square_root import triangle
+from ragg_runtime.estimation.square_root import orthonormal, triangle
 from ragg_runtime.identification.selection import Field
 from ragg_runtime.io.record import is_disc_angle
 from ragg_runtime.signals.fir import filtered
@@ -30,7 +33,7 @@ HIGHEST = 0.2
 """Highest frequency of a motion over the rate of its record: the record must hold its rate of change as well."""
 
 WORTHWHILE = 1.05
-"""Factor by which a motion must part two effects farther than a longer record of what there is already."""
+"""Factor by which a motion must separate two effects farther than a longer record of what there is already."""
 
 AXES = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
 
@@ -38,27 +41,61 @@ LIMITS: Mapping[str, float] = {"a": 0.49, "omega": 2.4e-3}
 """Largest amplitudes, m/s^2 and rad/s: 50 mg and 500 deg/h, what a stabilised platform lets through."""
 
 SIMULATED = 96.0
-"""Length of the motion that is computed, s."""
+"""Length of the motion that is computed while the best one is sought, s."""
 
 DURATION = 600.0
 """Length of the motion that is proposed, s; information grows with it."""
 
+LONGEST = 1800.0
+"""Length of the motion for which separations are predicted, s; those of a longer one grow with the root of its length."""
+
 AT_REST = 0.25
-"""What counts as the spin frequency of a disc that stands still, Hz: the paper's."""
+"""What counts as the spin frequency of a disc that does not turn, Hz: the paper's."""
 
 APART = 3.0
-"""Standard deviations at which two effects count as told apart."""
+"""Standard deviations at which two effects count as distinguishable."""
 
-RIVALS = 3
-"""Most rivals of an effect for which a motion is sought."""
+ALTERNATIVES = 3
+"""Most alternatives of an effect for which a motion is sought."""
+
+DETERMINED = 3.0
+"""Information of the flights about a direction, over that of the prior, from which it is determined: its standard deviation is
+halved."""
+
+STRENGTHS = np.logspace(0.0, 12.0, 49)
+"""Prior variances of the coefficients that are tried, over the variance with which flights determine the best direction."""
+
+
+@dataclass(frozen=True)
+class Separation:
+    """By how many standard deviations ``rival`` is ruled out if ``effect`` is what is there.
+
+    ``now``: by the flights; ``then``: once the motion has been flown as well, with its standard deviation ``spread``, because the
+    size of the effect is known no better.
+    """
+
+    effect: str
+    rival: str
+    now: float
+    then: float
+    spread: float
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "effect": self.effect,
+            "rival": self.rival,
+            "now": self.now,
+            "then": self.then,
+            "spread": self.spread,
+        }
 
 
 @dataclass(frozen=True)
 class Proposal:
     """A motion that separates ``effect`` from ``rival``.
 
-    ``amplitude`` in SI, m/s^2 or rad/s; ``ratio`` is its frequency over the spin's; ``now`` and ``then`` are
-    the separations, in standard deviations, of the record as it is and with ``duration`` s of the motion.
+    ``amplitude`` in SI, m/s^2 or rad/s; ``ratio`` is its frequency over the spin's; ``now``, ``then`` and ``spread`` as in
+    :class:`Separation`, of ``duration`` s of the motion.
     """
 
     effect: str
@@ -70,27 +107,12 @@ class Proposal:
     duration: float
     now: float
     then: float
+    spread: float = 0.0
 
     @property
     def separates(self) -> bool:
-        """Whether the motion would tell the two apart."""
+        """Whether the motion would separate the two."""
         return self.then > APART
-
-    def in_words(self) -> str:
-        """One sentence."""
-        if not self.separates:
-            return (
-                f"no motion within the limits tells {self.effect} from {self.rival}: they act alike"
-                f" (at best {self.then:.1g} sigma)"
-            )
-        if self.axis.startswith("a_"):
-            size = f"{self.amplitude / 9.80665e-3:.3g} mg"
-        else:
-            size = f"{np.rad2deg(self.amplitude) * 3600:.3g} deg/h"
-        return (
-            f"to tell {self.effect} from {self.rival}: {self.duration:.0f} s of {self.axis} = {size} at"
-            f" {self.frequency:.4g} Hz ({self.ratio:g} x spin): {self.now:.2g} -> {self.then:.3g} sigma"
-        )
 
     def as_json(self) -> dict[str, object]:
         return {
@@ -104,97 +126,194 @@ class Proposal:
             "duration_s": self.duration,
             "separation_now": self.now,
             "separation_then": self.then,
+            "separation_spread": self.spread,
             "separates": self.separates,
         }
 
 
 @dataclass(frozen=True)
-class Pairs:
-    """Pairs (effect, rival) of which flights have columns: ``places`` of the base's, then the rivals' columns among all;
-    ``signals`` (effects, size) are the coefficients of every effect with a rival.
+class Strength:
+    """Posterior of an effect's coefficients along the directions that flights determine.
+
+    ``directions`` (size, d): coefficients of all columns along each; ``mean``, ``std`` (d,): the posterior, independent along them.
+    """
+
+    directions: Array
+    mean: Array
+    std: Array
+
+    def separation(self, R: Array) -> tuple[float, float]:
+        """Root mean square, and standard deviation, of the norm of R (d, d) times the coefficients."""
+        A = R.T @ R
+        squares = float(self.mean @ A @ self.mean + np.sum(np.diag(A) * self.std**2))
+        if squares <= 0.0:
+            return 0.0, 0.0
+        C = A * self.std  # A times the covariance's root
+        variance = 2 * float(np.sum((C * self.std[:, None]) * (C * self.std[:, None]).T))
+        variance += 4 * float(np.sum((C.T @ self.mean) ** 2))
+        return float(np.sqrt(squares)), float(np.sqrt(variance / squares) / 2)
+
+
+def estimate_strength(f: Fitted, field: Field, effect: str, beside: Sequence[str] = ()) -> Strength:
+    """The coefficients of an effect by the flights, whatever the model's parameters and effects ``beside`` it may be."""
+    own = [f.n_base + n for n in field.testable(effect)]
+    others = [*range(f.n_base), *columns_of(f, field, beside)]
+    k = len(others)
+    R = np.linalg.qr(f.whole[:, [*others, *own, -1]], mode="r")[k:, k:]
+    U, s, V = np.linalg.svd(R[:, :-1], full_matrices=False)
+    if not len(s) or not s[0] > 0.0:
+        return Strength(np.zeros((f.size, 0)), np.zeros(0), np.zeros(0))
+    y = U.T @ R[:, -1]
+    gain = np.outer(STRENGTHS, (s / s[0]) ** 2)  # information over the prior's, (strengths, directions)
+    evidence = np.sum(y**2 * gain / (1 + gain) - np.log1p(gain), axis=1) / 2
+    gain = gain[int(np.argmax(evidence))]
+    some = gain > DETERMINED
+    directions = np.zeros((f.size, int(np.sum(some))))
+    directions[own] = V[some].T
+    shrunk = (gain / (1 + gain))[some]
+    return Strength(directions, shrunk * y[some] / s[some], np.sqrt(shrunk) / s[some])
+
+
+def columns_of(f: Fitted, field: Field, effects: Sequence[str]) -> list[int]:
+    """Places among all columns of those of effects."""
+    return [f.n_base + n for e in effects for n, _ in field.candidates[e]]
+
+
+@dataclass(frozen=True)
+class Alternatives:
+    """Pairs (effect, rival) that flights do not separate, and what is known of each effect.
+
+    ``places``: among all columns of the model's, then the rivals' and those of effects beside a pair.
+    ``nuisance``: of each pair the columns, counted in ``places``, that may imitate the effect.
     """
 
     f: Fitted
-    known: Sequence[tuple[str, str]]
-    places: Sequence[int]
-    rivals: Mapping[str, Sequence[int]]
-    signals: Mapping[str, Array]
-    _means: dict[int, Mapping[str, float]] = field(default_factory=dict, repr=False)
+    pairs: tuple[tuple[str, str], ...]
+    places: tuple[int, ...]
+    nuisance: tuple[tuple[int, ...], ...]
+    strengths: Mapping[str, Strength]
 
     @staticmethod
-    def of(f: Fitted, field: Field, pairs: Sequence[tuple[str, str]]) -> Pairs:
-        known = [(e, r) for e, r in pairs if e in field.candidates and r in field.candidates]
-        own = {r: [f.n_base + n for n, _ in field.candidates[r]] for _, r in known}
-        places = [*range(f.n_base), *sorted({k for some in own.values() for k in some})]
-        rivals = {r: [places.index(k) for k in some] for r, some in own.items()}
-        signals = {e: signal_of(f, field, e) for e, _ in known}
-        return Pairs(f=f, known=known, places=places, rivals=rivals, signals=signals)
+    def of(f: Fitted, field: Field, pairs: Sequence[tuple[str, str]], *, both: bool = False) -> Alternatives:
+        """Of pairs (found effect, rival); ``both``: and of (rival, effect), as it may be either."""
+        pairs = [(e, r) for e, r in pairs if e in field.candidates and r in field.candidates]
+        found = dict.fromkeys(e for e, _ in pairs)
+        asked = dict.fromkeys([*pairs, *((r, e) for e, r in pairs if both)])
+        beside = {(e, r): [x for x in found if x not in (e, r)] for e, r in asked}
+        strengths = {}
+        for e, r in asked:
+            if e not in strengths:
+                without = beside[e, r] if e not in found else [x for x in found if x != e]
+                strengths[e] = estimate_strength(f, field, e, without)
+        of_pair = {(e, r): columns_of(f, field, [r, *beside[e, r]]) for e, r in asked}
+        places = [*range(f.n_base), *sorted({k for own in of_pair.values() for k in own})]
+        at = {k: n for n, k in enumerate(places)}
+        nuisance = tuple((*range(f.n_base), *(at[k] for k in own)) for own in of_pair.values())
+        return Alternatives(f, tuple(asked), tuple(places), nuisance, strengths)
 
     @cached_property
     def root(self) -> Array:
-        """(k, k): triangle of [places | signals] of the flights, the prior in it."""
-        signals = [self.f.whole[:, :-1] @ v for v in self.signals.values()]
-        return np.asarray(np.linalg.qr(np.column_stack([self.f.whole[:, self.places], *signals]), mode="r"))
+        """(k, k): R factor of [places | directions] of the flights, the prior in it."""
+        signals = [self.f.whole[:, :-1] @ s.directions for s in self.strengths.values()]
+        return np.asarray(np.linalg.qr(np.hstack([self.f.whole[:, list(self.places)], *signals]), mode="r"))
 
-    def separations(self, *further: Array) -> list[float]:
-        """Of every pair, with further rows (n, k) beside the flights."""
-        rows, names = np.vstack([self.root, *further]), list(self.signals)
-        return [
-            separation(rows, self.f.n_base, self.rivals[r], len(self.places) + names.index(e))
-            for e, r in self.known
-        ]
+    def separations(self, *further: Array) -> list[tuple[float, float]]:
+        """Of every pair its separation and the spread, with further rows (n, k) beside the flights."""
+        rows = np.vstack([self.root, *further])
+        own, start = {}, len(self.places)
+        for e, s in self.strengths.items():
+            own[e] = range(start, start + len(s.mean))
+            start += len(s.mean)
+        found = []
+        for (e, _), nuisance in zip(self.pairs, self.nuisance, strict=True):
+            R = np.linalg.qr(rows[:, [*nuisance, *own[e]]], mode="r")[len(nuisance) :, len(nuisance) :]
+            found.append(self.strengths[e].separation(R))
+        return found
 
     @cached_property
     def at(self) -> Point:
         """About what motions are linearised: of the candidates no columns but those that are needed."""
         n = self.f.n_base
-        needed = {*self.places[n:], *(int(k) for v in self.signals.values() for k in np.flatnonzero(v))}
-        return replace(self.f.prepared[0].at, only=tuple(sorted(k - n for k in needed)))
+        signals = {
+            int(k) for s in self.strengths.values() for k in np.flatnonzero(np.any(s.directions, axis=1))
+        }
+        needed = sorted({*self.places[n:], *signals})
+        return replace(self.f.prepared[0].at, only=tuple(k - n for k in needed))
 
     def rows(
         self, motion: Sequence[Sinusoid], *, simulated: float = SIMULATED, duration: float = DURATION
     ) -> Array:
-        """Triangle (k, k) of [places | signals] of a motion, ``simulated`` s of it, weighted for ``duration``, whitened."""
-        prepared, at = self.f.prepared[0], self.at
-        o, noise = prepared.observation, prepared.noise
-        n = int(simulated * o.record.rate)
-        time = np.arange(n) / o.record.rate
-        channels = {name: np.full(n, mean) for name, mean in self._calm(n).items()}
-        channels |= moved(channels, motion, time)
-        r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
-        series = (np.zeros(n),) * len(o.series)
-        made = replace(o, record=r, series=series, name="motion", thin=None, memo=[])
-        X = linearised(at, made)[:-1]
-        there = [*range(self.f.n_base), *(self.f.n_base + k for k in at.only or ())]
-        signals = np.tensordot(np.array([v[there] for v in self.signals.values()]), X, 1)
-        X = np.concatenate([X[[there.index(k) for k in self.places]], signals])
-        white = [filtered(noise.series(X, m), taps[:n]) for m, taps in enumerate(noise.filters)]
-        return np.asarray(np.sqrt(duration / simulated) * triangle(np.concatenate(white, axis=1)))
+        """R factor (k, k) of [places | directions] of a motion, ``simulated`` s of it, weighted for ``duration``, whitened."""
+        X = whitened_motion(self.f, self.at, motion, simulated)
+        there = [*range(self.f.n_base), *(self.f.n_base + k for k in self.at.only or ())]
+        directions = np.hstack([s.directions for s in self.strengths.values()])[there]
+        X = np.concatenate([X[[there.index(k) for k in self.places]], directions.T @ X])
+        return np.asarray(np.sqrt(duration / simulated) * triangle(X))
 
-    def _calm(self, samples: int) -> Mapping[str, float]:
-        """Means of the channels over so many samples of the flight's beginning."""
-        if samples not in self._means:
-            r = self.f.prepared[0].observation.record
-            first = r.part(slice(0, min(len(r.time), samples)))
-            self._means[samples] = {
-                name: float(np.mean(x[first.valid])) if first.valid.any() else 0.0
-                for name, x in first.channels.items()
-                if not is_disc_angle(name)
-            }
-        return self._means[samples]
+    def promises(
+        self, motion: Sequence[Sinusoid], duration: float, some: Sequence[int] | None = None
+    ) -> list[Separation]:
+        """What so much, s, of a motion promises of pairs (all, or those at ``some`` places)."""
+        then = self.separations(self.rows(motion, simulated=min(duration, LONGEST), duration=duration))
+        now = self.separations()
+        return [
+            Separation(*self.pairs[n], now=now[n][0], then=then[n][0], spread=then[n][1])
+            for n in (range(len(self.pairs)) if some is None else some)
+        ]
+
+
+def whitened_motion(f: Fitted, at: Point, motion: Sequence[Sinusoid], simulated: float) -> Array:
+    """(columns, samples): the columns at a point of so many seconds of a motion, whitened with the noise of the first flight.
+
+    Where that flight's gradient was not recorded it will not be known in the motion either, and is projected out.
+    """
+    prepared = f.prepared[0]
+    o, noise = prepared.observation, prepared.noise
+    n = int(simulated * o.record.rate)
+    time = np.arange(n) / o.record.rate
+    channels = _continued(f, n)
+    channels |= moved(channels, motion, time)
+    r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
+    series = (np.zeros(n),) * len(o.series)
+    made = replace(o, record=r, series=series, name="motion", thin=None, memo=[])
+
+    def whitened(X: Array) -> Array:
+        parts = [filtered(noise.series(X, m), taps[:n]) for m, taps in enumerate(noise.filters)]
+        return np.concatenate(parts, axis=1)
+
+    white = whitened(linearised(at, made)[:-1])
+    if not unknown_gradient.unknown(o):
+        return white
+    cosine, sine = r.carriers
+    gradient = unknown_gradient.splines(time, cosine, sine)[:, None] * o.signs[:, None]
+    Q = orthonormal(whitened(gradient))
+    return white - (white @ Q) @ Q.T
+
+
+def _continued(f: Fitted, samples: int) -> dict[str, Array]:
+    """Channels (samples,) without the motion that is sought: those of the motion at their mean; others, such as a temperature, do
+    what they did from the beginning of the first flight, and then stay.
+    """
+    r = f.prepared[0].observation.record
+    first = r.part(slice(0, min(len(r.time), samples)))
+    found = {}
+    for name, x in first.channels.items():
+        if is_disc_angle(name):
+            continue
+        if name.partition("_")[0] in ("a", "omega", "omegadot", "Gamma"):
+            found[name] = np.full(samples, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
+        else:
+            found[name] = np.pad(x, (0, samples - len(x)), mode="edge")
+    return found
 
 
 def proposals(
     f: Fitted, field: Field, pairs: Sequence[tuple[str, str]], limits: Mapping[str, float] = LIMITS
 ) -> list[Proposal]:
     """The best motion for every pair (effect, rival), the separation that it promises beside today's."""
-    asked = Pairs.of(f, field, pairs)
-    if not asked.known:
+    asked = Alternatives.of(f, field, pairs)
+    if not asked.pairs:
         return []
-
-    def separations(motion: Sequence[Sinusoid]) -> list[float]:
-        return asked.separations(asked.rows(motion))
-
     first = f.prepared[0].observation.record
     spin, rate = abs(first.spin_frequency) or AT_REST, first.rate
     motions = [
@@ -203,42 +322,30 @@ def proposals(
         for ratio in RATIOS
         if ratio * spin <= HIGHEST * rate
     ]
-    still, *moving = map(separations, [(), *([(axis, k * spin, size, 0.0)] for axis, k, size in motions)])
+    flown = [(), *([(axis, ratio * spin, size, 0.0)] for axis, ratio, size in motions)]
+    still, *moving = (asked.separations(asked.rows(motion)) for motion in flown)
     found = []
-    for n, ((e, r), now) in enumerate(zip(asked.known, asked.separations(), strict=True)):
-        best = max(range(len(motions)), key=lambda m: moving[m][n], default=None)
-        if best is None or moving[best][n] <= WORTHWHILE * still[n]:
+    for n in range(len(asked.pairs)):
+        best = max(range(len(motions)), key=lambda m: moving[m][n][0], default=None)
+        if best is None or moving[best][n][0] <= WORTHWHILE * still[n][0]:
             continue
         axis, ratio, size = motions[best]
+        (promise,) = asked.promises(flown[best + 1], DURATION, [n])
         found.append(
             Proposal(
-                effect=e,
-                rival=r,
+                effect=promise.effect,
+                rival=promise.rival,
                 axis=axis,
                 ratio=ratio,
                 frequency=ratio * spin,
                 amplitude=size,
                 duration=DURATION,
-                now=now,
-                then=moving[best][n],
+                now=promise.now,
+                then=promise.then,
+                spread=promise.spread,
             )
         )
     return found
-
-
-def signal_of(f: Fitted, field: Field, effect: str) -> Array:
-    """Coefficients (size,) of an effect alone, as the record has it."""
-    extra = field.testable(effect)
-    c, _ = f.coefficients(extra)
-    v = f.vector(c, extra)
-    v[: f.n_base] = 0.0
-    return v
-
-
-def separation(rows: Array, n_base: int, rival: Sequence[int], signal: int) -> float:
-    """Norm of a signal, a column of rows (n, k), once base (with its prior) and the rival's columns are projected out."""
-    R = np.asarray(np.linalg.qr(rows[:, [*range(n_base), *rival, signal]], mode="r"))
-    return float(abs(R[-1, -1]))
 
 
 def moved(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: Array) -> dict[str, Array]:
@@ -260,4 +367,4 @@ def kind(axis: str) -> str:
 
 def pairs_of(groups: Mapping[str, Sequence[str]]) -> list[tuple[str, str]]:
     """(effect, rival) of groups that the record cannot split."""
-    return [(e, r) for e, rivals in groups.items() for r in rivals[:RIVALS]]
+    return [(e, r) for e, rivals in groups.items() for r in rivals[:ALTERNATIVES]]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, pairwise
@@ -16,10 +16,12 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.observation import Observation, as_output
 from ragg_runtime.estimation.score import channels, error
 from ragg_runtime.estimation.segments import segments
+from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.model.evaluate import voltages
 from ragg_runtime.model.record import GRADIENTS
+from ragg_runtime.model.recorded import carried
 from ragg_runtime.signals.demodulate import low_pass
-from ragg_runtime.signals.tensor import Tensor, tensor
+from ragg_runtime.signals.tensor import Tensor, across, tensor
 
 Array = NDArray[np.float64]
 
@@ -120,8 +122,15 @@ def together(f: Fitted) -> list[Together]:
 def gradient_seen(f: Fitted, n: int) -> Seen:
     """What an observation's output saw of the gradient: all that the calibrated model explains is taken out but it."""
     o, k_ggi = f.observations[n], f.scales[n]
-    left = np.concatenate([_without_motion(f, o.part(s.rows)) for s in segments(len(o.record.time))])
+    rows = [s.rows for s in segments(len(o.record.time))]
+    left = np.concatenate([_without_motion(f, o.part(some)) for some in rows])
     time, inline, cross = channels(left, o.record, k_ggi, o.record.valid)
+    if len(
+        time
+    ):  # what the instrument makes of this gradient differs from what an ideal one does, by its angles above all
+        every = np.interp(o.record.time, time, inline), np.interp(o.record.time, time, cross)
+        off = [_beyond_ideal(f, o.part(some), *(x[some] for x in every), k_ggi) for some in rows]
+        time, inline, cross = channels(left - np.concatenate(off), o.record, k_ggi, o.record.valid)
     rate = o.record.rate
     psd = f.prepared[n].noise_psd(np.array([2 * abs(o.record.spin_frequency)]))
     noise = float(np.sqrt(float(psd[0]) * rate * np.sum(low_pass(rate) ** 2))) / k_ggi
@@ -129,10 +138,25 @@ def gradient_seen(f: Fitted, n: int) -> Seen:
 
 
 def _without_motion(f: Fitted, o: Observation) -> Array:
-    still = {name: x for name, x in o.record.wide.items() if name not in GRADIENTS}
-    volts = voltages(f.model.chain, replace(o.record, wide=still), f.calibration.p, o.output)
-    predicted = columns.observed(replace(o, record=replace(o.record, wide=still)), volts, None)
-    return as_output(o, np.where(o.record.valid, o.data - predicted, 0.0))
+    return as_output(o, np.where(o.record.valid, o.data - _predicted(f, o, {}), 0.0))
+
+
+def _beyond_ideal(f: Fitted, o: Observation, inline: Array, cross: Array, k_ggi: float) -> Array:
+    """What the model makes of a gradient, Eo, in the output, less what an ideal instrument would, (N,) V."""
+    axes = f.instrument.layout.discs[o.output.disc].across
+    seen = across(axes, inline, cross)
+    wide = dict(zip(GRADIENTS, (np.pad(EOTVOS * x, o.record.halo, mode="edge") for x in seen), strict=True))
+    response = as_output(o, _predicted(f, o, wide) - _predicted(f, o, {}))
+    ideal = o.recorded.through(carried(inline, cross, o.record, k_ggi), o.record)
+    return np.where(o.record.valid, response - ideal, 0.0)
+
+
+def _predicted(f: Fitted, o: Observation, gradient: Mapping[str, Array]) -> Array:
+    """What the calibrated model predicts of what is observed, of another gradient than was recorded."""
+    wide = {name: x for name, x in o.record.wide.items() if name not in GRADIENTS} | dict(gradient)
+    other = replace(o.record, wide=wide)
+    volts = voltages(f.model.chain, other, f.calibration.p, o.output)
+    return columns.observed(replace(o, record=other), volts, None)
 
 
 def errors(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:

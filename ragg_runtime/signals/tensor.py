@@ -59,6 +59,14 @@ def seen(first: Array, second: Array) -> Array:
     return np.array(rows)
 
 
+def across(axes: tuple[Sequence[float], Sequence[float]], inline: Array, cross: Array) -> Array:
+    """(6, N): the tensor across a disc's two axes that it sees as these channels (N,); in their unit."""
+    first, second = (np.array(a, dtype=np.float64) for a in axes)
+    one = (np.outer(first, first) - np.outer(second, second)) / 2
+    other = np.outer(first, second) + np.outer(second, first)
+    return np.stack([one[i, k] * inline + other[i, k] * cross for i in range(3) for k in range(i, 3)])
+
+
 _TRACELESS = np.array(
     [[1, 0, 0, 0, 0], [0, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0, 0, 0, 1, 0], [0, 0, 0, 0, 1], [-1, 0, 0, -1, 0]],
     dtype=np.float64,

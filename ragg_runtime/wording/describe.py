@@ -484,8 +484,13 @@ def motion_sentence(p: Json) -> str:
     return (
         f"to separate {p['effect']} from {p['rival']}: {number(p['duration_s'])} s of {p['axis']} = {size} at"
         f" {number(p['frequency_Hz'])} Hz ({p['frequency_over_spin']:g} times the spin), {number(p['separation_now'], 2)} →"
-        f" {number(p['separation_then'])} σ"
+        f" {_promised(p['separation_then'], p['separation_spread'])} σ"
     )
+
+
+def _promised(then: float, spread: float) -> str:
+    """A separation that a motion promises, with its spread where that shows."""
+    return number(then) if spread < 0.05 * then else numbers.plus_minus(then, spread)
 
 
 def _next_motions(proposals: Sequence[Json]) -> Sections:
@@ -612,7 +617,28 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
         found.append(
             Section(title="Each flight alone", table=Table(("flight", "parameter", "value"), drift, words=3))
         )
+    if "certificate" in c:
+        found.append(_certificate(c["certificate"]))
     return (*found, *_next(then))
+
+
+def _certificate(rows: Sequence[Json]) -> Section:
+    """Each parameter as planned and as reached, those that were not reached first."""
+    reached = sum(q["reached"] for q in rows)
+    table = tuple(
+        (
+            parameter_label(q),
+            numbers.with_unit(number(q["value"], 6), q["unit"]),
+            *(number(q[f"std_{k}"], 2) for k in ("before", "planned", "reached")),
+            "" if q["reached"] else "NOT reached",
+        )
+        for q in sorted(rows, key=lambda q: q["reached"])
+    )
+    return Section(
+        title="Certificate",
+        sentences=(f"{reached} of {len(rows)} parameters are as sure as planned (standard uncertainty).",),
+        table=Table(("parameter", "value", "before", "planned", "reached", ""), table, words=2),
+    )
 
 
 def describe_compensation(r: Json, output: str) -> Sections:
@@ -838,12 +864,18 @@ def describe_next_motion(r: Json, output: str) -> Sections:
     head = (
         f"{output}: {len(r['sinusoids'])} sinusoids, {number(r['duration_s'])} s at {number(r['rate_Hz'])} Hz"
     )
+    if "channels" in r:
+        now, then = r["channels"]["now"], r["channels"]["planned"]
+        gain = ", ".join(
+            f"{k} {number(now[f'{k}_Eo'])} → {number(then[f'{k}_Eo'])} Eo" for k in ("inline", "cross")
+        )
+        return _plain(head, f"What the parameters' uncertainty adds to the compensated channels: {gain} rms.")
     if not r["separations"]:
         return _plain(
             head, "No effects are left to separate: a multisine about all axes, which excites every effect."
         )
     said = [
-        f"if it is {clean(x['effect'])}: {clean(x['rival'])} is ruled out ({number(x['now'], 2)} → {number(x['then'])} σ)"
+        f"if it is {clean(x['effect'])}: {clean(x['rival'])} is ruled out ({number(x['now'], 2)} → {_promised(x['then'], x['spread'])} σ)"
         if x["then"] > 3.0
         else f"if it is {clean(x['effect'])}: no motion within the limits rules out {clean(x['rival'])}, which acts alike"
         f" ({number(x['now'], 2)} → {number(x['then'])} σ)"

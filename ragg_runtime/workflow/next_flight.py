@@ -2,16 +2,36 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.identification.motion_design import Separation, design, even, multisine, tones_of
-from ragg_runtime.identification.next_motion import APART, AXES, HIGHEST, Sinusoid, moved
+from ragg_runtime.base.files import read_text
+from ragg_runtime.estimation.fitted import fit
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.identification.motion_design import (
+    CalibrationDesign,
+    Criterion,
+    Planned,
+    design,
+    design_calibration,
+    even,
+    multisine,
+    tones_of,
+)
+from ragg_runtime.identification.next_motion import (
+    AXES,
+    HIGHEST,
+    Separation,
+    Sinusoid,
+    moved,
+)
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.workflow.loop import Loaded, diagnose
 
@@ -40,13 +60,6 @@ class NextFlight:
             name="next motion",
         )
 
-    def in_words(self) -> str:
-        """What is to be flown, and why."""
-        head = f"{len(self.sinusoids)} sinusoids, {self.duration:g} s at {self.rate:g} Hz"
-        if not self.separations:
-            return f"{head}\nnothing is left to tell apart: a multisine about all axes, which excites every effect"
-        return "\n".join([head, *map(_promise, self.separations)])
-
     def as_json(self) -> dict[str, object]:
         return {
             "duration_s": self.duration,
@@ -56,22 +69,13 @@ class NextFlight:
                     "axis": axis,
                     "frequency_Hz": frequency,
                     "amplitude": amplitude,
-                    "unit": "m/s^2" if axis.startswith("a_") else "rad/s",
+                    "unit": _unit(axis),
                     "phase_rad": phase,
                 }
                 for axis, frequency, amplitude, phase in self.sinusoids
             ],
             "separations": [x.as_json() for x in self.separations],
         }
-
-
-def _promise(x: Separation) -> str:
-    size = f"({x.now:.2g} -> {x.then:.3g} sigma)"
-    if x.then < APART:
-        return (
-            f"if it is {x.effect}: no motion within the limits rules out {x.rival}, which acts alike {size}"
-        )
-    return f"if it is {x.effect}: {x.rival} is ruled out {size}"
 
 
 def next_flight(
@@ -83,11 +87,32 @@ def next_flight(
     rate: float | None = None,
     band: tuple[float, float] | None = None,
 ) -> NextFlight:
-    """The multisine for the rivals left; ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold."""
+    """The multisine for the alternatives left; ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold."""
+    rate, band = _possible(m, flights, limits, rate, band)
+    d = diagnose(m, flights)
+    pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
+    made = design(d.fitted, pairs, limits, duration=duration, band=band)
+    tones = tones_of(m.instrument.spin_frequency, limits, band)
+    return NextFlight(
+        sinusoids=multisine(tones, even(tones)) if made is None else made.sinusoids,
+        mean=_mean(flights),
+        separations=() if made is None else made.separations,
+        duration=duration,
+        rate=rate,
+    )
+
+
+def _possible(
+    m: Loaded,
+    flights: Sequence[Flight],
+    limits: Mapping[str, float],
+    rate: float | None,
+    band: tuple[float, float] | None,
+) -> tuple[float, tuple[float, float]]:
+    """Rate and band, Hz, of a motion; UserError if nothing can be made of them."""
     rate = flights[0].rate if rate is None else rate
     band = (0.0, HIGHEST * rate) if band is None else band
-    tones = tones_of(m.instrument.spin_frequency, limits, band)
-    if not tones or band[1] > HIGHEST * rate:
+    if not tones_of(m.instrument.spin_frequency, limits, band) or band[1] > HIGHEST * rate:
         raise UserError(
             "no motion can be made of these frequencies",
             where="--band",
@@ -95,17 +120,137 @@ def next_flight(
             expected=f"multiples of the spin frequency among them, none above {HIGHEST * rate:g} Hz",
             remedy="give a wider band or a higher --rate",
         )
-    d = diagnose(m, flights)
-    pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
-    made = design(d.fitted, pairs, limits, duration=duration, band=band)
-    mean = {n: float(np.mean([np.mean(x.channels[n][x.valid]) for x in flights])) for n in AXES}
-    return NextFlight(
-        sinusoids=multisine(tones, even(tones)) if made is None else made.sinusoids,
-        mean=mean,
-        separations=() if made is None else made.separations,
-        duration=duration,
-        rate=rate,
-    )
+    return rate, band
+
+
+def _mean(flights: Sequence[Flight]) -> dict[str, float]:
+    return {n: float(np.mean([np.mean(x.channels[n][x.valid]) for x in flights])) for n in AXES}
+
+
+@dataclass(frozen=True)
+class CalibrationFlight(NextFlight):
+    """The multisine that calibrates best, and what it makes of each parameter."""
+
+    plan: CalibrationDesign
+
+    def as_json(self) -> dict[str, object]:
+        channels = ("inline_Eo", "cross_Eo")
+        return super().as_json() | {
+            "criterion": self.plan.criterion,
+            "channels": {
+                "now": dict(zip(channels, self.plan.now, strict=True)),
+                "planned": dict(zip(channels, self.plan.then, strict=True)),
+            },
+            "parameters": [q.as_json() for q in self.plan.parameters],
+        }
+
+    def run_sheet(self) -> str:
+        """What whoever flies it reads, as Markdown; the plan by which the calibration is certified afterwards."""
+        peaks = {
+            axis: float(np.max(np.abs(self.motion().channels[axis] - self.mean[axis])))
+            for axis in dict.fromkeys(x[0] for x in self.sinusoids)
+        }
+        rows = [
+            f"| {axis} | {frequency:.6g} | {amplitude:.6g} | {_unit(axis)} | {np.degrees(phase) % 360:.1f} |"
+            for axis, frequency, amplitude, phase in self.sinusoids
+        ]
+        parameters = [
+            f"| {q.name}{'' if q.accelerometer is None else f'[{q.accelerometer}]'} | {q.unit} | {q.now:.3g} | {q.then:.3g} |"
+            for q in self.plan.parameters
+        ]
+        return "\n".join(
+            [
+                "# Run sheet of a calibration",
+                "",
+                f"{len(self.sinusoids)} sinusoids, {self.duration:g} s at {self.rate:g} Hz.",
+                "",
+                "About the mean motion; x(t) = amplitude sin(2 pi frequency t + phase), t from the beginning of the run.",
+                "",
+                "| axis | frequency, Hz | amplitude | unit | phase, deg |",
+                "|---|---|---|---|---|",
+                *rows,
+                "",
+                *(f"Largest deviation of {axis}: {x:.4g} {_unit(axis)}." for axis, x in peaks.items()),
+                "",
+                "| parameter | unit | std now | std planned |",
+                "|---|---|---|---|",
+                *parameters,
+                "",
+                "Afterwards, with the flights so far and this one: `ragg calibrate MODEL FLIGHT... --plan PLAN.json`,",
+                "PLAN.json being what `ragg next-motion ... --json PLAN.json` wrote.",
+                "",
+            ]
+        )
+
+
+def _unit(axis: str) -> str:
+    return "m/s^2" if axis.startswith("a_") else "rad/s"
+
+
+def calibration_flight(
+    m: Loaded,
+    flights: Sequence[Flight],
+    limits: Mapping[str, float],
+    *,
+    duration: float = 600.0,
+    rate: float | None = None,
+    band: tuple[float, float] | None = None,
+    criterion: Criterion = "A",
+) -> CalibrationFlight:
+    """The multisine that calibrates the model best for motion such as that of the flights, beside which it will be fitted."""
+    rate, band = _possible(m, flights, limits, rate, band)
+    f = fit(m.model, m.instrument, observations_of(flights, m.instrument), candidates=False)
+    plan = design_calibration(f, limits, duration=duration, band=band, criterion=criterion)
+    return CalibrationFlight(plan.sinusoids, _mean(flights), (), duration, rate, plan)
+
+
+def read_plan(path: Path) -> list[Planned]:
+    """The parameters of a plan that `ragg next-motion --for calibration --json` wrote; UserError if it is none."""
+    try:
+        content = json.loads(read_text(path))
+        return [
+            Planned(str(q["name"]), q["accelerometer"], str(q["unit"]), float(q["now"]), float(q["then"]))
+            for q in content["parameters"]
+        ]
+    except (ValueError, KeyError, TypeError):
+        raise UserError(
+            "this is no plan of a calibration",
+            where=path,
+            expected="the JSON of ragg next-motion MODEL FLIGHT... --for calibration --json PLAN.json",
+        ) from None
+
+
+def certify(plan: Sequence[Planned], parameters: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Each planned parameter with its value and standard uncertainty as planned and as reached; ``parameters`` as `calibrate` has
+    them in its JSON.
+    """
+    reached = {(q["name"], q["accelerometer"]): q for q in parameters}
+    found = []
+    for x in plan:
+        q = reached.get((x.name, x.accelerometer))
+        if q is None:
+            raise UserError(
+                "the plan is of another model: a parameter of it is not fitted",
+                found=x.name,
+                remedy="plan again with the present model: ragg next-motion --for calibration",
+            )
+        found.append(
+            {
+                "name": x.name,
+                "accelerometer": x.accelerometer,
+                "unit": x.unit,
+                "value": q["value"],
+                "std_before": x.now,
+                "std_planned": x.then,
+                "std_reached": q["std"],
+                "reached": bool(q["std"] <= REACHED * x.then),
+            }
+        )
+    return found
+
+
+REACHED = 1.1
+"""A standard deviation within so much of the planned one counts as reached: noise is known to some per cent."""
 
 
 def write_motion(found: NextFlight, path: Path) -> None:

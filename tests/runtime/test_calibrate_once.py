@@ -14,6 +14,7 @@ import pytest
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import calibrated, frozen
 from ragg_runtime.compensation.saved import read, with_another
+from ragg_runtime.compensation.series import Quality
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.workflow import after, loop
@@ -110,6 +111,7 @@ def test_what_is_compensated_by_a_calibration_that_does_not_hold_says_so(
     m = loop.load(kept[0])
     found = after.compensate(m, [flights(1e-6)[1]], "frozen")
     c = found.as_json()
+    assert np.all(found.series[0]["quality"] & int(Quality.CALIBRATION)), "no sample is good"
     assert c["frozen"]["holds"] is False
     assert c["frozen"]["chi2"] > 100
     assert "does NOT hold" in c["notes"][0]

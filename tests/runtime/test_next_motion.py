@@ -1,188 +1,145 @@
-"""The motion to fly next: its promise held against flights in which it is flown."""
+"""The motion to fly next: its promises, and those promises flown in the reference."""
 
 from __future__ import annotations
 
-import dataclasses
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from benchmarks.promises import fitted, flown
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.estimation import fitted as fitted_
-from ragg_runtime.estimation import observation
+from ragg_runtime.cli.main import main
+from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification import motion_design, next_motion, selection
-from ragg_runtime.identification.selection import field_of
-from ragg_runtime.io import Flight
-from ragg_runtime.model import model
-from ragg_runtime.reference.motion import Signal, Sinusoids
+from ragg_runtime.identification.selection import Field, field_of
+from ragg_runtime.io import write_flight
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.next_flight import NextFlight, next_flight, write_motion
+from ragg_runtime.workflow.next_flight import next_flight, write_motion
 from ragg_runtime.workflow.simulate import simulated
 
-
-@pytest.fixture(scope="module")
-def flown() -> tuple[Scenario, Flight]:
-    s = scenario(52, duration=600.0)
-    return s, s.simulate({"lag": {"tau": [2e-9, 0, 0, 0]}}).flight()
-
-
-def fitted(s: Scenario, *flights: Flight) -> fitted_.Fitted:
-    return fitted_.fit(model.packaged(), s.sheet, observation.observations_of(flights, s.sheet))
-
-
-def separation(f: fitted_.Fitted, field: selection.Field, signal: np.ndarray, rival: str) -> float:
-    """On flights as they are."""
-    rows = np.column_stack([f.whole[:, :-1], f.whole[:, :-1] @ signal])
-    return next_motion.separation(rows, f.n_base, [f.n_base + n for n, _ in field.candidates[rival]], f.size)
-
-
-def test_effects_that_act_alike_are_not_promised_apart(flown: tuple[Scenario, Flight]) -> None:
-    """K_iii of one accelerometer and K_ooo of its neighbour weigh the same force: no motion splits them."""
-    s = scenario(53, duration=600.0)
-    f = fitted(s, s.simulate({"cubic-input": {"K_iii": [4e-8, 0, 0, 0]}}).flight())
-    field = field_of(f, selection.testable_effects(f))
-    for p in next_motion.proposals(f, field, [("cubic-input", "cubic-cross")]):
-        assert not p.separates
-        assert "act alike" in p.in_words()
-
-
-def test_a_larger_motion_promises_more(flown: tuple[Scenario, Flight]) -> None:
-    s, flight = flown
-    f = fitted(s, flight)
-    field = field_of(f, selection.testable_effects(f))
-    pairs = [("lag", "time-offset")]
-    small = next_motion.proposals(f, field, pairs, {"a": 0.05, "omega": 1e-4})
-    (large,) = next_motion.proposals(f, field, pairs, {"a": 0.5, "omega": 1e-3})
-    assert large.then > large.now
-    assert all(large.then > p.then for p in small)
-
-
-@dataclasses.dataclass(frozen=True)
-class Shaken:
-    """A component of motion with a sine upon it."""
-
-    calm: Signal
-    sine: Sinusoids
-
-    def value(self, time: np.ndarray, shift: float = 0.0) -> np.ndarray:
-        return self.calm.value(time, shift) + self.sine.value(time, shift)
-
-    def rate(self, time: np.ndarray, shift: float = 0.0) -> np.ndarray:
-        return self.calm.rate(time, shift) + self.sine.rate(time, shift)
-
-
-def test_the_promise_is_kept_when_the_motion_is_flown(flown: tuple[Scenario, Flight]) -> None:
-    """A flight of the independent reference with that motion, fitted together with the first one."""
-    s, flight = flown
-    f = fitted(s, flight)
-    field = field_of(f, selection.testable_effects(f))
-    (p,) = next_motion.proposals(f, field, [("lag", "time-offset")])
-    sine = Sinusoids(0.0, (p.amplitude,), (p.frequency,), (0.0,))
-    group, axis = p.axis.split("_")
-    parts = list(getattr(s.motion, group))
-    parts["xyz".index(axis)] = Shaken(parts["xyz".index(axis)], sine)
-    moved = dataclasses.replace(s, motion=dataclasses.replace(s.motion, **{group: tuple(parts)}), seed=99)
-    shaken = moved.simulate({"lag": {"tau": [2e-9, 0, 0, 0]}}).flight()
-    both = fitted(s, flight, shaken)
-    field = field_of(both, selection.testable_effects(both))
-    signal = next_motion.signal_of(f, field_of(f, selection.testable_effects(f)), "lag")
-    kept = separation(both, field, signal, "time-offset")
-    # the turbulence that is there as well tells more
-    assert p.then * 0.7 < kept < p.then * 3.0
-    assert kept > 1.5 * p.now
+LAG = {"lag": {"tau": [2e-9, 0, 0, 0]}}
+PAIRS = [("lag", "time-offset"), ("lag", "arm-stretch")]
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory: pytest.TempPathFactory) -> tuple[loop.Loaded, list[str], Flight, NextFlight]:
-    """A weak lag, its rivals, and the multisine that is to tell them apart, within a band and a limit of the jerk."""
-    m = loop.new(tmp_path_factory.mktemp("next") / "m")
-    hidden = ["lag:tau=2e-9/0/0/0"]
-    x = simulated(m.instrument, hidden, seed=7, duration=600.0, no_gradient=False)
-    limits = loop.motion_limits(m, ["a=30mg", "jerk=1m/s^3"])
-    return m, hidden, x, next_flight(m, [x], limits, duration=300.0, band=(0.1, 2.0))
+def weak() -> tuple[Scenario, Fitted, Field]:
+    """A weak lag, which its alternatives imitate."""
+    s = scenario(52, duration=300.0)
+    f = fitted(s, s.simulate(LAG).flight())
+    return s, f, field_of(f, selection.testable_effects(f))
 
 
-Found = tuple[loop.Loaded, list[str], Flight, NextFlight]
-
-
-def test_the_multisine_keeps_to_its_limits(found: Found) -> None:
-    *_, n = found
-    assert n.separations
-    assert "lag" in n.in_words()
-    motion = n.motion()
-    assert len(motion.time) == 300 * 16
-    assert {round(f / 0.25, 6) for _, f, *_ in n.sinusoids} <= {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0}
-    for axis in "xyz":
-        a = motion.channels[f"a_{axis}"] - n.mean[f"a_{axis}"]
-        assert np.max(np.abs(a)) < 0.03 * 9.81
-        assert np.max(np.abs(np.gradient(a, motion.time))) < 1.0
-        assert np.max(np.abs(motion.channels[f"omega_{axis}"] - n.mean[f"omega_{axis}"])) < 2.41e-3
-    # and what the limits allow is used: the jerk of a, or the amplitude of omega
-    used = [
-        2 * np.pi * f * size if axis.startswith("a_") else size / 2.4e-3 for axis, f, size, _ in n.sinusoids
-    ]
-    assert max(used) > 0.5
-
-
-def test_the_separation_is_what_the_reference_shows_when_it_is_flown(found: Found, tmp_path: Path) -> None:
-    """Of effects that another motion tells apart, and of two that act alike; in both directions."""
-    m, hidden, x, n = found
-    pairs = [("lag", "time-offset"), ("lag", "arm-stretch")]
-    f = fitted_.fit(m.model, m.instrument, [observation.observe(x, m.instrument)])
-    made = motion_design.design(f, pairs, next_motion.LIMITS, duration=300.0, band=(0.0, 2.0))
+def test_promises_are_kept_when_the_motion_is_flown(weak: tuple[Scenario, Fitted, Field]) -> None:
+    """By the multisine, which separates all pairs in both directions and better than the best sinusoid."""
+    s, f, field = weak
+    made = motion_design.design(f, PAIRS, next_motion.LIMITS, duration=300.0, band=(0.0, 1.0))
     assert made is not None
-    write_motion(
-        dataclasses.replace(n, sinusoids=made.sinusoids, separations=made.separations),
-        tmp_path / "motion.csv",
+    promised = {(p.effect, p.rival): p for p in made.separations}
+    assert list(promised) == [*PAIRS, *((r, e) for e, r in PAIRS)]
+    shown = flown(s, made.sinusoids, LAG)
+    p = promised["lag", "time-offset"]
+    assert shown(p.rival) == pytest.approx(p.then, rel=0.3)
+    assert p.then > max(6.0, p.now)
+    assert 0.0 < p.spread < p.then
+    assert max(shown("arm-stretch"), promised["lag", "arm-stretch"].then) < 3.0, "they act alike"
+    sinusoids = {p.rival: p for p in next_motion.proposals(f, field, PAIRS)}
+    best = sinusoids["time-offset"]
+    alone = flown(s, [(best.axis, best.frequency, best.amplitude, 0.0)], LAG)
+    assert alone("time-offset") == pytest.approx(best.then * np.sqrt(s.duration / best.duration), rel=0.3), (
+        "its duration is another one"
     )
-    y = simulated(m.instrument, hidden, seed=7, motion=tmp_path / "motion.csv", no_gradient=False)
-    both = fitted_.fit(m.model, m.instrument, observation.observations_of((x, y), m.instrument))
-    one, field = (field_of(g, selection.testable_effects(g)) for g in (f, both))
-    for p in made.separations:
-        signal = next_motion.signal_of(f, one, p.effect)
-        shown = separation(both, field, signal, p.rival)
-        assert p.then == pytest.approx(shown, rel=0.4)
-        assert p.then > p.now
-    ruled_out = {(p.effect, p.rival): p.then for p in made.separations}
-    assert list(ruled_out) == [*pairs, *((r, e) for e, r in pairs)]
-    assert ruled_out["lag", "time-offset"] > 20.0
+    small = next_motion.proposals(f, field, PAIRS[:1], {"a": 0.05, "omega": 1e-4})
+    assert all(best.then > p.then for p in small)
 
 
-def test_the_multisine_is_better_than_the_best_sinusoid(flown: tuple[Scenario, Flight]) -> None:
-    s, flight = flown
-    f = fitted(s, flight)
-    field = field_of(f, selection.testable_effects(f))
-    pairs = [("lag", "time-offset"), ("lag", "arm-sag")]
-    best = next_motion.proposals(f, field, pairs)
-    made = motion_design.design(f, pairs, next_motion.LIMITS, duration=600.0, band=(0.0, 1.0))
-    assert made is not None
-    for p, x in zip(best, made.separations[:2], strict=True):
-        assert (p.effect, p.rival) == (x.effect, x.rival)
-        assert x.then > 1.1 * p.then
-    assert motion_design.design(f, [], next_motion.LIMITS, duration=600.0, band=(0.0, 1.0)) is None
+def test_what_the_flight_does_not_determine_is_not_promised(weak: tuple[Scenario, Fitted, Field]) -> None:
+    """Nothing is known of an effect that is not there: a motion to which it could answer promises nothing but noise."""
+    _, f, field = weak
+    (p,) = next_motion.Alternatives.of(f, field, [("arm-sag", "lag")]).promises(
+        [("a_z", 0.5, 0.49, 0.0)], 600.0
+    )
+    assert p.then < 6.0
+    s = scenario(53, duration=300.0)
+    g = fitted(s, s.simulate({"cubic-input": {"K_iii": [4e-8, 0, 0, 0]}}).flight())
+    # K_iii of one accelerometer and K_ooo of its neighbour weigh the same force: no motion separates them
+    for q in next_motion.proposals(
+        g, field_of(g, selection.testable_effects(g)), [("cubic-input", "cubic-cross")]
+    ):
+        assert not q.separates
 
 
-def test_where_nothing_is_left_to_tell_apart_everything_is_excited(found: Found) -> None:
-    m, *_ = found
+def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None:
+    """Where nothing is left to separate, it excites everything."""
+    m = loop.new(tmp_path / "m")
     x = simulated(m.instrument, [], seed=8, duration=120.0)
-    n = next_flight(m, [x], next_motion.LIMITS, duration=60.0)
+    limits = loop.motion_limits(m, ["a=30mg", "jerk=1m/s^3", "alpha=1deg/s^2"])
+    n = next_flight(m, [x], limits, duration=60.0, band=(0.1, 2.0))
     assert n.separations == ()
     assert {axis for axis, *_ in n.sinusoids} == set(next_motion.AXES)
-    assert "nothing is left" in n.in_words()
-    with pytest.raises(UserError, match="no motion can be made"):
-        next_flight(m, [x], next_motion.LIMITS, band=(0.3, 0.35))
-    with pytest.raises(UserError, match="no motion can be made"):
-        next_flight(m, [x], next_motion.LIMITS, band=(0.0, 5.0))
-
-
-def test_limits_are_read_with_units(tmp_path_factory: pytest.TempPathFactory) -> None:
-    m = loop.new(tmp_path_factory.mktemp("limits") / "m")
-    found = loop.motion_limits(m, ["a=100mg"])
-    assert found["a"] == pytest.approx(0.98)
-    assert found["omega"] == next_motion.LIMITS["omega"]
-    assert loop.motion_limits(m, ["alpha=1deg/s^2"])["alpha"] == pytest.approx(np.pi / 180)
+    write_motion(n, tmp_path / "motion.csv")
+    motion = simulated(m.instrument, [], motion=tmp_path / "motion.csv")
+    assert len(motion) == 60 * 16
+    for axis in "xyz":
+        a = n.motion().channels[f"a_{axis}"] - n.mean[f"a_{axis}"]
+        assert 0.1 * 0.03 * 9.8 < np.max(np.abs(a)) < 0.03 * 9.81
+        assert np.max(np.abs(np.gradient(a, n.motion().time))) < 1.0
+        assert np.max(np.abs(motion.channels[f"omega_{axis}"] - n.mean[f"omega_{axis}"])) < 2.41e-3
+    for band in ((0.3, 0.35), (0.0, 5.0)):
+        with pytest.raises(UserError, match="no motion can be made"):
+            next_flight(m, [x], next_motion.LIMITS, band=band)
+    assert limits["alpha"] == pytest.approx(np.pi / 180)
+    assert limits["omega"] == next_motion.LIMITS["omega"]
     for wrong in ("b=1mg", "a", "a=-1mg", "omega=1mg", "jerk=1m/s^2"):
         with pytest.raises(UserError):
             loop.motion_limits(m, [wrong])
+
+
+def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
+    """Through the commands, and in half the time that an even multisine of the same size takes."""
+    m = loop.new(tmp_path / "m")
+    write_flight(simulated(m.instrument, [], seed=3, duration=300.0), tmp_path / "x.csv")
+    files = {
+        n: str(tmp_path / n) for n in ("m", "x.csv", "motion.csv", "y.csv", "sheet.md", "plan.json", "c.json")
+    }
+    words = [
+        "--for",
+        "calibration",
+        "--criterion",
+        "D",
+        "--run-sheet",
+        files["sheet.md"],
+        "--json",
+        files["plan.json"],
+    ]
+    main(["next-motion", files["m"], files["x.csv"], "-o", files["motion.csv"], *words])
+    plan = json.loads((tmp_path / "plan.json").read_text())
+    assert plan["channels"]["planned"]["inline_Eo"] < 0.5 * plan["channels"]["now"]["inline_Eo"]
+    assert f"| {plan['sinusoids'][0]['axis']} |" in (tmp_path / "sheet.md").read_text()
+    write_flight(simulated(m.instrument, [], seed=3, motion=files["motion.csv"]), tmp_path / "y.csv")
+    main(
+        [
+            "calibrate",
+            files["m"],
+            files["x.csv"],
+            files["y.csv"],
+            "--plan",
+            files["plan.json"],
+            "--json",
+            files["c.json"],
+        ]
+    )
+    certificate = json.loads((tmp_path / "c.json").read_text())["certificate"]
+    ratios = [q["std_reached"] / q["std_planned"] for q in certificate]
+    assert np.allclose(ratios, 1.0, atol=0.05)
+    assert all(q["reached"] for q in certificate)
+    assert min(q["std_planned"] / q["std_before"] for q in certificate) < 0.7
+    f = fit(m.model, m.instrument, observations_of(loop.read_flights(m, [files["x.csv"]]), m.instrument))
+    made = motion_design.design_calibration(f, next_motion.LIMITS, duration=600.0, band=(0.0, 3.2))
+    known = motion_design.Knowledge.of(f)
+    tones = motion_design.tones_of(0.25, next_motion.LIMITS, (0.0, 3.2))
+    even = motion_design.multisine(tones, motion_design.even(tones))
+    assert made.then < known.channels(known.with_motion(even, 600.0, 1200.0))
