@@ -110,7 +110,9 @@ def write_series(path: Path, series: Sequence[Mapping[str, NDArray[Any]]], units
 def _with_values(series: Mapping[str, NDArray[Any]]) -> Mapping[str, NDArray[Any]]:
     """The rows from the first to the last in which a channel has a value; all if none has."""
     stds = [x for n, x in series.items() if n.endswith("_std")]
-    there = np.flatnonzero(np.any(np.isfinite(stds), axis=0)) if stds else []
+    if not stds:
+        return series
+    there = np.flatnonzero(np.any(np.isfinite(stds), axis=0))
     if not len(there):
         return series
     return {n: x[there[0] : there[-1] + 1] for n, x in series.items()}

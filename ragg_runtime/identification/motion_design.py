@@ -294,7 +294,7 @@ def _channel_changes(f: Fitted) -> Array:
             where=x.observation.name,
             remedy="give a longer flight of the motion that is to be compensated",
         )
-    return np.stack([triangle(found[:, k]) for k in range(2)]) / np.sqrt(found.shape[2])
+    return np.asarray(np.stack([triangle(found[:, k]) for k in range(2)]) / np.sqrt(found.shape[2]))
 
 
 @one_thread

@@ -159,7 +159,7 @@ def estimate_strength(f: Fitted, field: Field, effect: str, beside: Sequence[str
     own = [f.n_base + n for n in field.testable(effect)]
     others = [*range(f.n_base), *columns_of(f, field, beside)]
     k = len(others)
-    R = np.linalg.qr(f.whole[:, [*others, *own, -1]], mode="r")[k:, k:]
+    R = _lower_block(f.whole[:, [*others, *own, -1]], k)
     U, s, V = np.linalg.svd(R[:, :-1], full_matrices=False)
     if not len(s) or not s[0] > 0.0:
         return Strength(np.zeros((f.size, 0)), np.zeros(0), np.zeros(0))
@@ -172,6 +172,11 @@ def estimate_strength(f: Fitted, field: Field, effect: str, beside: Sequence[str
     directions[own] = V[some].T
     shrunk = (gain / (1 + gain))[some]
     return Strength(directions, shrunk * y[some] / s[some], np.sqrt(shrunk) / s[some])
+
+
+def _lower_block(rows: Array, first: int) -> Array:
+    """The R factor of the columns from ``first`` on, those before them projected out."""
+    return np.asarray(np.linalg.qr(rows, mode="r"))[first:, first:]
 
 
 def columns_of(f: Fitted, field: Field, effects: Sequence[str]) -> list[int]:
@@ -226,7 +231,7 @@ class Alternatives:
             start += len(s.mean)
         found = []
         for (e, _), nuisance in zip(self.pairs, self.nuisance, strict=True):
-            R = np.linalg.qr(rows[:, [*nuisance, *own[e]]], mode="r")[len(nuisance) :, len(nuisance) :]
+            R = _lower_block(rows[:, [*nuisance, *own[e]]], len(nuisance))
             found.append(self.strengths[e].separation(R))
         return found
 

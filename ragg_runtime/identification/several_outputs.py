@@ -128,8 +128,8 @@ def gradient_seen(f: Fitted, n: int) -> Seen:
     if len(
         time
     ):  # what the instrument makes of this gradient differs from what an ideal one does, by its angles above all
-        every = np.interp(o.record.time, time, inline), np.interp(o.record.time, time, cross)
-        off = [_beyond_ideal(f, o.part(some), *(x[some] for x in every), k_ggi) for some in rows]
+        g = [np.interp(o.record.time, time, x) for x in (inline, cross)]
+        off = [_beyond_ideal(f, o.part(some), g[0][some], g[1][some], k_ggi) for some in rows]
         time, inline, cross = channels(left - np.concatenate(off), o.record, k_ggi, o.record.valid)
     rate = o.record.rate
     psd = f.prepared[n].noise_psd(np.array([2 * abs(o.record.spin_frequency)]))
