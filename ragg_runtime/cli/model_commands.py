@@ -264,9 +264,9 @@ def map_command(flight: Path, output: str | None) -> None:
     It says which column is what, in which unit, and how time is written. What the file does not say is marked with "?" and
     asked for: units are never guessed.
     """
-    from ragg_runtime.io.guess import draft
+    from ragg_runtime.io.draft import draft_mapping
 
-    made = draft(flight)
+    made = draft_mapping(flight)
     if output is None:
         click.echo(printable(made.text), nl=False)
     else:

@@ -16,7 +16,8 @@ from ragg_runtime.compensation.series import Series
 from ragg_runtime.instrument.layout import column_endings
 from ragg_runtime.io.files import write_tables
 from ragg_runtime.io.record import DEMODULATED
-from ragg_runtime.io.source import Heading, Written
+from ragg_runtime.io.tables import Column
+from ragg_runtime.io.tables import Table as FileTable
 from ragg_runtime.signals.tensor import COMPONENTS, Tensor, tensor
 
 Array = NDArray[np.float64]
@@ -104,7 +105,7 @@ def write_series(path: Path, series: Sequence[Mapping[str, NDArray[Any]]], units
     """
     whole = joined([_with_values(s) for s in series], list(units))
     rounded = {n: _rounded(n, x, whole) for n, x in whole.items()}
-    write_tables(path, [Written([(Heading(n, unit), rounded[n]) for n, unit in units.items()])])
+    write_tables(path, [FileTable(tuple(Column(n, unit, rounded[n]) for n, unit in units.items()))])
 
 
 def _with_values(series: Mapping[str, NDArray[Any]]) -> Mapping[str, NDArray[Any]]:

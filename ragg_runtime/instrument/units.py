@@ -188,7 +188,9 @@ def units(g0: float) -> Units:
 def read_quantity(raw: object, where: str | None = None, *, count: int = 4) -> RawQuantity:
     """The number or numbers and the unit, as written; see :meth:`Units.quantity`."""
     if isinstance(raw, str):
-        match = re.fullmatch(r"\s*([+-]?[\d.][\d.]*(?:[eE][+-]?\d+)?)\s*(\S.*)?", raw)
+        # a decimal comma, but not what may be a comma between thousands
+        text = re.sub(r"^(\s*[+-]?(?:0+,\d+|\d+,(?!\d{3}(?!\d))\d+))", lambda m: m[0].replace(",", "."), raw)
+        match = re.fullmatch(r"\s*([+-]?[\d.][\d.]*(?:[eE][+-]?\d+)?)\s*(\S.*)?", text)
         try:
             number = float(match[1]) if match else math.nan
         except ValueError:
@@ -303,16 +305,23 @@ _NAMED = {
         "uGal": ("ugal", "µgal", "μgal", "microgal"),
         "deg/s": ("dps", "DPS", "°/s", "deg/sec"),
         "deg/h": ("dph", "°/h", "°/hr"),
-        "degC": ("deg C", "° C", "deg.C", "Celsius", "CELSIUS", "DEGC"),
+        "mdeg/s": ("mdps", "MDPS"),
+        "degC": ("\u2103", "deg C", "° C", "deg.C", "Celsius", "CELSIUS", "DEGC"),
         "deg": ("DEG", "degs", "DEGREES", "Degrees"),
         "rad": ("RAD", "rads"),
         "s": ("SEC", "Seconds", "SECONDS"),
         "m": ("METRES", "METERS"),
-        "V": ("VOLT", "VOLTS", "Volts"),
+        "V": ("VOLT", "VOLTS", "Volts", "Volt"),
         "1": ("unitless",),
     }.items()
     for spelling in spellings
 }
+_WORDS = frozenset((
+    "deg", "degs", "degree", "degrees", "rad", "rads", "radian", "radians", "s", "sec", "second", "seconds", "h", "hr",
+    "hour", "hours", "min", "minute", "volt", "volts", "m", "meter", "meters", "kelvin",
+))  # fmt: skip
+"""Words of units that programs write in capitals, and that mean the same then."""
+
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 
 
@@ -324,3 +333,6 @@ def spellings(text: str) -> Iterator[str]:
     plain = re.sub(r"(?<=[^\W_])\.(?=[^\W\d_])", "*", plain)  # m.s-2
     if plain != text:
         yield plain
+    words = re.findall(r"[^\W\d_]+", plain)
+    if words and all(w.casefold() in _WORDS for w in words):
+        yield plain.casefold()

@@ -1,10 +1,9 @@
-"""From a file's columns to a flight: SI units, what is missing, what can be derived."""
+"""From a recording to a flight: SI units, the uniform grid, what is missing, what can be derived."""
 
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
@@ -12,7 +11,7 @@ from scipy.interpolate import make_interp_spline
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
-from ragg_runtime.instrument.units import Units, units
+from ragg_runtime.instrument.units import units
 from ragg_runtime.io.angular_acceleration import HEAD, Derivative, planned
 from ragg_runtime.io.record import (
     ANGULAR_ACCELERATION,
@@ -28,164 +27,152 @@ from ragg_runtime.io.record import (
     Mask,
     is_disc_angle,
 )
+from ragg_runtime.io.recording import Recording, pass_over
 from ragg_runtime.io.sampling import Grid, uniform
-from ragg_runtime.io.source import Heading, Rows, passed_over
 from ragg_runtime.signals.derivative import runs
 
 BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded."""
 
-ENDLESS = 1e100  # in SI: beyond it a value counts as missing, as infinity does
-_TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
-_NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
-
+ENDLESS = 1e100
+"""In SI: beyond it a value counts as missing, as infinity does."""
 
 MOST_UNUSED = 0.5
 """Share of a file's samples from which on, if something lacks in them, the rest is no evidence."""
 
-
-@dataclass(frozen=True)
-class Layout:
-    """The columns of one file with their SI units, checked once; :meth:`flight` turns rows into a flight."""
-
-    path: Path
-    columns: tuple[Heading, ...]
-    si_units: dict[str, str]
-    known: Units
-    need_output: bool
-    accelerometers: Accelerometers = PAPER
-
-    def flight(self, rows: Rows, *, name: str, digest: str) -> Flight:
-        """The flight of these rows (file's units)."""
-        si = {c.name: self.converted(c, rows[c.name]) for c in self.columns}
-        time = si.pop("time")
-        grid = uniform(time, self.path)
-        notes = list(grid.notes)
-        slower = self._slower(time, si, notes)
-        derivative = self._derivative(time, si)
-        _drop_empty(si, notes, self.path)
-        if self.need_output:
-            _check_output(self.path, list(si), self.accelerometers)
-        placed = {c: slower[c].at(grid.time) if c in slower else _placed(v, grid) for c, v in si.items()}
-        notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
-        named = (*self.accelerometers.columns, *DEMODULATED)
-        outputs = {c: placed.pop(c) for c in named if c in placed}
-        valid = _valid(placed | outputs, outputs, grid, notes)
-        _derive_outputs(outputs, notes, self.accelerometers)
-        channels = {c: _filled(v, c) for c, v in placed.items()}
-        _derive_acceleration(channels, placed, grid, valid, notes, derivative)
-        _check_gradient(channels, notes)
-        if not valid.any():
-            raise UserError("no sample of the flight is complete", where=self.path, found="; ".join(notes))
-        return Flight(
-            time=grid.time,
-            channels=channels,
-            outputs=outputs,
-            name=name,
-            path=self.path,
-            digest=digest,
-            notes=tuple(notes),
-            valid=valid,
-            units=self.si_units,
-            written={c.name: c.unit for c in self.columns},
-        )
-
-    def _slower(self, time: Array, si: dict[str, Array], notes: list[str]) -> dict[str, Slow]:
-        """Auxiliary channels of a lower rate; those that cannot be interpolated are taken out of ``si``."""
-        whole = float(time[-1] - time[0])
-        # One value in two seconds: more often than that, blanks are bridged where they stand.
-        most = 1000 + 2 * int(min(whole / BRIDGED, ENDLESS))
-        found = {}
-        for name in [n for n in si if n not in SI_UNITS or n in AUXILIARY]:
-            there = np.isfinite(si[name])
-            count = int(np.sum(there))
-            if not 0 < count < min((1 - SPARSE) * len(there), most + 1):
-                continue
-            values = si[name][there]
-            channel = judged(time[there], np.unwrap(values) if self.si_units[name] == "rad" else values)
-            if isinstance(channel, Slow) and channel.covered < (1 - MOST_UNUSED) * whole:
-                channel = f"its values cover {channel.covered:.4g} s of {whole:.4g} s"
-            lacking = len(there) - count
-            if isinstance(channel, Slow):
-                found[name] = channel
-                notes.append(
-                    f"{name}: recorded every {channel.step:.4g} s; interpolated (at {lacking} samples)"
-                )
-            else:
-                del si[name]
-                notes.append(f"{name}: without a value at {samples_of(lacking)}; left out: {channel}")
-        return found
-
-    def _derivative(self, time: Array, si: Mapping[str, Array]) -> Derivative:
-        """How to differentiate the rates, by the first rows of the file."""
-        if ANGULAR_ACCELERATION[0] in si:
-            return Derivative()
-        grid = uniform(time[:HEAD], self.path)
-        return planned([evenly(_placed(si[n][:HEAD], grid), grid) for n in ANGULAR_RATE], 1 / grid.step)
-
-    def converted(self, column: Heading, values: Array) -> Array:
-        """Values of a column in SI; NaN for what is beyond all bounds."""
-        where = at(self.path, f"column {column.name!r}")
-        result = self.known.to_si(values, column.unit, self.si_units[column.name], where)
-        with np.errstate(invalid="ignore"):
-            return np.where(np.abs(result) < ENDLESS, result, np.nan)
+_TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
+_NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
 
 
-def layout(
-    path: Path,
-    columns: Sequence[Heading],
-    g0: float,
-    *,
-    need_output: bool = True,
-    accelerometers: Accelerometers = PAPER,
-    passed: Sequence[str] = (),
-) -> Layout:
-    """Check names and units of a file's columns; UserError if one is missing or does not convert. ``g0``: the model's
-    g, m/s^2; ``passed``: further columns of the file, for messages.
+def make_flight(
+    made: Recording, g0: float, *, need_output: bool = True, accelerometers: Accelerometers = PAPER
+) -> Flight:
+    """The flight of a recording, in SI on a uniform grid.
+
+    Parameters
+    ----------
+    made
+        Columns (n,) with their units.
+    g0
+        The g of these units, m/s^2.
+    need_output
+        False lets a record of motion alone pass.
+    accelerometers
+        The instrument's, whose outputs and voltages the columns are.
+
+    Raises
+    ------
+    UserError
+        If a column is missing, does not convert, or the record is not uniformly sampled.
     """
-    known = units(g0)
-    names = [c.name for c in columns]
-    _need(path, names, _NEEDED, "the motion needs", passed)
-    if any(n in names for n in ANGULAR_ACCELERATION):
-        _need(path, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs", passed)
+    si_units = _require_columns(made, g0, need_output, accelerometers)
+    si = _convert(made, g0, si_units)
+    time = si.pop("time")
+    grid = uniform(time, made.place)
+    notes = [*made.notes, *grid.notes]
+    slower = _find_slower(time, si, si_units, notes)
+    derivative = _plan_derivative(time, si, made.place)
+    _drop_empty(si, notes, made.place)
     if need_output:
-        _check_output(path, names, accelerometers, passed)
-    fixed = {**SI_UNITS, **dict.fromkeys(accelerometers.columns, "V")}
-    fixed |= {d.angle_column: "rad" for d in accelerometers.discs}
-    si_units = {}
-    for c in columns:
-        where = at(path, f"column {c.name!r}")
-        si_units[c.name] = fixed[c.name] if c.name in fixed else known.base_unit(c.unit, where)
-        known.to_si(1.0, c.unit, si_units[c.name], where)  # a wrong dimension is told before the file is read
-    return Layout(
-        path=path,
-        columns=tuple(columns),
-        si_units=si_units,
-        known=known,
-        need_output=need_output,
-        accelerometers=accelerometers,
+        _require_output(made, list(si), accelerometers)
+    placed = {c: slower[c].at(grid.time) if c in slower else _placed(v, grid) for c, v in si.items()}
+    notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
+    outputs = {c: placed.pop(c) for c in (*accelerometers.columns, *DEMODULATED) if c in placed}
+    valid = _find_valid(placed | outputs, outputs, grid, notes)
+    _derive_outputs(outputs, notes, accelerometers)
+    channels = {c: _filled(v, c) for c, v in placed.items()}
+    if ANGULAR_ACCELERATION[0] not in channels:
+        _derive_acceleration(channels, placed, grid, valid, notes, derivative)
+    _check_gradient(channels, notes)
+    if not valid.any():
+        raise UserError("no sample of the flight is complete", where=made.place, found="; ".join(notes))
+    return Flight(
+        time=grid.time,
+        channels=channels,
+        outputs=outputs,
+        notes=tuple(notes),
+        valid=valid,
+        units=si_units,
+        written={c.name: c.unit for c in made.columns},
+        demodulation=made.demodulation,
+        instants=made.instants,
     )
 
 
-def enough(flight: Flight, rows: int) -> Flight:
+def require_enough(flight: Flight, rows: int) -> Flight:
     """The flight, unless half of the file's rows or more lack something: what is left must not acquit a model."""
     used = int(np.sum(flight.valid))
     if used > (1 - MOST_UNUSED) * rows:
         return flight
     raise UserError(
         "most samples of the flight are incomplete: the rest would be no evidence",
-        where=flight.path,
+        where=flight.path or flight.name,
         found=f"{rows - used} of {rows} samples cannot be used ({'; '.join(flight.notes)})",
         expected=f"fewer than {100 * MOST_UNUSED:.0f} % without a value",
         remedy="record all columns at one rate, or resample the file to the slowest that it needs",
     )
 
 
-def _found(names: Sequence[str], passed: Sequence[str]) -> str:
-    return "the columns " + ", ".join(names) + (f"; {passed_over(passed)}" if passed else "")
+# --- columns and units ---------------------------------------------------------------------------------
 
 
-def _check_output(path: Path, names: Sequence[str], a: Accelerometers, passed: Sequence[str] = ()) -> None:
+def _require_columns(
+    made: Recording, g0: float, need_output: bool, accelerometers: Accelerometers
+) -> dict[str, str]:
+    """The SI units of all columns; UserError if one that is needed is missing, or a unit does not convert."""
+    names = [c.name for c in made.columns]
+    _require_names(made, names, _NEEDED, "the motion needs")
+    if any(n in names for n in ANGULAR_ACCELERATION):
+        _require_names(made, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
+    if need_output:
+        _require_output(made, names, accelerometers)
+    fixed = {**SI_UNITS, **dict.fromkeys(accelerometers.columns, "V")}
+    fixed |= {d.angle_column: "rad" for d in accelerometers.discs}
+    known = units(g0)
+    found = {}
+    for c in made.columns:
+        where = at(made.place, f"column {c.name!r}")
+        found[c.name] = fixed[c.name] if c.name in fixed else known.base_unit(c.unit, where)
+    return found
+
+
+def _convert(made: Recording, g0: float, si_units: Mapping[str, str]) -> dict[str, Array]:
+    """The columns in SI; NaN for what is beyond all bounds."""
+    known = units(g0)
+    found = {}
+    for c in made.columns:
+        where = at(made.place, f"column {c.name!r}")
+        values = known.to_si(c.values, c.unit, si_units[c.name], where)
+        with np.errstate(invalid="ignore"):
+            found[c.name] = np.where(np.abs(values) < ENDLESS, values, np.nan)
+    return found
+
+
+def _require_names(made: Recording, names: Sequence[str], needed: Sequence[str], what: str) -> None:
+    missing = [n for n in needed if n not in names]
+    if not missing:
+        return
+    spare = [n for n in (*names, *made.passed) if n not in SI_UNITS]
+    near = did_you_mean(missing[0], spare) if len(missing) == 1 else None
+    several = len(missing) > 1
+    raise UserError(
+        f"the column{'s' * several} {', '.join(missing)} {'are' if several else 'is'} missing",
+        where=made.place,
+        found=_found(made, names),
+        expected=f"{what} " + ", ".join(needed),
+        remedy="say what the columns are: ragg map FLIGHT -o mapping.toml"
+        if near is None
+        else f"is {near[13:-1]} meant for {missing[0]}?",
+    )
+
+
+def _found(made: Recording, names: Sequence[str]) -> str:
+    told = [n for n in made.notes if n.startswith("passed over,")]
+    told += [pass_over(made.passed)] if made.passed else []
+    return "; ".join(["the columns " + ", ".join(names), *told])
+
+
+def _require_output(made: Recording, names: Sequence[str], a: Accelerometers) -> None:
     if any(o.name in names or a.voltages(o, names) is not None for o in a.outputs):
         return
     if len(a.outputs) == 1 and all(n in names for n in DEMODULATED):
@@ -193,41 +180,23 @@ def _check_output(path: Path, names: Sequence[str], a: Accelerometers, passed: S
     volts = " ".join(a.voltage_columns(j)[0] for j in a.outputs[0].members)
     one = f"{a.output_names[0]}, or {volts}"
     further = f"; likewise {', '.join(a.output_names[1:])}" if len(a.outputs) > 1 else ", or inline and cross"
+    near = (did_you_mean(n, (*a.columns, *DEMODULATED)) for n in names if n not in SI_UNITS)
     raise UserError(
         "the instrument's output is missing",
-        where=path,
-        found=_found(names, passed),
+        where=made.place,
+        found=_found(made, names),
         expected=one + further,
-        remedy=next(
-            filter(None, (did_you_mean(n, (*a.columns, *DEMODULATED)) for n in names if n not in SI_UNITS)),
-            None,
-        ),
+        remedy=next(filter(None, near), None),
     )
 
 
-def _need(path: Path, names: list[str], needed: Sequence[str], what: str, passed: Sequence[str]) -> None:
-    missing = [n for n in needed if n not in names]
-    if missing:
-        spare = [n for n in (*names, *passed) if n not in SI_UNITS]
-        near = did_you_mean(missing[0], spare)
-        raise UserError(
-            ("the columns " if len(missing) > 1 else "the column ")
-            + ", ".join(missing)
-            + (" are missing" if len(missing) > 1 else " is missing"),
-            where=path,
-            found=_found(names, passed),
-            expected=f"{what} " + ", ".join(needed),
-            remedy=None if near is None else f"is {near[13:-1]} meant for {missing[0]}?",
-        )
-
-
-def _drop_empty(si: dict[str, Array], notes: list[str], path: Path) -> None:
+def _drop_empty(si: dict[str, Array], notes: list[str], place: str) -> None:
     """Leave out columns without a single number, unless the motion would be incomplete."""
     for name in [n for n, v in si.items() if np.isnan(v).all()]:
         if name in _NEEDED:
             raise UserError(
                 "the column holds no number",
-                where=at(path, f"column {name!r}"),
+                where=at(place, f"column {name!r}"),
                 found="empty cells alone",
                 expected="numbers: the motion needs it",
                 remedy="check the recorder or the export",
@@ -245,7 +214,7 @@ def _placed(values: Array, grid: Grid) -> Array:
     return whole
 
 
-def _valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, notes: list[str]) -> Mask:
+def _find_valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, notes: list[str]) -> Mask:
     """Samples at which everything stands that has to; counts the others in ``notes``."""
     present = np.zeros(len(grid.time), dtype=np.bool_)
     present[grid.index] = True
@@ -313,21 +282,26 @@ def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Acceleromete
 
 def _derive_acceleration(
     channels: dict[str, Array],
-    placed: dict[str, Array],
+    placed: Mapping[str, Array],
     grid: Grid,
     valid: Mask,
     notes: list[str],
     derivative: Derivative,
 ) -> None:
-    missing = [n for n in ANGULAR_ACCELERATION if n not in channels]
-    if not missing:
-        return
     for name, rate_name in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
-        derived, sure = differentiated(placed[rate_name], grid, derivative)
+        derived, sure = _differentiate(placed[rate_name], grid, derivative)
         # A sample that stands alone between two gaps has no derivative.
         valid &= sure
         channels[name] = _filled(derived, name)
     notes.append(derivative.note)
+
+
+def _plan_derivative(time: Array, si: Mapping[str, Array], place: str) -> Derivative:
+    """How to differentiate the rates, by the first rows of the file."""
+    if ANGULAR_ACCELERATION[0] in si:
+        return Derivative()
+    grid = uniform(time[:HEAD], place)
+    return planned([_evenly(_placed(si[n][:HEAD], grid), grid) for n in ANGULAR_RATE], 1 / grid.step)
 
 
 def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:
@@ -349,9 +323,9 @@ FEWEST = DEGREE + 3
 """Samples from which one is drawn."""
 
 
-def differentiated(x: Array, grid: Grid, derivative: Derivative) -> tuple[Array, Mask]:
+def _differentiate(x: Array, grid: Grid, derivative: Derivative) -> tuple[Array, Mask]:
     """Time derivative at the samples' own instants, and where it is good; where they jitter, by way of the even grid."""
-    resampled = evenly(x, grid)
+    resampled = _evenly(x, grid)
     slope, sure = derivative.of(resampled, 1 / grid.step)
     there = np.isfinite(slope)
     if resampled is x or np.sum(there) < FEWEST:
@@ -360,7 +334,7 @@ def differentiated(x: Array, grid: Grid, derivative: Derivative) -> tuple[Array,
     return np.where(there, make_interp_spline(even[there], slope[there], DEGREE)(grid.time), np.nan), sure
 
 
-def evenly(x: Array, grid: Grid) -> Array:
+def _evenly(x: Array, grid: Grid) -> Array:
     """Samples at evenly spaced instants; themselves where they do not jitter."""
     there = np.isfinite(x)
     if not grid.jitters or np.sum(there) < FEWEST:
@@ -371,6 +345,9 @@ def evenly(x: Array, grid: Grid) -> Array:
 def _even(grid: Grid) -> Array:
     n = len(grid.time)
     return np.asarray(np.polyval(np.polyfit(np.arange(n), grid.time, 1), np.arange(n)))
+
+
+# --- channels of a lower rate --------------------------------------------------------------------------
 
 
 SPARSE = 0.5
@@ -416,7 +393,7 @@ class Slow:
         return np.asarray(found)
 
 
-def judged(time: Array, values: Array) -> Slow | str:
+def judge_slow(time: Array, values: Array) -> Slow | str:
     """The channel, from its values (n,) and their instants, s; or why it cannot be interpolated linearly, in words."""
     if len(values) < FEWEST_VALUES:
         return f"it has {len(values)} value{'s' * (len(values) != 1)}"
@@ -432,3 +409,30 @@ def judged(time: Array, values: Array) -> Slow | str:
     if error > SLOW * spread:
         return f"it changes too fast for one value in {step:.3g} s"
     return Slow(time, values, step)
+
+
+def _find_slower(
+    time: Array, si: dict[str, Array], si_units: Mapping[str, str], notes: list[str]
+) -> dict[str, Slow]:
+    """Auxiliary channels of a lower rate; those that cannot be interpolated are taken out of ``si``."""
+    whole = float(time[-1] - time[0])
+    # One value in two seconds: more often than that, blanks are bridged where they stand.
+    most = 1000 + 2 * int(min(whole / BRIDGED, ENDLESS))
+    found = {}
+    for name in [n for n in si if n not in SI_UNITS or n in AUXILIARY]:
+        there = np.isfinite(si[name])
+        count = int(np.sum(there))
+        if not 0 < count < min((1 - SPARSE) * len(there), most + 1):
+            continue
+        values = si[name][there]
+        channel = judge_slow(time[there], np.unwrap(values) if si_units[name] == "rad" else values)
+        if isinstance(channel, Slow) and channel.covered < (1 - MOST_UNUSED) * whole:
+            channel = f"its values cover {channel.covered:.4g} s of {whole:.4g} s"
+        lacking = len(there) - count
+        if isinstance(channel, Slow):
+            found[name] = channel
+            notes.append(f"{name}: recorded every {channel.step:.4g} s; interpolated (at {lacking} samples)")
+        else:
+            del si[name]
+            notes.append(f"{name}: without a value at {samples_of(lacking)}; left out: {channel}")
+    return found

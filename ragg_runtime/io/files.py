@@ -1,133 +1,308 @@
-"""Reading and writing flight files."""
+"""Flight files: the formats by their endings, reading, writing, converting; flights in memory go the same way.
+
+A further format is one function ``path -> list of Table`` and a line of :data:`FORMATS`.
+"""
 
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Mapping, Sequence
+import csv
+import gzip
+import io
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from datetime import timedelta
+from datetime import datetime, timedelta
 from pathlib import Path
+from typing import IO, Any
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.csv
+from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import file_digest, replacing
+from ragg_runtime.base.files import file_digest, replacing, require_room
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.assemble import enough, layout
-from ragg_runtime.io.formats import ending_of, writable
+from ragg_runtime.io.array_files import (
+    HDF5_MAGIC,
+    read_classic_netcdf,
+    read_hdf5,
+    read_matlab,
+    read_parquet,
+    write_parquet,
+)
+from ragg_runtime.io.assemble import make_flight, require_enough
 from ragg_runtime.io.mapping import Mapped
-from ragg_runtime.io.record import SI_UNITS, Array, Flight
-from ragg_runtime.io.source import Heading, Rows, Source, Written
-from ragg_runtime.io.sources import open_sources
+from ragg_runtime.io.record import SI_UNITS, Flight
+from ragg_runtime.io.recording import Recording, make_recordings
+from ragg_runtime.io.tables import Column, Table, digest_tables, line_name, tabulate
+from ragg_runtime.io.text_tables import read_csv, read_excel
+
+# --- formats -------------------------------------------------------------------------------------------
 
 
-def read_flight(
-    path: Path | str,
-    g0: float,
-    *,
-    need_output: bool = True,
-    accelerometers: Accelerometers = PAPER,
-    mapping: Mapped | None = None,
-    line: str | None = None,
-) -> Flight:
-    """The flight in a file (see :mod:`ragg_runtime.io.formats`), in SI; UserError if it is no uniformly sampled
-    one.
+def read_netcdf(path: Path) -> list[Table]:
+    """The tables of a NetCDF file, version 3 or 4."""
+    with path.open("rb") as stream:
+        classic = stream.read(3) == b"CDF"
+    return read_classic_netcdf(path) if classic else read_hdf5(path)
 
-    Missing samples are filled in and marked in ``valid``; ``omegadot`` and ``G_out`` are derived where they are absent.
-    ``g0``: the g of the file's units, m/s^2. ``need_output`` False lets a file of motion alone pass. ``accelerometers``
-    are the instrument's. ``mapping``: where the file has names of its own. ``line``: which is meant, where the file has
-    several.
-    """
-    path = Path(path)
-    sources = open_sources(path, mapping)
-    if line is not None:
-        sources = [s for s in sources if s.line == line] or sources
-    return _flight(_single(sources, path), g0, need_output, accelerometers, line is not None)
+
+def write_csv(path: Path, columns: Sequence[Column]) -> None:
+    """Write columns exactly: every number is the shortest that reads back as itself, NaN is left empty."""
+    header = io.StringIO()
+    csv.writer(header, lineterminator="\n").writerow(
+        f"{c.name} [{c.unit}]" if c.unit else c.name for c in columns
+    )
+    arrays = [pa.array(c.values, from_pandas=True) for c in columns]
+    table = pa.Table.from_arrays(arrays, names=[str(k) for k in range(len(arrays))])
+    with path.open("wb") as raw:
+        # Without a name and a time in the gzip header, equal flights give equal files.
+        compressed = path.name.lower().endswith(".gz")
+        stream: IO[bytes] = gzip.GzipFile("", "wb", 6, raw, mtime=0) if compressed else raw  # type: ignore[assignment]
+        stream.write(header.getvalue().encode())
+        pyarrow.csv.write_csv(table, stream, pyarrow.csv.WriteOptions(include_header=False))
+        if compressed:
+            stream.close()
+
+
+COLUMN, TABLE = 8192, 1 << 16
+"""Bytes that a column of a NetCDF file takes beside its numbers, and a table beside its columns, with room to spare."""
+
+
+def write_netcdf(path: Path, columns: Sequence[Column]) -> None:
+    """Write columns as float64 variables along ``time``; names of lines that are no numbers in ``flag_meanings`` (CF, 3.5)."""
+    import xarray  # slow to import, and only this format needs it
+
+    variables: dict[str, Any] = {}
+    for c in columns:
+        values: NDArray[Any] = c.values
+        attributes: dict[str, Any] = {"units": c.unit} if c.unit else {}
+        if c.is_text:
+            names, values = np.unique(np.asarray(values, dtype=str), return_inverse=True)
+            attributes = {
+                "flag_values": np.arange(len(names), dtype=np.int32),
+                "flag_meanings": " ".join("_".join(n.split()) for n in names),
+            }
+            values = values.astype(np.int32)
+        variables[c.name] = ("time", values, attributes)
+    require_room(path, estimate_room([len(c.values) for c in columns]))  # HDF5 does not survive a full disc
+    xarray.Dataset(variables).to_netcdf(path, engine="h5netcdf")
+
+
+def estimate_room(sizes: Sequence[int]) -> int:
+    """Bytes that columns of so many numbers take at most in a NetCDF file."""
+    return TABLE + sum(8 * n + COLUMN for n in sizes)
+
+
+@dataclass(frozen=True)
+class Format:
+    """A format of files: its ``name`` for messages, endings of names, what files begin with (nothing for text)."""
+
+    name: str
+    endings: tuple[str, ...]
+    magic: tuple[bytes, ...]
+    read: Callable[[Path], list[Table]]
+    write: Callable[[Path, Sequence[Column]], None] | None = None
+
+
+FORMATS = (
+    Format("csv", (".csv", ".csv.gz"), (), read_csv, write_csv),
+    Format("parquet", (".parquet", ".pq"), (b"PAR1",), read_parquet, write_parquet),
+    Format("netcdf", (".nc", ".nc4"), (HDF5_MAGIC, b"CDF"), read_netcdf, write_netcdf),
+    Format("hdf5", (".h5", ".hdf5", ".hdf", ".he5"), (HDF5_MAGIC,), read_hdf5),
+    Format("MATLAB", (".mat",), (b"MATLAB 5", b"MATLAB 7", HDF5_MAGIC), read_matlab),
+    Format("Excel", (".xlsx", ".xlsm"), (b"PK\x03\x04",), read_excel),
+)
+
+ENDINGS: Mapping[str, Format] = {e: f for f in FORMATS for e in f.endings}
+"""File name endings and the format that they stand for."""
+
+
+def ending_of(name: str) -> str | None:
+    """The longest known ending of a file name."""
+    return next((e for e in sorted(ENDINGS, key=len, reverse=True) if name.lower().endswith(e)), None)
+
+
+def format_of(path: Path) -> Format:
+    """The format by the ending of the name; UserError for any other."""
+    ending = ending_of(path.name)
+    if ending is not None:
+        return ENDINGS[ending]
+    raise UserError(
+        "no flight format has this file name ending",
+        where=path,
+        found=path.suffix or "no ending",
+        expected=", ".join(ENDINGS),
+        remedy="save the record in one of these formats",
+    )
+
+
+def require_writable(path: Path) -> Callable[[Path, Sequence[Column]], None]:
+    """The writer of a file; UserError for formats that are read alone."""
+    kind = format_of(path)
+    if kind.write is not None:
+        return kind.write
+    raise UserError(
+        f"{kind.name} files are read, not written",
+        where=path,
+        expected=", ".join(e for f in FORMATS if f.write for e in f.endings),
+        remedy="choose one of these formats",
+    )
+
+
+def _require_content(path: Path, expected: Format) -> None:
+    """Compare the first bytes of an existing file with its format."""
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise UserError(
+            "a flight file is needed here, not a device or a pipe",
+            where=path,
+            expected="a regular file",
+            remedy="write the record to a file first",
+        )
+    try:
+        with path.open("rb") as stream:
+            head = stream.read(8)
+    except FileNotFoundError:
+        raise UserError(
+            "the flight file does not exist",
+            where=path,
+            expected="a CSV, Parquet or NetCDF file, or another that `ragg convert` reads",
+            remedy="check the name and the folder",
+        ) from None
+    except IsADirectoryError:
+        raise UserError(
+            "a flight file is needed here, not a directory", where=path, remedy="name the files in it"
+        ) from None
+    except OSError as error:
+        raise UserError("the flight file cannot be read", where=path, found=error.strerror) from None
+    if not head:
+        raise UserError(
+            "the flight file is empty",
+            where=path,
+            found="0 bytes",
+            expected="a header of names and units, then rows",
+            remedy="the recording or the copy may have failed: get the file again",
+        )
+    names = [f.name for f in FORMATS if any(head.startswith(m) for m in f.magic)]
+    names += ["old Excel (.xls)"] if head.startswith(b"\xd0\xcf\x11\xe0") else []
+    if (expected.name in names) if expected.magic else not names:
+        return
+    raise UserError(
+        "the content does not fit the ending of the file name",
+        where=path,
+        found=f"{' or '.join(names)}, by its first bytes" if names else "text, or a format that is not known",
+        expected=expected.name,
+        remedy="rename the file, or save it as CSV, Parquet or NetCDF-4",
+    )
+
+
+def read_tables(path: Path) -> list[Table]:
+    """All tables of a file, by the ending of its name and its content."""
+    kind = format_of(path)
+    _require_content(path, kind)
+    try:
+        return kind.read(path)
+    except MemoryError:
+        raise UserError(
+            "the file is damaged, or too large for the memory of this computer",
+            where=path,
+            remedy="copy it again, or divide it",
+        ) from None
+
+
+# --- reading -------------------------------------------------------------------------------------------
+
+
+def read_recordings(
+    source: Any, mapping: Mapped | None = None, *, lenient: bool = False, leave: frozenset[str] = frozenset()
+) -> list[Recording]:
+    """The recordings in a file or in memory, one for each line; see :func:`.recording.make_recordings`."""
+    if isinstance(source, str | Path):
+        path = Path(source)
+        return make_recordings(read_tables(path), path, mapping, lenient=lenient, leave=leave)
+    return make_recordings(tabulate(source), "flight", mapping, lenient=lenient, leave=leave)
 
 
 def read_flights(
-    path: Path | str,
+    source: Any,
     g0: float,
     *,
     need_output: bool = True,
     accelerometers: Accelerometers = PAPER,
     mapping: Mapped | None = None,
     leave: frozenset[str] = frozenset(),
+    name: str = "flight",
 ) -> list[Flight]:
-    """The flights in a file, one for each line; ``leave`` names columns that are not read, the other arguments are
-    those of :func:`read_flight`.
+    """The flights in a file or in memory, in SI, one for each line; UserError if they are no uniformly sampled ones.
+
+    Missing samples are filled in and marked in ``valid``; ``omegadot`` and ``G_out`` are derived where they are absent.
+
+    Parameters
+    ----------
+    source
+        A path (see :data:`FORMATS`), a pandas DataFrame, an xarray Dataset, or a dict of arrays (n,).
+    g0
+        The g of the file's units, m/s^2.
+    need_output
+        False lets a record of motion alone pass.
+    accelerometers
+        The instrument's.
+    mapping
+        What the columns are, where the file has names of its own.
+    leave
+        Channels that are not read.
+    name
+        Of a flight in memory.
     """
-    sources = open_sources(Path(path), mapping, leave=leave)
-    return [_flight(s, g0, need_output, accelerometers, len(sources) > 1) for s in sources]
+    path = Path(source) if isinstance(source, str | Path) else None
+    tables = tabulate(source) if path is None else read_tables(path)
+    made = make_recordings(tables, name if path is None else path, mapping, leave=leave)
+    digest = digest_tables(tables) if path is None else file_digest(path)
+    title = name if path is None else flight_name(path)
+    flights = []
+    for r in made:
+        with _naming_line(r.line if len(made) > 1 else None):
+            x = make_flight(r, g0, need_output=need_output, accelerometers=accelerometers)
+            own = title + (f":{r.line}" if len(made) > 1 else "")
+            flights.append(require_enough(replace(x, name=own, path=path, digest=digest), len(r)))
+    return flights
 
 
-def _flight(
-    source: Source, g0: float, need_output: bool, accelerometers: Accelerometers, several: bool
-) -> Flight:
-    plan = layout(
-        source.path,
-        source.columns,
-        g0,
-        need_output=need_output,
-        accelerometers=accelerometers,
-        passed=source.passed,
-    )
-    name = flight_name(source.path) + (f":{source.line}" if several else "")
-    with _line_named(source, several):
-        rows = source.rows()
-        made = enough(plan.flight(rows, name=name, digest=file_digest(source.path)), len(rows["time"]))
-    notes = (*source.notes, *made.notes)
-    return replace(made, notes=notes, demodulation=source.demodulation, instants=source.instants)
-
-
-@contextlib.contextmanager
-def _line_named(source: Source, several: bool) -> Iterator[None]:
-    """Say in the message which of several lines is at fault."""
-    try:
-        yield
-    except UserError as error:
-        if not several:
-            raise
-        raise UserError(
-            f"line {source.line}: {error.what}",
-            where=error.where,
-            found=error.found,
-            expected=error.expected,
-            remedy=error.remedy,
-        ) from None
-
-
-def _single(sources: Sequence[Source], path: Path) -> Source:
-    if len(sources) == 1:
-        return sources[0]
-    names = [str(s.line) for s in sources]
+def read_flight(source: Any, g0: float, *, line: str | None = None, **options: Any) -> Flight:
+    """The only flight in a file or in memory, or that of a ``line``; see :func:`read_flights`."""
+    flights = read_flights(source, g0, **options)
+    if line is not None:
+        flights = [x for x in flights if x.name.endswith(f":{line}")] or flights
+    if len(flights) == 1:
+        return flights[0]
+    names = [x.name.rpartition(":")[2] for x in flights]
     raise UserError(
         "the file holds several lines",
-        where=path,
+        where=flights[0].path or flights[0].name,
         found=", ".join(names[:12]) + (" ..." if len(names) > 12 else ""),
         expected="one flight",
         remedy="name the line that is meant in a mapping: [file] lines = [...]; or convert it first",
     )
 
 
-def write_flight(
-    flight: Flight, path: Path | str, units_of: Mapping[str, str] | None = None, g0: float | None = None
-) -> None:
-    """Write a flight as CSV, Parquet or NetCDF, by the ending of the name; whole or not at all.
-
-    In SI, the default, reading it back gives the same bits. ``units_of`` gives some columns another unit; ``g0``:
-    m/s^2.
-    """
-    write_tables(Path(path), [Written(_columns(flight, units_of or {}, g0))])
-
-
-def write_tables(path: Path, tables: Sequence[Written]) -> None:
-    """Write tables in the format of the name's ending, whole or not at all."""
-    kind = writable(path)
-    with replacing(path) as temporary:
-        kind.write_tables(temporary, tables)
+@contextlib.contextmanager
+def _naming_line(line: str | None) -> Iterator[None]:
+    """Say in the message which of several lines is at fault."""
+    try:
+        yield
+    except UserError as error:
+        if line is None:
+            raise
+        raise UserError(
+            f"line {line}: {error.what}",
+            where=error.where,
+            found=error.found,
+            expected=error.expected,
+            remedy=error.remedy,
+        ) from None
 
 
 def flight_name(path: Path) -> str:
@@ -139,7 +314,54 @@ def flight_name(path: Path) -> str:
     return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)
 
 
-def _columns(flight: Flight, units_of: Mapping[str, str], g0: float | None) -> list[tuple[Heading, Array]]:
+# --- writing -------------------------------------------------------------------------------------------
+
+
+def write_flight(
+    flight: Flight, path: Path | str, units_of: Mapping[str, str] | None = None, g0: float | None = None
+) -> None:
+    """Write a flight as CSV, Parquet or NetCDF, by the ending of the name; whole or not at all.
+
+    In SI, the default, reading it back gives the same bits. ``units_of`` gives some columns another unit; ``g0``:
+    m/s^2.
+    """
+    write_tables(Path(path), [Table(tuple(_columns(flight, units_of or {}, g0)))])
+
+
+def write_tables(path: Path, tables: Sequence[Table]) -> None:
+    """Write tables in the format of the name's ending, whole or not at all; lines are told apart by a column ``line``."""
+    write = require_writable(path)
+    with replacing(path) as temporary:
+        write(temporary, join_tables(tables))
+
+
+def join_tables(tables: Sequence[Table]) -> list[Column]:
+    """The columns of all tables one after the other; where they are lines a column ``line`` tells them apart."""
+    units_of = {c.name: c.unit for t in reversed(tables) for c in t.columns}
+    names = list(dict.fromkeys(n for t in tables for n in t.names))
+    found: list[Column] = []
+    if any(t.line is not None for t in tables):
+        lines = [t.line or "" for t in tables]
+        numeric = all(_is_plain_number(n) for n in lines)
+        labels = np.array([float(n) for n in lines]) if numeric else np.array(lines, dtype=object)
+        found.append(Column("line", "1" if numeric else "", np.repeat(labels, [len(t) for t in tables])))
+    for n in names:
+        parts: list[NDArray[Any]] = [
+            t.column(n).values if n in t.names else np.full(len(t), np.nan) for t in tables
+        ]
+        found.append(Column(n, units_of[n], np.concatenate(parts) if len(parts) > 1 else parts[0]))
+    return found
+
+
+def _is_plain_number(line: str) -> bool:
+    """Whether a line's name is a number from which :func:`line_name` makes the name again."""
+    try:
+        return np.isfinite(float(line)) and line_name(float(line)) == line
+    except ValueError:
+        return False
+
+
+def _columns(flight: Flight, units_of: Mapping[str, str], g0: float | None) -> list[Column]:
     known = units(1.0 if g0 is None else g0)
     ordered = [n for n in SI_UNITS if n in flight.channels]
     ordered += [n for n in flight.channels if n not in SI_UNITS]
@@ -153,9 +375,8 @@ def _columns(flight: Flight, units_of: Mapping[str, str], g0: float | None) -> l
         unit = units_of.get(name, flight.units[name])
         if g0 is None and known.uses_g(unit):
             raise ValueError(f"{name} in {unit}: g0 is needed")
-        columns.append(
-            (Heading(name, unit), known.from_si(values, flight.units[name], unit, f"column {name!r}"))
-        )
+        converted = known.from_si(values, flight.units[name], unit, f"column {name!r}")
+        columns.append(Column(name, unit, converted))
     return columns
 
 
@@ -172,37 +393,40 @@ class Converted:
 def convert(source: Path, target: Path, mapping: Mapped | None = None) -> Converted:
     """Write the flights of one file to another, in the format of its ending; values as they are.
 
-    Instants become seconds since the first of them, of every line its own: the angle of a disc without an encoder counts from there,
-    in the new file and in what is cut out of it.
+    Instants become seconds since the first of them, of every line its own: the angle of a disc without an encoder counts
+    from there, in the new file and in what is cut out of it.
     """
     if source.resolve() == target.resolve():
         raise UserError("a file cannot be converted into itself", where=source, remedy="name another file")
-    writable(target)  # before a long file is read for nothing
-    sources = open_sources(source, mapping, lenient=True)
-    tables, begins = [], []
-    for s in sources:
-        rows, zero = _from_first(s)
-        begins += [zero] if zero is not None else []
-        tables.append(Written([(c, rows[c.name]) for c in s.columns], s.line if len(sources) > 1 else None))
+    require_writable(target)  # before a long file is read for nothing
+    made = read_recordings(source, mapping, lenient=True)
+    counted = [_from_first(r) for r in made]
+    tables = [
+        Table(c, line=r.line if len(made) > 1 else None) for r, (c, _) in zip(made, counted, strict=True)
+    ]
     write_tables(target, tables)
-    notes = list(dict.fromkeys(n for s in sources for n in s.notes))
-    bare = [c.name for c in sources[0].columns if not c.unit]
-    if bare:
-        notes.append(f"without a unit, as in the file: {', '.join(bare)}")
-    notes += dict.fromkeys(begins)
-    count = sum(len(t.columns[0][1]) for t in tables if t.columns)
-    return Converted(len(tables), count, tuple(c.name for c in sources[0].columns), tuple(notes))
+    columns = made[0].columns
+    bare = [c.name for c in columns if not c.unit]
+    notes = [n for r in made for n in r.notes]
+    notes += [f"without a unit, as in the file: {', '.join(bare)}"] if bare else []
+    notes += [note for _, note in counted if note]
+    names = tuple(c.name for c in columns)
+    return Converted(len(tables), sum(map(len, tables)), names, tuple(dict.fromkeys(notes)))
 
 
-def _from_first(s: Source) -> tuple[Rows, str | None]:
-    """Rows with instants as seconds since the first; and when ``time`` is 0, in words, if that is known."""
-    rows = s.rows()
-    time, line = rows["time"], "" if s.line is None else f"line {s.line}: "
-    there = time[np.isfinite(time)]
-    first = float(there[0]) if s.instants and len(there) else 0.0
-    if s.origin is not None:
-        zero = (s.origin + timedelta(seconds=first)).isoformat().replace("+00:00", "Z")
-        return {**rows, "time": time - first}, f"{line}time counts from {zero}"
-    if s.instants:
-        return {**rows, "time": time - first}, f"{line}time counts from {first:.10g} s after midnight"
-    return rows, None
+def _from_first(r: Recording) -> tuple[tuple[Column, ...], str]:
+    """Columns with instants as seconds since the first; and when ``time`` is 0, in words, if that is known."""
+    time = next((c for c in r.columns if c.name == "time"), None)
+    if time is None or not len(r):
+        return r.columns, ""
+    first = float(time.values[0]) if r.instants else 0.0
+    columns = tuple(replace(c, values=c.values - first) if c is time and first else c for c in r.columns)
+    line = "" if r.line is None else f"line {r.line}: "
+    if r.origin is not None:
+        return columns, f"{line}time counts from {write_instant(r.origin + timedelta(seconds=first))}"
+    return columns, f"{line}time counts from {first:.10g} s after midnight" if r.instants else ""
+
+
+def write_instant(instant: datetime) -> str:
+    """An instant in ISO 8601, UTC as ``Z``."""
+    return instant.isoformat().replace("+00:00", "Z")

@@ -4,10 +4,11 @@
 line = "LINE"                   # column that tells flight lines apart
 lines = ["1010", "1020"]        # only these
 part = "flight/imu"             # group (HDF5), structure (MATLAB) or sheet (Excel)
+null = [-9999, "n/a"]           # what stands for a missing value in any column; a column may have its own
 
 [time]
 column = "UTC"                  # or two: ["DATE", "CLOCK"], ["WEEK", "SECOND"]
-format = "seconds"              # or "iso", "clock", "date clock", "gps"
+format = "seconds"              # or "iso", "clock", "date clock", "gps", "d/m/y", "m/d/y"
 unit = "s"                      # of "seconds"
 origin = 2026-03-01T00:00:00Z   # of "seconds": when they were 0, if that is known
 
@@ -42,18 +43,21 @@ from ragg_runtime.base.files import read_text
 from ragg_runtime.base.names import is_column, read_name
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.instants import WAYS
+from ragg_runtime.io.instants import WAYS, order_of
 
 UNKNOWN = "?"
 """What ``ragg map`` writes where the answer is not in the file."""
 
-_TABLES = ("file", "time", "columns", "axes", "demodulator")
+_TABLES = ("file", "time", "columns", "axes", "demodulator", "null", "format")
 _KEYS: Mapping[str, tuple[str, ...]] = {
-    "file": ("line", "lines", "part"),
-    "time": ("column", "format", "unit", "origin"),
+    "file": ("line", "lines", "part", "null", "format"),
+    "time": ("column", "format", "unit", "origin", "null"),
     "axes": ("x", "y", "z"),
-    "columns": ("column", "unit", "sign", "scale", "offset"),
+    "columns": ("column", "unit", "sign", "scale", "offset", "null"),
 }
+
+Null = tuple[float | str, ...]
+"""What stands for a missing value: numbers in the file's unit, or texts."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +68,7 @@ class Entry:
     unit: str
     factor: float = 1.0
     offset: float = 0.0
+    null: Null = ()
 
 
 @dataclass(frozen=True)
@@ -74,6 +79,7 @@ class Time:
     format: str = "seconds"
     unit: str = "s"
     origin: datetime | None = None
+    null: Null = ()
 
 
 @dataclass(frozen=True)
@@ -121,7 +127,7 @@ def parse_mapping(text: str, path: Path) -> Mapped:
         ) from None
     check_keys(data, _TABLES, path)
     for key, value in data.items():
-        if not isinstance(value, dict):
+        if not isinstance(value, dict) and key not in ("null", "format"):
             raise UserError(f"[{key}] is not a table", where=path, found=repr(value)[:60])
         if key in _KEYS and key != "columns":
             check_keys(value, _KEYS[key], at(path, f"[{key}]"))
@@ -136,7 +142,8 @@ def parse_mapping(text: str, path: Path) -> Mapped:
             found=repr(lines)[:60],
             expected='["1010", "1020"]',
         )
-    channels = {n: _entry(n, v, at(path, f"[columns] {n}")) for n, v in data.get("columns", {}).items()}
+    null = _null(data.get("null"), str(path)) + _null(file.get("null"), at(path, "[file]"))
+    channels = {n: _entry(n, v, null, at(path, f"[columns] {n}")) for n, v in data.get("columns", {}).items()}
     if "time" not in data:
         raise UserError("[time] is missing", where=path, expected='[time] column = "...", unit = "s"')
     if "time" in channels:
@@ -145,7 +152,11 @@ def parse_mapping(text: str, path: Path) -> Mapped:
         )
     return Mapped(
         path=path,
-        time=_time(data["time"], at(path, "[time]")),
+        time=_time(
+            {**_default(data.get("format")), **_default(file.get("format")), **data["time"]},
+            null,
+            at(path, "[time]"),
+        ),
         channels=MappingProxyType(channels),
         axes=_axes(data["axes"], at(path, "[axes]")) if "axes" in data else None,
         line=_word(file.get("line"), "line", at(path, "[file]")),
@@ -156,7 +167,24 @@ def parse_mapping(text: str, path: Path) -> Mapped:
     )
 
 
-def _entry(name: str, raw: Any, where: str) -> Entry:
+def _default(format_: Any) -> dict[str, Any]:
+    return {} if format_ is None else {"format": format_}
+
+
+def _null(raw: Any, where: str) -> Null:
+    """One or several numbers or texts."""
+    values = raw if isinstance(raw, list) else [] if raw is None else [raw]
+    if any(isinstance(v, bool) or not isinstance(v, int | float | str) for v in values):
+        raise UserError(
+            "null is no list of numbers and texts",
+            where=where,
+            found=repr(raw)[:60],
+            expected="null = [-9999]",
+        )
+    return tuple(v.strip() if isinstance(v, str) else float(v) for v in values)
+
+
+def _entry(name: str, raw: Any, null: Null, where: str) -> Entry:
     if not is_column(name):
         read_name(name, where, "temperature")
     if isinstance(raw, str):
@@ -182,23 +210,25 @@ def _entry(name: str, raw: Any, where: str) -> Entry:
         unit=_unit(raw.get("unit", ""), where),
         factor=sign * scale,
         offset=_number(raw.get("offset", 0), "offset", where),
+        null=null + _null(raw.get("null"), where),
     )
 
 
-def _time(raw: Mapping[str, Any], where: str) -> Time:
+def _time(raw: Mapping[str, Any], null: Null, where: str) -> Time:
     columns = raw.get("column")
     names = (columns,) if isinstance(columns, str) else tuple(columns) if isinstance(columns, list) else ()
     written = _word(raw.get("format", "seconds"), "format", where) or ""
-    if written != "seconds" and written not in WAYS:
+    if written not in ("seconds", *WAYS) and order_of(written) is None:
         raise UserError(
             "no such format of time",
             where=where,
             found=repr(written),
-            expected="seconds, " + ", ".join(f"{n} ({w.example})" for n, w in WAYS.items()),
+            expected="seconds, " + ", ".join(f"{n} ({example})" for n, (_, example) in WAYS.items()),
             remedy=did_you_mean(written, ("seconds", *WAYS)),
         )
-    count = WAYS[written].columns if written in WAYS else 1
-    if len(names) != count or not all(isinstance(n, str) and n for n in names):
+    count = WAYS[written][0] if written in WAYS else 1
+    both = order_of(written) is not None and len(names) == 2  # the date and the time of the day
+    if (len(names) != count and not both) or not all(isinstance(n, str) and n for n in names):
         raise UserError(
             f"time as {written!r} stands in {'two columns' if count == 2 else 'one column'}",
             where=where,
@@ -215,7 +245,8 @@ def _time(raw: Mapping[str, Any], where: str) -> Time:
     if origin is not None and written != "seconds":
         raise UserError(f"time as {written!r} has its own origin", where=where, remedy="leave origin out")
     unit = _unit(raw.get("unit", "" if written == "seconds" else "s"), where)
-    return Time(columns=names, format=written, unit=unit, origin=origin)
+    null += _null(raw.get("null"), where)
+    return Time(columns=names, format=written, unit=unit, origin=origin, null=null)
 
 
 def _axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:

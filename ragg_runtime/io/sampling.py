@@ -46,7 +46,7 @@ class Grid:
 
 
 @np.errstate(over="ignore", invalid="ignore")  # absurd times: what comes of them is refused
-def uniform(time: Array, path: Path | None) -> Grid:
+def uniform(time: Array, path: Path | str | None) -> Grid:
     """The grid of a record's instants (n,), s; UserError where they make none."""
     where = at(path, "column 'time'")
     steps = _steps(time, path, where)
@@ -95,7 +95,7 @@ def uniform(time: Array, path: Path | None) -> Grid:
     )
 
 
-def _steps(time: Array, path: Path | None, where: str) -> Array:
+def _steps(time: Array, path: Path | str | None, where: str) -> Array:
     """(n - 1,) s: from each instant to the next, all above zero."""
     if len(time) < 2:
         raise UserError(

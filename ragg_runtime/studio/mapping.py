@@ -6,7 +6,7 @@ import json
 import math
 import shutil
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +15,10 @@ from starlette.requests import ClientDisconnect, Request
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text, replacing
-from ragg_runtime.io.formats import open_file
-from ragg_runtime.io.guess import draft, sample
+from ragg_runtime.io.draft import draft_mapping, sample_table
 from ragg_runtime.io.mapping import UNKNOWN, Mapped, parse_mapping
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
-from ragg_runtime.io.source import Heading, Look
+from ragg_runtime.io.tables import Column
 from ragg_runtime.studio.session import State, safe_name
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow.loop import Loaded, keep_mapping, mapping_of
@@ -41,16 +40,16 @@ UNWRITTEN = Path("mapping.toml")
 
 def begun(m: Loaded, path: Path) -> Json:
     """The model's own mapping if the file has its columns, else a first one by looking; and what the file holds."""
-    headings = open_file(path, Look(text=True))[0].headings
-    names = {h.name for h in headings}
+    columns = sample_table(path).columns
+    names = {c.name for c in columns}
     own = mapping_of(m, None)
     if own is not None and own.columns <= names:
-        return _shown(tomllib.loads(read_text(own.path)), headings, {}, kept=True)
-    made = draft(path)
-    return _shown(tomllib.loads(made.text), headings, made.sure, kept=own is not None)
+        return _shown(tomllib.loads(read_text(own.path)), columns, {}, kept=True)
+    made = draft_mapping(path)
+    return _shown(tomllib.loads(made.text), columns, made.sure, kept=own is not None)
 
 
-def _shown(data: Json, headings: tuple[Heading, ...] | Any, sure: Mapping[str, str], *, kept: bool) -> Json:
+def _shown(data: Json, held: Sequence[Column], sure: Mapping[str, str], *, kept: bool) -> Json:
     rows = []
     columns = data.get("columns", {})
     missing = [n for n in NEEDED if n not in columns]
@@ -64,7 +63,7 @@ def _shown(data: Json, headings: tuple[Heading, ...] | Any, sure: Mapping[str, s
         rows.append({"channel": name, "unit": "", "sign": 1, "scale": 1, **entry, "sure": how, "asked": asks})
     time = {"format": "seconds", "unit": "s", **data.get("time", {"column": UNKNOWN})}
     return {
-        "columns": [{"name": h.name, "unit": h.unit or "", "text": h.text} for h in headings],
+        "columns": [{"name": c.name, "unit": c.unit, "text": not c.is_number} for c in held],
         "rows": rows,
         "time": {k: str(v) if k == "origin" else v for k, v in time.items()},
         "file": data.get("file", {}),
@@ -123,17 +122,16 @@ def tried(m: Loaded, path: Path, given: Mapping[str, Any]) -> Json:
 
 
 def _preview(m: Loaded, path: Path, how: Mapped) -> list[Json]:
-    table = open_file(path, Look(text=True))[0]
-    values, units = sample(table), {h.name: h.unit or "" for h in table.headings}
+    columns = {c.name: c for c in sample_table(path).columns}
     found = []
     for name, e in how.channels.items():
-        if e.column not in values:
+        if e.column not in columns:
             raise UserError("the file has no such column", where=name, found=e.column)
-        if values[e.column].dtype.kind not in "fiu":
+        if not columns[e.column].is_number:
             raise UserError("the column holds no numbers", where=name, found=e.column)
-        unit = e.unit or units[e.column]
+        unit = e.unit or columns[e.column].unit
         si = SI_UNITS.get(name, unit)
-        x = np.asarray(values[e.column], dtype=np.float64) * e.factor + e.offset
+        x = columns[e.column].values * e.factor + e.offset
         x = m.instrument.units.to_si(x, unit, si, f"[columns] {name}") if unit != si else x
         seen = x[np.isfinite(x)]
         step = max(1, len(x) // POINTS)

@@ -23,7 +23,7 @@ from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.foresee import Unwhitened
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
-from ragg_runtime.io.formats import ENDINGS, ending_of
+from ragg_runtime.io.files import ENDINGS, ending_of
 from ragg_runtime.studio.tracks import Tracks, compensated
 from ragg_runtime.workflow import after, loop, versions
 from ragg_runtime.workflow.after import Compensation

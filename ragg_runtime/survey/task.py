@@ -37,9 +37,9 @@ from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight
+from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import Mapped, parse_mapping
 from ragg_runtime.io.record import content
-from ragg_runtime.io.sources import open_sources
 from ragg_runtime.model_dir import derive
 from ragg_runtime.screening import examined
 
@@ -139,7 +139,7 @@ def expanded(given: Job, files: Sequence[str]) -> list[str]:
     found = []
     for file in files:
         try:
-            names = [s.line for s in open_sources(Path(file), given.mapped())]
+            names = [r.line for r in read_recordings(Path(file), given.mapped())]
         except (UserError, OSError):
             names = [None]
         found += [file] if len(names) == 1 else [f"{file}{BETWEEN}{n}" for n in names]

@@ -33,7 +33,7 @@ from ragg_runtime.compensation.recursive import Tuning, followed, following
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.series import MEANING
 from ragg_runtime.io import Flight
-from ragg_runtime.io.formats import writable
+from ragg_runtime.io.files import require_writable
 from ragg_runtime.io.record import distinct
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.record import GRADIENTS
@@ -42,7 +42,7 @@ from ragg_runtime.model_dir.directory import CALIBRATION, replace_model_dir
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.wording import describe
 from ragg_runtime.wording.sections import render_notebook
-from ragg_runtime.workflow.loop import Loaded, mapping_text, read_flights
+from ragg_runtime.workflow.loop import Flights, Loaded, mapping_text, read_flights
 
 
 @dataclass(frozen=True)
@@ -68,8 +68,9 @@ class Kept:
         return self.calibrated.as_json() | {"saved": self.saved}
 
 
-def calibrate(m: Loaded, flights: Sequence[Flight], save: bool = False, mapping: Path | None = None) -> Kept:
+def calibrate(m: Loaded, flights: Flights, save: bool = False, mapping: Path | None = None) -> Kept:
     """Fit the parameters to flights; ``save`` keeps them (and ``mapping``) in the model directory, older ones as history."""
+    flights = read_flights(m, flights, mapping)
     distinct(flights)
     text = None if mapping is None else mapping_text(mapping)
     c = _calibrated.calibrated(m.model, m.instrument, flights)
@@ -97,8 +98,9 @@ def saved_calibration(m: Loaded) -> Saved:
     return _frozen.in_force(m.directory.calibration, m.directory.path / CALIBRATION, m.model, m.instrument)
 
 
-def compare_frozen(m: Loaded, flights: Sequence[Flight]) -> Held:
+def compare_frozen(m: Loaded, flights: Flights) -> Held:
     """How far the model is from flights with the parameters as they were kept, and how these hold."""
+    flights = read_flights(m, flights)
     distinct(flights)
     return _frozen.hold(m.model, m.instrument, flights, saved_calibration(m))
 
@@ -135,7 +137,7 @@ QUALITY: Mapping[str, str] = MappingProxyType({str(q.name): text for q, text in 
 @one_thread
 def compensate(
     m: Loaded,
-    flights: Sequence[Flight],
+    flights: Flights,
     calibration: Kind | Literal["online"] = "self",
     demodulator: str = "fir",
     output: Path | str | None = None,
@@ -165,6 +167,7 @@ def compensate(
     forget
         Of ``online``: time constant, s, with which the parameters forget the flight.
     """
+    flights = read_for_compensation(m, flights)
     if calibration == "online":
         return _online(m, flights, output, noise, walk, forget)
     saved = saved_calibration(m) if calibration == "frozen" else None
@@ -306,12 +309,10 @@ FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType(
 
 def check_output(path: Path) -> None:
     """UserError if no compensated series is written in this format: said before anything is computed."""
-    writable(path)
+    require_writable(path)
 
 
-def read_for_compensation(
-    m: Loaded, paths: Sequence[Path | str], mapping: Path | None = None
-) -> list[Flight]:
+def read_for_compensation(m: Loaded, paths: Flights, mapping: Path | None = None) -> list[Flight]:
     """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
     return read_flights(m, paths, mapping, leave=frozenset(GRADIENTS))
 

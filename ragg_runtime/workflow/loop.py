@@ -60,8 +60,9 @@ if TYPE_CHECKING:
     from ragg_runtime.survey.run import Progress
 
 
-def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Comparison:
+def compare(m: Loaded, flights: Flights, *, ladder: bool = False) -> Comparison:
     """How far the model is from the flights; with ``ladder`` also what each simplification of it is worth there."""
+    flights = read_flights(m, flights)
     distinct(flights)
     c = _compare.compare(m.model, m.instrument, flights)
     if not ladder:
@@ -73,11 +74,12 @@ def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Co
 
 def diagnose(
     m: Loaded,
-    flights: Sequence[Flight],
+    flights: Flights,
     limits: Mapping[str, float] = LIMITS,
     compared: Comparison | None = None,
 ) -> Diagnosis:
     """Which physical effect the model lacks; with ``compared`` of the same flights nothing is fitted again."""
+    flights = read_flights(m, flights)
     distinct(flights)
     extended = partial(derive.with_effects, m.instrument)
     if compared is not None:
@@ -203,7 +205,7 @@ def _judged(c: Comparison | None) -> dict[str, object] | None:
 def add(
     m: Loaded,
     effect: str,
-    flights: Sequence[Flight] = (),
+    flights: Flights = (),
     tell: Callable[[Added], None] | None = None,
     *,
     save: bool = True,
@@ -213,6 +215,7 @@ def add(
     The directory is changed whole or not at all, after ``tell`` has been called with the result. Nothing is changed if
     that raises, if the calibration does not converge, or without ``save``.
     """
+    flights = read_flights(m, flights)
     distinct(flights)
     setting = _setting(m, effect, flights)
     others = replace(m.instrument, effects=tuple(s for s in m.instrument.effects if s.id != effect))
@@ -424,22 +427,39 @@ def loaded(directory: ModelDir) -> Loaded:
     return Loaded(directory, model, () if note is None else (note,))
 
 
-def read_flights(
-    m: Loaded,
-    paths: Sequence[Path | str],
-    mapping: Path | str | None = None,
-    *,
-    leave: frozenset[str] = frozenset(),
-) -> list[Flight]:
-    """Read flight files, every line of one a flight, in the units of this model (its g0), and examine them.
+Flights = Flight | Path | str | Any
+"""A flight as it was read, a path, a pandas DataFrame, an xarray Dataset, or a dict of arrays; or a list of these."""
 
-    ``mapping`` says what the columns are, by default the model's own; ``leave`` names columns that are not read.
+
+def read_flights(
+    m: Loaded, paths: Flights, mapping: Path | str | None = None, *, leave: frozenset[str] = frozenset()
+) -> list[Flight]:
+    """Read flights, every line of a file a flight, in the units of this model (its g0), and examine them.
+
+    Parameters
+    ----------
+    paths
+        Paths, pandas DataFrames, xarray Datasets or dicts of arrays (columns ``name [unit]``, or units in ``attrs``), one
+        or a list of these. Flights that were read already stay as they are.
+    mapping
+        What the columns are, by default the model's own.
+    leave
+        Columns that are not read.
     """
-    how = mapping_of(m, mapping)
+    given = list(paths) if isinstance(paths, list | tuple) else [paths]
+    how = mapping_of(m, mapping) if any(not isinstance(x, Flight) for x in given) else None
     found: list[Flight] = []
-    for path in paths:
+    for n, one in enumerate(given, 1):
+        if isinstance(one, Flight):
+            found.append(one)
+            continue
         read = _read_flights(
-            path, m.instrument.g0, accelerometers=m.instrument.layout, mapping=how, leave=leave
+            one,
+            m.instrument.g0,
+            accelerometers=m.instrument.layout,
+            mapping=how,
+            leave=leave,
+            name="flight" if len(given) == 1 else f"flight {n}",
         )
         found += [examined(m.model, m.instrument, x) for x in read]
     return found

@@ -19,7 +19,7 @@ from derive.pipeline import Form, derive_harmonics, derive_model, derive_plain
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import read_flight, write_flight
-from ragg_runtime.io.guess import draft
+from ragg_runtime.io.draft import draft_mapping
 from ragg_runtime.io.mapping import parse_mapping
 from ragg_runtime.model.model import from_files
 from tests.layouts import sheets
@@ -225,7 +225,7 @@ def test_a_mapping_gives_identifiers(tmp_path: Path) -> None:
             parse_mapping(head + f"{json.dumps(text, ensure_ascii=False)} = 't'\n", tmp_path / "mapping.toml")
         assert "[columns]" in str(error.value.where)
     (tmp_path / "flight.csv").write_text("time [s],Öl °C [K],*/ [V]\n1,2,3\n2,3,4\n")
-    made = draft(tmp_path / "flight.csv").text.replace("# c_", "c_")
+    made = draft_mapping(tmp_path / "flight.csv").text.replace("# c_", "c_")
     assert {"c_l_C", "c_"} <= {*parse_mapping(made, tmp_path / "mapping.toml").channels}
 
 

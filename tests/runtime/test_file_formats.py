@@ -1,4 +1,4 @@
-"""Every format of the field keeps names, units, lines and every number."""
+"""Every format gives back what was written: names, units, lines and every bit; other tools' files are read."""
 
 from __future__ import annotations
 
@@ -6,43 +6,46 @@ import errno
 import itertools
 import os
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
+import h5py
 import numpy as np
 import openpyxl
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
+import xarray
+from scipy.io import netcdf_file, savemat
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.io.files import convert, write_tables
-from ragg_runtime.io.formats import open_file
-from ragg_runtime.io.netcdf_file import room
-from ragg_runtime.io.source import Heading, Look, Written
-from ragg_runtime.io.sources import open_sources
+from ragg_runtime.io import Flight, files, read_flight, write_flight
+from ragg_runtime.io.files import convert, estimate_room, read_recordings, write_tables
+from ragg_runtime.io.tables import Column, Table
 from tests.runtime.foreign_files import ENDINGS, write
 
+G0 = 9.8
 WRITTEN = (".csv", ".csv.gz", ".parquet", ".nc")
-UNITS = {"time": "s", "a_x": "g", "omega_y": "deg/h", "inline": "Eo", "fuel": "kg"}
+UNITS = {"a_x": "g", "omega_y": "deg/h", "inline": "Eo", "fuel": "kg"}
 
 
-def made(n: int, lines: tuple[str, ...], seed: int = 0) -> list[Written]:
+def made(n: int, lines: tuple[str, ...], seed: int = 0) -> list[Table]:
     rng = np.random.default_rng(seed)
     found = []
     for k, line in enumerate(lines or (None,)):
-        columns = [(Heading("time", "s"), np.arange(n + k) / 3.0)]
-        for name in ("a_x", "omega_y", "inline", "fuel"):
+        columns = [Column("time", "s", np.arange(n + k) / 3.0)]
+        for name, unit in UNITS.items():
             values = np.round(rng.normal(size=n + k), 9) * 10.0 ** rng.integers(-12, 12)
             values[rng.integers(0, n + k)] = np.nan
-            columns.append((Heading(name, UNITS[name]), values))
-        found.append(Written(columns, line))
+            columns.append(Column(name, unit, values))
+        found.append(Table(tuple(columns), line))
     return found
 
 
 def content(path: Path) -> dict[str | None, dict[str, tuple[str, np.ndarray]]]:
-    found = {}
-    for s in open_sources(path, lenient=True):
-        rows = s.rows()
-        found[s.line] = {c.name: (c.unit, rows[c.name]) for c in s.columns}
-    return found
+    return {
+        r.line: {c.name: (c.unit, c.values) for c in r.columns} for r in read_recordings(path, lenient=True)
+    }
 
 
 def same(left: dict, right: dict, rtol: float = 0.0) -> None:
@@ -54,13 +57,8 @@ def same(left: dict, right: dict, rtol: float = 0.0) -> None:
             np.testing.assert_allclose(right[line][name][1], values, rtol=rtol, atol=0.0, err_msg=name)
 
 
-def expected(tables: list[Written]) -> dict:
-    several = len(tables) > 1
-    return {t.line if several else None: {c.name: (c.unit, v) for c, v in t.columns} for t in tables}
-
-
 @pytest.mark.parametrize("ending", ENDINGS)
-@pytest.mark.parametrize("lines", [(), ("10", "20.5", "1030"), ("1010", "T20", "north 3")])
+@pytest.mark.parametrize("lines", [(), ("1010", "T20", "north 3")])
 def test_round_trip(tmp_path: Path, ending: str, lines: tuple[str, ...]) -> None:
     if lines and ending == ".mat":
         lines = ("10", "20", "30")  # names of structures
@@ -68,83 +66,273 @@ def test_round_trip(tmp_path: Path, ending: str, lines: tuple[str, ...]) -> None
     found = content(write(tmp_path / f"x{ending}", tables))
     if ending == ".nc":  # names of lines are words in the CF conventions
         found = {None if k is None else k.replace("_", " "): v for k, v in found.items()}
-    same(expected(tables), found, rtol=1e-15 if ending == ".xlsx" else 0.0)  # openpyxl writes 16 digits
+    expected = {t.line: {c.name: (c.unit, c.values) for c in t.columns} for t in tables}
+    same(expected, found, rtol=1e-15 if ending == ".xlsx" else 0.0)  # openpyxl writes 16 digits
 
 
-@pytest.mark.parametrize("pair", list(itertools.pairwise((*WRITTEN, WRITTEN[0]))))
-def test_converted_there_and_back(tmp_path: Path, pair: tuple[str, str]) -> None:
-    first, second = (tmp_path / f"{n}{e}" for n, e in zip("ab", pair, strict=True))
-    back = tmp_path / f"c{pair[0]}"
-    write_tables(first, made(25, ("7", "8")))
-    told = convert(first, second)
-    assert (told.lines, told.rows) == (2, 51)
-    convert(second, back)
-    same(content(first), content(back))
-
-
-@pytest.mark.parametrize("ending", [".h5", ".mat", ".xlsx"])
-def test_formats_that_are_read_alone(tmp_path: Path, ending: str) -> None:
-    source = write(tmp_path / "x.csv", made(5, ()))
-    with pytest.raises(UserError, match=r"are read, not written") as refused:
-        convert(source, tmp_path / f"y{ending}")
-    assert ".parquet" in refused.value.message
-    assert [p.name for p in tmp_path.iterdir()] == ["x.csv"]
-
-
-def test_lines_in_a_column(tmp_path: Path) -> None:
-    path = tmp_path / "x.csv"
-    path.write_text("line [1],time [s],v [V]\n10,0,1\n20,0,2\n,9,9\n10,1,3\n20,1,4\n")
-    found = content(path)
-    assert {k: v["v"][1].tolist() for k, v in found.items()} == {"10": [1.0, 3.0], "20": [2.0, 4.0]}
-    path.write_text("line [1],time [s],v [V]\n10,0,1\n10,1,3\n")
-    assert list(content(path)) == [None]
-
-
-@pytest.mark.parametrize("ending", ENDINGS)
-def test_look_takes_only_what_is_asked_for(tmp_path: Path, ending: str) -> None:
-    path = write(tmp_path / f"x{ending}", made(5, ()))
-    (table,) = open_file(path, Look(only=frozenset(("time", "fuel"))))
-    assert {h.name for h in table.headings} == set(table.rows()) == {"time", "fuel"}
-
-
-def test_a_file_into_itself(tmp_path: Path) -> None:
-    path = write(tmp_path / "x.csv", made(5, ()))
+def test_converted_there_and_back(tmp_path: Path) -> None:
+    first = tmp_path / f"0{WRITTEN[0]}"
+    write_tables(first, made(25, ("7", "20.5")))
+    for k, (_, after) in enumerate(itertools.pairwise((*WRITTEN, WRITTEN[0])), 1):
+        told = convert(next(tmp_path.glob(f"{k - 1}.*")), tmp_path / f"{k}{after}")
+        assert (told.lines, told.rows) == (2, 51)
+    same(content(first), content(tmp_path / f"{len(WRITTEN)}{WRITTEN[0]}"))
     with pytest.raises(UserError, match="itself"):
-        convert(path, path)
+        convert(first, first)
+    for ending in (".h5", ".mat", ".xlsx"):
+        with pytest.raises(UserError, match=r"are read, not written[^$]*\.parquet"):
+            convert(first, tmp_path / f"y{ending}")
 
 
-def test_a_workbook_is_not_computed(tmp_path: Path) -> None:
-    path = tmp_path / "x.xlsx"
-    book = openpyxl.Workbook()
-    book.active.append(["time [s]", "v [V]"])
-    book.active.append([0.0, '=1/0+WEBSERVICE("http://127.0.0.1")'])
-    book.active.append([1.0, 2.0])
-    book.save(path)
-    _, values = content(path)[None]["v"]
-    assert np.isnan(values[0])  # the file holds no value
-    assert values[1] == 2.0
+def flight(n: int = 300, lost: tuple[int, ...] = ()) -> Flight:
+    rng = np.random.default_rng(1)
+    names = [f"{v}_{k}" for v in ("a", "omega", "omegadot") for k in "xyz"] + ["temperature", "fuel"]
+    channels = {name: rng.normal(size=n) * 10.0 ** rng.integers(-9, 9) for name in names}
+    valid = np.ones(n, dtype=bool)
+    valid[list(lost)] = False
+    outputs = {"G_out": np.where(valid, rng.normal(size=n), np.nan), "inline": rng.normal(size=n) * 1e-9}
+    return Flight(1e5 + np.arange(n) / 16, channels, outputs, valid=valid, units={"fuel": "kg"})
 
 
-def test_units_below_the_names_in_a_workbook(tmp_path: Path) -> None:
-    path = tmp_path / "x.xlsx"
-    book = openpyxl.Workbook()
-    for row in (["a survey"], ["time", "v"], ["s", "mV"], [0.0, 1.0], [1.0, None], [2.0, 3]):
-        book.active.append(row)
-    book.save(path)
-    found = content(path)[None]
-    assert [(n, u) for n, (u, _) in found.items()] == [("time", "s"), ("v", "mV")]
-    np.testing.assert_array_equal(found["v"][1], [1.0, np.nan, 3.0])
+@pytest.mark.parametrize("suffix", WRITTEN)
+def test_a_flight_keeps_every_bit_and_takes_any_unit(tmp_path: Path, suffix: str) -> None:
+    x = flight(lost=(0, 7, 8, 299))
+    path = tmp_path / f"x{suffix}"
+    write_flight(x, path)
+    found = read_flight(path, G0)
+    assert np.array_equal(x.time, found.time) and np.array_equal(x.valid, found.valid)
+    assert dict(x.units) == dict(found.units)
+    for left, right in ((x.channels, found.channels), (x.outputs, found.outputs)):
+        assert list(left) == list(right)
+        assert all(np.array_equal(v[x.valid], right[n][x.valid]) for n, v in left.items())
+    chosen = {
+        "a_x": "mg",
+        "omega_y": "deg/h",
+        "inline": "Eo",
+        "temperature": "degC",
+        "fuel": "t",
+        "time": "ms",
+    }
+    write_flight(flight(), path, chosen, g0=G0)
+    found = read_flight(path, G0)
+    for name in ("a_x", "omega_y", "temperature", "fuel"):
+        assert found.channels[name] == pytest.approx(
+            x.channels[name], rel=1e-14, abs=3e-10 if name[0] == "t" else 0
+        )
+    assert read_flight(path, 2 * G0).channels["a_x"] == pytest.approx(2 * found.channels["a_x"])
+    assert [p.name for p in tmp_path.iterdir()] == [path.name]
+    with pytest.raises(ValueError, match="g0"):
+        write_flight(x, path, {"a_x": "mg"})
+
+
+def test_units_stand_where_other_tools_look(tmp_path: Path) -> None:
+    x = flight()
+    for suffix in WRITTEN:
+        write_flight(x, tmp_path / f"x{suffix}")
+    assert (tmp_path / "x.csv").read_text().splitlines()[0].startswith("time [s],a_x [m/s^2],")
+    assert pq.read_schema(tmp_path / "x.parquet").field("omega_x").metadata[b"units"] == b"rad/s"
+    with xarray.open_dataset(tmp_path / "x.nc", engine="h5netcdf") as data:
+        assert (data["omega_x"].attrs["units"], data["omega_x"].dims) == ("rad/s", ("time",))
+        assert np.array_equal(data["a_z"].values, x.channels["a_z"])
+
+
+@pytest.mark.parametrize("suffix", WRITTEN)
+def test_a_failed_writer_leaves_the_old_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, suffix: str
+) -> None:
+    path = tmp_path / f"x{suffix}"
+    path.write_bytes(b"old")
+
+    def full(target: Path, *_: object) -> None:
+        target.write_bytes(b"half")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setitem(files.ENDINGS, suffix, replace(files.format_of(path), write=full))
+    with pytest.raises(UserError, match="No space left"):
+        write_flight(flight(), path)
+    assert path.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == [path.name]
+    with pytest.raises(UserError, match="does not exist"):
+        write_flight(flight(), tmp_path / "none" / f"x{suffix}")
 
 
 def test_a_disc_without_room_is_asked_beforehand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """HDF5 does not survive a write that fails: it ended in a crash as the process ended."""
     path, tables = tmp_path / "x.nc", made(500, ())
-    size = room([500] * 5)
-    full = shutil.disk_usage(tmp_path)._replace(free=size - 1)
+    size = estimate_room([500] * 5)
+    disc = shutil.disk_usage(tmp_path)._replace(free=size - 1)
     with monkeypatch.context() as patch:
-        patch.setattr(shutil, "disk_usage", lambda place: full)
+        patch.setattr(shutil, "disk_usage", lambda place: disc)
         with pytest.raises(UserError, match=os.strerror(errno.ENOSPC)):
             write_tables(path, tables)
     assert list(tmp_path.iterdir()) == []
     write_tables(path, tables)
     assert path.stat().st_size <= size
+
+
+def test_parquet_of_other_tools(tmp_path: Path) -> None:
+    path, x = tmp_path / "x.parquet", flight(50)
+    counts = np.arange(50, dtype=np.int32)
+
+    def save(**changes: pa.Array) -> None:
+        arrays = {"time": pa.array(x.time), **{n: pa.array(v) for n, v in x.channels.items()}}
+        arrays |= {"G_out": pa.array(counts)} | changes
+        fields = [pa.field(n, a.type, metadata={"units": x.units.get(n, "V")}) for n, a in arrays.items()]
+        pq.write_table(pa.Table.from_arrays(list(arrays.values()), schema=pa.schema(fields)), path)
+
+    save(
+        a_x=pa.array([None if k == 4 else float(k) for k in range(50)]),
+        a_y=pa.array(counts.astype(np.float32)),
+        tags=pa.array([["a", "b"]] * 50),
+        switch=pa.array([True] * 50),
+    )
+    found = read_flight(path, G0)
+    assert np.array_equal(found.outputs["G_out"], counts)
+    assert np.flatnonzero(~found.valid).tolist() == [4]
+    assert any("'tags'" in n for n in found.notes)
+    for column in (pa.array(["x"] * 50), pa.array([None] * 50, pa.timestamp("ns"))):
+        save(a_x=column)
+        with pytest.raises(UserError, match="numbers"):
+            read_flight(path, G0)
+
+
+@pytest.mark.parametrize("classic", [False, True])
+def test_netcdf_of_other_tools(tmp_path: Path, classic: bool) -> None:
+    """Variables that are not along time are passed over; what the CF conventions call missing is missing."""
+    path, x = tmp_path / "x.nc", flight(50)
+    variables = {n: ("t", v, {"units": x.units[n]}) for n, v in {**x.channels, **x.outputs}.items()}
+    variables["time"] = ("t", x.time - x.time[0], {"units": "seconds since 2024-01-01 00:00:00"})
+    packed = np.arange(50, dtype=np.int16)
+    packed[[3, 9, 11]] = 99, -32767, 200
+    about = {
+        "units": "g",
+        "scale_factor": 0.5,
+        "add_offset": 1.0,
+        "_FillValue": np.int16(99),
+        "valid_max": np.int16(100),
+    }
+    variables |= {
+        "a_x": ("t", packed, about),
+        "crs": ((), np.int32(4326), {}),
+        "line": ("k", np.arange(2.0), {}),
+    }
+
+    def save(change: dict = {}, drop: str = "") -> None:  # noqa: B006
+        chosen = {n: v for n, v in (variables | change).items() if n != drop}
+        if not classic:
+            with h5py.File(path, "w") as file:
+                for n, (_, values, attributes) in chosen.items():
+                    file[n] = values
+                    file[n].attrs.update({**attributes, "DIMENSION_LIST": 0})
+            return
+        with netcdf_file(path, "w") as file:
+            for n, (dims, values, attributes) in chosen.items():
+                for d, size in zip(dims, np.shape(values), strict=True):
+                    if d not in file.dimensions:
+                        file.createDimension(d, size)
+                v = file.createVariable(n, np.asarray(values).dtype.newbyteorder(">"), tuple(dims))
+                v[...] = values
+                vars(v)["_attributes"].update(attributes)
+
+    save()
+    found = read_flight(path, G0)
+    assert found.instants
+    assert found.time == pytest.approx(x.time - x.time[0])
+    there = np.setdiff1d(np.arange(50), [3, 11] if classic else [3, 9, 11])
+    assert found.channels["a_x"][there[:3]] == pytest.approx(G0 * (0.5 * packed[there[:3]] + 1.0))
+    assert np.flatnonzero(~found.valid).tolist() == ([3, 11] if classic else [3, 9, 11])
+    (note,) = (n for n in found.notes if n.startswith("passed over"))
+    assert "'crs' (a single value)" in note and "'line' (2)" in note
+    for change, drop, what in (
+        ({"a_x": ("t", np.zeros(50), {})}, "", "no unit"),
+        ({"a_x": ("j", np.zeros(40), {"units": "g"})}, "", r"a_x is missing[^$]*'a_x' \(40\)"),
+        ({}, "time", "time is missing"),
+    ):
+        save(change, drop)
+        with pytest.raises(UserError, match=what):
+            read_flight(path, G0)
+
+
+def test_tables_of_records_and_blocks_in_hdf5(tmp_path: Path) -> None:
+    """PyTables keeps records; pandas keeps blocks of columns with their names in a pickle, which is not executed."""
+    x = flight(60)
+    names = [*x.channels, "G_out"]
+    units = [*(x.units[n] for n in x.channels), "V"]
+    values = [*x.channels.values(), x.outputs["G_out"]]
+    records = np.zeros(60, dtype=[("time", "f8"), *((n, "f8") for n in names)])
+    for n, v in zip(names, values, strict=True):
+        records[n] = v
+    records["time"] = x.time
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["flight/table"] = records
+        file["flight/table"].attrs["units"] = ["s", *units]
+        file["settings"] = np.arange(7.0)
+    titles = [f"{n} [{u}]" for n, u in zip(names, units, strict=True)]
+    pickled = "(lp0\n" + "".join(f"V{t}\np{k}\na" for k, t in enumerate(titles, 1)) + "."
+    block = np.zeros(60, dtype=[("index", "i8"), ("values_block_0", "f8", (len(names),))])
+    block["index"] = np.round((x.time - x.time[0]) * 1e9)
+    block["values_block_0"] = np.stack(values, axis=1)
+    with h5py.File(tmp_path / "b.h5", "w") as file:
+        file["df/table"] = block
+        file["df/table"].attrs["values_block_0_kind"] = np.bytes_(pickled)
+        file["df/table"].attrs["index_kind"] = np.bytes_("timedelta64")
+    with h5py.File(tmp_path / "c.h5", "w") as file:
+        file["df/axis1"] = block["index"]
+        file["df/axis1"].attrs["kind"] = np.bytes_("datetime64[ns]")
+        file["df/block0_values"] = block["values_block_0"]
+        file["df/block0_items"] = np.array([t.encode() for t in titles])
+    for name, instants in (("a", False), ("b", False), ("c", True)):
+        found = read_flight(tmp_path / f"{name}.h5", G0)
+        assert found.instants == instants
+        assert np.diff(found.time) == pytest.approx(np.diff(x.time), abs=1e-9)
+        assert np.array_equal(found.channels["a_y"], x.channels["a_y"])
+
+
+def test_a_workspace_of_matlab(tmp_path: Path) -> None:
+    """Vectors of other lengths, texts, cells and structures beside the flight are passed over."""
+    x = flight(60)
+    cell = np.empty(3, dtype=object)
+    cell[:] = ["__import__('os').system('true')", "a", "b"]
+    motion = np.stack([x.channels[f"a_{k}"] for k in "xyz"], axis=1)
+    whole = {
+        "time": x.time[:, None],
+        "a": motion,
+        "window": np.hanning(16),
+        "c": cell,
+        "comment": "calm",
+        "fs": 16.0,
+    }
+    whole |= {"settings": {"gain": np.ones(5), "name": "x"}}
+    whole |= {n: v for n, v in {**x.channels, **x.outputs}.items() if not n.startswith("a_")}
+    whole["units"] = {n: str(x.units.get(n, "m/s^2")) for n in whole if n in (*x.units, "a")}
+    savemat(tmp_path / "x.mat", whole)
+    (table,) = (r for r in read_recordings(tmp_path / "x.mat", lenient=True))
+    assert {"time", "a_1", "a_3", "G_out"} <= {c.name for c in table.columns}
+    assert next(c for c in table.columns if c.name == "a_2").unit == "m/s^2"
+    assert any("'window' (16)" in n for n in table.notes)
+
+
+def test_a_workbook_is_not_computed_and_read_beyond_its_dimension(tmp_path: Path) -> None:
+    path = tmp_path / "x.xlsx"
+    book = openpyxl.Workbook()
+    for row in (
+        ["a survey"],
+        ["time", "v"],
+        ["s", "mV"],
+        [0.0, '=1/0+WEBSERVICE("http://127.0.0.1")'],
+        [1.0, 2.0],
+        [2, "#N/A"],
+    ):
+        book.active.append(row)
+    book.save(path)
+    unpacked = tmp_path / "x"
+    shutil.unpack_archive(path, unpacked, "zip")
+    sheet = unpacked / "xl/worksheets/sheet1.xml"
+    sheet.write_text(sheet.read_text().replace('<dimension ref="A1:B6"', '<dimension ref="A1:A3"'))
+    shutil.make_archive(str(tmp_path / "y"), "zip", unpacked)
+    shutil.move(tmp_path / "y.zip", path)
+    found = content(path)[None]
+    assert [(n, u) for n, (u, _) in found.items()] == [("time", "s"), ("v", "mV")]
+    np.testing.assert_array_equal(
+        found["v"][1], [np.nan, 2.0, np.nan]
+    )  # the file holds no value of the formula

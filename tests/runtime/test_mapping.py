@@ -6,17 +6,15 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 from click.testing import CliRunner
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import cli
 from ragg_runtime.io import Flight, read_flight, read_flights, write_flight
-from ragg_runtime.io.guess import draft
+from ragg_runtime.io.draft import draft_mapping
+from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import Mapped, parse_mapping
-from ragg_runtime.io.sources import open_sources
 from ragg_runtime.workflow import loop
 
 G0 = 9.8
@@ -100,7 +98,7 @@ def test_clocks(tmp_path: Path, time: str, written: str, origin: datetime | None
     path = tmp_path / "x.csv"
     x = foreign(path, time)
     text = TEXT.replace('column = "T"\nunit = "s"', written)
-    (source,) = open_sources(path, parse(text))
+    (source,) = read_recordings(path, parse(text))
     assert source.origin == origin
     found = read_flight(path, G0, mapping=parse(text))
     assert np.diff(found.time) == pytest.approx(np.diff(x.time), abs=2e-4)
@@ -117,13 +115,13 @@ def test_gps_week_and_midnight(tmp_path: Path) -> None:
         mapping=parse(TEXT.replace('column = "T"\nunit = "s"', 'column = ["W", "S"]\nformat = "gps"')),
     )
     assert found.time == pytest.approx(x.time, abs=1e-4)
-    (source,) = open_sources(
+    (source,) = read_recordings(
         path, parse(TEXT.replace('column = "T"\nunit = "s"', 'column = ["W", "S"]\nformat = "gps"'))
     )
     assert source.origin == datetime(2026, 3, 1, tzinfo=UTC)  # a Sunday
     path.write_text("time,v [V]\n23:59:59.5,1\n00:00:00.0,2\n0:00:00.5,3\n")
-    (source,) = open_sources(path)
-    assert source.rows()["time"].tolist() == [86399.5, 86400.0, 86400.5]
+    (source,) = read_recordings(path)
+    assert source.columns[0].values.tolist() == [86399.5, 86400.0, 86400.5]
 
 
 def test_lines_become_flights(tmp_path: Path) -> None:
@@ -195,22 +193,6 @@ def test_spellings_of_units_and_a_row_of_units(tmp_path: Path) -> None:
         read_flight(tmp_path / "e.csv", G0)
 
 
-def test_datetime_columns_and_pandas_attrs(tmp_path: Path) -> None:
-    import pandas as pd
-
-    x = made()
-    frame = pd.DataFrame(dict(x.channels) | {"G_out": x.outputs["G_out"]})
-    frame.insert(0, "time", pd.Timestamp("2026-03-01T06:00:00Z") + pd.to_timedelta(x.time, unit="s"))
-    units = dict.fromkeys(MOTION[:3], "m/s2") | dict.fromkeys(MOTION[3:], "rad/s") | {"G_out": "V"}
-    frame.attrs = {"units": units}
-    frame.to_parquet(tmp_path / "x.parquet")
-    found = read_flight(tmp_path / "x.parquet", G0)
-    assert found.time == pytest.approx(x.time + 6 * 3600.0, abs=1e-9)
-    assert np.array_equal(found.channels["a_y"], x.channels["a_y"])
-    table = pq.read_table(tmp_path / "x.parquet")
-    assert pa.types.is_timestamp(table.schema.field("time").type)
-
-
 SURVEY = """Line,X,Y,Altitude,Cross1_raw,Inline1_raw,HHMMSS,YYMMDD,Gyro_X
 10,436702.0,3327648.7,75.0,1354.8,-335.3,235959.0,20080703,
 10,436702.1,3327648.8,75.1,1354.9,-335.4,000000.0,20080704,0.5
@@ -222,7 +204,7 @@ T20,436702.1,3327648.8,75.1,1354.9,-335.4,132851.4,20080704,0.2
 def test_a_mapping_is_begun_from_a_survey(tmp_path: Path) -> None:
     path = tmp_path / "x.csv"
     path.write_text(SURVEY.replace("\n10,", "\nL10,"))
-    d = draft(path)
+    d = draft_mapping(path)
     assert 'column = ["YYMMDD", "HHMMSS"]  # likely' in d.text
     assert 'inline_1 = { column = "Inline1_raw", unit = "?", scale = 2 }  # likely' in d.text
     assert 'omega_x = { column = "Gyro_X", unit = "?" }  # likely' in d.text
@@ -230,10 +212,10 @@ def test_a_mapping_is_begun_from_a_survey(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="not answered"):
         parse_mapping(d.text, HERE)
     answered = d.text.replace('unit = "?"', 'unit = "E"')
-    first, second = open_sources(path, parse_mapping(answered, HERE))
+    first, second = read_recordings(path, parse_mapping(answered, HERE))
     assert (first.line, second.line) == ("L10", "T20")
-    assert first.origin == second.origin == datetime(2008, 7, 3, tzinfo=UTC)
-    rows = first.rows()
+    assert [r.origin for r in (first, second)] == [datetime(2008, 7, d, tzinfo=UTC) for d in (3, 4)]
+    rows = {c.name: c.values for c in first.columns}
     assert rows["time"].tolist() == [86399.0, 86400.0]
     assert rows["inline_1"].tolist() == [-670.6, -670.8]
     assert np.isnan(rows["omega_x"][0])

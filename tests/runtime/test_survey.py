@@ -24,7 +24,7 @@ from flights_of_a_survey import COUNT, WITH_EFFECT, lines_of, make, without_effe
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.io import write_flight
-from ragg_runtime.io.source import Heading, Written
+from ragg_runtime.io.tables import Column, Table
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.pages import survey_page
 from ragg_runtime.survey import local, run
@@ -422,9 +422,9 @@ def made(tmp_path: Path) -> tuple[Path, str, Path]:
         columns = {**x.channels, **x.outputs}
         names = {n: f"C{k}" for k, n in enumerate(columns)}
         entries = [f'{n} = {{ column = "{c}", unit = "{x.units[n]}" }}' for n, c in names.items()]
-        rows = [(Heading("T", ""), np.asarray(x.time))]
-        rows += [(Heading(names[n], ""), np.asarray(v)) for n, v in columns.items()]
-        tables.append(Written(rows, str(10 * seed)))
+        rows = [Column("T", "", np.asarray(x.time))]
+        rows += [Column(names[n], "", np.asarray(v)) for n, v in columns.items()]
+        tables.append(Table(tuple(rows), str(10 * seed)))
     write(tmp_path / "s.h5", tables)
     return tmp_path / "s.h5", MAPPING + "\n".join(entries) + "\n", tmp_path / "model" / "model.toml"
 

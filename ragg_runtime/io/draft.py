@@ -1,0 +1,426 @@
+"""A first ``mapping.toml`` from what a file says: names and units. What it does not say is marked, not guessed.
+
+Every line carries how sure it is: *certain* (the contract's own name), *likely* or *guess*. Units come from the file
+alone. Whatever is odd about a column, the others are written.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.names import LONGEST, is_column
+from ragg_runtime.instrument.units import units
+from ragg_runtime.io.files import read_tables, write_instant
+from ragg_runtime.io.instants import GPS_EPOCH, is_instant, read_stamps
+from ragg_runtime.io.mapping import UNKNOWN
+from ragg_runtime.io.record import DEMODULATED, SI_UNITS, is_demodulated
+from ragg_runtime.io.tables import Column, Table, is_unit, split_lines
+
+NEAR_G = 0.1
+"""Relative distance from gravity, on the median, within which a vertical channel's unit is guessed: less than platforms feel on average."""
+
+_LOOKED_AT = 20_000  # rows whose numbers are looked at for remarks
+_DATED = (datetime(1995, 1, 1, tzinfo=UTC), datetime(2045, 1, 1, tzinfo=UTC))
+_EPOCHS = ((GPS_EPOCH, "GPS time"), (datetime(1970, 1, 1, tzinfo=UTC), "Unix time"))
+_RANKS = ("certain", "likely", "guess")
+_TIMES = ("time", "line", "week", "second_of_week", "date", "clock")
+
+
+@dataclass(frozen=True)
+class Draft:
+    """A mapping to begin with: its ``text``, the ``questions`` to be answered, the columns that are ``unused``, and
+    channel -> ``certain``, ``likely`` or ``guess``.
+    """
+
+    text: str
+    questions: tuple[str, ...]
+    unused: tuple[str, ...]
+    sure: Mapping[str, str]
+
+
+@dataclass
+class _Page:
+    """What has been written so far."""
+
+    lines: list[str] = field(default_factory=list)
+    questions: list[str] = field(default_factory=list)
+    used: set[str] = field(default_factory=set)
+    sure: dict[str, str] = field(default_factory=dict)
+
+
+def draft_mapping(path: Path) -> Draft:
+    """Look at the table of a file that has most of what a flight has, and write a mapping for it."""
+    tables, table = _pick(read_tables(path))
+    page = _Page(
+        [
+            f"# How ragg reads {_quoted(path.name)}: written by `ragg map`, to be looked over.",
+            '# certain: the name is ragg\'s own; likely: usual for it; guess: look twice. "?" waits for an answer.',
+            *(f"# {_quoted(n)}" for n in table.notes),
+            "",
+        ]
+    )
+    _write_file(table, tables, page)
+    _write_time(table, page)
+    _write_columns(table, page)
+    unused = [c for c in table.columns if c.name not in page.used]
+    if unused:
+        page.lines += [
+            "",
+            "# Not used (any column can be kept as an auxiliary channel under a name of its own):",
+        ]
+        numbers = [c for c in unused if c.is_number]
+        page.lines += [f"# {_key(c.name)} = {_entry(c.name, c.unit or UNKNOWN)}" for c in numbers]
+        page.lines += [f"# no numbers: {_quoted(c.name)} ({_example(c)})" for c in unused if not c.is_number]
+    if any(is_demodulated(r.name) for n in table.names if (r := role_of(n)) is not None):
+        page.lines += ["", "# How inline and cross were made, if it is known:", "# [demodulator]"]
+        page.lines += ['# kind = "butterworth"', '# cutoff = "0.18 Hz"', "# order = 6"]
+    return Draft(
+        text="\n".join(page.lines) + "\n",
+        questions=tuple(page.questions),
+        unused=tuple(c.name for c in unused),
+        sure=MappingProxyType(page.sure),
+    )
+
+
+def sample_table(path: Path) -> Table:
+    """The first rows of the table that a mapping would be drafted for."""
+    table = _pick(read_tables(path))[1]
+    return table.rows(np.arange(min(len(table), _LOOKED_AT)))
+
+
+def _pick(tables: Sequence[Table]) -> tuple[list[Table], Table]:
+    """The tables that are alike to the one with most columns of known roles, and that one."""
+    if not any(t.columns for t in tables):
+        raise UserError(
+            "the file holds no table",
+            expected="vectors of numbers of one length, or a header of names and rows of numbers below it",
+        )
+    best = max(tables, key=lambda t: (len({r.name for n in t.names if (r := role_of(n))}), len(t)))
+    alike = [t for t in tables if {*t.names} == {*best.names}]
+    parts = len({t.part for t in tables if t.columns}) > 1 and len(alike) < sum(
+        bool(t.columns) for t in tables
+    )
+    return alike, replace(
+        alike[0], part=best.part if parts else "", line=best.line if len(alike) > 1 else None
+    )
+
+
+def _write_file(table: Table, tables: Sequence[Table], page: _Page) -> None:
+    lines = []
+    if table.part:
+        lines.append(f'part = "{_quoted(table.part)}"  # likely: the file holds several tables that differ')
+    if len(tables) > 1:
+        names = [f'"{_quoted(str(t.line))}"' for t in tables]
+        shown = ", ".join(names[:6]) + (", ..." if len(names) > 6 else "")
+        page.lines += [
+            f"# {len(tables)} lines, told apart by the file itself; [file] lines = [...] picks some: {shown}",
+            "",
+        ]
+    else:
+        name = next((n for n in table.names if ROLES["line"].fits(n)), None)
+        if name is not None:
+            page.used.add(name)
+            lines.append(
+                f'line = "{_quoted(name)}"  # likely: tells flight lines apart; take it out if it does not'
+            )
+            try:
+                split_lines([table], name, None)
+            except UserError:
+                lines[-1] = "# " + lines[-1]
+    page.lines += ["[file]", *lines, ""] if lines else []
+
+
+def _write_time(table: Table, page: _Page) -> None:
+    found = _find_instants(table)
+    if found is not None:
+        names, form, sure = found
+        page.used.update(names)
+        shown = ", ".join(f'"{_quoted(n)}"' for n in names)
+        page.lines += ["[time]", f"column = {shown if len(names) == 1 else f'[{shown}]'}  # {sure}"]
+        if form == UNKNOWN:
+            cell = _example(table.column(names[0]))
+            page.questions.append(f'[time] format: is {cell} "d/m/y" or "m/d/y"?')
+            form, sure = UNKNOWN, f'"d/m/y" or "m/d/y"? the file says {cell}'
+            page.lines += [f'format = "{form}"  # {sure}', ""]
+        else:
+            page.lines += [f'format = "{form}"', ""]
+        return
+    fits = [c for c in table.columns if c.is_number and ROLES["time"].fits(c.name)]
+    if not fits:
+        page.questions.append("[time] column: which column is time?")
+        page.lines += [
+            "[time]",
+            f'column = "{UNKNOWN}"  # no column has a name that is usual for time',
+            f'unit = "{UNKNOWN}"',
+            "",
+        ]
+        return
+    c = min(fits, key=lambda c: (c.name != "time", not c.unit))
+    page.used.add(c.name)
+    page.lines += ["[time]", f'column = "{_quoted(c.name)}"  # {"certain" if c.name == "time" else "likely"}']
+    unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", page, "[time]")
+    page.lines += [f'unit = "{unit}"{remark}', *_remark_origin(c), ""]
+
+
+def _find_instants(table: Table) -> tuple[tuple[str, ...], str, str] | None:
+    """Columns that hold instants as such, their format (``?``: one of two), and how sure that is."""
+    by_role = {
+        r: c
+        for c in reversed(table.columns)
+        for r in ("week", "second_of_week", "date", "clock")
+        if ROLES[r].fits(c.name)
+    }
+    if "week" in by_role and "second_of_week" in by_role:
+        names = (by_role["week"].name, by_role["second_of_week"].name)
+        return names, "gps", "likely: GPS week and seconds in it"
+    date, clock = by_role.get("date"), by_role.get("clock")
+    texts = sorted(
+        (c for c in table.columns if not c.is_number), key=lambda c: not ROLES["time"].fits(c.name)
+    )
+    for c in texts:
+        if not c.is_text or is_instant(_cell(c)):
+            dated = not c.is_text or re.match(r"\d+[-/. ]\w+[-/. ]\d", _cell(c)) is not None
+            whole = not c.is_text or ":" in _cell(c)
+            if dated and whole:
+                return (c.name,), _find_form([c]), "certain: a date and a time in every row"
+    if date is not None and clock is not None and date is not clock:
+        form = "date clock" if date.is_number else _find_form([date, clock])
+        form = "date clock" if form == "iso" else form
+        return (date.name, clock.name), form, "likely: a date and a time of the day"
+    for c in texts:
+        if ":" in _cell(c) and is_instant(_cell(c)):
+            return (c.name,), "clock", "certain: a time of the day in every row"
+    return None
+
+
+def _find_form(columns: Sequence[Column]) -> str:
+    """The format of dates in text: ``iso``, ``d/m/y``, ``m/d/y``, or ``?`` where both are possible."""
+    for form in ("iso", "d/m/y", "m/d/y"):
+        if form == "iso" and columns[0].is_text and re.match(r"\d{4}", _cell(columns[0])) is None:
+            continue
+        try:
+            read_stamps([c.values for c in columns], form, "")
+            read_stamps([c.values for c in columns], None if len(columns) == 1 else form, "")
+        except UserError as error:
+            if "could be" in error.what:
+                return UNKNOWN
+            continue
+        return form
+    return "iso"
+
+
+def _cell(c: Column) -> str:
+    """The first cell of a column that is not empty, as text."""
+    return next((str(v) for v in c.values if str(v)), "")
+
+
+def _example(c: Column) -> str:
+    return _quoted(repr(_cell(c)[:40])) if c.is_text else "dates"
+
+
+def _write_columns(table: Table, page: _Page) -> None:
+    page.lines.append("[columns]")
+    taken: dict[str, Column] = {}
+    candidates = [
+        (c, r) for c in table.columns if c.is_number and c.name not in page.used and (r := role_of(c.name))
+    ]
+    # The surest name wins a channel: certain before likely before guess, then the order of the file.
+    for c, role in sorted(candidates, key=lambda x: x[1].rank):
+        if role.name not in taken and role.name not in _TIMES:
+            taken[role.name] = c
+            page.used.add(c.name)
+    for name in dict.fromkeys([*SI_UNITS, *(r.name for _, r in candidates)]):
+        if name not in taken:
+            continue
+        c, role = taken[name], role_of(taken[name].name) or ROLES[name]
+        unit, remark = (role.unit, "") if role.unit else _find_unit(c, name, page, f"[columns] {name}")
+        page.sure[name] = role.sure
+        scale = f", scale = {role.scale:g}" if role.scale != 1.0 else ""
+        comment = f"  # {role.sure}" + (f": {role.why}" if role.why else "") + remark.replace("  # ", "; ", 1)
+        page.lines.append(
+            f'{_key(name)} = {{ column = "{_quoted(c.name)}", unit = "{unit}"{scale} }}{comment}'
+        )
+
+
+def _find_unit(c: Column, name: str, page: _Page, where: str) -> tuple[str, str]:
+    """The unit to write and a remark; a question where the file gives none or one that cannot be."""
+    stem = re.sub(r"_[^_]+$", "", name)
+    si = SI_UNITS.get(name) or (SI_UNITS.get(stem) if stem in DEMODULATED else None)
+    if c.unit and is_unit(c.unit):
+        if si is None or units(9.8).fits(c.unit, si):
+            return _quoted(c.unit), ""
+        page.questions.append(f"{where}: the file says {c.unit!r}, which is no unit of it")
+        return UNKNOWN, f"  # the file says {_quoted(c.unit)}, which is no unit of {name}"
+    said = f"the file says {c.unit!r}, which is no unit that is known" if c.unit else "the file gives none"
+    looks = _describe_looks(name, c.values[:_LOOKED_AT])
+    page.questions.append(f"{where}: unit of {c.name!r} ({said}{'; ' + looks if looks else ''})")
+    return UNKNOWN, f"  # {_quoted(said)}" + (f"; {looks}" if looks else "")
+
+
+def _describe_looks(name: str, values: NDArray[np.float64]) -> str:
+    """What the numbers remind of, as a remark beside a question; never an answer."""
+    v = values[np.isfinite(values)]
+    if not len(v):
+        return "no number to look at"
+    size = float(np.median(np.abs(v)))
+    if name == "a_z":
+        for unit, g in (("g", 1.0), ("m/s^2", 9.8), ("Gal", 980.0), ("mGal", 9.8e5)):
+            if abs(size / g - 1.0) < NEAR_G:
+                return f"the median is {size:.4g}, as gravity in {unit}"
+    if name == "time" and len(v) > 1:
+        return f"steps of {float(np.median(np.diff(v))):.6g}"
+    return f"from {v.min():.6g} to {v.max():.6g}"
+
+
+def _remark_origin(c: Column) -> list[str]:
+    """Remarks on when the record may have begun, if its seconds count from a usual epoch."""
+    first = float(c.values[0]) if len(c.values) and np.isfinite(c.values[0]) else 0.0
+    found = []
+    for epoch, what in _EPOCHS if " since " not in c.unit else ():
+        if 0.0 < first < 3e9 and _DATED[0] < (begun := epoch + timedelta(seconds=int(first))) < _DATED[1]:
+            begins = write_instant(begun)
+            found.append(
+                f"# origin = {write_instant(epoch)}  # guess: as {what} in seconds the record begins {begins}"
+            )
+    return found
+
+
+def _entry(column: str, unit: str) -> str:
+    return f'{{ column = "{_quoted(column)}", unit = "{_quoted(unit)}" }}'
+
+
+def _key(name: str) -> str:
+    """A channel's name: the column's own, or one made of its letters."""
+    return name if is_column(name) else ("c_" + re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_"))[:LONGEST]
+
+
+def _quoted(text: str) -> str:
+    """Text inside a TOML string or comment: no quotes, no lines, nothing that cannot be printed."""
+    text = text.replace("\\", "\\\\").replace('"', '\\"')
+    return "".join(c if c.isprintable() else f"\\u{min(ord(c), 0xFFFF):04x}" for c in text)
+
+
+# --- what columns may be -------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Role:
+    """A channel that a column may be.
+
+    ``pattern`` must match the column's whole name, in small letters, divided by ``_``. ``sure``: ``likely`` or
+    ``guess``. ``scale``: between column and channel, where the name tells it. ``unit``: the only one that it can have.
+    """
+
+    name: str
+    pattern: str
+    sure: str = "likely"
+    scale: float = 1.0
+    why: str = ""
+    unit: str = ""
+
+    def fits(self, column: str) -> bool:
+        return column == self.name or re.fullmatch(self.pattern, fold_name(column)) is not None
+
+    @property
+    def rank(self) -> int:
+        return _RANKS.index(self.sure)
+
+
+def fold_name(column: str) -> str:
+    """A column's name in small letters, its words divided by ``_``."""
+    words = re.sub(r"([a-z])([A-Z][a-z])", r"\1_\2", column)
+    return re.sub(r"[\W_]+", "_", words).strip("_").casefold()
+
+
+_HALF = "of a disc the inline output is usually (Gamma_xx - Gamma_yy)/2, inline is twice that"
+_AXES = [(axis, n, "pqr"[n - 1]) for n, axis in enumerate("xyz", 1)]
+_PAIRS = ("xx", "xy", "xz", "yy", "yz", "zz")
+_PLAIN = (
+    ("time", r"t|time|(gps|utc|unix|imu|rec)_?(time|sec(onds?)?)|time_?(s|sec|gps|utc|1980|day)|sec(onds?)?|f_?time|fid(ucial)?"),
+    ("line", r"line|line_?(no|num|number|id|index)|(flight_?)?line"),
+    ("week", r"(gps_?)?w(ee)?k(_?no|_?number)?"),
+    ("second_of_week", r"(gps_?)?(sow|tow|sec(onds?)?_?(of|in)_?week|week_?sec(onds?)?|seconds_of_gps_week)|gps_?seconds?"),
+    ("date", r"date|y{2,4}m{2}d{2}|utc_?date|gps_?date|datum"),
+    ("clock", r"hhmmss(_?s+)?|utc|clock|time|time_?of_?day|utc_?time|gps_?time"),
+    ("G_out", r"g_?out|sum_?(volt(age)?)?|ggi(_?(out|sum))?"),
+    ("cross", r"cross(_?raw)?"),
+    ("spin_angle", r"spin_?(angle|phase)|encoder(_?angle)?|disc_?angle"),
+    ("temperature", r"temp(erature)?(_?[a-z0-9]+)?"),
+    ("pressure", r"(air_?|baro_?)?press(ure)?|baro"),
+    ("roll", r"roll"),
+    ("pitch", r"pitch"),
+    ("yaw", r"yaw"),
+    ("heading", r"heading|hdg|bearing|azimuth"),
+    ("easting", r"east(ing)?|mga_?x|utm_?(e|x)|x_?utm"),
+    ("northing", r"north(ing)?|mga_?y|utm_?(n|y)|y_?utm"),
+    ("latitude", r"lat(itude)?(_?(deg|wgs84))?"),
+    ("longitude", r"lon(g|gitude?)?(_?(deg|wgs84))?"),
+    ("altitude", r"alt(itude)?|height|gps_?(z|alt|height)|(mga|msl)_?z|elev(ation)?"),
+    ("clearance", r"clearance|radar_?alt|ralt|lalt|drape_?agl"),
+    ("turbulence", r"turb(ulence)?"),
+    ("vertical_velocity", r"v(ert(ical)?)?_?(vel(ocity)?|speed)|vz"),
+    ("vertical_acceleration", r"vert(ical)?_?acc(el(eration)?)?"),
+)  # fmt: skip
+"""Channel and the usual names of a column of it."""
+
+_ACC, _GYRO = r"accel(eration)?|acc", r"gyro?|(ang(ular)?_?)?(rate|velocity)"
+_ALL = (
+    *(Role(name, pattern) for name, pattern in _PLAIN),
+    *(Role(f"a_{x}", rf"(a|{_ACC}|f|sf|specific_force)_?{x}|{x}_?({_ACC})") for x, _, _ in _AXES),
+    *(Role(f"omega_{x}", rf"(w|omega|{_GYRO})_?{x}|{x}_?({_GYRO})") for x, _, _ in _AXES),
+    *(Role(f"omegadot_{x}", rf"(omega_?dot|alpha|ang(ular)?_?acc(el(eration)?)?)_?{x}") for x, _, _ in _AXES),
+    *(Role(f"B_{x}", rf"(b|mag|field)_?{x}", "guess") for x, _, _ in _AXES),
+    *(
+        Role(f"a_{x}", rf"({_ACC})_?{n}", "guess", why="a number in the place of an axis")
+        for x, n, _ in _AXES
+    ),
+    *(
+        Role(f"omega_{x}", rf"(gyro?|rate)_?{n}|{p}", "guess", why="roll, pitch and yaw rate?")
+        for x, n, p in _AXES
+    ),
+    *(Role(f"Gamma_{x}", rf"(gamma|gradient|gg)_?({x}|{x[::-1]})") for x in _PAIRS),
+    *(
+        Role(
+            f"Gamma_{x}",
+            rf"[tg]_?({x}|{x[::-1]})",
+            "guess",
+            why="of which frame, and is it known beforehand?",
+        )
+        for x in _PAIRS
+    ),
+    Role("inline", r"in_?line(_?raw)?", scale=2.0, why=_HALF),
+    *(Role(f"V_{k}", rf"v_?{k}|volt(age)?_?{k}|acc(el)?_?{k}_?v(olt(age)?)?") for k in range(1, 5)),
+    *(
+        Role(f"inline_{d}", rf"(ggi_?)?in_?line_?{d.lower()}(_?raw)?", scale=2.0, why=_HALF)
+        for d in "1234ABC"
+    ),
+    *(Role(f"cross_{d}", rf"(ggi_?)?cross_?{d.lower()}(_?raw)?") for d in "1234ABC"),
+    *(
+        Role(f"inline_{d}", rf"{d.lower()}_?uv(_\w+)?", scale=2.0, why="UV is (Gamma_xx - Gamma_yy)/2")
+        for d in "AB"
+    ),
+    *(Role(f"cross_{d}", rf"{d.lower()}_?ne(_\w+)?") for d in "AB"),
+    Role("easting", r"x", "guess", why="a position?"),
+    Role("northing", r"y", "guess", why="a position?"),
+    Role("flight", r"flight(_?(no|num|number))?|flt", unit="1"),
+)
+
+ROLES: Mapping[str, Role] = MappingProxyType({r.name: r for r in reversed(_ALL)})
+"""The first role of every channel, by name."""
+
+
+def role_of(column: str) -> Role | None:
+    """What a column of this name may be; its own name is certain."""
+    own = next((r for r in _ALL if r.name == column), None)
+    if own is not None and column not in ("line", "flight"):
+        return Role(own.name, own.pattern, "certain", unit=own.unit)
+    return min((r for r in _ALL if r.fits(column)), key=lambda r: r.rank, default=None)

@@ -1,0 +1,190 @@
+"""What a flight file holds, before any model: columns, units, rate, gaps, ranges, and what was assumed (``ragg info``)."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import file_digest
+from ragg_runtime.instrument.layout import PAPER, Layout
+from ragg_runtime.instrument.units import units
+from ragg_runtime.io.assemble import make_flight, require_enough
+from ragg_runtime.io.files import flight_name, format_of, read_tables, write_instant
+from ragg_runtime.io.mapping import Mapped
+from ragg_runtime.io.recording import Recording, make_recordings, require_units
+from ragg_runtime.io.sampling import uniform
+from ragg_runtime.io.tables import Column
+
+PAPER_G = 9.8
+"""m/s^2: the g of units such as mg where no model says its own."""
+
+MOST_GAPS = 20
+"""Gaps that are listed, the longest ones."""
+
+
+@dataclass(frozen=True)
+class ColumnInfo:
+    """A column: its ``name``, its ``unit`` in the file (``""``: none), how many ``samples`` hold a value and how many do
+    not (``missing``), and the ``minimum``, ``maximum`` and ``mean`` of those that do, in that unit (``None``: no value).
+    """
+
+    name: str
+    unit: str
+    samples: int
+    missing: int
+    minimum: float | None
+    maximum: float | None
+    mean: float | None
+
+
+@dataclass(frozen=True)
+class GapInfo:
+    """A gap: s from and to, in the record's time, and the samples that are missing in it."""
+
+    from_s: float
+    to_s: float
+    samples: int
+
+
+@dataclass(frozen=True)
+class RecordInfo:
+    """One record (a file, or a line of it).
+
+    ``name``, ``line`` (``None``: the file has only one record), ``rows``; ``start_s``, ``duration_s``, ``rate_Hz``
+    (``None`` where there is no uniform time), ``origin`` (the instant at which time is 0, ISO 8601, or ``None``);
+    ``gap_count``, ``gaps`` (the longest), ``missing`` samples in all gaps; ``columns``; ``notes``: what was assumed,
+    left out or looks odd, in sentences; ``refused``: why the record is no flight as it stands (whole message), or ``None``.
+    """
+
+    name: str
+    line: str | None
+    rows: int
+    start_s: float | None
+    duration_s: float | None
+    rate_Hz: float | None
+    origin: str | None
+    gap_count: int
+    missing: int
+    gaps: tuple[GapInfo, ...]
+    columns: tuple[ColumnInfo, ...]
+    notes: tuple[str, ...]
+    refused: str | None
+
+
+@dataclass(frozen=True)
+class FileInfo:
+    """A flight file: its ``path``, ``sha256``, ``format``, ``bytes``, and its ``records``, one for each line."""
+
+    path: str
+    sha256: str
+    format: str
+    bytes: int
+    records: tuple[RecordInfo, ...]
+
+    def as_json(self) -> dict[str, Any]:
+        """All of it in the types of JSON."""
+        found = dataclasses.asdict(self)
+        for r in found["records"]:
+            r.update({k: list(r[k]) for k in ("gaps", "columns", "notes")})
+        return found | {"records": list(found["records"])}
+
+
+def describe_flight(
+    path: Path | str, mapping: Mapped | None = None, g0: float = PAPER_G, layout: Layout = PAPER
+) -> FileInfo:
+    """What a flight file holds.
+
+    Parameters
+    ----------
+    path
+        The file.
+    mapping
+        What its columns are, where it has names of its own.
+    g0
+        The g of its units, m/s^2.
+    layout
+        Accelerometers and outputs of the instrument.
+
+    Returns
+    -------
+    FileInfo
+        With the fields of :class:`FileInfo`, :class:`RecordInfo`, :class:`ColumnInfo` and :class:`GapInfo`. What keeps a
+        record from being a flight (no unit, a column missing, a clock that runs back) stands in ``refused``.
+
+    Raises
+    ------
+    UserError
+        If the file cannot be read, or holds no table.
+    """
+    path = Path(path)
+    made = make_recordings(read_tables(path), path, mapping, lenient=True)
+    name = flight_name(path)
+    records = [
+        _describe(r, name if len(made) == 1 else f"{name}:{r.line}", len(made) > 1, g0, layout) for r in made
+    ]
+    return FileInfo(
+        path=str(path),
+        sha256=file_digest(path),
+        format=format_of(path).name,
+        bytes=path.stat().st_size,
+        records=tuple(records),
+    )
+
+
+def _describe(r: Recording, name: str, several: bool, g0: float, layout: Layout) -> RecordInfo:
+    notes, refused = r.notes, None
+    try:
+        require_units(r.columns, r.place)
+        x = require_enough(make_flight(r, g0, accelerometers=layout), len(r))
+        notes = x.notes
+    except UserError as error:
+        refused = error.message
+    start = duration = rate = None
+    gaps: Sequence[GapInfo] = ()
+    try:
+        time = next(c for c in r.columns if c.name == "time")
+        grid = uniform(_in_seconds(time, g0), r.place)
+        start, rate = float(grid.time[0]), 1 / grid.step
+        duration = len(grid.time) / rate
+        jumps = np.diff(grid.index)
+        gaps = [
+            GapInfo(float(grid.time[grid.index[k]]), float(grid.time[grid.index[k + 1]]), int(jumps[k] - 1))
+            for k in np.flatnonzero(jumps > 1)
+        ]
+    except (StopIteration, UserError):
+        pass  # said in ``refused``
+    longest = sorted(sorted(gaps, key=lambda g: -g.samples)[:MOST_GAPS], key=lambda g: g.from_s)
+    return RecordInfo(
+        name=name,
+        line=r.line if several else None,
+        rows=len(r),
+        start_s=start,
+        duration_s=duration,
+        rate_Hz=rate,
+        origin=None if r.origin is None else write_instant(r.origin),
+        gap_count=len(gaps),
+        missing=sum(g.samples for g in gaps),
+        gaps=tuple(longest),
+        columns=tuple(map(_describe_column, r.columns)),
+        notes=notes,
+        refused=refused,
+    )
+
+
+def _in_seconds(time: Column, g0: float) -> np.ndarray[Any, np.dtype[np.float64]]:
+
+    return units(g0).to_si(time.values, time.unit or "s", "s", "column 'time'")
+
+
+def _describe_column(c: Column) -> ColumnInfo:
+    there = c.values[np.isfinite(c.values)]
+    low, high, mean = (
+        (float(there.min()), float(there.max()), float(there.mean())) if len(there) else (None,) * 3
+    )
+    return ColumnInfo(c.name, c.unit, len(there), len(c.values) - len(there), low, high, mean)

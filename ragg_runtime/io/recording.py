@@ -1,0 +1,477 @@
+"""From a table to a recording: the columns that are meant under the names of the contract, time in seconds.
+
+The only way for all formats: text that should be numbers is read or refused with its cell, what stands for missing
+values is left out, a mapping's names, units, signs and axes are applied.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError, at, one_line
+from ragg_runtime.base.names import EXPECTED, is_column
+from ragg_runtime.instrument.demodulation import Demodulation
+from ragg_runtime.instrument.units import units
+from ragg_runtime.io.instants import WAYS, Seconds, count_from, read_stamps
+from ragg_runtime.io.mapping import Entry, Mapped, Null
+from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
+from ragg_runtime.io.tables import Column, Table, choose_tables, line_name, split_lines
+from ragg_runtime.io.text_tables import MISSING
+
+Array = NDArray[np.float64]
+
+NEEDED = frozenset(("time", *SPECIFIC_FORCE, *ANGULAR_RATE))
+"""Columns that every flight has."""
+
+ISOLATED = 10.0
+"""Steps into and out of a missing-value code, over the largest step of all other values: those of readings are at most
+a few times it, those of a code (-9999 among temperatures) hundreds or more."""
+
+QUIET = 0.99
+"""Share of the steps that are compared with those of a usual code: spikes beside it do not hide it."""
+
+FEWEST_VARYING = 0.5
+"""Share of steps other than 0 from which a column varies, so that equal values far outside are no readings: switches and
+counters stand still nearly always."""
+
+_VECTOR = re.compile(r"(a|omega|omegadot|B)_([xyz])")
+_TENSOR = ("xx", "xy", "xz", "yy", "yz", "zz")
+_NINES = re.compile(r"-?9{3,}(?:\.(?:0|25|9+))?")
+
+
+@dataclass(frozen=True)
+class Recording:
+    """A flight: columns of numbers under the names of the contract, each with a unit.
+
+    ``line`` is the flight line, where there are several; ``origin`` the instant at which ``time`` is 0, if it is known
+    (UTC, or GPS time where the file counts in that); ``instants`` whether its stamps are instants, not seconds; ``notes``
+    say what was made of the file, ``demodulation`` how its channels were made, if that is known; ``passed`` names columns
+    that are none of a flight; ``place`` is for messages.
+    """
+
+    columns: tuple[Column, ...]
+    place: str
+    line: str | None = None
+    origin: datetime | None = None
+    instants: bool = False
+    notes: tuple[str, ...] = ()
+    demodulation: Demodulation | None = None
+    passed: tuple[str, ...] = field(default=())
+
+    def __len__(self) -> int:
+        return len(self.columns[0].values)
+
+
+def make_recordings(
+    tables: Sequence[Table],
+    place: Path | str,
+    mapping: Mapped | None = None,
+    *,
+    lenient: bool = False,
+    leave: frozenset[str] = frozenset(),
+) -> list[Recording]:
+    """The recordings in the tables of one file, one for each line.
+
+    Parameters
+    ----------
+    tables
+        All tables of the file.
+    place
+        The file, for messages.
+    mapping
+        What the columns are; ``None``: they have the names of the contract.
+    lenient
+        Let columns without a unit pass.
+    leave
+        Channels that are left aside.
+
+    Raises
+    ------
+    UserError
+        If a choice among tables is needed, or a column is missing, has no unit, or holds what is no number.
+    """
+    if mapping is not None and mapping.kept and not _applies(tables, mapping):
+        mapping = None
+    if mapping is None:
+        chosen = split_lines(choose_tables(tables, place, NEEDED), None, place)
+        return [_read_plain(t, str(place), lenient, leave) for t in _filled(chosen, place)]
+    mapping = mapping.without(leave)
+    chosen = choose_tables(tables, place, mapping.columns, mapping.part)
+    _require_names(chosen[0], mapping, place)
+    lines = split_lines(chosen, mapping.line, place)
+    if mapping.lines is not None:
+        lines = _pick_lines(lines, mapping.lines, place)
+    return [_read_mapped(t, str(place), mapping) for t in _filled(lines, place)]
+
+
+def _filled(tables: Sequence[Table], place: Path | str) -> Sequence[Table]:
+    if not tables:
+        raise UserError("the file holds no rows", where=place)
+    return tables
+
+
+def _applies(tables: Sequence[Table], mapping: Mapped) -> bool:
+    """Whether a file has any column that the mapping gives another name."""
+    renamed = {e.column for n, e in mapping.channels.items() if e.column != n}
+    renamed |= {n for n in mapping.time.columns if n != "time"}
+    return not renamed or any(renamed & {*t.names} for t in tables)
+
+
+def _require_names(table: Table, mapping: Mapped, place: Path | str) -> None:
+    missing = sorted(mapping.columns - {*table.names})
+    if missing:
+        raise UserError(
+            "columns that the mapping names are not in the file",
+            where=place,
+            found=", ".join(missing),
+            expected=f"the columns of {mapping.path}; the file has {', '.join(table.names[:20])}",
+            remedy="write a mapping for this file: ragg map FLIGHT -o mapping.toml",
+        )
+
+
+def _pick_lines(lines: Sequence[Table], names: Sequence[str], place: Path | str) -> list[Table]:
+    known = [t.line for t in lines]
+    wanted = {line_name(n) for n in names}
+    if lost := sorted(wanted - {str(n) for n in known}):
+        raise UserError(
+            "the file has no such line",
+            where=place,
+            found=", ".join(lost),
+            expected=", ".join(str(n) for n in known[:20]),
+        )
+    return [t for t in lines if t.line in wanted]
+
+
+def _read_plain(table: Table, place: str, lenient: bool, leave: frozenset[str]) -> Recording:
+    """A table whose columns have the names of the contract."""
+    notes = list(table.notes)
+    time, others = _find_time(table)
+    named = [c for c in others if (lenient or is_column(c.name) or _lacks_unit(c)) and c.name not in leave]
+    passed = tuple(c.name[:80] for c in others if c not in named and c.name not in leave)
+    read = None if time is None else _read_time(time, table, place)
+    kept: list[Column] = []
+    for c in named:
+        if c.is_number:
+            kept.append(c)
+        elif c.name in SI_UNITS:
+            kept.append(read_numbers(c, table, place))
+        else:
+            notes.append(f"{c.name} holds {'text' if c.is_text else 'dates'}; it is left out")
+    if read is not None:
+        unit = "s" if isinstance(read, Seconds) else read.unit
+        kept.insert(0, Column("time", unit, read.values))
+    _require_distinct(kept, place)
+    if not lenient:
+        require_units(kept, place)
+    if passed:
+        notes.append(pass_over(passed))
+    kept = [_without_codes(c, (), notes) for c in kept]
+    stamps = read if isinstance(read, Seconds) else None
+    return _finish(Recording(tuple(kept), place, table.line, notes=tuple(notes), passed=passed), stamps)
+
+
+def _find_time(table: Table) -> tuple[Column | None, list[Column]]:
+    """The column of time and all others; where none is called so the index of the rows is, if it is a time."""
+    time = next((c for c in table.columns if c.name == "time"), None)
+    index = next((c for c in table.columns if c.name == table.index), None)
+    if (
+        time is None
+        and index is not None
+        and (not index.is_number or units(9.8).fits(index.unit or "1", "s"))
+    ):
+        time = index
+    return time, [c for c in table.columns if c is not time and c is not index]
+
+
+def _read_time(c: Column, table: Table, place: str) -> Column | Seconds:
+    """Time as the numbers that it is, or seconds of the instants that it is."""
+    where = at(place, f"column {c.name!r}")
+    if c.is_text and np.mean(np.isfinite(_parse_numbers(c.values))) > 0.5:
+        c = read_numbers(c, table, place)
+    if not c.is_number:
+        return read_stamps([c.values], None, where, table.row)
+    base, since, epoch = c.unit.partition(" since ")
+    if not since:
+        return c
+    values = units(9.8).to_si(c.values, base, "s", where)
+    return count_from(values, epoch) or replace(c, unit=base)
+
+
+def _finish(made: Recording, stamps: Seconds | None) -> Recording:
+    """Rows without a time left out and counted; what is known of the instants."""
+    notes = made.notes
+    time = next((c for c in made.columns if c.name == "time"), None)
+    if time is not None and not np.isfinite(time.values).all():
+        there = np.isfinite(time.values)
+        lost = int(np.sum(~there))
+        if there.any():
+            notes = (*notes, f"{lost} row{'s' * (lost > 1)} without a time left out")
+            kept = tuple(replace(c, values=c.values[there]) for c in made.columns)
+            made = replace(made, columns=kept)
+    if stamps is not None:
+        made = replace(made, origin=stamps.origin, instants=stamps.instants)
+        notes = (*notes, *stamps.notes)
+    return replace(made, notes=notes)
+
+
+def _lacks_unit(c: Column) -> bool:
+    """Whether a column is one of the contract but for what stands behind its name in the place of a unit."""
+    return not c.unit and c.name.partition("(")[0].strip() in SI_UNITS
+
+
+def _require_distinct(columns: Iterable[Column], place: str) -> None:
+    seen: set[str] = set()
+    for c in columns:
+        if c.name in seen:
+            raise UserError(
+                f"the column {c.name!r} appears twice", where=place, remedy="remove or rename one"
+            )
+        seen.add(c.name)
+
+
+def pass_over(names: Sequence[str]) -> str:
+    """In words: columns whose names nothing can have."""
+    shown = ", ".join(map(repr, names[:6])) + (" ..." if len(names) > 6 else "")
+    return one_line(f"passed over for their names ({EXPECTED}): {shown}")
+
+
+def require_units(columns: Iterable[Column], place: str) -> None:
+    """UserError where a unit is missing."""
+    for c in columns:
+        if not c.unit:
+            unit = _EXAMPLES.get(c.name.split("_")[0], "K")
+            raise UserError(
+                "the column has no unit",
+                where=f"{place}: column {c.name!r}",
+                found=repr(c.name),
+                expected=f"{c.name} [unit], such as {c.name} [{unit}]",
+                remedy="write the unit; a pure number has the unit 1; none is guessed. Or say once for all files "
+                "what their columns are: ragg map FLIGHT -o mapping.toml",
+            )
+
+
+_EXAMPLES = {
+    "time": "s",
+    "a": "g",
+    "omega": "deg/h",
+    "omegadot": "rad/s^2",
+    "Gamma": "Eo",
+    "G": "V",
+    "V": "V",
+    "inline": "Eo",
+    "cross": "Eo",
+}
+
+
+# --- numbers -------------------------------------------------------------------------------------------
+
+
+def read_numbers(c: Column, table: Table, place: str, null: Null = ()) -> Column:
+    """A column of text as numbers; UserError at the first cell that is none."""
+    if c.is_number:
+        return c
+    where = at(place, f"column {c.name!r}")
+    if not c.is_text:
+        raise UserError("the column does not hold numbers", where=where, found="dates", expected="numbers")
+    texts = np.array(["" if t in null else t for t in c.values], dtype=object) if null else c.values
+    numbers = _parse_numbers(texts)
+    wrong = np.flatnonzero(_spoiled(texts, numbers))
+    if len(wrong):
+        raise UserError(
+            "not a number" if np.isfinite(numbers).any() else "the column does not hold numbers",
+            where=at(place, table.row(int(wrong[0])), f"column {c.name!r}"),
+            found=repr(texts[wrong[0]])[:60],
+            expected="a number with a decimal point, or nothing where it is missing",
+            remedy="what stands for missing values can be named in a mapping: null = [...]",
+        )
+    return replace(c, values=numbers)
+
+
+def _parse_numbers(texts: NDArray[np.object_]) -> Array:
+    def parse(text: str) -> float:
+        try:
+            return float(text)
+        except ValueError:
+            return np.nan
+
+    return np.array([parse(t) for t in texts], dtype=np.float64)
+
+
+def _spoiled(texts: NDArray[np.object_], numbers: Array) -> NDArray[np.bool_]:
+    """Where a text is neither a number nor one of those that stand for nothing."""
+    return np.isnan(numbers) & np.array([t not in MISSING for t in texts], dtype=np.bool_)
+
+
+def _without_codes(c: Column, null: Null, notes: list[str]) -> Column:
+    """The column without what stands for missing values, by the mapping or by its looks; said in ``notes``."""
+    values = c.values
+    told: dict[float, int] = {}
+    for code in (n for n in null if isinstance(n, float)):
+        hit = np.isclose(values, code, rtol=1e-6, atol=0.0)
+        if hit.any():
+            told[code] = int(np.sum(hit))
+            values = np.where(hit, np.nan, values)
+    for code in find_codes(values, known_only=c.name == "time"):
+        hit = values == code
+        told[code] = int(np.sum(hit))
+        values = np.where(hit, np.nan, values)
+    for code, count in told.items():
+        notes.append(
+            f"{c.name}: {count} value{'s' * (count > 1)} of {code:.10g}{' ' + c.unit if c.unit not in ('', '1') else ''} "
+            "stand for missing values: no readings, left out"
+        )
+    return replace(c, values=values) if told else c
+
+
+def find_codes(values: Array, *, known_only: bool = False) -> list[float]:
+    """Values that stand for missing ones: isolated extremes that repeat, or are usual codes such as -9999.
+
+    Parameters
+    ----------
+    values
+        (n,), NaN for nothing.
+    known_only
+        Only usual codes.
+
+    Returns
+    -------
+    The codes, in the order in which they were found.
+    """
+    x = values[np.isfinite(values)]
+    rest, usual = x, []
+    while (
+        len(rest)
+        and (code := next(filter(_is_usual, (float(rest.min()), float(rest.max()))), None)) is not None
+    ):
+        usual.append(code)
+        rest = rest[rest != code]
+    found = [c for c in usual if _is_isolated(x[(x == c) | ~np.isin(x, usual)], c, rest, QUIET)]
+    x = x[~np.isin(x, found)] if found else x
+    while not known_only and len(x) > 2:
+        code = next((v for v in (float(x.min()), float(x.max())) if _is_unusual_code(x, v)), None)
+        if code is None:
+            break
+        found.append(code)
+        x = x[x != code]
+    return found
+
+
+def _is_unusual_code(x: Array, code: float) -> bool:
+    """Whether an extreme of no usual form is a code: it repeats, far from values that vary."""
+    hit = x == code
+    if not 1 < np.sum(hit) < len(x) / 2:
+        return False
+    rest = x[~hit]
+    return bool(np.mean(np.diff(rest) != 0) > FEWEST_VARYING) and _is_isolated(x, code, rest, 1.0)
+
+
+def _is_isolated(x: Array, code: float, rest: Array, share: float) -> bool:
+    """Whether a value lies outside all others, and every step into and out of it is far larger than ``share`` of theirs."""
+    if len(rest) < 2 or rest.min() <= code <= rest.max():
+        return False
+    hit = x == code
+    steps, own = np.abs(np.diff(x)), np.abs(np.diff(rest))
+    into = np.min(steps[hit[1:] != hit[:-1]], initial=np.inf)
+    return bool(into > ISOLATED * np.quantile(own, share, method="lower"))
+
+
+def _is_usual(value: float) -> bool:
+    """-999, -9999, -999.25, 99999.9, -32768, 1e20 and beyond: what programs write where nothing was measured."""
+    size = abs(value)
+    if size >= 1e20 or size in (32767.0, 32768.0, 2147483647.0, 2147483648.0):
+        return True
+    return 999 <= size < 1e12 and _NINES.fullmatch(f"{value:.10g}") is not None
+
+
+# --- mapping -------------------------------------------------------------------------------------------
+
+
+def _read_mapped(table: Table, place: str, mapping: Mapped) -> Recording:
+    """A table whose columns are what the mapping says."""
+    notes = [f"read by {mapping.path.name} (SHA-256 {mapping.digest[:16]})", *table.notes]
+    time = mapping.time
+    columns = [table.column(n) for n in time.columns]
+    where = at(place, f"column {time.columns[0]!r}")
+    if time.format != "seconds":
+        read: Column | Seconds = read_stamps([c.values for c in columns], time.format, where, table.row)
+    elif columns[0].is_text and not np.isfinite(_parse_numbers(columns[0].values)).any():
+        raise UserError(
+            "time is text, not seconds",
+            where=where,
+            found=repr(columns[0].values[0])[:60] if len(table) else None,
+            remedy=f"say in {mapping.path} how it is written: [time] format = " + ", ".join(map(repr, WAYS)),
+        )
+    else:
+        first = read_numbers(columns[0], table, place, time.null)
+        base, _, epoch = first.unit.partition(" since ")
+        unit = f"{time.unit or base} since {epoch}" if epoch else time.unit or base
+        read = _read_time(replace(first, unit=unit), table, place)
+    unit = "s" if isinstance(read, Seconds) else read.unit
+    found = [Column("time", unit, read.values)]
+    for name, e in mapping.channels.items():
+        c = table.column(e.column)
+        if c.is_text and not np.isfinite(_parse_numbers(c.values)).any():
+            raise UserError(
+                "the column does not hold numbers", where=at(place, f"column {e.column!r}"), found="text"
+            )
+        found.append(replace(read_numbers(c, table, place, e.null), name=name, unit=e.unit or c.unit))
+    require_units(found, place)
+    entries: dict[str, Entry] = dict(mapping.channels)
+    nulls = {n: e.null for n, e in entries.items()} | {"time": time.null}
+    found = [_without_codes(c, nulls[c.name], notes) for c in found]
+    found = [_scaled(c, entries[c.name]) if c.name in entries else c for c in found]
+    found = _turn(found, mapping)
+    if mapping.demodulator is not None:
+        notes.append(f"demodulated: {mapping.demodulator.words()}")
+    made = Recording(
+        tuple(found),
+        place,
+        line=table.line,
+        origin=time.origin,
+        notes=tuple(notes),
+        demodulation=mapping.demodulator,
+    )
+    return _finish(made, read if isinstance(read, Seconds) else None)
+
+
+def _scaled(c: Column, entry: Entry) -> Column:
+    values = c.values * entry.factor if entry.factor != 1.0 else c.values
+    return replace(c, values=values + entry.offset if entry.offset else values)
+
+
+def _turn(columns: Sequence[Column], mapping: Mapped) -> list[Column]:
+    """Columns in the measurement frame."""
+    if mapping.axes is None:
+        return list(columns)
+    by_name = {c.name: c for c in columns}
+    found = []
+    for c in columns:
+        own, sign = _source_of(c.name, mapping.axes)
+        if own not in by_name:
+            raise UserError(
+                "a component that the axes need is missing",
+                where=at(mapping.path, "[axes]"),
+                found=f"{c.name} comes from {own}, which [columns] does not have",
+                expected="all components of a vector or a tensor that is turned",
+            )
+        source = by_name[own]
+        found.append(replace(source, name=c.name, values=source.values if sign > 0 else -source.values))
+    return found
+
+
+def _source_of(name: str, axes: Sequence[tuple[int, float]]) -> tuple[str, float]:
+    """The recorder's column from which a component in the measurement frame comes, and its sign."""
+    if match := _VECTOR.fullmatch(name):
+        k, sign = axes["xyz".index(match[2])]
+        return f"{match[1]}_{'xyz'[k]}", sign
+    if name.startswith("Gamma_") and name[6:] in _TENSOR:
+        (i, s), (j, t) = (axes["xyz".index(a)] for a in name[6:])
+        return "Gamma_" + "".join(sorted("xyz"[i] + "xyz"[j])), s * t
+    return name, 1.0

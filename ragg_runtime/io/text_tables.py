@@ -1,0 +1,430 @@
+"""CSV and Excel: where the table begins, its names and units, and its cells.
+
+Both may have lines before the header, a header over two rows, a row of units below the names, and empty columns behind
+the last one. What a column holds is decided by all of its cells.
+"""
+
+from __future__ import annotations
+
+import csv
+import gzip
+import io
+import itertools
+import re
+import zipfile
+import zlib
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from datetime import date, datetime, time, timedelta
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.csv
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.io.instants import is_instant
+from ragg_runtime.io.memory import require_memory
+from ragg_runtime.io.tables import (
+    INDEX,
+    MOST_COLUMNS,
+    Column,
+    Table,
+    is_line,
+    read_heading,
+    read_units,
+    write_cell,
+)
+
+LONGEST_LINE = 1 << 20
+"""Characters of a line from which a file is no table."""
+
+MISSING = ("", "nan", "NaN", "NAN", "NA", "N/A", "#N/A", "null", "NULL", "None", "-", "--", "*")
+"""Cells that hold nothing."""
+
+_EXCEL_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
+_LOOKED_AT = 300  # lines that are looked at to find the header and to tell numbers from text
+_CELL_OF_XML = 4  # bytes in memory for one of a sheet's XML: a cell of 25 bytes becomes an object of 100
+_NOT_CSV = "the file is not a table of comma-separated values"
+_GZIP = b"\x1f\x8b"
+_COMMA = re.compile(r"\s*[+-]?\d+,\d+(?:[eE][+-]?\d+)?\s*")
+
+_NO_NUMBER = re.compile(r"In CSV column #(\d+): .*CSV conversion error", re.DOTALL)
+_OTHER_WIDTH = re.compile(r"CSV parse error: (?:Row #(\d+): )?Expected (\d+) columns, got (\d+)")
+"""How Arrow says that a cell is no number, and that a line has too few cells or too many."""
+
+
+# --- where a table begins ------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Header:
+    """Names and units of the columns of a table, the position of its first row of data, and the share of rows that are
+    data from there on.
+    """
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    begins: int
+    share: float
+
+
+def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
+    """The header among the first rows of a table, whose cells are text, numbers, dates or ``""``; ``None``: none."""
+    filled = [len(r) for r in rows if sum(map(bool, map(_filled, r))) > 1]
+    if not filled:
+        return None
+    width = max(Counter(filled).items(), key=lambda x: (x[0] > 1) * x[0] * x[1])[0]
+    alike = [
+        k for k, r in enumerate(rows) if abs(len(r) - width) <= 1 or not any(map(_filled, r[width:] or "x"))
+    ]
+    data = [k for k, row in enumerate(alike) if _is_data(rows[row])]
+    whole = (alike[k] for k in data if all(n in data for n in range(k, min(k + 3, len(alike)))))
+    begins = next(
+        whole, len(rows)
+    )  # a line of numbers among those before the header is followed by other text
+    above = [k for k in alike if k < begins and any(map(_filled, rows[k]))]
+    if not above:
+        return None
+    parts = [[write_cell(c).strip() for c in rows[k]] for k in above[-3:]]
+    size = max(width, *(len(r) for r in rows[begins : begins + 1])) if begins < len(rows) else width
+    parts = [(p + [""] * size)[:size] for p in parts]
+    units = None
+    if len(parts) > 1 and not any(read_heading(c)[1] for p in parts[:-1] for c in p):
+        units = read_units(parts[-1])
+        parts = parts[:-1] if units is not None else parts
+    names = parts[-1]
+    if len(parts) > 1 and sum(map(bool, parts[-2])) > 1 and _needs_a_row_above(names):
+        names = _joined(parts[-2], names)
+    headings = [read_heading(n) for n in names]
+    found = [own or u for (_, own), u in zip(headings, units or [""] * size, strict=True)]
+    below = [_is_data(rows[k]) for k in alike if k >= begins]
+    return Header(tuple(n for n, _ in headings), tuple(found), begins, sum(below) / max(1, len(below)))
+
+
+def _filled(cell: Any) -> bool:
+    return cell is not None and (not isinstance(cell, str) or cell.strip() not in MISSING)
+
+
+def _is_data(row: Sequence[Any]) -> bool:
+    """Whether more cells of a row are numbers or instants than are text."""
+    values = sum(_is_value(c) for c in row)
+    return values > 0 and 2 * values > sum(map(_filled, row))
+
+
+def _is_value(cell: Any) -> bool:
+    if not isinstance(cell, str):
+        return cell is not None
+    return is_number(cell) or is_instant(cell)
+
+
+def is_number(text: str) -> bool:
+    """Whether a cell is a number, with a decimal point or a decimal comma."""
+    try:
+        float(text)
+    except ValueError:
+        return _COMMA.fullmatch(text) is not None
+    return text.strip() not in MISSING
+
+
+def _needs_a_row_above(names: Sequence[str]) -> bool:
+    """Whether names are parts of names: some are missing before the last one, or stand twice."""
+    there = [n for n in names if n]
+    last = max((k for k, n in enumerate(names) if n), default=0)
+    return "" in names[:last] or len({*there}) < len(there)
+
+
+def _joined(above: Sequence[str], below: Sequence[str]) -> list[str]:
+    """A header over two rows: ``acceleration [g]`` over x, y, z (of merged cells the first holds the text)."""
+    found, title = [], ""
+    for upper, lower in zip(above, below, strict=True):
+        title = upper or (title if lower else "")
+        name, unit = read_heading(title) if title else ("", "")
+        own, its = read_heading(lower) if lower else ("", "")
+        whole = "_".join(filter(None, (name, own)))
+        found.append(f"{whole} [{its or unit}]" if its or unit else whole)
+    return found
+
+
+def _no_header(path: Path) -> UserError:
+    return UserError("the flight file has no header", where=path, expected="time [s],a_x [g],...")
+
+
+# --- CSV -----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Dialect:
+    """How a CSV file is written: ``lines`` stand before the first row, ``texts`` are columns that hold text."""
+
+    path: Path
+    compressed: bool
+    encoding: str
+    delimiter: str
+    decimal: str
+    lines: int
+    header: Header
+    texts: frozenset[int]
+
+
+def read_csv(path: Path) -> list[Table]:
+    """The CSV file as one table; UserError if it has no header or lines of different widths."""
+    with path.open("rb") as stream:
+        start = stream.read(2)
+    dialect = _look(path, start == _GZIP, "utf-8-sig")
+    while True:  # a column is of text as soon as one of its cells is no number
+        try:
+            table = _parse(dialect)
+            break
+        except pa.ArrowInvalid as error:
+            dialect = _changed(dialect, str(error))
+        except (OSError, EOFError, UnicodeError) as error:
+            raise _cut_off(path, error) from None
+    notes = (
+        [] if dialect.encoding.startswith("utf") else ["the file is not UTF-8; read as Windows text (cp1252)"]
+    )
+    names, units = dialect.header.names, dialect.header.units
+    columns = []
+    for k, x in enumerate(map(_array, table.columns)):
+        if names[k]:
+            columns.append(Column(names[k], units[k], x))
+        elif np.any(x != "" if x.dtype.kind == "O" else np.isfinite(x)):
+            if k == 0:  # pandas writes an index without a name so
+                columns.append(Column(INDEX, "", x))
+            else:
+                notes.append(f"column {k + 1} has no name; it is passed over")
+    index = INDEX if columns and columns[0].name == INDEX else None
+    return [Table(tuple(columns), notes=tuple(notes), index=index, counts=("line", dialect.lines + 1))]
+
+
+def _look(path: Path, compressed: bool, encoding: str) -> _Dialect:
+    """Delimiter, header and kinds of the columns, from the first lines."""
+    raw: IO[bytes] = gzip.GzipFile(path) if compressed else path.open("rb")  # type: ignore[assignment]
+    try:
+        with raw, io.TextIOWrapper(raw, encoding, newline="") as stream:
+            lines = list(itertools.islice(_lines(stream, path), _LOOKED_AT))
+    except UnicodeDecodeError as error:
+        if encoding.startswith("utf-8"):
+            wide = error.object[:2] in (b"\xff\xfe", b"\xfe\xff")
+            return _look(path, compressed, "utf-16" if wide else "cp1252")
+        raise _cut_off(path, error) from None
+    except (OSError, EOFError, zlib.error, UnicodeError) as error:
+        raise _cut_off(path, error) from None
+    best = None
+    for delimiter in "\t;,":
+        try:
+            rows, ends = _rows(lines, delimiter)
+        except csv.Error as error:
+            raise UserError(_NOT_CSV, where=path, found=str(error)) from None
+        header = find_header(rows)
+        score = (0.0, 0) if header is None else (header.share, len(header.names))
+        if header is not None and (best is None or score > best[0]):
+            best = score, delimiter, header, rows, ends
+    if best is None or best[0][1] > MOST_COLUMNS:
+        raise _no_header(path) if best is None else _too_wide(path)
+    _, delimiter, header, rows, ends = best
+    sample = rows[header.begins :]
+    texts = [k for k in range(len(header.names)) if is_line(header.names[k]) or _holds_text(sample, k)]
+    commas = delimiter != "," and any(_COMMA.fullmatch(c) for r in sample for c in r)
+    count = _text_length(path, compressed) * len(lines) / (sum(map(len, lines)) or 1)
+    require_memory(path, count * len(header.names) * 8)
+    skip = ends[header.begins - 1] if header.begins else 0
+    return _Dialect(
+        path=path,
+        compressed=compressed,
+        encoding=encoding,
+        delimiter=delimiter,
+        decimal="," if commas else ".",
+        lines=skip,
+        header=header,
+        texts=frozenset(texts),
+    )
+
+
+def _lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
+    """The lines of a text; UserError at one too long to be a row of a table."""
+    number = 0
+    while line := stream.readline(LONGEST_LINE):
+        number += 1
+        if len(line) == LONGEST_LINE:
+            raise UserError(
+                _NOT_CSV,
+                where=at(path, f"line {number}"),
+                found=f"a line of more than {LONGEST_LINE} characters, beginning with {line[:20]!r}",
+                expected="one row per line, a number for each column",
+                remedy="the file may be damaged, not fully copied, or not a text file",
+            )
+        yield line
+
+
+def _rows(lines: Sequence[str], delimiter: str) -> tuple[list[list[str]], list[int]]:
+    """Rows of cells that are neither empty nor a remark before the header, and the number of each one's last line."""
+    reader = csv.reader(lines, delimiter=delimiter)
+    rows, ends = [], []
+    for row in reader:
+        if not any(c.strip() for c in row) or row[0].startswith("#"):
+            continue
+        rows.append(row)
+        ends.append(reader.line_num)
+    return rows, ends
+
+
+def _holds_text(rows: Sequence[Sequence[str]], column: int) -> bool:
+    cells = (r[column] for r in rows if len(r) > column)
+    return any(c.strip() not in MISSING and not is_number(c) for c in cells)
+
+
+def _text_length(path: Path, compressed: bool) -> float:
+    """Bytes of a text; of a compressed one estimated by its beginning."""
+    size = path.stat().st_size
+    if not compressed:
+        return size
+    with path.open("rb") as stream:
+        start = stream.read(1 << 16)
+    unpacker = zlib.decompressobj(31)
+    text = unpacker.decompress(start, 1 << 25)
+    return size * len(text) / max(1, len(start) - len(unpacker.unconsumed_tail))
+
+
+def _parse(d: _Dialect) -> pa.Table:
+    """The columns as Arrow reads them; ArrowInvalid where a cell is no number or a line has another width."""
+    kinds = {str(k): pa.string() if k in d.texts else pa.float64() for k in range(len(d.header.names))}
+    with (
+        d.path.open("rb") as raw,
+        pa.input_stream(raw, compression="gzip" if d.compressed else None) as stream,
+    ):
+        try:
+            return pyarrow.csv.read_csv(
+                stream,
+                # with several threads Arrow does not say in which row it stumbled
+                pyarrow.csv.ReadOptions(
+                    skip_rows=d.lines,
+                    column_names=list(kinds),
+                    block_size=1 << 22,
+                    use_threads=False,
+                    encoding="utf8" if d.encoding == "utf-8-sig" else d.encoding,
+                ),
+                pyarrow.csv.ParseOptions(delimiter=d.delimiter),
+                pyarrow.csv.ConvertOptions(column_types=kinds, null_values=MISSING, decimal_point=d.decimal),
+            )
+        except pa.ArrowInvalid as error:
+            if "Empty CSV" not in str(error):
+                raise
+            return pa.table({n: pa.array([], k) for n, k in kinds.items()})
+
+
+def _changed(d: _Dialect, error: str) -> _Dialect:
+    """The file read otherwise, by what Arrow says; UserError where nothing helps."""
+    if (match := _NO_NUMBER.match(error)) and int(match[1]) not in d.texts:
+        return replace(d, texts=d.texts | {int(match[1])})
+    if "invalid UTF8" in error and d.encoding == "utf-8-sig":
+        return replace(d, encoding="cp1252")
+    if match := _OTHER_WIDTH.match(error):
+        raise UserError(
+            "the line has the wrong number of values",
+            where=at(d.path, f"line {match[1]}"),
+            found=match[3],
+            expected=f"{match[2]}, as the header has",
+            remedy="the file may be damaged or cut off",
+        ) from None
+    raise UserError(_NOT_CSV, where=d.path, found=error.splitlines()[0][:200]) from None
+
+
+def _array(column: pa.ChunkedArray) -> NDArray[Any]:
+    """A column of Arrow: numbers as float64, text as objects. Arrow's own ``to_numpy`` would load pandas."""
+    if pa.types.is_string(column.type):
+        return np.array(["" if t is None else t.strip() for t in column.to_pylist()], dtype=object)
+    whole = column.combine_chunks()
+    return np.asarray(np.from_dlpack(whole.fill_null(float("nan")) if whole.null_count else whole))
+
+
+def _cut_off(path: Path, error: Exception) -> UserError:
+    return UserError(
+        "the file is damaged or cut off, or no text",
+        where=path,
+        found=str(error)[:200],
+        expected="a whole file of text: a header of `name [unit]`, then numbers",
+        remedy="copy it again, or save it as CSV, Parquet or NetCDF-4",
+    )
+
+
+def _too_wide(path: Path) -> UserError:
+    return UserError(
+        "the file has too many columns for a flight",
+        where=path,
+        expected=f"at most {MOST_COLUMNS}",
+        remedy="keep the columns that the instrument and its effects need",
+    )
+
+
+# --- Excel ---------------------------------------------------------------------------------------------
+
+
+def read_excel(path: Path) -> list[Table]:
+    """The sheets of a workbook that hold tables; formulas are not computed, what Excel has computed is read."""
+    import openpyxl  # slow to import, and only this format needs it
+
+    try:
+        with zipfile.ZipFile(path) as parts:
+            size = sum(p.file_size for p in parts.infolist() if p.filename.startswith("xl/worksheets/"))
+        require_memory(path, _CELL_OF_XML * size)
+        book = openpyxl.load_workbook(path, read_only=True, data_only=True, keep_links=False)
+        sheets = {str(s.title): _cells(s) for s in book.worksheets}
+        book.close()
+    except UserError:
+        raise
+    except Exception as error:  # openpyxl, zipfile and the XML parser each raise their own
+        raise UserError(
+            "the Excel file is damaged or not .xlsx",
+            where=path,
+            found=(str(error) or type(error).__name__).split("\n", 1)[0][:200],
+            expected="a whole workbook (.xlsx)",
+            remedy="save it again, or as CSV",
+        ) from None
+    return [t for t in (_sheet(name, rows) for name, rows in sheets.items()) if t is not None]
+
+
+def _cells(sheet: Any) -> list[tuple[int, list[Any]]]:
+    """The rows that hold anything, each with its number; whatever the sheet says of its own size."""
+    sheet.reset_dimensions()
+    rows = ([None if c in _EXCEL_ERRORS else c for c in r] for r in sheet.iter_rows(values_only=True))
+    return [(n, r) for n, r in enumerate(rows, 1) if any(c not in (None, "") for c in r)]
+
+
+def _sheet(name: str, rows: list[tuple[int, list[Any]]]) -> Table | None:
+    """What a sheet holds; ``None`` if there is no table in it."""
+    size = max((len(r) for _, r in rows), default=0)
+    cells = [["" if c is None else c for c in r] + [""] * (size - len(r)) for _, r in rows]
+    header = find_header(cells[:_LOOKED_AT])
+    if header is None:
+        return None
+    named = [k for k, n in enumerate(header.names) if n]
+    data = cells[header.begins :]
+    columns = tuple(
+        Column(header.names[k], header.units[k], _column([r[k] for r in data])) for k in named[:MOST_COLUMNS]
+    )
+    first = rows[header.begins][0] if data else 1
+    return Table(columns, line=name, part=name, counts=("row", first))
+
+
+def _column(cells: Sequence[Any]) -> NDArray[Any]:
+    """Cells of a sheet: numbers, dates, elapsed times (beyond 24 h Excel has dates of 1900 for them), or texts."""
+    there = [c for c in cells if _filled(c)]
+    if all(isinstance(c, int | float) for c in there):
+        return np.array([float(c) if isinstance(c, int | float) else np.nan for c in cells])
+    if any(isinstance(c, timedelta | datetime) for c in there) and None not in map(_elapsed, there):
+        known = ["NaT" if (e := _elapsed(c)) is None else e for c in cells]
+        return np.array(known, dtype="timedelta64[us]").astype("timedelta64[ns]")
+    return np.array([write_cell(c) for c in cells], dtype=object)
+
+
+def _elapsed(cell: Any) -> timedelta | None:
+    """An elapsed time; ``None`` if the cell is none."""
+    if isinstance(cell, time):
+        cell = datetime.combine(date(1899, 12, 31), cell)
+    if isinstance(cell, datetime) and cell.year in (1899, 1900):
+        cell = cell - datetime(1899, 12, 31)
+    return cell if isinstance(cell, timedelta) else None

@@ -1,0 +1,350 @@
+"""Tables as people have them: strange headers, dates, missing-value codes; DataFrames, Datasets and dicts; `ragg map`."""
+
+from __future__ import annotations
+
+import gzip
+import os
+import sys
+from datetime import datetime, time, timedelta
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import openpyxl
+import pandas as pd
+import pytest
+import xarray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.units import units
+from ragg_runtime.io import memory, read_flight, read_flights
+from ragg_runtime.io.draft import draft_mapping
+from ragg_runtime.io.files import read_recordings
+from ragg_runtime.io.info import describe_flight
+from ragg_runtime.io.mapping import parse_mapping
+from ragg_runtime.io.recording import find_codes
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
+
+G0, N, RATE = 9.8, 60, 16
+UNITS = {"time": "s", "a_x": "g", "a_y": "g", "a_z": "g"}
+UNITS |= {"omega_x": "deg/h", "omega_y": "deg/h", "omega_z": "deg/h", "G_out": "V"}
+HEADER = [f"{n} [{u}]" for n, u in UNITS.items()]
+VALUES = {n: np.round(np.random.default_rng(k).normal(size=N), 6) for k, n in enumerate(UNITS)}
+VALUES["time"] = np.arange(N) / RATE
+
+
+def rows(times: list[Any] | None = None) -> list[list[Any]]:
+    columns = [list(v) for v in VALUES.values()]
+    return [list(r) for r in zip(times or columns[0], *columns[1:], strict=True)]
+
+
+def text(head: str, cells: list[list[Any]], delimiter: str = ",", end: str = "\n", decimal: str = ".") -> str:
+    lines = [
+        delimiter.join(str(c).replace(".", decimal) if isinstance(c, float) else str(c) for c in r)
+        for r in cells
+    ]
+    return head + end + end.join(lines) + end
+
+
+def same(found: Any, instants: bool = False) -> None:
+    assert found.instants == instants
+    assert found.time - found.time[0] == pytest.approx(VALUES["time"], abs=1e-6)
+    assert found.outputs["G_out"] == pytest.approx(VALUES["G_out"])
+    assert found.channels["a_y"] == pytest.approx(VALUES["a_y"] * G0)
+
+
+PLAIN = ",".join(HEADER)
+CSV = {
+    "a comma behind every line": text(PLAIN + ",", [[*r, ""] for r in rows()]),
+    "a comma behind every row": text(PLAIN, [[*r, ""] for r in rows()]),
+    "lines before the header": "Recorder XR-4;serial 0071\nStart: 2026-03-01 10:00\nVersion,2\n\n" + text(PLAIN, rows()),
+    "padded lines before it": "Recorder XR-4" + 7 * "," + "\nStart,2026-03-01" + 6 * "," + "\n" + text(PLAIN, rows()),
+    "a line break in the header": text(",".join('"' + h.replace(" ", "\n") + '"' for h in HEADER), rows()),
+    "decimal commas": text(";".join(HEADER), rows(), ";", decimal=","),
+    "decimal commas, with tabs": text("\t".join(HEADER), rows(), "\t", decimal=","),
+    "units in a row of their own": text(",".join(UNITS) + "\n" + ",".join(UNITS.values()), rows()),
+    "a header over two rows": text("time [s],a [g],,,omega [deg/h],,,G_out [V]\n,x,y,z,x,y,z,", rows()),
+    "line ends of a Macintosh": text(PLAIN, rows(), end="\r"),
+    "another alphabet": text(PLAIN + ",T [°C]", [[*r, 1.0] for r in rows()]).encode("cp1252"),
+    "another alphabet late": text(PLAIN + ",remark", [[*r, "böig" if k == N - 1 else "ruhig"] for k, r in enumerate(rows())])
+    .encode("cp1252"),
+    "UTF-16": text(PLAIN, rows()).encode("utf-16"),
+    "a remark in one row": text(PLAIN + ",remark", [[*r, "1" if k < 50 else "x"] for k, r in enumerate(rows())]),
+    "an index that is time": text("," + PLAIN.partition(",")[2], rows([f"0 days 00:00:{t:09.6f}" for t in VALUES["time"]])),
+    "row numbers in front": text("," + PLAIN, [[k, *r] for k, r in enumerate(rows())]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", CSV)
+def test_tables_in_disguise(tmp_path: Path, kind: str) -> None:
+    content = CSV[kind]
+    (tmp_path / "x.csv").write_bytes(content if isinstance(content, bytes) else content.encode())
+    same(read_flight(tmp_path / "x.csv", G0))
+
+
+def stamps(start: str, form: str) -> list[str]:
+    every = pd.to_datetime(start) + pd.to_timedelta(VALUES["time"], unit="s")
+    return [t.strftime(form) for t in every]
+
+
+DATES: dict[str, tuple[list[Any], bool]] = {
+    "ISO": (stamps("2026-03-01 23:59:58", "%Y-%m-%dT%H:%M:%S.%fZ"), True),
+    "slashes, year first": (stamps("2026-03-01 23:59:58", "%Y/%m/%d %H:%M:%S.%f"), True),
+    "dots": (stamps("2026-03-01 10:00:00", "%d.%m.%Y %H:%M:%S.%f"), True),
+    "day first": (stamps("2026-03-13 23:59:58", "%d/%m/%Y %H:%M:%S.%f"), True),
+    "month first, in the afternoon": (stamps("2026-03-13 11:59:58", "%m/%d/%y %I:%M:%S.%f %p"), True),
+    "month by name": (stamps("2026-03-01 10:00:00", "%d-%b-%Y %H:%M:%S.%f"), True),
+    "time of the day over midnight": (stamps("2026-03-01 23:59:58", "%H:%M:%S.%f"), True),
+    "minutes and seconds over an hour": (stamps("2026-03-01 10:59:58", "%M:%S.%f"), True),
+    "more than a day": ([f"{23 + k // 32}:{59 - k // 32 * 59:02d}:{k % 32 / 16 + 58 - k // 32 * 58:09.6f}" for k in range(N)], False),
+    "days of Python": ([f"1 days 0:00:{k / 16:09.6f}" for k in range(N)], False),
+    "a leap second": (
+        [f"2016-12-31T23:59:{59 + k / 16:07.4f}Z" if k < 32 else f"2017-01-01T00:00:{(k - 32) / 16:07.4f}Z" for k in range(N)],
+        True,
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", DATES)
+def test_dates_as_people_write_them(tmp_path: Path, kind: str) -> None:
+    times, instants = DATES[kind]
+    head = "time," + PLAIN.partition(",")[2]
+    (tmp_path / "x.csv").write_text(text(head, rows(times)))
+    same(read_flight(tmp_path / "x.csv", G0), instants)
+    made = draft_mapping(tmp_path / "x.csv")
+    assert not made.questions, made.text
+    if "days" not in kind:
+        same(read_flight(tmp_path / "x.csv", G0, mapping=parse_mapping(made.text, tmp_path)), instants)
+
+
+def test_a_date_of_two_meanings_is_asked_for(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text(
+        text("when," + PLAIN.partition(",")[2], rows(stamps("2026-03-01 10:00:00", "%m/%d/%Y %H:%M:%S.%f")))
+    )
+    made = draft_mapping(path)
+    assert 'format = "?"' in made.text and "d/m/y" in made.questions[0]
+    for form, day in (("d/m/y", 3), ("m/d/y", 1), ("mm/dd/yyyy", 1), ("%d/%m/%Y %H:%M:%S.%f", 3)):
+        mapping = parse_mapping(made.text.replace('"?"', f'"{form}"'), tmp_path)
+        (found,) = read_recordings(path, mapping)
+        assert (
+            found.origin == datetime.fromisoformat(f"2026-{4 - day:02d}-{day:02d}T00:00:00+00:00") or day == 1
+        )
+    path.write_text(path.read_text().replace("when", "time", 1))
+    with pytest.raises(UserError, match=r"day/month or month/day[^$]*03/01/2026[^$]*format"):
+        read_flight(path, G0)
+    path.write_text(path.read_text().replace("03/01/2026 10:00:01.0", "03/01/2026 10h00m01", 1))
+    with pytest.raises(UserError, match=r"cannot be read[^$]*line 18: '03/01/2026 10h00m01"):
+        read_flight(path, G0)
+
+
+def test_excel_as_people_write_it(tmp_path: Path) -> None:
+    """Elapsed times over 24 h (dates of 1900 for Excel), times of the day, a header over merged cells, text among numbers."""
+    merged = [
+        ["time", "a [g]", None, None, "omega [deg/h]", None, None, "G_out [V]"],
+        [None, *"xyzxyz", None],
+    ]
+    day = datetime(2026, 3, 1)
+    for k, (times, instants) in enumerate(
+        (
+            ([timedelta(hours=23, minutes=59, seconds=58 + t) for t in VALUES["time"]], False),
+            ([(day + timedelta(hours=10, seconds=t)).time() for t in VALUES["time"]], True),
+            ([day + timedelta(hours=10, seconds=t) for t in VALUES["time"]], True),
+        )
+    ):
+        book = openpyxl.Workbook()
+        for row in [["of a survey"], *merged, *rows(times)]:
+            book.active.append([float(c) if isinstance(c, np.floating) else c for c in row])
+        book.active.append(["end of the record"])
+        book.save(tmp_path / f"{k}.xlsx")
+        found = read_recordings(tmp_path / f"{k}.xlsx", lenient=True)[0] if k == 9 else None
+        assert found is None
+        book.active.delete_rows(book.active.max_row)
+        book.save(tmp_path / f"{k}.xlsx")
+        read = read_flight(tmp_path / f"{k}.xlsx", G0)
+        assert read.instants == instants
+        assert read.time - read.time[0] == pytest.approx(
+            VALUES["time"], abs=6e-4
+        )  # openpyxl rounds to milliseconds
+        assert read.channels["a_y"] == pytest.approx(VALUES["a_y"] * G0)
+    assert isinstance(day.time(), time)
+
+
+NOISE = 290 + np.random.default_rng(3).normal(size=500)
+EVERY = np.arange(500) % 97 == 5
+CODES = (-9999.0, -999.25, 99999.9, -1e32, float(np.float32(-1e32)), 9.969209968386869e36, 0.0, -1.0)
+SMOOTH = np.sin(np.arange(500) / 30)
+
+
+@pytest.mark.parametrize(
+    ("values", "codes"),
+    [
+        *((np.where(EVERY, code, NOISE), [code]) for code in CODES),
+        (np.where(np.arange(500) == 5, -9999.0, NOISE), [-9999.0]),
+        (np.where(EVERY, -9999.0, np.where(np.arange(500) % 89 == 3, -99999.0, NOISE)), [-99999.0, -9999.0]),
+        (np.where(EVERY, -9999.0, np.where(np.arange(500) == 3, 4e3, NOISE)), [-9999.0]),
+        (np.where(EVERY, -9999.0, 290.0), [-9999.0]),
+        (np.where(EVERY, -9999.0, np.arange(500) * 25.0), [-9999.0]),
+        (NOISE, []),
+        (np.clip(SMOOTH, -0.9, 0.9), []),  # a saturated output
+        (np.clip(NOISE, 289, 291), []),
+        (np.where(np.arange(500) == 5, 400.0, NOISE), []),  # a spike
+        (np.where(np.arange(500) > 480, 1.0, 0.0), []),  # a switch
+        (np.mod(np.arange(500) * 0.1, 2 * np.pi), []),  # an angle
+        (np.where(np.arange(500) > 250, 270.0, 90.0) + np.round(SMOOTH, 1), []),  # a heading
+        (np.linspace(9000.0, 9999.0, 500), []),
+    ],
+)  # fmt: skip
+def test_missing_value_codes(values: np.ndarray, codes: list[float]) -> None:
+    assert sorted(find_codes(values)) == sorted(codes)
+
+
+def test_codes_are_left_out_with_a_note_in_every_column(tmp_path: Path) -> None:
+    data = {n: v.copy() for n, v in VALUES.items()} | {
+        "temperature": NOISE[:N].copy(),
+        "load": np.arange(N) % 7.0,
+    }
+    for k, n in enumerate((n for n in data if n != "load"), 3):
+        data[n][[k, k + 20]] = -9999.0
+    given = {**UNITS, "temperature": "K", "load": "1"}
+    table = {f"{n} [{u}]": data[n] for n, u in given.items()}
+    found = read_flight(table, G0)
+    assert len(found) == N
+    assert sum("2 values of -9999" in n for n in found.notes) == 9
+    assert "2 rows without a time left out" in found.notes
+    assert np.min(found.channels["temperature"]) > 280
+    lines = ["null = [-9999]", '[time]\ncolumn = "time"', "[columns]"]
+    lines += [f'{n} = {{ column = "{n}", null = [0, "n/a"] }}' for n in given if n != "time"]
+    mapped = read_flight(table, G0, mapping=parse_mapping("\n".join(lines), tmp_path))
+    assert any("load: 9 values of 0 stand for" in n for n in mapped.notes)
+
+
+def test_flights_in_memory() -> None:
+    plain = {h: v for h, v in zip(HEADER, VALUES.values(), strict=True)}  # noqa: C416
+    bare = {n: v for n, v in VALUES.items() if n != "time"}
+    named = pd.DataFrame(bare, index=pd.Index(pd.to_timedelta(VALUES["time"], unit="s")))
+    named.attrs = {"units": UNITS}
+    dated = pd.DataFrame(
+        {h: v for h, v in plain.items() if h[0] != "t"},
+        index=pd.to_datetime(stamps("2026-03-01", "%Y-%m-%dT%H:%M:%S.%f")),
+    )
+    two = pd.DataFrame(np.stack([*VALUES.values()], axis=1), columns=pd.MultiIndex.from_tuples(UNITS.items()))
+    attributes = xarray.Dataset(
+        {n: ("time", v, {"units": UNITS[n]}) for n, v in bare.items()}, {"time": dated.index}
+    )
+    seconds = attributes.assign_coords(time=("time", VALUES["time"], {"units": "s"}))
+    seconds["wide"] = ("band", np.arange(3.0))
+    for data, instants in (
+        (plain, False),
+        (pd.DataFrame(plain), False),
+        (pd.DataFrame(plain).iloc[::1].set_index(HEADER[0]), False),
+        (named, False),
+        (dated, True),
+        (dated.tz_localize("UTC").rename_axis("time"), True),
+        (two, False),
+        (pd.DataFrame(plain).astype("Float64"), False),
+        (attributes, True),
+        (seconds, False),
+        ({**VALUES, "attrs": {"units": UNITS}}, False),
+        ({n: xarray.DataArray(v, attrs={"units": UNITS[n]}) for n, v in VALUES.items()}, False),
+    ):
+        (found,) = read_flights(data, G0, name="x")
+        same(found, instants)
+        assert (found.name, found.path, len(found.digest)) == ("x", None, 64)
+    with pytest.raises(UserError, match="no flight"):
+        read_flight(3.0, G0)
+
+
+def test_what_is_in_memory_is_compared(tmp_path: Path) -> None:
+    m = loop.new(tmp_path / "m")
+    x = simulated(m.instrument, [], seed=1, duration=60.0, rate=8.0)
+    data = {"time [s]": x.time} | {f"{n} [{x.units[n]}]": v for n, v in {**x.channels, **x.outputs}.items()}
+    pd.DataFrame(data).to_csv(tmp_path / "x.csv", index=False)
+    values = [
+        loop.compare(m, f).calibrated.rms_Eo for f in (data, [pd.DataFrame(data)], str(tmp_path / "x.csv"))
+    ]
+    assert values[0] == values[1] == pytest.approx(values[2], rel=1e-9)
+
+
+def test_a_map_is_written_whatever_is_odd(tmp_path: Path) -> None:
+    with h5py.File(tmp_path / "x.h5", "w") as file:
+        for n, v in VALUES.items():
+            file[f"imu/{n}"] = v
+            file[f"imu/{n}"].attrs["units"] = UNITS[n]
+        file["imu/names"] = np.array([b"a"] * N)
+        file["other/time"], file["other/x"] = np.arange(5.0), np.arange(5.0)
+    made = draft_mapping(tmp_path / "x.h5")
+    assert 'part = "/imu"' in made.text and "no numbers" in made.text
+    same(read_flight(tmp_path / "x.h5", G0, mapping=parse_mapping(made.text, tmp_path)))
+    kinds = text(
+        "LINE," + PLAIN, [[1010 if k < 20 else 1020 if k < 40 else "T9010", *r] for k, r in enumerate(rows())]
+    )
+    (tmp_path / "x.csv").write_text(kinds + "," * 8 + "\n" + "," + "0," * 7 + "0\n")
+    made = draft_mapping(tmp_path / "x.csv")
+    found = read_recordings(tmp_path / "x.csv", parse_mapping(made.text, tmp_path))
+    assert [r.line for r in found] == ["1010", "1020", "T9010"]
+    assert any("2 rows without the name of a line left out" in n for n in found[0].notes)
+
+
+def test_a_file_name_that_is_no_unicode(tmp_path: Path) -> None:
+    if sys.platform != "linux":
+        pytest.skip("file systems that take any bytes")
+    import pyarrow.parquet
+
+    place = Path(os.fsdecode(os.fsencode(tmp_path) + b"/fl\374g"))
+    place.with_suffix(".csv").write_text(text(PLAIN, rows()))
+    with place.with_suffix(".parquet").open("wb") as stream:
+        pyarrow.parquet.write_table(pyarrow.table(dict(zip(HEADER, VALUES.values(), strict=True))), stream)
+    for ending in (".csv", ".parquet"):
+        same(read_flight(place.with_suffix(ending), G0))
+        assert draft_mapping(place.with_suffix(ending)).text
+
+
+def test_a_table_larger_than_memory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with h5py.File(tmp_path / "x.h5", "w") as file:
+        for n in UNITS:
+            file.create_dataset(n, (10**12,), "f8", chunks=(10**6,))
+    (tmp_path / "x.csv.gz").write_bytes(
+        gzip.compress(PLAIN.encode() + b"\n" + b"0,0,0,0,0,0,0,0\n" * 200_000)
+    )
+    monkeypatch.setattr(memory, "find_free_memory", lambda: 2e7)
+    for ending in (".h5", ".csv.gz"):
+        with pytest.raises(UserError, match="too large for the memory"):
+            read_flight(tmp_path / f"x{ending}", G0)
+
+
+def test_what_a_file_holds(tmp_path: Path) -> None:
+    kept = [r for k, r in enumerate(rows()) if k not in (20, 21, 40)]
+    (tmp_path / "x.csv").write_text(text(PLAIN + ",fuel", [[*r, 1.5] for r in kept]))
+    found = describe_flight(tmp_path / "x.csv")
+    (record,) = found.records
+    assert (record.rows, record.rate_Hz, record.gap_count, record.missing) == (
+        N - 3,
+        pytest.approx(RATE),
+        2,
+        3,
+    )
+    assert (record.gaps[0].from_s, record.gaps[0].samples) == (19 / RATE, 2)
+    assert record.refused is not None and "'fuel'" in record.refused
+    json = found.as_json()["records"][0]
+    assert json["columns"][-1] == {
+        "name": "fuel",
+        "unit": "",
+        "samples": 57,
+        "missing": 0,
+        **dict.fromkeys(("minimum", "maximum", "mean"), 1.5),
+    }
+    (tmp_path / "x.csv").write_text(text(PLAIN, kept))
+    (record,) = describe_flight(tmp_path / "x.csv").records
+    assert record.refused is None and any("2 gaps" in n for n in record.notes)
+
+
+@pytest.mark.parametrize(
+    ("spelling", "unit"),
+    [("Volt", "V"), ("DEG/S", "deg/s"), ("mdps", "mdeg/s"), ("\u2103", "degC"), ("m/s²", "m/s^2"), ("Deg/Hr", "deg/h"), ("volts", "V")],
+)  # fmt: skip
+def test_spellings(spelling: str, unit: str) -> None:
+    known = units(G0)
+    assert known.to_si(1.0, spelling, unit) == pytest.approx(1.0)
