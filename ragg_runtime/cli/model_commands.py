@@ -208,7 +208,7 @@ def demo(output: Path) -> None:
 @mapping_option
 def info(flight: Path, mapping: Path | None) -> None:
     """Show what a flight file holds, and what is assumed."""
-    from ragg_runtime.io.info import STANDARD_G, describe_flight
+    from ragg_runtime.io.info import PAPER_G, describe_flight
     from ragg_runtime.io.mapping import read_mapping
     from ragg_runtime.wording import describe
 
@@ -222,7 +222,7 @@ def info(flight: Path, mapping: Path | None) -> None:
         from ragg_runtime.report.pages import info_page
 
         usable = not any(r.refused for r in found.records)
-        records = read_flights(flight, STANDARD_G, mapping=how) if usable else []
+        records = read_flights(flight, PAPER_G, mapping=how) if usable else []
         return info_page(said, records, Origin(flight.name, command_line(), [(found.path, found.sha256)]))
 
     conclude(found.as_json(), said, page)
