@@ -27,9 +27,8 @@ from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import EOTVOS, units
 from ragg_runtime.model import lateness
 from ragg_runtime.model.evaluate import scale_factor, unit_factor
+from ragg_runtime.model.evaluator import Evaluator, changes
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.native import Evaluator
-from ragg_runtime.model.native.changes import changes
 from ragg_runtime.model.record import GRADIENTS, Record
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
 from ragg_runtime.signals.means import between

@@ -15,9 +15,9 @@ from ragg_runtime.estimation.columns import Column
 from ragg_runtime.estimation.observation import Observation, Thin, bridged
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.chain import Chain
+from ragg_runtime.model.evaluator import Evaluator
 from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.native import Evaluator
 from ragg_runtime.model.record import made_of
 
 Array = NDArray[np.float64]

@@ -19,7 +19,7 @@ from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.model.chain import Chain
 
 if TYPE_CHECKING:
-    from ragg_runtime.model.native import Evaluator
+    from ragg_runtime.model.evaluator import Evaluator
 
 Array = NDArray[np.float64]
 
@@ -145,14 +145,14 @@ class Model:
     @cached_property
     def evaluators(self) -> Callable[[str], Evaluator]:
         """``chain`` and ``signatures``, as fits evaluate them."""
-        from ragg_runtime.model.native import for_fits
+        from ragg_runtime.model.evaluator import for_fits
 
         modules = {"chain": self.chain, "signatures": self.signatures}
         return for_fits(modules, self.fitting, self.layout, quick=not self.lasting)
 
     def compiled(self, backend: Literal["auto", "c", "numpy"] = "auto") -> Evaluator:
         """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
-        from ragg_runtime.model.native import evaluator
+        from ragg_runtime.model.evaluator import evaluator
 
         return evaluator(self.chain, self.sources, self.folded, backend, self.layout)
 

@@ -15,8 +15,8 @@ from ragg_runtime.io.angular_acceleration import planned
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.io.sampling import JITTER_NOTED
 from ragg_runtime.model.evaluate import scale_factor
+from ragg_runtime.model.evaluator import Evaluator
 from ragg_runtime.model.model import MANY, Model
-from ragg_runtime.model.native import Evaluator
 from ragg_runtime.model.record import start_of
 from ragg_runtime.model.recorded import recorded
 from ragg_runtime.screening import checks

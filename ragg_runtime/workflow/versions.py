@@ -16,7 +16,7 @@ from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity
-from ragg_runtime.model.settings import check_settings
+from ragg_runtime.model.evaluate import check_settings
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import load_model_dir, replace_model_dir
 from ragg_runtime.model_dir.history import Step

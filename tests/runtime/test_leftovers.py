@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from ragg_runtime.model import native
+from ragg_runtime.model import compiler
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="files without a name, scripts as compilers")
 
@@ -25,10 +25,10 @@ def test_a_compiler_that_hangs_is_given_up(
     script.chmod(0o755)
     monkeypatch.setenv("CC", str(script))
     monkeypatch.delenv("RAGG_NATIVE", raising=False)
-    monkeypatch.setattr("ragg_runtime.model.native.compiler.HANGING", 1.0)
+    monkeypatch.setattr("ragg_runtime.model.compiler.HANGING", 1.0)
     start = time.monotonic()
-    with pytest.raises(native.BuildError, match="does not answer within 1 s"):
-        native.build({"a.c": "int f(void) { return 1; }\n"}, tmp_path / "cache")
+    with pytest.raises(compiler.BuildError, match="does not answer within 1 s"):
+        compiler.build({"a.c": "int f(void) { return 1; }\n"}, tmp_path / "cache")
     assert time.monotonic() - start < 8
     assert not list((tmp_path / "cache").glob(".*so"))
 
@@ -37,5 +37,5 @@ def test_a_compiler_that_hangs_is_given_up(
 def test_an_odd_compiler_is_one_message(cc: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("CC", cc)
     monkeypatch.delenv("RAGG_NATIVE", raising=False)
-    with pytest.raises(native.BuildError):
-        native.build({"a.c": "int f(void) { return 1; }\n"}, tmp_path / "cache")
+    with pytest.raises(compiler.BuildError):
+        compiler.build({"a.c": "int f(void) { return 1; }\n"}, tmp_path / "cache")

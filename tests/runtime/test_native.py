@@ -17,19 +17,10 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import observation
 from ragg_runtime.estimation.linearise import Point, linearised
 from ragg_runtime.identification import comparison
+from ragg_runtime.model.compiler import BuildError, build, find_compiler, load, private_folder
 from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.evaluator import Evaluator, NativeWarning, _warn_once, changes
 from ragg_runtime.model.model import Model, from_files, packaged
-from ragg_runtime.model.native import (
-    BuildError,
-    Compiled,
-    Interpreted,
-    NativeWarning,
-    backends,
-    build,
-)
-from ragg_runtime.model.native.changes import changes
-from ragg_runtime.model.native.compiler import find_compiler, private_folder
-from ragg_runtime.model.native.library import Library
 from ragg_runtime.reference.scenario import scenario
 from tests.generated import draws
 from tests.generated.draws import Array
@@ -47,7 +38,7 @@ def own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Monk
     place.mkdir(mode=0o700, exist_ok=True)
     monkeypatch.setenv("XDG_CACHE_HOME", str(place))
     monkeypatch.delenv("RAGG_NATIVE", raising=False)
-    monkeypatch.setattr(backends, "_said", [])
+    _warn_once.cache_clear()
 
 
 @pytest.fixture(scope="module")
@@ -119,7 +110,6 @@ def test_extended_model_is_that_of_numpy(extended: Model, case: tuple[Array, Arr
     assert extended.chain.INPUTS[-1] == "temperature"
     inputs = np.vstack([motion, 290.0 + np.sin(t)])
     c, n = extended.compiled("c"), extended.compiled("numpy")
-    assert isinstance(c, Compiled)
     size = np.max(np.abs(n.voltages(t, inputs, q)))
     np.testing.assert_allclose(c.output(t, inputs, q), n.output(t, inputs, q), rtol=0, atol=4e-14 * size)
     base = packaged().compiled("numpy").output(t, motion, p)
@@ -168,7 +158,7 @@ def test_fits_of_a_derived_model_run_in_machine_code_candidates_too() -> None:
     for name, module in (("chain", model.chain), ("signatures", model.signatures)):
         e = model.evaluators(name)
         inputs, p = draw.uniform(-1.0, 1.0, (len(e.inputs), len(t))), draw.uniform(0.1, 1.0, module.SIZE)
-        D = Interpreted(module, model.layout, None).derivatives(2, t, inputs, p)
+        D = Evaluator(module, model.layout).derivatives(2, t, inputs, p)
         assert e.backend == "c"
         assert np.all(np.abs(e.derivatives(2, t, inputs, p) - D) <= 1e-11 * np.max(np.abs(D), 1)[:, None])
 
@@ -204,7 +194,7 @@ def test_without_a_compiler_numpy_serves_and_says_so_once(
     with pytest.warns(NativeWarning, match="slower NumPy code serves: there is no C compiler") as said:
         e = packaged().compiled()
     assert len(said) == 1
-    assert isinstance(e, Interpreted)
+    assert e.backend == "numpy"
     assert packaged().compiled().backend == "numpy"  # silently: warnings are errors here
     assert np.all(np.isfinite(e.output(t, inputs, p)))
     with pytest.raises(UserError, match="there is no C compiler"):
@@ -241,8 +231,8 @@ def test_library_is_made_once_and_anew_when_anything_changes(
     monkeypatch.delenv("CC")
     first.write_bytes(first.read_bytes()[:100])  # damaged: refused once, then made anew
     with pytest.raises(BuildError, match="cannot be loaded"):
-        Library(build(source, tmp_path))
-    Library(build(source, tmp_path))
+        load(build(source, tmp_path))
+    load(build(source, tmp_path))
 
 
 @needs_compiler

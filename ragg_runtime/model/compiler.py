@@ -1,0 +1,177 @@
+"""Generated C -> shared library, in a cache of the user under the digest of source, compiler, options and processor.
+
+The compiler is ``CC``, else ``cc``, ``gcc`` or ``clang``, else that of the package ``ziglang`` (``pip install 'ragg[compiler]'``).
+``RAGG_NATIVE=off``: never compile. Compiled is only text that this program has derived or that comes with it.
+"""
+
+from __future__ import annotations
+
+import atexit
+import ctypes
+import hashlib
+import importlib.util
+import os
+import platform
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
+
+import platformdirs
+
+from ragg_runtime.base import progress
+
+VARIABLE = "RAGG_NATIVE"
+
+OPTIONS = ("-std=c17", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared", "-DRAGG_SERIES_ALONE")
+"""No -ffast-math: it gains nothing and costs exactness. Contraction is off because the code says itself where products are fused: a
+sample has the same bits wherever it stands, and with whatever effort it was compiled."""
+
+FOR_PROCESSOR: tuple[tuple[str, ...], ...] = (
+    ("-march=native", "-mprefer-vector-width=512"),
+    ("-march=native",),
+    ("-mcpu=native",),
+    (),
+)
+"""Tried in turn: not every compiler knows every processor."""
+
+HANGING = 30.0
+"""How long a compiler is waited for, s: half a second is usual, on a busy machine ten. NumPy serves after that."""
+
+
+class BuildError(Exception):
+    """The C cannot be compiled or loaded; the message says why."""
+
+
+_given_up: dict[str, str] = {}
+"""Compilers that did not answer, and what was said of them: they are not waited for again."""
+
+
+def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool = False) -> Path:
+    """Compile C files (name -> text) to one library in ``folder`` (by default the user's cache), unless it is there.
+
+    Raises
+    ------
+    BuildError
+        If there is no compiler, or if it fails.
+    """
+    compiler, place = find_compiler(), private_folder(folder)
+    if compiler[0] in _given_up:
+        raise BuildError(_given_up[compiler[0]])
+    command = [*compiler, "-O1" if quick else "-O3", *OPTIONS]
+    text = [f"{name}\0{sources[name]}" for name in sorted(sources)]
+    identity = "\0".join((*text, _version(tuple(compiler)), *command, repr(FOR_PROCESSOR), processor()))
+    library = place / f"{hashlib.sha256(identity.encode()).hexdigest()[:32]}.so"
+    if library.exists():
+        return library
+    try:
+        with tempfile.TemporaryDirectory(prefix=".", dir=place) as work:
+            for name, content in sources.items():
+                (Path(work) / name).write_text(content, "utf-8")
+            _compile([*command, *(n for n in sorted(sources) if n.endswith(".c")), "-lm"], work)
+            os.replace(Path(work) / "library.so", library)
+    except OSError as error:
+        raise BuildError(f"the cache {place} cannot be written: {error.strerror}") from None
+    return library
+
+
+def _compile(command: Sequence[str], work: str) -> None:
+    told = ""
+    for options in FOR_PROCESSOR:
+        status, said = _run([*command, *options, "-o", "library.so"], work)
+        if status == 0:
+            return
+        told = told or next((x for x in said.splitlines() if "error" in x), "")
+    raise BuildError(f"the C compiler {command[0]} fails: {told or 'it says nothing'}")
+
+
+def find_compiler() -> list[str]:
+    """The C compiler as the beginning of a command; BuildError if there is none."""
+    if os.environ.get(VARIABLE, "").lower() in ("off", "0", "none"):
+        raise BuildError(f"{VARIABLE} is {os.environ[VARIABLE]}")
+    try:
+        named = shlex.split(os.environ.get("CC", ""))
+    except ValueError as error:
+        raise BuildError(f"CC cannot be read as a command: {error}") from None
+    for command in (named,) if named else (["cc"], ["gcc"], ["clang"]):
+        path = shutil.which(command[0])
+        if path:
+            return [path, *command[1:]]
+    if not named and importlib.util.find_spec("ziglang") is not None:
+        return [sys.executable, "-m", "ziglang", "cc"]
+    looked = named[0] if named else "cc, gcc, clang"
+    remedy = "install one (pip install 'ragg[compiler]' brings one), or name it in CC"
+    raise BuildError(f"there is no C compiler ({looked}): {remedy}")
+
+
+def _run(command: Sequence[str], folder: str | None = None) -> tuple[int, str]:
+    """Exit status, and what was said: to a file, as children of a compiler that hangs would keep a pipe open."""
+    with tempfile.TemporaryFile("w+", errors="replace") as said:
+        try:
+            done = subprocess.run(
+                command,
+                cwd=folder,
+                stdin=subprocess.DEVNULL,
+                stdout=said,
+                stderr=said,
+                timeout=HANGING,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            told = f"the C compiler {command[0]} does not answer within {HANGING:g} s"
+            _given_up[command[0]] = told
+            progress.remark(f"{told}; the slower NumPy code serves")
+            raise BuildError(told) from None
+        except OSError as error:
+            raise BuildError(f"the C compiler {command[0]} cannot be run: {error}") from None
+        said.seek(0)
+        return done.returncode, said.read()
+
+
+@cache
+def _version(compiler: tuple[str, ...]) -> str:
+    status, said = _run([*compiler, "--version"])
+    return said if status == 0 else ""
+
+
+@cache
+def processor() -> str:
+    """What ``native`` means here: caches are shared between machines where home directories are."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text("utf-8").splitlines()
+    except OSError:
+        lines = []
+    found = [x for x in lines if x.startswith(("model name", "flags", "Features", "CPU part"))]
+    return "\n".join((platform.system(), platform.machine(), platform.processor(), *dict.fromkeys(found)))
+
+
+def private_folder(folder: Path | None = None) -> Path:
+    """The cache, if it can be written, by its owner alone (it holds code); else one for this process."""
+    place = folder if folder is not None else platformdirs.user_cache_path("ragg") / "native"
+    try:
+        place.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if os.access(place, os.W_OK) and not place.stat().st_mode & 0o022:
+            return place
+    except OSError:
+        pass
+    return _own_folder()
+
+
+@cache
+def _own_folder() -> Path:
+    folder = tempfile.mkdtemp(prefix="ragg-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return Path(folder)
+
+
+def load(file: Path) -> ctypes.CDLL:
+    """A library of functions ragg_<model>_<function>; a damaged one is removed and made anew the next time (BuildError)."""
+    try:
+        return ctypes.CDLL(str(file))
+    except OSError as error:
+        file.unlink(missing_ok=True)
+        raise BuildError(f"the compiled model cannot be loaded: {error}") from None
