@@ -32,9 +32,9 @@ SHORT, LONG = 1_000_000, 3_000_000
 
 def run() -> list[Row]:
     """Rows of all commands."""
+    from ragg_runtime import api
     from ragg_runtime.io import write_flight
-    from ragg_runtime.workflow import loop
-    from ragg_runtime.workflow.simulate import simulated
+    from ragg_runtime.simulate import simulated
 
     rows = [
         _row("import ragg", [sys.executable, "-c", "import ragg"], 0.2),
@@ -43,7 +43,7 @@ def run() -> list[Row]:
     ]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        m = loop.new(folder / "model")
+        m = api.new(folder / "model")
         model, copy = str(folder / "model"), folder / "copy"
         flight = simulated(m.instrument, [HIDDEN], seed=1, duration=1800.0, no_gradient=False)
         known, unknown = str(folder / "flight.parquet"), str(folder / "unknown.parquet")
@@ -155,7 +155,7 @@ def _preview(m: object, flight: Flight) -> list[Row]:
 def _hour(m: object, path: Path) -> list[Row]:
     """A diagnosis of an hour at 100 Hz, from a file."""
     from ragg_runtime.io import write_flight
-    from ragg_runtime.workflow.simulate import simulated
+    from ragg_runtime.simulate import simulated
 
     write_flight(simulated(m.instrument, [HIDDEN], seed=1, duration=3600.0, rate=100.0), path)  # type: ignore[attr-defined]
     script = (

@@ -116,9 +116,9 @@ def layouts(p: Any) -> Iterator[tuple[str, Any, Any, float]]:
     """Name, evaluator, parameters and the largest ratio to the paper's model aimed at; the paper's first."""
     from ragg_runtime.instrument.form import PRESETS, Form
     from ragg_runtime.instrument.read_toml import parse_instrument
+    from ragg_runtime.model import derive
     from ragg_runtime.model.evaluate import vector
     from ragg_runtime.model.model import packaged
-    from ragg_runtime.model_dir import derive
     from tests.layouts import sheets
 
     exact = Form(kinematics="full", **dict(PRESETS["exact"]))  # type: ignore[arg-type]

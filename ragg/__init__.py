@@ -15,28 +15,30 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from ragg_runtime.api import add as add
+    from ragg_runtime.api import calibrate as calibrate
+    from ragg_runtime.api import compare as compare
+    from ragg_runtime.api import compensate as compensate
+    from ragg_runtime.api import diagnose as diagnose
+    from ragg_runtime.api import export as export
+    from ragg_runtime.api import load as load
+    from ragg_runtime.api import new as new
+    from ragg_runtime.api import read_flights as read_flights
+    from ragg_runtime.api import remove as remove
+    from ragg_runtime.api import survey as survey
     from ragg_runtime.base.errors import UserError as UserError
-    from ragg_runtime.workflow.after import calibrate as calibrate
-    from ragg_runtime.workflow.after import compensate as compensate
-    from ragg_runtime.workflow.after import export as export
-    from ragg_runtime.workflow.catalogue import effects as effects
-    from ragg_runtime.workflow.loop import add as add
-    from ragg_runtime.workflow.loop import compare as compare
-    from ragg_runtime.workflow.loop import diagnose as diagnose
-    from ragg_runtime.workflow.loop import load as load
-    from ragg_runtime.workflow.loop import new as new
-    from ragg_runtime.workflow.loop import read_flights as read_flights
-    from ragg_runtime.workflow.loop import remove as remove
-    from ragg_runtime.workflow.loop import survey as survey
-    from ragg_runtime.workflow.simulate import simulate as simulate
+    from ragg_runtime.model.catalogue import effects as effects
+    from ragg_runtime.simulate import simulate as simulate
 
 _MODULES = {
     "base.errors": ("UserError",),
-    "workflow.after": ("calibrate", "compensate", "export"),
-    "workflow.catalogue": ("effects",),
-    "workflow.loop": ("add", "compare", "diagnose", "load", "new", "read_flights", "remove", "survey"),
-    "workflow.simulate": ("simulate",),
-}
+    "api": (
+        "add", "calibrate", "compare", "compensate", "diagnose", "export", "load", "new", "read_flights", "remove",
+        "survey",
+    ),
+    "model.catalogue": ("effects",),
+    "simulate": ("simulate",),
+}  # fmt: skip
 __all__ = sorted(name for names in _MODULES.values() for name in names)
 
 

@@ -23,7 +23,7 @@ from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.record import ANGULAR_RATE
-from ragg_runtime.model_dir import derive
+from ragg_runtime.model import derive
 
 Array = NDArray[np.float64]
 

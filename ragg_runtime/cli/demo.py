@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.shared import next_command, notes_of
 from ragg_runtime.identification.parameters import ParameterValue
 from ragg_runtime.io import write_flight
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.pages import add_page, diagnose_page
+from ragg_runtime.simulate import simulated
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Section, render_text
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
 
 HIDDEN = ("thermal-scale", "dK1_dT", (0.0, 0.0, 6e-8, 0.0))
 """What is hidden in the flight: effect, parameter, its values in A1 ... A4, 1/K."""
@@ -26,7 +26,7 @@ def make_flight(path: Path) -> None:
     """Write the flight: twelve minutes at 1 g in turbulence, with a temperature-dependent scale factor in A3."""
     effect, name, values = HIDDEN
     hidden = f"{effect}:{name}={'/'.join(f'{x:g}' for x in values)}"
-    write_flight(simulated(loop.example(), [hidden], seed=2026, duration=720.0, rate=16.0), path)
+    write_flight(simulated(api.example(), [hidden], seed=2026, duration=720.0, rate=16.0), path)
 
 
 def _recovered(parameters: Sequence[ParameterValue]) -> list[str]:
@@ -58,24 +58,24 @@ def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -
 
     model = output / "model"
     _show(f"ragg new {model}")
-    m = loop.new(model)
-    flights = loop.read_flights(m, [flight])
+    m = api.new(model)
+    flights = api.read_flights(m, [flight])
 
     check = next_command("diagnose", model, flights)
-    before = loop.compare(m, flights).as_json()
+    before = api.compare(m, flights).as_json()
     said = describe.describe_comparison(before, [x.name for x in flights], check)
     _show(next_command("compare", model, flights), (*said, *notes_of(flights)))
 
-    diagnosis = loop.diagnose(m, flights)
+    diagnosis = api.diagnose(m, flights)
     then = next_command("add", model, flights, None, diagnosis.found[0]) if diagnosis.found else ""
     _show(check, describe.describe_diagnosis(diagnosis.as_json(), then))
-    origin = Origin("Demonstration: diagnosis", command, loop.sources(m, flights))
+    origin = Origin("Demonstration: diagnosis", command, api.sources(m, flights))
     (output / "diagnosis.html").write_text(diagnose_page(diagnosis, origin), "utf-8")
     if diagnosis.verdict != "missing-effect":
         raise UserError("the demonstration did not find the hidden effect", found=diagnosis.verdict)
 
     for effect in diagnosis.found:
-        result = loop.add(m, effect, flights)
+        result = api.add(m, effect, flights)
         m = result.loaded
         said = describe.describe_addition(result.as_json(), [e.id for e in m.model.effects])
         _show(next_command("add", model, flights, effect=effect), said)
@@ -84,7 +84,7 @@ def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -
 
     steps = [s.as_json() for s in m.directory.history]
     _show(f"ragg history {model}", describe.describe_history(steps))
-    origin = Origin("Demonstration: the effect added", command, loop.sources(m, flights))
+    origin = Origin("Demonstration: the effect added", command, api.sources(m, flights))
     report = output / "report.html"
     report.write_text(add_page(steps, result.before, result.after, origin, diagnosis), "utf-8")
     last = (

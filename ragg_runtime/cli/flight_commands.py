@@ -31,9 +31,9 @@ from ragg_runtime.cli.shared import (
 )
 
 if TYPE_CHECKING:
+    from ragg_runtime.api import Added, Loaded
     from ragg_runtime.identification.motion_design import Criterion
-    from ragg_runtime.workflow.loop import Added, Loaded
-    from ragg_runtime.workflow.next_flight import NextFlight
+    from ragg_runtime.next_flight import NextFlight
 
 
 @click.command(cls=Command, report=True)
@@ -53,8 +53,8 @@ def compare(
     frozen: bool,
 ) -> None:
     """Show how far the model is from flights, and where."""
+    from ragg_runtime import api
     from ragg_runtime.wording import describe
-    from ragg_runtime.workflow import loop
 
     m = load(model_dir)
     if frozen or calibration == "frozen":
@@ -63,7 +63,7 @@ def compare(
     records = read(m, flights, mapping)
     under_way("calibrating and comparing")
     with progress.shown("compare", sum(map(len, records))):
-        c = loop.compare(m, records, ladder=ladder)
+        c = api.compare(m, records, ladder=ladder)
 
     def page() -> str:
         from ragg_runtime.report.pages import compare_page
@@ -73,19 +73,19 @@ def compare(
     result = c.as_json()
     then = next_command("diagnose", model_dir, records, mapping)
     said = describe.describe_comparison(result, [x.name for x in records], then)
-    conclude(result | loop.origin(m, records, command_line()), said, page, records)
+    conclude(result | api.origin(m, records, command_line()), said, page, records)
 
 
 def _compare_frozen(m: Loaded, flights: Sequence[Path], mapping: Path | None) -> None:
     """``ragg compare --frozen``."""
+    from ragg_runtime import api
     from ragg_runtime.wording import describe
-    from ragg_runtime.workflow import after, loop
 
     odd = _calibration_notes(m)
     records = read(m, flights, mapping)
     under_way("comparing with the saved calibration")
     with progress.shown("compare", sum(map(len, records))):
-        h = after.compare_frozen(m, records)
+        h = api.compare_frozen(m, records)
 
     def page() -> str:
         from ragg_runtime.report.pages import compare_page
@@ -96,15 +96,15 @@ def _compare_frozen(m: Loaded, flights: Sequence[Path], mapping: Path | None) ->
     result = h.as_json()
     then, again = (next_command(v, m.directory.path, records, mapping) for v in ("diagnose", "calibrate"))
     said = describe.describe_held(result, [x.name for x in records], then, again)
-    origin = loop.origin(m, records, command_line()) | {"notes": [*odd, *loop.notes(m, records)]}
+    origin = api.origin(m, records, command_line()) | {"notes": [*odd, *api.notes(m, records)]}
     conclude(result | origin, said, page, records)
 
 
 def _calibration_notes(m: Loaded) -> list[str]:
     """What is odd about the saved calibration, also on stderr."""
-    from ragg_runtime.workflow import after
+    from ragg_runtime import api
 
-    odd = after.calibration_notes(m)
+    odd = api.calibration_notes(m)
     for note in odd:
         click.echo(printable(f"note: {note}"), err=True)
     return odd
@@ -117,15 +117,15 @@ def _calibration_notes(m: Loaded) -> list[str]:
 @mapping_option
 def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], mapping: Path | None) -> None:
     """Find which physical effect is missing."""
+    from ragg_runtime import api
     from ragg_runtime.wording import describe
-    from ragg_runtime.workflow import loop
 
     m = load(model_dir)
-    allowed = loop.motion_limits(m, limits)
+    allowed = api.motion_limits(m, limits)
     records = read(m, flights, mapping)
     under_way("calibrating, then testing every effect of the catalogue")
     with progress.shown("diagnose", sum(map(len, records))):
-        d = loop.diagnose(m, records, allowed)
+        d = api.diagnose(m, records, allowed)
 
     def page() -> str:
         from ragg_runtime.report.pages import diagnose_page
@@ -135,7 +135,7 @@ def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], ma
     result = d.as_json()
     then = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
     conclude(
-        result | loop.origin(m, records, command_line()),
+        result | api.origin(m, records, command_line()),
         describe.describe_diagnosis(result, then),
         page,
         records,
@@ -149,8 +149,8 @@ def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], ma
 @mapping_option
 def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | None) -> None:
     """Add an effect: derive again, calibrate, show the error."""
+    from ragg_runtime import api
     from ragg_runtime.wording import describe
-    from ragg_runtime.workflow import loop
 
     m = load(model_dir)
     if shared.running().report_file is not None and not flights:
@@ -172,11 +172,11 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
         then = next_command("diagnose", m.directory.path, records, mapping)
         said = describe.describe_addition(found, [e.id for e in result.loaded.model.effects], then)
         with shared.before_change():
-            origin = loop.origin(result.loaded, records, command_line(), before=m)
+            origin = api.origin(result.loaded, records, command_line(), before=m)
             conclude(found | origin, said, page, records)
 
     with progress.shown("add", sum(map(len, records))):
-        result = loop.add(m, effect, records, tell)
+        result = api.add(m, effect, records, tell)
     if not result.converged:
         shared.running().place()  # report and JSON say why; they are the result
         raise UserError(
@@ -232,14 +232,14 @@ def next_motion(
 
     The motion separates effects that these flights cannot distinguish, or calibrates best.
     """
+    from ragg_runtime import api
+    from ragg_runtime.next_flight import calibration_flight, next_flight, write_motion
     from ragg_runtime.wording import describe
-    from ragg_runtime.workflow import loop
-    from ragg_runtime.workflow.next_flight import calibration_flight, next_flight, write_motion
 
     if run_sheet is not None and purpose != "calibration":
         raise UserError("a run sheet is of a calibration", where="--run-sheet", expected="--for calibration")
     m = load(model_dir)
-    records, most = read(m, flights, mapping), loop.motion_limits(m, limits)
+    records, most = read(m, flights, mapping), api.motion_limits(m, limits)
     found: NextFlight
     if purpose == "calibration":
         found = planned = calibration_flight(m, records, most, criterion=criterion, **options)
@@ -255,7 +255,7 @@ def next_motion(
 
         return info_page(said, [found.motion()], origin_of(m, records))
 
-    conclude(found.as_json() | loop.origin(m, records, command_line()), said, page)
+    conclude(found.as_json() | api.origin(m, records, command_line()), said, page)
 
 
 @click.command(cls=Command, report=True)
@@ -270,16 +270,16 @@ def calibrate(
     model_dir: Path, flights: Sequence[Path], save: bool, plan: Path | None, mapping: Path | None
 ) -> None:
     """Fit the parameters, with their uncertainty."""
+    from ragg_runtime import api
+    from ragg_runtime.next_flight import certify, read_plan
     from ragg_runtime.wording import describe
-    from ragg_runtime.workflow import after, loop
-    from ragg_runtime.workflow.next_flight import certify, read_plan
 
     m = load(model_dir)
     planned = None if plan is None else read_plan(plan)
     records = read(m, flights, mapping)
     under_way("calibrating")
     with progress.shown("compare", sum(map(len, records))):
-        kept = after.calibrate(m, records, save, mapping)
+        kept = api.calibrate(m, records, save, mapping)
     use = f"{next_command('compensate', m.directory.path, records)} -o compensated.csv --calibration frozen"
     found = kept.as_json()
     if planned is not None:
@@ -291,7 +291,7 @@ def calibrate(
 
         return calibrate_page(said, kept.calibrated.fitted, origin_of(m, records))
 
-    conclude(found | loop.origin(kept.loaded, records, command_line()), said, page, records)
+    conclude(found | api.origin(kept.loaded, records, command_line()), said, page, records)
 
 
 @click.command(cls=Command, report=True)
@@ -337,11 +337,11 @@ def compensate(
 
     The result is the gravity gradient as the instrument saw it, with its uncertainty.
     """
+    from ragg_runtime import api
     from ragg_runtime.wording import describe
-    from ragg_runtime.workflow import after, loop
 
     out = Path(output)
-    after.check_output(out)
+    api.check_output(out)
     calibration = "frozen" if frozen else calibration
     if calibration != "online" and any(x is not None for x in (noise, walk, forget)):
         raise UserError(
@@ -351,10 +351,10 @@ def compensate(
     kept = calibration == "frozen" or (calibration == "online" and m.directory.calibration is not None)
     odd = _calibration_notes(m) if kept else []
     under_way(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
-    records = after.read_for_compensation(m, flights, mapping)
+    records = api.read_for_compensation(m, flights, mapping)
     under_way("compensating" if calibration in ("frozen", "online") else "calibrating and compensating")
     with progress.shown("compare", sum(map(len, records))):
-        c = after.compensate(
+        c = api.compensate(
             m, records, calibration, demodulator, out, noise=noise, walk=walk, forget=forget or float("inf")
         )
     result = c.as_json()
@@ -366,8 +366,8 @@ def compensate(
 
         return compensate_page(said, c.series, origin_of(m, records, notes=odd))
 
-    notes = [*result.get("notes", ()), *odd, *loop.notes(m, records)]
-    origin = loop.origin(m, records, command_line()) | {"notes": notes}
+    notes = [*result.get("notes", ()), *odd, *api.notes(m, records)]
+    origin = api.origin(m, records, command_line()) | {"notes": notes}
     conclude(result | {"output": str(out)} | origin, said, page, records)
 
 
@@ -388,7 +388,7 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
 
     The values are those of `ragg calibrate --save`, else of model.toml.
     """
-    from ragg_runtime.workflow import after
+    from ragg_runtime import api
 
     if form is None:
         raise UserError(
@@ -396,8 +396,8 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
             expected="--c, --numpy, --json or --harmonics",
             remedy="see: ragg export --help",
         )
-    exported = after.contents(load(model_dir))
-    for place in after.written(exported, folder, form):
+    exported = api.contents(load(model_dir))
+    for place in api.write_export(exported, folder, form):
         click.echo(f"written: {place}")
     click.echo("\n".join([f"with {exported.origin}", *exported.limits()]))
 
@@ -427,16 +427,16 @@ def survey(
     mapping: Path | None,
 ) -> None:
     """Diagnose many flights, one by one."""
+    from ragg_runtime import api
+    from ragg_runtime.api import of_survey
     from ragg_runtime.survey import run
     from ragg_runtime.survey.result import check_place, parquet
-    from ragg_runtime.workflow import loop
-    from ragg_runtime.workflow.loop import of_survey
 
     m = load(model_dir)
     if table_file is not None:
         check_place(Path(table_file))
     with run.results_file(resume) as file, run.shown() as show:
-        s = loop.survey(
+        s = api.survey(
             m, flights, jobs=jobs, scheduler=scheduler, resume=file, progress=show, mapping=mapping
         )
     origin, about = of_survey(m, s, command_line())

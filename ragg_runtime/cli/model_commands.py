@@ -25,7 +25,7 @@ from ragg_runtime.cli.shared import (
 )
 
 if TYPE_CHECKING:
-    from ragg_runtime.workflow.loop import Loaded
+    from ragg_runtime.api import Loaded
 
 
 @click.command(cls=Command, json=False, hidden=True)
@@ -33,18 +33,18 @@ if TYPE_CHECKING:
 @click.option("--check", is_flag=True, help="Only say whether the committed code matches the derivation.")
 def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code."""
-    from ragg_runtime.model_dir import publish
+    from ragg_runtime.model import derive as derivation
 
-    root = publish.HOME if out is None else out
+    root = derivation.home() if out is None else out
     if not check:
-        changed = publish.rederived(root)
+        changed = derivation.rederive(root)
         for name in changed:
             click.echo(one_line(f"written: {root / name}"))
         click.echo(
             f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived."
         )
         return
-    found = publish.checked(root)
+    found = derivation.check(root)
     if found.difference:
         raise UserError(
             "the committed code does not match the derivation",
@@ -65,10 +65,10 @@ def derive(out: Path | None, check: bool) -> None:
 @mapping_option
 def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
     """Make a model directory from a test sheet."""
+    from ragg_runtime import api
     from ragg_runtime.wording.sections import Section
-    from ragg_runtime.workflow import loop
 
-    m = loop.new(model_dir, source, mapping)
+    m = api.new(model_dir, source, mapping)
     for note in m.notes:
         click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
     place, effects = one_line(str(m.directory.path)), [e.id for e in m.model.effects]
@@ -76,7 +76,7 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
         f"{place}: made; effects in the model: {', '.join(effects) or 'none'}",
         f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT",
     )
-    result = {"model": place, "effects": effects} | loop.origin(m, (), command_line())
+    result = {"model": place, "effects": effects} | api.origin(m, (), command_line())
     conclude(result, [Section(sentences=said)])
 
 
@@ -84,8 +84,8 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
 @click.argument("identifier", metavar="[ID]", required=False, shell_complete=shared.complete_effect)
 def effects(identifier: str | None) -> None:
     """List the catalogue of effects; with ID, one in full."""
+    from ragg_runtime.model.catalogue import effects as catalogue
     from ragg_runtime.wording import describe
-    from ragg_runtime.workflow.catalogue import effects as catalogue
 
     found = catalogue()
     if identifier is None:
@@ -99,19 +99,19 @@ def effects(identifier: str | None) -> None:
 @click.argument("effect", shell_complete=shared.complete_present)
 def remove(model_dir: Path, effect: str) -> None:
     """Take an effect out of the model."""
+    from ragg_runtime import api
     from ragg_runtime.wording.sections import Section
-    from ragg_runtime.workflow import loop
 
     before = load(model_dir)
 
     def tell(m: Loaded) -> None:
         left = [e.id for e in m.model.effects]
         text = f"removed {effect}; effects in the model: {', '.join(left) or 'none'}"
-        result = {"effect": effect, "effects": left} | loop.origin(m, (), command_line(), before=before)
+        result = {"effect": effect, "effects": left} | api.origin(m, (), command_line(), before=before)
         with shared.before_change():
             conclude(result, [Section(sentences=(text,))])
 
-    loop.remove(before, effect, tell)
+    api.remove(before, effect, tell)
 
 
 @click.command(cls=Command, report=True)
@@ -119,7 +119,7 @@ def remove(model_dir: Path, effect: str) -> None:
 def history(model_dir: Path) -> None:
     """Show the error after every step."""
     from ragg_runtime.base.provenance import provenance
-    from ragg_runtime.model_dir.directory import identity, load_model_dir
+    from ragg_runtime.model.directory import identity, load_model_dir
     from ragg_runtime.wording import describe
 
     d = load_model_dir(model_dir)  # not derived: the steps of a model that no longer can be are shown, too
@@ -178,10 +178,10 @@ def simulate(
     **options: Any,
 ) -> None:
     """Simulate a flight, hidden effects on request."""
+    from ragg_runtime.api import mapping_of, origin
     from ragg_runtime.io import write_flight
+    from ragg_runtime.simulate import simulated
     from ragg_runtime.wording.sections import Section
-    from ragg_runtime.workflow.loop import mapping_of, origin
-    from ragg_runtime.workflow.simulate import simulated
 
     m = load(model_dir)
     under_way("simulating")

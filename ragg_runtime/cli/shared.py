@@ -18,10 +18,10 @@ from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.base.files import Target
 
 if TYPE_CHECKING:
+    from ragg_runtime.api import Loaded
     from ragg_runtime.io import Flight
     from ragg_runtime.report.page import Origin
     from ragg_runtime.wording.sections import Section
-    from ragg_runtime.workflow.loop import Loaded
 
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of stdout; where JSON is asked for there, it is all that is written there."""
@@ -167,9 +167,9 @@ def under_way(text: str) -> None:
 
 def load(model_dir: Path) -> Loaded:
     """The model directory; what is odd about it is said on stderr."""
-    from ragg_runtime.workflow import loop
+    from ragg_runtime import api
 
-    m = loop.load(model_dir)
+    m = api.load(model_dir)
     for note in m.notes:
         click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
     return m
@@ -177,24 +177,24 @@ def load(model_dir: Path) -> Loaded:
 
 def read(m: Loaded, flights: Sequence[Path], mapping: Path | None) -> list[Flight]:
     """The flights, read and examined."""
-    from ragg_runtime.workflow import loop
+    from ragg_runtime import api
 
     under_way(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
-    return loop.read_flights(m, flights, mapping)
+    return api.read_flights(m, flights, mapping)
 
 
 def origin_of(
     m: Loaded, flights: Sequence[Flight], title: str | None = None, notes: Sequence[str] = ()
 ) -> Origin:
     """What a page says about itself: its title (else those of model and flights), command, sources and notes."""
+    from ragg_runtime import api
     from ragg_runtime.report.page import Origin
-    from ragg_runtime.workflow import loop
 
     return Origin(
         title=title or f"{m.name} and {', '.join(x.name for x in flights)}",
         command=command_line(),
-        sources=loop.sources(m, flights),
-        notes=(*notes, *loop.notes(m, flights)),
+        sources=api.sources(m, flights),
+        notes=(*notes, *api.notes(m, flights)),
         digest=m.model.digest,
     )
 
@@ -285,7 +285,7 @@ def next_command(
 
 def complete_effect(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Effects of the catalogue, each with its title where the shell shows it."""
-    from ragg_runtime.workflow.catalogue import effects
+    from ragg_runtime.model.catalogue import effects
 
     found = [(str(e["id"]), str(e["title"])) for e in effects()]
     return [CompletionItem(e, help=title) for e, title in found if e.startswith(incomplete)]

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from starlette.requests import ClientDisconnect, Request
 
+from ragg_runtime.api import Loaded, keep_mapping, mapping_of
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text, replacing
 from ragg_runtime.io.draft import draft_mapping, sample_table
@@ -21,7 +22,6 @@ from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.tables import Column
 from ragg_runtime.studio.session import State, safe_name
 from ragg_runtime.wording import numbers
-from ragg_runtime.workflow.loop import Loaded, keep_mapping, mapping_of
 
 Json = dict[str, Any]
 

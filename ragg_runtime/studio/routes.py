@@ -34,11 +34,10 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.identification import foresee
-from ragg_runtime.studio import drawing, mapping, views
+from ragg_runtime.studio import drawing, mapping, states, views
 from ragg_runtime.studio.mapping import receive
 from ragg_runtime.studio.session import Busy, Session
 from ragg_runtime.studio.views import take_away
-from ragg_runtime.workflow import versions
 
 BEAT = 0.15
 """How often a page is told of changes, s."""
@@ -357,7 +356,7 @@ def _leave(session: Session, body: Mapping[str, Any]) -> None:
 
 
 def _edit(session: Session, body: Mapping[str, Any]) -> None:
-    session.edit(versions.asked_sheet(body.get("values")))
+    session.edit(states.asked_sheet(body.get("values")))
 
 
 def _try(session: Session, body: Mapping[str, Any]) -> None:

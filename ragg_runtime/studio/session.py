@@ -15,6 +15,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from ragg_runtime import api
+from ragg_runtime.api import Added, Compensation, Loaded
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.progress import PASSES
@@ -24,11 +26,9 @@ from ragg_runtime.identification.foresee import Unwhitened
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
 from ragg_runtime.io.files import ENDINGS, ending_of
+from ragg_runtime.studio import states
+from ragg_runtime.studio.states import Edit, branches, text_of
 from ragg_runtime.studio.tracks import Tracks, compensated
-from ragg_runtime.workflow import after, loop, versions
-from ragg_runtime.workflow.after import Compensation
-from ragg_runtime.workflow.loop import Added, Loaded
-from ragg_runtime.workflow.versions import Edit, branches, text_of
 
 Part = Callable[[str, float], None]
 
@@ -102,11 +102,11 @@ class Session:
 
     def _open(self, model: Path | None, flights: tuple[Path, ...], part: Part) -> None:
         if model is not None:
-            self._put(**_nothing(), loaded=loop.load(model))
+            self._put(**_nothing(), loaded=api.load(model))
         if flights:
             self._put(**_nothing(), paths=flights, flights=(), read=(), cuts=())
             part("reading and examining the flights", 1.0)
-            read = tuple(loop.read_flights(self.state.model, flights))
+            read = tuple(api.read_flights(self.state.model, flights))
             places = tuple(x.path or flights[0] for x in read)  # a file of several lines is as many flights
             self._put(**_nothing(), paths=places, flights=read, read=read, cuts=((),) * len(read))
         self._look(part)
@@ -127,7 +127,7 @@ class Session:
 
     def new(self, model: Path, sheet: Path | None) -> None:
         """Make a model directory from a test sheet, and open it."""
-        loop.new(model, sheet)
+        api.new(model, sheet)
         self.open(model, ())
 
     def look(self) -> None:
@@ -147,11 +147,11 @@ class Session:
             return
         if s.compared is None:
             part("calibrating and comparing", PASSES["compare"] * s.samples)
-            compared = loop.compare(s.loaded, s.flights)
+            compared = api.compare(s.loaded, s.flights)
             self._put(compared=compared, tracks=Tracks.of(compared, s.previous))
         s = self.state
         part("testing every effect", PASSES["diagnose"] * s.samples)
-        d = loop.diagnose(s.model, s.flights, compared=s.compared)
+        d = api.diagnose(s.model, s.flights, compared=s.compared)
         part("preparing the preview", s.samples)
         unwhitened = foresee.unwhitened(d.fitted)
         self._put(diagnosed=d, unwhitened=unwhitened, tracks=s.tracks.diagnosed(d))
@@ -165,8 +165,8 @@ class Session:
         s = self.state
         if s.loaded is None or self.jobs.status.name:
             return
-        if versions.changed_by_others(s.loaded):
-            self._changed(loop.load(s.loaded.directory.path))
+        if states.changed_by_others(s.loaded):
+            self._changed(api.load(s.loaded.directory.path))
 
     def _changed(self, m: Loaded) -> None:
         """Another model in the place of this one: what was known of it becomes the state before."""
@@ -184,14 +184,14 @@ class Session:
         s, m = self.state, self.state.model
         for e in effects:
             part(f"deriving {e} and calibrating", PASSES["add"] * s.samples)
-            m = loop.add(m, e, s.flights).loaded
+            m = api.add(m, e, s.flights).loaded
         self._after(m, part)
 
     def _after(self, m: Loaded, part: Part) -> None:
         """What the effects that were added have done: the page keeps the old state until then, and sees the error fall."""
         s = self.state
         part("calibrating and comparing", PASSES["compare"] * s.samples)
-        compared = loop.compare(m, s.flights) if s.flights else None
+        compared = api.compare(m, s.flights) if s.flights else None
         tracks = Tracks() if compared is None else Tracks.of(compared, s.compared)
         new = {"previous": s.compared, "compared": compared, "tracks": tracks, "loaded": m}
         self._put(**(_nothing() | new))
@@ -200,14 +200,14 @@ class Session:
     def remove(self, effect: str) -> None:
         """Take an effect out of the model."""
         self._idle()
-        self._changed(loop.remove(self.state.model, effect))
+        self._changed(api.remove(self.state.model, effect))
 
     def edit(self, values: Mapping[str, Edit]) -> None:
         """Change values of the test sheet, and how sure it is of them."""
         self._idle()
         sheet = {n: value for n, (value, _) in values.items()}
         sigmas = {n: sigma for n, (_, sigma) in values.items()}
-        self._changed(versions.edited(self.state.model, sheet, sigmas))
+        self._changed(states.edited(self.state.model, sheet, sigmas))
 
     def go(self, action: str, step: int | None = None) -> None:
         """Undo, redo, or go back to the state after a step of the history."""
@@ -222,7 +222,7 @@ class Session:
             to = step
         else:
             raise UserError(f"there is nothing to {action}")
-        self._changed(versions.change(m, text_of(m.directory.history, to), action, str(to)))
+        self._changed(api.change(m, text_of(m.directory.history, to), action, str(to)))
 
     def beside(self, step: int | None) -> None:
         """Compare the model as it was after a step with the same flights; ``None``: no longer."""
@@ -237,19 +237,19 @@ class Session:
     def _beside(self, step: int, text: str, part: Part) -> None:
         s = self.state
         part("comparing an earlier model", PASSES["compare"] * s.samples)
-        old = versions.as_of(s.model, text)
-        self._put(beside=(step, loop.compare(old, s.flights)))
+        old = api.as_of(s.model, text)
+        self._put(beside=(step, api.compare(old, s.flights)))
 
     def attempt(self, effect: str, add: str, units: Mapping[str, str]) -> None:
         """Try an effect of the user's own: derived and calibrated, but not kept."""
-        listed = versions.with_own(self.state.model, effect, add, units)
+        listed = states.with_own(self.state.model, effect, add, units)
         if not self.state.flights:
             raise UserError("no flight is open", remedy="choose one first")
         self.jobs.start(f"trying {effect}", partial(self._attempt, listed, effect, add, dict(units)))
 
     def _attempt(self, listed: Loaded, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
         part(f"deriving {effect} and calibrating", PASSES["add"] * self.state.samples)
-        result = loop.add(listed, effect, self.state.flights, save=False)
+        result = api.add(listed, effect, self.state.flights, save=False)
         self._put(trial=(effect, add, units, result))
 
     def keep(self) -> None:
@@ -262,7 +262,7 @@ class Session:
     def _keep(self, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
         s = self.state
         part(f"deriving {effect} and calibrating", PASSES["add"] * s.samples)
-        self._after(loop.add(versions.with_own(s.model, effect, add, units), effect, s.flights).loaded, part)
+        self._after(api.add(states.with_own(s.model, effect, add, units), effect, s.flights).loaded, part)
 
     def compensate(self, kind: str, demodulator: str) -> None:
         """Compensate the flights that are open."""
@@ -282,7 +282,7 @@ class Session:
         def work(part: Part) -> None:
             s = self.state
             part("calibrating", PASSES["compare"] * s.samples)
-            self._put(loaded=after.calibrate(s.model, s.flights, save=True).loaded)
+            self._put(loaded=api.calibrate(s.model, s.flights, save=True).loaded)
 
         self.jobs.start("calibrating", work)
 

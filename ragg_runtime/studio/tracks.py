@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime import api
+from ragg_runtime.api import Compensation, Loaded
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.identification import comparison, foresee, heat
 from ragg_runtime.identification import series as reported
@@ -22,9 +24,6 @@ from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.wording import numbers
-from ragg_runtime.workflow import after
-from ragg_runtime.workflow.after import Compensation
-from ragg_runtime.workflow.loop import Loaded
 
 Array = NDArray[np.float64]
 
@@ -348,7 +347,7 @@ def compensated(m: Loaded, flights: Sequence[Flight], kind: str, demodulator: st
     """As ``ragg compensate``."""
     if not flights:
         raise UserError("no flight is open", remedy="choose one first")
-    return after.compensate(m, flights, kind, demodulator)  # type: ignore[arg-type]
+    return api.compensate(m, flights, kind, demodulator)  # type: ignore[arg-type]
 
 
 def kept(m: Loaded) -> str | None:
@@ -356,7 +355,7 @@ def kept(m: Loaded) -> str | None:
     if m.directory.calibration is None:
         return None
     try:
-        saved = after.saved_calibration(m)
+        saved = api.saved_calibration(m)
     except UserError as e:
         return f"not used: {e.what}"
     return f"of {saved.time[:16].replace('T', ' ')} UTC, on {numbers.listed([numbers.clean(n) for n in saved.flights])}"
@@ -414,7 +413,7 @@ def _output(x: Mapping[str, Any]) -> dict[str, Any]:
         "rows": [
             [c, *(numbers.number(d.get(f"{c}_Eo_per_rtHz")) for d in density)] for c in ("inline", "cross")
         ],
-        "quality": [[count, after.QUALITY[name]] for name, count in x["quality"].items() if count],
+        "quality": [[count, api.QUALITY[name]] for name, count in x["quality"].items() if count],
         "contributions": [
             [numbers.clean(str(t["of"])), numbers.number(t["inline_Eo"]), numbers.number(t["cross_Eo"])]
             for t in x["contributions"]

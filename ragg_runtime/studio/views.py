@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime import api
+from ragg_runtime.api import Loaded, errors_of
 from ragg_runtime.base import false_alarms
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.identification.comparison import Comparison
@@ -25,13 +27,11 @@ from ragg_runtime.report import pages, panels, parameters
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.parameters import Piece, Row, Symbol
 from ragg_runtime.signals.derivative import runs
-from ragg_runtime.studio import tracks
+from ragg_runtime.studio import states, tracks
 from ragg_runtime.studio.session import State
+from ragg_runtime.studio.states import branches, tree
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Section
-from ragg_runtime.workflow import after, loop, versions
-from ragg_runtime.workflow.loop import Loaded, errors_of
-from ragg_runtime.workflow.versions import branches, tree
 
 Json = dict[str, Any]
 
@@ -54,7 +54,7 @@ def overview(s: State, version: str) -> Json:
             for x in (p.as_json() for p in s.diagnosed.next_motion)
         ],
         "parameters": None if s.compared is None else _parameters(s.compared),
-        "sheet": None if s.loaded is None else versions.shown_sheet(s.loaded.instrument),
+        "sheet": None if s.loaded is None else states.shown_sheet(s.loaded.instrument),
         "history": None if s.loaded is None else _history(s.loaded),
         "compensated": None if s.compensated is None else tracks.shown_compensation(s.compensated),
         "beside": None if s.beside is None else _beside(*s.beside),
@@ -420,11 +420,11 @@ def take_away(s: State, what: str) -> File:
 def _origin(s: State, command: str) -> Origin:
     m, flights = s.model, s.flights
     title = f"{m.name} and {', '.join(x.name for x in flights)}"
-    return Origin(title, _command(s, command), loop.sources(m, flights), loop.notes(m, flights))
+    return Origin(title, _command(s, command), api.sources(m, flights), api.notes(m, flights))
 
 
 def _dumped(s: State, result: dict[str, object], command: str) -> bytes:
-    return _json(result | loop.origin(s.model, s.flights, command))
+    return _json(result | api.origin(s.model, s.flights, command))
 
 
 def _json(result: dict[str, object]) -> bytes:
@@ -485,7 +485,7 @@ def _model_file(s: State) -> File:
 
 def _exported(s: State, form: str) -> File:
     """The model to run elsewhere, with the calibration that is kept: what ``ragg export`` writes, as one file."""
-    files = after.FORMS[form](after.contents(s.model))
+    files = api.FORMS[form](api.contents(s.model))
     name = f"model-{form}"
     made = io.BytesIO()
     with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as z:

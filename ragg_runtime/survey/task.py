@@ -40,7 +40,7 @@ from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import Mapped, parse_mapping
 from ragg_runtime.io.record import content
-from ragg_runtime.model_dir import derive
+from ragg_runtime.model import derive
 from ragg_runtime.screening import examined
 
 Array = NDArray[np.float64]

@@ -19,10 +19,10 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from ragg_runtime import api
 from ragg_runtime.io import write_flight
-from ragg_runtime.model_dir.directory import load_model_dir
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.model.directory import load_model_dir
+from ragg_runtime.simulate import simulated
 
 SURVEY = ["survey", "model", "flight.parquet", "--jobs", "1", "--resume", "r.jsonl", "--json", "s.json"]
 OLD = ([], ["new"], False)
@@ -41,7 +41,7 @@ ENVIRONMENT = os.environ | {
 
 def prepared(base: Path) -> Path:
     """A folder with a model and a short flight."""
-    m = loop.new(base / "model")
+    m = api.new(base / "model")
     write_flight(simulated(m.instrument, [], seed=1, duration=90.0, rate=16.0), base / "flight.parquet")
     return base
 

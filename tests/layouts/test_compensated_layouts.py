@@ -15,7 +15,7 @@ from ragg_runtime.compensation.output import Table, joined
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight
-from ragg_runtime.model_dir import derive
+from ragg_runtime.model import derive
 from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.tensor import COMPONENTS
 from tests.layouts import sheets

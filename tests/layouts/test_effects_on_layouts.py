@@ -13,10 +13,10 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io import Flight
+from ragg_runtime.model import derive
 from ragg_runtime.model.evaluate import output, scale_factor, unit_factor, vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import record
-from ragg_runtime.model_dir import derive
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from tests.layouts import sheets

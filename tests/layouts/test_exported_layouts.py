@@ -12,18 +12,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from ragg_runtime import api
+from ragg_runtime.api import Loaded
 from ragg_runtime.compensation.export.contents import Contents, unit_of
 from ragg_runtime.compensation.export.numpy_folder import numpy_files
 from ragg_runtime.compensation.export.program import c_program, table
 from ragg_runtime.compensation.recursive import Online, Tuning
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.io import Flight, read_flight, write_flight
+from ragg_runtime.model import derive
+from ragg_runtime.model.directory import ModelDir
 from ragg_runtime.model.evaluate import output, vector
 from ragg_runtime.model.record import record
-from ragg_runtime.model_dir import derive
-from ragg_runtime.model_dir.directory import ModelDir
-from ragg_runtime.workflow import after
-from ragg_runtime.workflow.loop import Loaded
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by
 from tests.layouts.test_layouts_physics import instrument
@@ -43,7 +43,7 @@ def contents() -> Contents:
 
 def test_harmonics_go_with_values_and_an_example() -> None:
     """The series of every output, put together with what stands beside it, gives the answer of the example."""
-    files, code = after.FORMS["harmonics"](contents()), {}
+    files, code = api.FORMS["harmonics"](contents()), {}
     exec(files["harmonics.py"], code)
     (kept,) = (json.loads(text) for name, text in files.items() if name.endswith(".json"))
     p = np.concatenate([x["values"] for x in kept["parameters"]])
@@ -131,5 +131,5 @@ def test_the_filter_is_that_of_the_output_that_sees_a_gradient(program: Path, tm
         ModelDir(path=tmp_path, text="", instrument=c.instrument, generated=None, history=()),
         c.model,
     )
-    (series,) = after.compensate(m, [x], "online", noise=2.0, walk=1.0).series
+    (series,) = api.compensate(m, [x], "online", noise=2.0, walk=1.0).series
     assert ",".join(series) == f"{head},quality_A"

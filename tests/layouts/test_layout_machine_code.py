@@ -12,9 +12,9 @@ from derive.symbols import MOTION
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model import derive
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.evaluate import scale_factor, vector
-from ragg_runtime.model_dir import derive
 from tests.generated import fifty_digits as fifty
 from tests.layouts import sheets
 from tests.layouts.test_layouts_physics import LAYOUTS, instrument

@@ -11,9 +11,9 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io import Flight
+from ragg_runtime.model import derive
 from ragg_runtime.model.evaluate import output, scale_factor, vector
 from ragg_runtime.model.record import record
-from ragg_runtime.model_dir import derive
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.reference.turning import Turning

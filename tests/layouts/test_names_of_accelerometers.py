@@ -9,7 +9,7 @@ import numpy as np
 from ragg_runtime.estimation.columns import base_columns, spelt
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.model_dir import derive
+from ragg_runtime.model import derive
 from ragg_runtime.wording.describe import parameter_line
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by

@@ -13,8 +13,8 @@ from derive.stages import PAPER, Order
 from derive.symbols import symbol
 from ragg_runtime.instrument.layout import gain
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.model import derive
 from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model_dir import derive
 from tests.layouts import sheets
 from tests.layouts.test_layouts_physics import instrument
 

@@ -17,7 +17,7 @@ from ragg_runtime.identification.sheet import doubtful
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import read_flight
-from ragg_runtime.model_dir import derive
+from ragg_runtime.model import derive
 
 HERE = Path(record.__file__).parent
 RADIUS = 0.013364

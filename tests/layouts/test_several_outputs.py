@@ -15,7 +15,7 @@ from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification import several_outputs
 from ragg_runtime.identification.strong import Stage
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.model_dir import derive
+from ragg_runtime.model import derive
 from ragg_runtime.signals.tensor import tensor
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by

@@ -14,7 +14,7 @@ from ragg_runtime.io import read_flight, write_flight
 from ragg_runtime.model.record import spin as turning_rate
 from ragg_runtime.model.record import spin_degree
 from ragg_runtime.signals.derivative import DEGREES
-from ragg_runtime.workflow.simulate import simulated, turning_of
+from ragg_runtime.simulate import simulated, turning_of
 from tests.layouts import sheets
 from tests.layouts.test_layouts_physics import instrument, worst
 from tests.runtime.commands import ragg

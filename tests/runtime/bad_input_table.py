@@ -17,10 +17,10 @@ from pathlib import Path
 import commands
 import numpy as np
 
+from ragg_runtime import api
 from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.workflow import loop
 
 Arrays = Mapping[str, np.ndarray]
 Make = Callable[[], object]
@@ -59,7 +59,7 @@ def record(hidden: bool = False, voltages: bool = False) -> Flight:
 def _template() -> Path:
     folder = Path(tempfile.mkdtemp(prefix="bad-input-"))
     (folder / "sheet.toml").write_text(model_text(good().sheet))
-    loop.new(folder / "model", folder / "sheet.toml")
+    api.new(folder / "model", folder / "sheet.toml")
     return folder / "model"
 
 

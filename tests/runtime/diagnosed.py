@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
+from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
-from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import Scenario
 
 

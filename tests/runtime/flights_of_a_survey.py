@@ -7,9 +7,9 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+from ragg_runtime import api
 from ragg_runtime.io import write_flight
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.simulate import simulated
 
 HIDDEN = "thermal-scale:dK1_dT=0/0/6e-7/0"
 COUNT = 5
@@ -18,7 +18,7 @@ WITH_EFFECT = ("flight-0.parquet", "flight-3.parquet")
 
 def make(folder: Path) -> tuple[Path, list[Path]]:
     """Five flights of 150 s at 8 Hz, an effect hidden in two of them, and a damaged file between them."""
-    m = loop.new(folder / "model")
+    m = api.new(folder / "model")
     paths = []
     for k in range(COUNT):
         path = folder / f"flight-{k}.parquet"

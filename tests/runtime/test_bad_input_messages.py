@@ -27,9 +27,9 @@ from bad_input_table import (
     timed,
 )
 
+from ragg_runtime import api
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
-from ragg_runtime.workflow import loop
 
 
 @pytest.mark.parametrize("name", TABLE)
@@ -85,8 +85,8 @@ def diagnosed(change: Callable[[Flight], Flight], place: Path, hidden: bool) -> 
     stage(place)
     with inside(place):
         flown(change, "flight.parquet", hidden=hidden, derived=True)()
-        m = loop.load("model")
-        return loop.diagnose(m, loop.read_flights(m, ["flight.parquet"]))
+        m = api.load("model")
+        return api.diagnose(m, api.read_flights(m, ["flight.parquet"]))
 
 
 @pytest.mark.parametrize("name", sorted(AWKWARD))
@@ -116,8 +116,8 @@ def test_what_was_done_stands_in_the_notes_and_in_the_mask(tmp_path: Path) -> No
     stage(tmp_path)
     with inside(tmp_path):
         flown(outputs(struck), "flight.parquet")()
-        m = loop.load("model")
-        (x,) = loop.read_flights(m, ["flight.parquet"])
+        m = api.load("model")
+        (x,) = api.read_flights(m, ["flight.parquet"])
         clean = dataclasses.replace(x, notes=())
     struck_at = np.flatnonzero(struck(np.arange(len(x)) * 1.0) != np.arange(len(x)))
     assert np.flatnonzero(~x.valid).tolist() == struck_at.tolist()

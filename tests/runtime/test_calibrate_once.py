@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import calibrated, frozen
 from ragg_runtime.compensation.saved import read, with_another
 from ragg_runtime.compensation.series import Quality
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.workflow import after, loop
 from tests.rate import RATE
 from tests.runtime.flown_twice import DURATION, files, flights, new_model, run
 
@@ -54,7 +54,7 @@ def test_parameters_with_their_sheet_and_what_the_record_sees(kept: tuple[Any, .
 
 def test_what_is_kept_is_what_was_found_to_the_last_bit_with_its_history(kept: tuple[Any, ...]) -> None:
     model, _, _, c = kept
-    m = loop.load(model)
+    m = api.load(model)
     assert m.directory.calibration is not None
     (saved,) = read(m.directory.calibration, "here")
     found = {(q["name"], q["accelerometer"]): q["value"] for q in c["parameters"]}
@@ -90,8 +90,8 @@ def test_on_another_flight_of_the_same_instrument_it_holds(kept: tuple[Any, ...]
 
 
 def test_an_instrument_that_has_changed_is_told_with_what_would_explain_it(kept: tuple[Any, ...]) -> None:
-    m = loop.load(kept[0])
-    h = frozen.hold(m.model, m.instrument, [flights(2e-8)[1]], after.saved_calibration(m))
+    m = api.load(kept[0])
+    h = frozen.hold(m.model, m.instrument, [flights(2e-8)[1]], api.saved_calibration(m))
     assert not h.holds
     found = {s["name"]: s for s in h.suspects()}
     best = max(s["share"] for s in found.values())
@@ -108,8 +108,8 @@ def test_what_is_compensated_by_a_calibration_that_does_not_hold_says_so(
     kept: tuple[Any, ...], length: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(frozen, "LOOKED", length)  # of a long flight stretches are looked at
-    m = loop.load(kept[0])
-    found = after.compensate(m, [flights(1e-6)[1]], "frozen")
+    m = api.load(kept[0])
+    found = api.compensate(m, [flights(1e-6)[1]], "frozen")
     c = found.as_json()
     assert np.all(found.series[0]["quality"] & int(Quality.CALIBRATION)), "no sample is good"
     assert c["frozen"]["holds"] is False
@@ -119,11 +119,11 @@ def test_what_is_compensated_by_a_calibration_that_does_not_hold_says_so(
 
 
 def test_a_disc_angle_from_elsewhere_is_told_and_nothing_is_called_good(kept: tuple[Any, ...]) -> None:
-    m, x = loop.load(kept[0]), flights()[1]
+    m, x = api.load(kept[0]), flights()[1]
     late = dataclasses.replace(
         x, time=x.time + 10.0, began=None
     )  # half a turn by the convention, none by its own
-    found = after.compensate(m, [late], "frozen")
+    found = api.compensate(m, [late], "frozen")
     assert found.as_json()["frozen"]["holds"] is False
     assert 'angle_origin = "first-sample"' in found.as_json()["notes"][1]
     assert found.series[0]["quality"].all()
@@ -134,7 +134,7 @@ def test_stretches_of_a_long_flight_do_not_contradict_a_calibration_that_holds(
 ) -> None:
     """Without an encoder the disc's angle counts from the flight's beginning, not from a stretch's."""
     monkeypatch.setattr(frozen, "LOOKED", 500)
-    c = after.compensate(loop.load(kept[0]), [flights()[1]], "frozen").as_json()
+    c = api.compensate(api.load(kept[0]), [flights()[1]], "frozen").as_json()
     assert c["frozen"]["holds"] is True
     assert "notes" not in c
 
@@ -195,13 +195,13 @@ def test_a_file_that_anyone_may_have_written_is_refused_in_one_message(
     text = (kept[0] / "calibration.json").read_text()
     copy = new_model(tmp_path)
     (copy / "calibration.json").write_text(HOSTILE[what](text))
-    m = loop.load(copy)
+    m = api.load(copy)
     with pytest.raises(UserError) as error:
-        after.saved_calibration(m)
+        api.saved_calibration(m)
     assert str(copy) in error.value.message
 
 
 def test_without_a_saved_calibration_frozen_says_what_to_do(tmp_path: Path) -> None:
     copy = new_model(tmp_path)
     with pytest.raises(UserError, match="no saved calibration"):
-        after.saved_calibration(loop.load(copy))
+        api.saved_calibration(api.load(copy))

@@ -8,12 +8,12 @@ from functools import partial
 import numpy as np
 import pytest
 
+from ragg_runtime.api import example
 from ragg_runtime.estimation.fitted import estimated
 from ragg_runtime.identification.diagnose import diagnose
-from ragg_runtime.model_dir import derive
+from ragg_runtime.model import derive
 from ragg_runtime.signals.combinations import basis, telling
-from ragg_runtime.workflow.loop import example
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.simulate import simulated
 
 SIGNS = np.array([1.0, 1.0, -1.0, -1.0])
 

@@ -15,6 +15,7 @@ import xarray
 from numpy.typing import NDArray
 from scipy import signal
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import compensate
 from ragg_runtime.compensation.compensate import Compensated, Kind, Prepared, prepared
@@ -23,7 +24,6 @@ from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulators import CUTOFF, DEMODULATORS, ORDER, demodulator
-from ragg_runtime.workflow import after, loop
 from tests.rate import RATE
 from tests.runtime.flown_twice import BRIEF, DURATION, files, flights, new_model, run, truth
 
@@ -248,11 +248,11 @@ def test_kernels_are_the_filters_that_they_stand_for() -> None:
 def test_motion_beyond_what_the_calibration_knows_is_flagged(tmp_path: Path) -> None:
     model, (one, two) = new_model(tmp_path), files(tmp_path, rows=BRIEF)
     run("calibrate", model, one, "--save")
-    m = loop.load(model)
-    x = after.read_for_compensation(m, [two])[0]
+    m = api.load(model)
+    x = api.read_for_compensation(m, [two])[0]
     strong = dict(x.channels)
     strong["temperature"] = strong["temperature"] + 50.0
-    c = after.compensate(m, [dataclasses.replace(x, channels=strong)], "frozen")
+    c = api.compensate(m, [dataclasses.replace(x, channels=strong)], "frozen")
     assert np.all(c.series[0]["quality"] & int(Quality.AUXILIARY))
     assert set(c.as_json()["quality"]) == {str(int(q)) for q in Quality}
     assert "compensation" in repr(c)
@@ -266,8 +266,8 @@ def test_formats_and_several_flights(tmp_path: Path) -> None:
         assert found["inline"].attrs["units"] == "Eo"
         assert set(np.unique(found["flight"])) == {1, 2}
         inline = found["inline"].values
-    m = loop.load(model)
-    c = after.compensate(m, after.read_for_compensation(m, places), demodulator="butterworth")
+    m = api.load(model)
+    c = api.compensate(m, api.read_for_compensation(m, places), demodulator="butterworth")
     valued = [np.isfinite(s["inline_std"]) for s in c.series]
     assert len(inline) == sum(map(np.sum, valued)) < 2 * BRIEF.stop
     kept, std = (
@@ -278,7 +278,7 @@ def test_formats_and_several_flights(tmp_path: Path) -> None:
     c.write(str(tmp_path / "again.csv"))
     assert all(len(x) < 8 for x in (tmp_path / "again.csv").read_text().splitlines()[5].split(",")[1:])
     before = c.as_json()["flights"][0]["density"]["before"]
-    nominal = loop.compare(m, loop.read_flights(m, places[:1])).nominal.as_json()
+    nominal = api.compare(m, api.read_flights(m, places[:1])).nominal.as_json()
     assert before == pytest.approx({k: nominal[k] for k in before}, rel=1e-3)
     field = pq.ParquetFile(_parquet(model, places[0], tmp_path)).schema_arrow.field("inline")
     assert field.metadata[b"units"] == b"Eo"

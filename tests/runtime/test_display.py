@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
+from ragg_runtime import api
+from ragg_runtime.api import Added
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import render_notebook, render_text
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.loop import Added
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 HOSTILE = "<script>alert(1)</script>&\x1b[2J\u202e"
@@ -23,11 +23,11 @@ class Result:
     """The demonstration, step by step."""
 
     def __init__(self, folder: Path) -> None:
-        self.model = loop.new(folder / "model")
-        self.flights = loop.read_flights(self.model, [EXAMPLES / "demo-flight.parquet"])
-        self.before = loop.compare(self.model, self.flights)
-        self.diagnosis = loop.diagnose(self.model, self.flights)
-        self.step: Added = loop.add(self.model, self.diagnosis.found[0], self.flights)
+        self.model = api.new(folder / "model")
+        self.flights = api.read_flights(self.model, [EXAMPLES / "demo-flight.parquet"])
+        self.before = api.compare(self.model, self.flights)
+        self.diagnosis = api.diagnose(self.model, self.flights)
+        self.step: Added = api.add(self.model, self.diagnosis.found[0], self.flights)
 
 
 @pytest.fixture(scope="module")

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import read_flight, write_flight
 from ragg_runtime.model.evaluate import output, scale_factor, vector
 from ragg_runtime.model.record import record
-from ragg_runtime.workflow import after, loop
 from tests.runtime.flown_twice import files, flights, new_model, run
 
 Array = NDArray[np.float64]
@@ -83,8 +83,8 @@ def extended(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path
 
 
 def expected(model: Path, flight: Path) -> tuple[Array, float]:
-    m = loop.load(model)
-    p = after.contents(m).p
+    m = api.load(model)
+    p = api.contents(m).p
     x = read_flight(flight, m.instrument.g0)
     return output(m.model.chain, record(x, m.instrument), p), scale_factor(m.model, p)
 
@@ -114,9 +114,9 @@ def test_the_angular_acceleration_is_derived_as_python_does_it(
     bare = tmp_path / "bare.csv"
     bare.write_text("\n".join(rows))
     time, G = answer(program(folder, bare.read_bytes()).stdout)
-    m = loop.load(model)
+    m = api.load(model)
     x = read_flight(bare, m.instrument.g0)
-    p = after.contents(m).p
+    p = api.contents(m).p
     found, k_ggi = output(m.model.chain, record(x, m.instrument), p), scale_factor(m.model, p)
     there = np.searchsorted(x.time, time - 1e-3)
     assert len(there) == len(rows) - 1
@@ -137,8 +137,8 @@ def test_the_angular_acceleration_is_derived_as_python_does_it(
 
 def test_the_values_are_the_calibrated_ones(base: tuple[Path, Path, Path]) -> None:
     model, folder, _ = base
-    m = loop.load(model)
-    saved = after.saved_calibration(m)
+    m = api.load(model)
+    saved = api.saved_calibration(m)
     assert not np.array_equal(saved.p, vector(m.model, m.instrument))
     told = subprocess.run(
         [folder / "ragg_model", "--values"], capture_output=True, text=True, check=True
@@ -241,7 +241,7 @@ def test_the_document_holds_everything(extended: tuple[Path, Path, Path], tmp_pa
     d = json.loads((tmp_path / "j" / "model.json").read_text())
     assert [e["id"] for e in d["effects"]] == ["lag", "thermal-scale"]
     p = np.concatenate([q["values"] for q in d["parameters"]])
-    m = loop.load(model)
+    m = api.load(model)
     assert np.array_equal(p, vector(m.model, m.instrument))
     assert all(q["unit"] and q["meaning"] for q in d["parameters"])
     assert len(d["example"]["G_out"]) == len(d["example"]["columns"]["time"])
@@ -253,7 +253,7 @@ def test_the_document_holds_everything(extended: tuple[Path, Path, Path], tmp_pa
 def test_a_folder_with_other_things_is_left_alone(base: tuple[Path, Path, Path], tmp_path: Path) -> None:
     (tmp_path / "mine.txt").write_text("mine")
     with pytest.raises(UserError, match="not empty"):
-        after.export(loop.load(base[0]), tmp_path, "c")
+        api.export(api.load(base[0]), tmp_path, "c")
     assert [p.name for p in tmp_path.iterdir()] == ["mine.txt"]
     (tmp_path / "sent" / "test").mkdir(parents=True)
     (tmp_path / "sent" / ".ragg-export").write_text("")
@@ -262,12 +262,12 @@ def test_a_folder_with_other_things_is_left_alone(base: tuple[Path, Path, Path],
         place.rmdir() if place.is_dir() else None
         place.symlink_to(tmp_path / ("mine.txt" if link == "main.c" else "."))
         with pytest.raises(UserError, match="a link stands where"):
-            after.export(loop.load(base[0]), tmp_path / "sent", "c")
+            api.export(api.load(base[0]), tmp_path / "sent", "c")
         place.unlink()
     assert sorted(p.name for p in tmp_path.iterdir()) == ["mine.txt", "sent"]
     assert (tmp_path / "mine.txt").read_text() == "mine"
     with pytest.raises(UserError, match="unknown form"):
-        after.export(loop.load(base[0]), tmp_path / "x", "fortran")
+        api.export(api.load(base[0]), tmp_path / "x", "fortran")
 
 
 def test_a_calibration_of_another_model_is_not_exported(

@@ -10,18 +10,18 @@ import numpy as np
 import pytest
 from scipy.signal import savgol_filter
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.identification.comparison import STEPS
 from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.instrument.form import PAPER, PRESETS, Form
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.model import derive
 from ragg_runtime.model.evaluate import output, scale_factor, vector
 from ragg_runtime.model.model import packaged
 from ragg_runtime.model.record import SPIN, Record, record, spin, spin_degree
-from ragg_runtime.model_dir import derive
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.simulate import simulated
 
 EXAMPLE = (Path(__file__).parents[2] / "ragg_runtime" / "example.toml").read_text("utf-8")
 EXACT = Form(kinematics="full", mounting="exact", misalignment="exact", second_order_angles=True)
@@ -99,25 +99,25 @@ def test_new_writes_full_kinematics_where_the_sheet_has_no_form_and_says_so(
     (tmp_path / "platform.toml").write_text(sheet("[model]"))
     _, _, said = ragg(capsys, "new", tmp_path / "platform", "--from", tmp_path / "platform.toml")
     assert said == ""
-    assert loop.load(tmp_path / "platform").model is packaged()
+    assert api.load(tmp_path / "platform").model is packaged()
     _, _, said = ragg(capsys, "new", tmp_path / "own")
     assert said == ""
-    m = loop.load(tmp_path / "own")
+    m = api.load(tmp_path / "own")
     assert m.instrument.form == Form(kinematics="full")
     assert m.model is packaged("full")
-    assert loop.load(tmp_path / "from-sheet").model is packaged("full")
+    assert api.load(tmp_path / "from-sheet").model is packaged("full")
 
 
 def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> None:
     full, platform = packaged("full"), packaged()
     assert platform.effect("disc-spin") is not None
     assert full.effect("disc-spin") is None
-    m = loop.new(tmp_path / "full")
+    m = api.new(tmp_path / "full")
     with pytest.raises(UserError, match="holds the effect disc-spin already"):
-        loop.add(m, "disc-spin")
+        api.add(m, "disc-spin")
     (tmp_path / "bad.toml").write_text(EXAMPLE.replace("effects = []", 'effects = ["disc-spin"]'))
     with pytest.raises(UserError, match="holds the effect disc-spin already"):
-        loop.new(tmp_path / "bad", tmp_path / "bad.toml")
+        api.new(tmp_path / "bad", tmp_path / "bad.toml")
     keeping = parse_instrument(sheet("[model]\norder = { second_order_angles = true }"))
     assert derive.model_of(keeping).effect("second-order-misalignment") is None
 
@@ -203,13 +203,13 @@ def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
 
 def test_a_paper_model_lacks_the_spin_and_adding_it_brings_the_error_to_the_noise(tmp_path: Path) -> None:
     (tmp_path / "sheet.toml").write_text(sheet("[model]"))
-    m = loop.new(tmp_path / "paper", tmp_path / "sheet.toml")
+    m = api.new(tmp_path / "paper", tmp_path / "sheet.toml")
     flight = simulated(replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=600.0)
     same = simulated(m.instrument, ["disc-spin:share=1"], seed=4, duration=600.0)
     np.testing.assert_array_equal(flight.outputs["G_out"], same.outputs["G_out"])
-    d = loop.diagnose(m, [flight])
+    d = api.diagnose(m, [flight])
     assert (d.verdict, d.found) == ("missing-effect", ("disc-spin",))
-    added = loop.add(m, "disc-spin", [flight])
+    added = api.add(m, "disc-spin", [flight])
     assert added.after is not None
     assert added.after.calibrated.rms_Eo < 1.02 * added.after.noise_floor
     (share,) = added.parameters
@@ -218,9 +218,9 @@ def test_a_paper_model_lacks_the_spin_and_adding_it_brings_the_error_to_the_nois
 
 
 def test_the_ladder_says_what_each_step_is_worth(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    m = loop.new(tmp_path / "m")
+    m = api.new(tmp_path / "m")
     flight = simulated(m.instrument, (), seed=5, duration=300.0, no_gradient=False)
-    c = loop.compare(m, [flight], ladder=True)
+    c = api.compare(m, [flight], ladder=True)
     assert [r.form for r in c.ladder] == list(STEPS)
     steps = [r.step.rms_Eo for r in c.ladder if r.step is not None]
     assert steps[0] > 1e4  # the spin: the centripetal force of all four, seen by their misalignment

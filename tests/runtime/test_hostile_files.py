@@ -16,7 +16,7 @@ from ragg_runtime.io import read_flight
 from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import parse_mapping
 from ragg_runtime.io.tables import Column, Table
-from ragg_runtime.model_dir.history import read_history
+from ragg_runtime.model.directory import read_history
 from tests.runtime.foreign_files import ENDINGS, write
 
 NAMES = ("time", "a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z", "G_out")

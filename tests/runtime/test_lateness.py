@@ -8,11 +8,11 @@ import pytest
 from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.switching import certain
+from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.lateness import STEP, about, late
 from ragg_runtime.model.record import record
-from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import Scenario, scenario
 
 

@@ -14,18 +14,18 @@ import pytest
 from commands import ragg
 
 from derive.expression import ExpressionError, from_expression
+from ragg_runtime import api
 from ragg_runtime.estimation.noise_spectrum import estimate
 from ragg_runtime.identification.comparison import compare, nominal_residual
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.io import Flight, write_flight
+from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
-from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.accelerometer_noise import Noise
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.signals.fir import filtered
-from ragg_runtime.workflow import loop
 from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
@@ -284,7 +284,7 @@ def test_bad_input_is_one_message(
     words: tuple[str, ...], message: str, flight_files: tuple[Path, Path], tmp_path: Path
 ) -> None:
     sheet, flight = flight_files
-    loop.new(tmp_path / "m", sheet)
+    api.new(tmp_path / "m", sheet)
     place = {"MODEL": str(tmp_path / "m"), "FLIGHT": str(flight)}
     done = ragg(*(place.get(w, w) for w in words))
     assert done.returncode == 2

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import cli
 from ragg_runtime.io import Flight, read_flight, read_flights, write_flight
 from ragg_runtime.io.draft import draft_mapping
 from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import Mapped, parse_mapping
-from ragg_runtime.workflow import loop
 
 G0 = 9.8
 HERE = Path("mapping.toml")
@@ -224,9 +224,9 @@ def test_a_mapping_is_begun_from_a_survey(tmp_path: Path) -> None:
 def test_kept_with_the_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("mapping.toml").write_text(TEXT)
-    m = loop.new("model", None, Path("mapping.toml"))
+    m = api.new("model", None, Path("mapping.toml"))
     assert Path("model/mapping.toml").read_text() == TEXT
-    how = loop.mapping_of(m, None)
+    how = api.mapping_of(m, None)
     assert how is not None
     assert how.kept
     foreign(Path("x.csv"))

@@ -14,12 +14,18 @@ from pathlib import Path
 
 import pytest
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import locked
-from ragg_runtime.model_dir import directory as md
-from ragg_runtime.model_dir.directory import ModelDir, create_model_dir, load_model_dir, replace_model_dir
-from ragg_runtime.model_dir.history import Step, digest
-from ragg_runtime.workflow import loop
+from ragg_runtime.model import directory as md
+from ragg_runtime.model.directory import (
+    ModelDir,
+    Step,
+    create_model_dir,
+    digest,
+    load_model_dir,
+    replace_model_dir,
+)
 
 MODEL = """# state {n}
 effects = []
@@ -222,7 +228,7 @@ def test_the_umask_is_respected(tmp_path: Path, umask: int, mode: int) -> None:
     before = os.umask(umask)
     try:
         for name, expected in (("model", mode), ("empty", 0o750)):
-            place = loop.new(tmp_path / name).directory.path
+            place = api.new(tmp_path / name).directory.path
             assert place.stat().st_mode & 0o7777 == expected
             assert (place / "model.toml").stat().st_mode & 0o777 == mode & 0o666
     finally:
@@ -270,7 +276,7 @@ def test_messages(tmp_path: Path) -> None:
 
 def test_a_model_directory_is_not_imported_from(tmp_path: Path) -> None:
     """`python -m` looks into the current folder first, and a model directory has a `generated/`."""
-    place = loop.new(tmp_path / "model").directory.path
+    place = api.new(tmp_path / "model").directory.path
     (place / "generated").mkdir()
     (place / "generated" / "__init__.py").write_text("raise SystemExit('executed')\n")
     command = [sys.executable, "-m", "ragg_runtime", "history", "."]

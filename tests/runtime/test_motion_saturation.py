@@ -9,8 +9,8 @@ from generated.output_effects import imu_saturation
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.identification import diagnose
+from ragg_runtime.model import derive
 from ragg_runtime.model.model import packaged
-from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import scenario
 
 N = 4000

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.promises import fitted, flown
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.estimation.fitted import Fitted, fit
@@ -16,10 +17,9 @@ from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification import motion_design, next_motion, selection
 from ragg_runtime.identification.selection import Field, field_of
 from ragg_runtime.io import write_flight
+from ragg_runtime.next_flight import next_flight, write_motion
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.next_flight import next_flight, write_motion
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.simulate import simulated
 
 LAG = {"lag": {"tau": [2e-9, 0, 0, 0]}}
 PAIRS = [("lag", "time-offset"), ("lag", "arm-stretch")]
@@ -74,9 +74,9 @@ def test_what_the_flight_does_not_determine_is_not_promised(weak: tuple[Scenario
 
 def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None:
     """Where nothing is left to separate, it excites everything."""
-    m = loop.new(tmp_path / "m")
+    m = api.new(tmp_path / "m")
     x = simulated(m.instrument, [], seed=8, duration=120.0)
-    limits = loop.motion_limits(m, ["a=30mg", "jerk=1m/s^3", "alpha=1deg/s^2"])
+    limits = api.motion_limits(m, ["a=30mg", "jerk=1m/s^3", "alpha=1deg/s^2"])
     n = next_flight(m, [x], limits, duration=60.0, band=(0.1, 2.0))
     assert n.separations == ()
     assert {axis for axis, *_ in n.sinusoids} == set(next_motion.AXES)
@@ -95,12 +95,12 @@ def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None
     assert limits["omega"] == next_motion.LIMITS["omega"]
     for wrong in ("b=1mg", "a", "a=-1mg", "omega=1mg", "jerk=1m/s^2"):
         with pytest.raises(UserError):
-            loop.motion_limits(m, [wrong])
+            api.motion_limits(m, [wrong])
 
 
 def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     """Through the commands, and in half the time that an even multisine of the same size takes."""
-    m = loop.new(tmp_path / "m")
+    m = api.new(tmp_path / "m")
     write_flight(simulated(m.instrument, [], seed=3, duration=300.0), tmp_path / "x.csv")
     files = {
         n: str(tmp_path / n) for n in ("m", "x.csv", "motion.csv", "y.csv", "sheet.md", "plan.json", "c.json")
@@ -137,7 +137,7 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     assert np.allclose(ratios, 1.0, atol=0.05)
     assert all(q["reached"] for q in certificate)
     assert min(q["std_planned"] / q["std_before"] for q in certificate) < 0.7
-    f = fit(m.model, m.instrument, observations_of(loop.read_flights(m, [files["x.csv"]]), m.instrument))
+    f = fit(m.model, m.instrument, observations_of(api.read_flights(m, [files["x.csv"]]), m.instrument))
     made = motion_design.design_calibration(f, next_motion.LIMITS, duration=600.0, band=(0.0, 3.2))
     known = motion_design.Knowledge.of(f)
     tones = motion_design.tones_of(0.25, next_motion.LIMITS, (0.0, 3.2))

@@ -10,11 +10,11 @@ from typing import Any
 
 import pytest
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.simulate import simulated
 
 
 @pytest.mark.parametrize("option", ["--duration", "--rate", "--noise", "--sheet-error"])
@@ -33,12 +33,12 @@ def test_a_test_sheet_that_never_ends(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
     for source in (tmp_path / "pipe", Path("/dev/zero")):
         with pytest.raises(UserError, match="not a pipe or a device"):
-            loop.new(tmp_path / "m", source)
+            api.new(tmp_path / "m", source)
 
 
 def test_a_flight_longer_than_memory(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="too long to be simulated"):
-        simulated(loop.new(tmp_path / "m").instrument, [], duration=1e18)
+        simulated(api.new(tmp_path / "m").instrument, [], duration=1e18)
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from ragg_runtime import api
 from ragg_runtime.cli.main import main
-from ragg_runtime.workflow import loop
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="such names and streams")
 FORGED = "f\nverdict: adequate\n\x1b2J\tx"
@@ -21,7 +21,7 @@ WRITTEN_OUT = r"f\nverdict: adequate\n\x1b2J\tx"
 def run(*words: str | Path, shell: str = "", cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
     """``ragg`` in a shell, with redirections."""
     command = " ".join([sys.executable, "-m", "ragg_runtime", *map(str, words), shell])
-    root = str(Path(loop.__file__).parents[2])
+    root = str(Path(api.__file__).parents[1])
     environment = os.environ | {"PYTHONPATH": root}
     return subprocess.run(
         ["sh", "-c", command],
@@ -36,7 +36,7 @@ def run(*words: str | Path, shell: str = "", cwd: Path | None = None) -> subproc
 
 @pytest.fixture
 def model(tmp_path: Path) -> Path:
-    return loop.new(tmp_path / "model").directory.path
+    return api.new(tmp_path / "model").directory.path
 
 
 def test_streams_that_are_closed_or_full(model: Path) -> None:
@@ -82,7 +82,7 @@ def test_names_in_a_history(model: Path, capsys: pytest.CaptureFixture[str]) -> 
     said = capsys.readouterr().out
     assert WRITTEN_OUT in said
     assert len(said.splitlines()) == 2
-    loop.load(model)._repr_html_()
+    api.load(model)._repr_html_()
 
 
 def test_every_refusal_of_the_system_names_its_place(
@@ -91,7 +91,7 @@ def test_every_refusal_of_the_system_names_its_place(
     def refuses(*_: object) -> None:
         raise OSError(40, "Too many levels of symbolic links", "/some\n/where")
 
-    monkeypatch.setattr(loop, "load", refuses)
+    monkeypatch.setattr(api, "load", refuses)
     with pytest.raises(SystemExit) as end:
         main(["compare", str(model), "f.csv"])
     assert end.value.code == 2

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.export.program import table
 from ragg_runtime.compensation.recursive import UNKNOWN_EO, UPDATE, Online, Tuning
@@ -20,7 +21,6 @@ from ragg_runtime.io import write_flight
 from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.workflow import after, loop
 from tests.rate import RATE
 from tests.runtime.flown_twice import files, flights, new_model, run
 from tests.runtime.test_export import make_strictly
@@ -138,14 +138,14 @@ def samples(o: Observation, G: Array) -> str:
 def test_the_c_is_the_same_filter(walk: float, gap: float, exported: tuple[Path, Path, Path]) -> None:
     """Also beyond a gap so long that nothing of what the flight said is left."""
     model, folder, two = exported
-    m = loop.load(model)
-    x = after.read_for_compensation(m, [two])[0].part(slice(0, 1500))
+    m = api.load(model)
+    x = api.read_for_compensation(m, [two])[0].part(slice(0, 1500))
     o = observe(x, m.instrument)
     valid = o.record.valid.copy()
     valid[250:350] = False
     time = o.record.time + np.where(np.arange(1500) < 750, 0.0, gap)
     o = dataclasses.replace(o, record=dataclasses.replace(o.record, valid=valid, time=time))
-    c = after.contents(m)
+    c = api.contents(m)
     sigma, forget = 4 * c.outputs()[0].scale_factor, 60.0
     done = subprocess.run(
         [folder / "ragg_online", f"{sigma:.17g}", str(walk), str(forget)],
@@ -200,11 +200,11 @@ def test_the_command_follows_a_flight_within_its_uncertainty(
     assert [q["accelerometer"] for q in k1] == [1, 2, 3, 4]
     fresh = new_model(tmp_path)
     with pytest.raises(UserError, match="how large the noise is"):
-        after.compensate(loop.load(fresh), [flight], "online")
+        api.compensate(api.load(fresh), [flight], "online")
     G = np.array(flight.outputs["G_out"][:400])
     G[200:240] = np.nan
     gap = dataclasses.replace(flight.part(slice(0, 400)), outputs={"G_out": G})
-    w = after.compensate(loop.load(fresh), [gap], "online", noise=2.0, forget=100.0)
+    w = api.compensate(api.load(fresh), [gap], "online", noise=2.0, forget=100.0)
     assert (w.as_json()["started"], w.as_json()["forget_s"]) == ("sheet", 100.0)
     assert list(w.units) == ["time", "inline", "cross", "inline_std", "cross_std", "quality"]
     bridged = w.series[0]["time"][w.series[0]["quality"] > 0]

@@ -12,9 +12,9 @@ from pathlib import Path
 import commands
 import pytest
 
+from ragg_runtime import api
 from ragg_runtime.io import write_flight
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.simulate import simulated
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="devices, links and pipes of Unix")
 
@@ -23,9 +23,9 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="devices, links 
 def given(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     """A model directory with an effect, and a flight of 150 s."""
     place = tmp_path_factory.mktemp("outputs")
-    m = loop.new(place / "model")
+    m = api.new(place / "model")
     write_flight(simulated(m.instrument, [], seed=3, duration=150.0, rate=8.0), place / "flight.parquet")
-    loop.add(m, "thermal-scale")
+    api.add(m, "thermal-scale")
     return place / "model", place / "flight.parquet"
 
 

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 import derive.effects as derive_effects
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.model_dir import derive, own_effects
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.catalogue import effects
+from ragg_runtime.model import derive
+from ragg_runtime.model.catalogue import effects
 
 CUBIC = (Path(derive_effects.__file__).parent / "cubic_input.py").read_text("utf-8")
 
@@ -23,17 +23,17 @@ def mine(identifier: str) -> str:
 @pytest.fixture(autouse=True)
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(derive, "_folder", lambda: tmp_path / "cache")
-    own_effects._installed.cache_clear()
+    derive._installed.cache_clear()
 
 
 def test_effects_folder_is_refused_with_what_to_do(tmp_path: Path) -> None:
-    m = loop.new(tmp_path / "model")
+    m = api.new(tmp_path / "model")
     (tmp_path / "model" / "mine").mkdir()
     (tmp_path / "model" / "mine" / "evil.py").write_text("raise SystemExit('executed')")
     toml = tmp_path / "model" / "model.toml"
     toml.write_text('effects_folder = "mine"\n' + m.directory.text)
     with pytest.raises(UserError) as refused:
-        loop.load(tmp_path / "model")
+        api.load(tmp_path / "model")
     for text in (str(toml), "effects_folder", "'mine'", "RAGG_EFFECTS"):
         assert text in refused.value.message
 
@@ -42,19 +42,19 @@ def test_effects_of_the_folder_that_the_user_names(tmp_path: Path, monkeypatch: 
     (tmp_path / "own").mkdir()
     (tmp_path / "own" / "mine.py").write_text(mine("mine"))
     (tmp_path / "own" / "__init__.py").write_text("raise SystemExit('executed')")
-    m = loop.new(tmp_path / "model")
+    m = api.new(tmp_path / "model")
     assert "mine" not in {e.id for e in m.model.candidates}
     with pytest.raises(UserError, match="unknown effect"):
-        loop.add(m, "mine")
+        api.add(m, "mine")
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path / "own"))
-    m = loop.load(tmp_path / "model")
+    m = api.load(tmp_path / "model")
     assert "mine" in {e.id for e in m.model.candidates}
     assert effects()["mine"]["title"] == effects()["cubic-input"]["title"]
-    m = loop.add(m, "mine").loaded
-    assert [e.id for e in loop.load(tmp_path / "model").model.effects] == ["mine"]
+    m = api.add(m, "mine").loaded
+    assert [e.id for e in api.load(tmp_path / "model").model.effects] == ["mine"]
     monkeypatch.delenv("RAGG_EFFECTS")
     with pytest.raises(UserError, match="unknown effect"):
-        loop.load(tmp_path / "model")
+        api.load(tmp_path / "model")
 
 
 def test_effects_of_an_installed_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -68,13 +68,13 @@ def test_effects_of_an_installed_package(tmp_path: Path, monkeypatch: pytest.Mon
     (info / "entry_points.txt").write_text("[ragg.effects]\ntheirs = ragg_theirs.power\n")
     monkeypatch.syspath_prepend(tmp_path / "site")
     try:
-        instrument = loop.example()
+        instrument = api.example()
         assert [e.id for e in derive.known(instrument).own] == ["theirs"]
         assert "theirs" in {e.id for e in derive.model_of(instrument).candidates}
     finally:
         for name in ("ragg_theirs", "ragg_theirs.power"):
             sys.modules.pop(name, None)
-        own_effects._installed.cache_clear()
+        derive._installed.cache_clear()
 
 
 @pytest.mark.parametrize(
@@ -92,7 +92,7 @@ def test_one_that_cannot_be_read_is_one_message(
     (tmp_path / "mine.py").write_text(text)
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path))
     with pytest.raises(UserError, match=said):
-        derive.model_of(loop.example())
+        derive.model_of(api.example())
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path / "nowhere"))
     with pytest.raises(UserError, match="no folder of effects"):
-        derive.model_of(loop.example())
+        derive.model_of(api.example())

@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ragg_runtime import api
 from ragg_runtime.cli.main import main
 from ragg_runtime.io import write_flight
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.simulate import simulated
 
 DAY = re.compile(r"20\d\d-\d\d-\d\d")
 
@@ -28,7 +28,7 @@ DAY = re.compile(r"20\d\d-\d\d-\d\d")
 def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A model and a flight of a few minutes."""
     folder = tmp_path_factory.mktemp("provenance")
-    m = loop.new(folder / "model")
+    m = api.new(folder / "model")
     flight = simulated(m.instrument, [], seed=1, duration=240.0, rate=16.0)
     write_flight(flight, folder / "flight.parquet")
     return folder
@@ -70,7 +70,7 @@ def test_a_result_names_what_made_it(
 def test_a_change_names_the_state_before_and_after(
     place: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    loop.new(tmp_path / "model")
+    api.new(tmp_path / "model")
     toml = tmp_path / "model" / "model.toml"
     digests = [hashlib.sha256(toml.read_bytes()).hexdigest()]
     for arguments in (["add", "model", "lag"], ["remove", "model", "lag"]):
@@ -90,7 +90,7 @@ def test_a_report_names_what_made_it(place: Path, monkeypatch: pytest.MonkeyPatc
         assert hashlib.sha256((place / path).read_bytes()).hexdigest() in page
     for library in ("numpy", "scipy", "sympy"):
         assert f"{library} {version(library)}" in page
-    assert loop.load(place / "model").model.digest in page
+    assert api.load(place / "model").model.digest in page
 
 
 def test_the_same_result_on_any_number_of_threads(place: Path) -> None:
@@ -118,5 +118,5 @@ def test_the_same_result_on_any_number_of_threads(place: Path) -> None:
 def _environment() -> dict[str, str]:
     import os
 
-    root = str(Path(loop.__file__).parents[1])
+    root = str(Path(api.__file__).parents[1])
     return {**os.environ, "PYTHONPATH": root}

@@ -23,10 +23,10 @@ from ragg_runtime.identification import comparison as compare
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
+from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import named, output, vector, voltages
 from ragg_runtime.model.record import record
-from ragg_runtime.model_dir import derive
 from ragg_runtime.report import parameters
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.pages import add_page, compare_page, diagnose_page

@@ -8,41 +8,41 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.io.record import distinct
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.workflow import after, loop
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.simulate import simulated
 
 
 @pytest.fixture(scope="module")
-def model(tmp_path_factory: pytest.TempPathFactory) -> loop.Loaded:
-    return loop.new(tmp_path_factory.mktemp("same") / "model")
+def model(tmp_path_factory: pytest.TempPathFactory) -> api.Loaded:
+    return api.new(tmp_path_factory.mktemp("same") / "model")
 
 
 @pytest.fixture(scope="module")
-def flight(model: loop.Loaded) -> Flight:
+def flight(model: api.Loaded) -> Flight:
     return simulated(model.instrument, [], seed=1, duration=150.0, rate=16.0)
 
 
 def test_in_two_formats_and_units_it_is_refused_everywhere(
-    model: loop.Loaded, flight: Flight, tmp_path: Path
+    model: api.Loaded, flight: Flight, tmp_path: Path
 ) -> None:
     write_flight(flight, tmp_path / "x.csv", {"a_x": "mg", "omega_z": "deg/h"}, 9.8)
     write_flight(flight, tmp_path / "y.parquet")
-    both = loop.read_flights(model, [tmp_path / "x.csv", tmp_path / "y.parquet"])
+    both = api.read_flights(model, [tmp_path / "x.csv", tmp_path / "y.parquet"])
     for use in (
-        loop.compare,
-        loop.diagnose,
-        lambda m, x: loop.add(m, "lag", x),
-        lambda m, x: after.calibrate(m, x, save=True),
-        after.compensate,
-        after.compare_frozen,
+        api.compare,
+        api.diagnose,
+        lambda m, x: api.add(m, "lag", x),
+        lambda m, x: api.calibrate(m, x, save=True),
+        api.compensate,
+        api.compare_frozen,
     ):
         with pytest.raises(UserError, match=r"the same record as .*: as evidence it would count twice"):
             use(model, both)
-    kept = loop.load(model.directory.path)
+    kept = api.load(model.directory.path)
     assert (kept.model.effects, kept.directory.calibration) == ((), None)
 
 
@@ -61,12 +61,12 @@ def test_other_records_are_others(flight: Flight) -> None:
     distinct(flights)
 
 
-def test_a_survey_counts_one_record_once(model: loop.Loaded, flight: Flight, tmp_path: Path) -> None:
+def test_a_survey_counts_one_record_once(model: api.Loaded, flight: Flight, tmp_path: Path) -> None:
     write_flight(flight, tmp_path / "a.parquet")
     write_flight(flight, tmp_path / "b.csv")
     kept = tmp_path / "kept.jsonl"
     for _ in range(2):
-        s = loop.survey(model, [tmp_path / "b.csv", tmp_path / "a.parquet"], jobs=1, resume=kept)
+        s = api.survey(model, [tmp_path / "b.csv", tmp_path / "a.parquet"], jobs=1, resume=kept)
         assert [("verdict" in r, "error" in r) for r in s.records] == [(True, True), (False, True)]
         assert "the same record as" in s.records[1]["error"]["message"]
         assert "content" not in s.records[0]

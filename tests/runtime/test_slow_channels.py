@@ -8,23 +8,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.assemble import BRIDGED_STEPS, Slow, judge_slow
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.simulate import simulated
 
 G0 = 9.8
 HIDDEN = "thermal-scale:dK1_dT=0/0/6e-7/0"
 
 
 @pytest.fixture(scope="module")
-def model(tmp_path_factory: pytest.TempPathFactory) -> loop.Loaded:
-    return loop.new(tmp_path_factory.mktemp("slow") / "model")
+def model(tmp_path_factory: pytest.TempPathFactory) -> api.Loaded:
+    return api.new(tmp_path_factory.mktemp("slow") / "model")
 
 
 @pytest.fixture(scope="module")
-def hot(model: loop.Loaded) -> Flight:
+def hot(model: api.Loaded) -> Flight:
     return simulated(model.instrument, [HIDDEN], seed=4, duration=400.0, rate=8.0)
 
 
@@ -37,14 +37,14 @@ def rarely(flight: Flight, every: int, names: tuple[str, ...], path: Path) -> Pa
 
 
 def test_a_thermometer_read_every_ten_seconds_serves_the_diagnosis(
-    model: loop.Loaded, hot: Flight, tmp_path: Path
+    model: api.Loaded, hot: Flight, tmp_path: Path
 ) -> None:
     """It dropped all samples but one in eighty, and acquitted the model."""
     path = rarely(hot, 80, ("temperature",), tmp_path / "slow.parquet")
-    (read,) = loop.read_flights(model, [path])
+    (read,) = api.read_flights(model, [path])
     assert np.flatnonzero(~read.valid).tolist() == list(range(3121, 3200)), "after the last value"
     assert any("temperature: recorded every 10 s; interpolated" in n for n in read.notes)
-    d = loop.diagnose(model, [read])
+    d = api.diagnose(model, [read])
     assert d.verdict == "missing-effect"
     assert "thermal-scale" in {*d.found, *(o for r in d.ranking[:1] for o in r.indistinguishable_from)}
 

@@ -16,6 +16,7 @@ import pandas as pd
 import pytest
 import xarray
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io import memory, read_flight, read_flights
@@ -24,8 +25,7 @@ from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.info import describe_flight
 from ragg_runtime.io.mapping import parse_mapping
 from ragg_runtime.io.recording import find_codes
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.simulate import simulated
 
 G0, N, RATE = 9.8, 60, 16
 UNITS = {"time": "s", "a_x": "g", "a_y": "g", "a_z": "g"}
@@ -258,12 +258,12 @@ def test_flights_in_memory() -> None:
 
 
 def test_what_is_in_memory_is_compared(tmp_path: Path) -> None:
-    m = loop.new(tmp_path / "m")
+    m = api.new(tmp_path / "m")
     x = simulated(m.instrument, [], seed=1, duration=60.0, rate=8.0)
     data = {"time [s]": x.time} | {f"{n} [{x.units[n]}]": v for n, v in {**x.channels, **x.outputs}.items()}
     pd.DataFrame(data).to_csv(tmp_path / "x.csv", index=False)
     values = [
-        loop.compare(m, f).calibrated.rms_Eo for f in (data, [pd.DataFrame(data)], str(tmp_path / "x.csv"))
+        api.compare(m, f).calibrated.rms_Eo for f in (data, [pd.DataFrame(data)], str(tmp_path / "x.csv"))
     ]
     assert values[0] == values[1] == pytest.approx(values[2], rel=1e-9)
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import printable
 from ragg_runtime.cli.main import main
 from ragg_runtime.io import write_flight
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.simulate import simulated
 
 NAME = "\x1b[31m<script>alert(1)\u202e&\"'"
 
@@ -26,7 +26,7 @@ def test_a_flight_with_such_a_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    m = loop.new("model")
+    m = api.new("model")
     write_flight(simulated(m.instrument, [], seed=1, duration=240.0, rate=16.0), "plain.parquet")
     shutil.move("plain.parquet", f"{NAME}.parquet")
     main(["compare", "model", f"{NAME}.parquet", "--json", "out.json", "--report", "out.html"])
@@ -45,7 +45,7 @@ def test_an_error_about_such_a_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    loop.new("model")
+    api.new("model")
     Path(f"{NAME}.csv").write_text(f"time [s],{NAME}[x [g]\n0,0\n", "utf-8")
     with pytest.raises(SystemExit) as end:
         main(["compare", "model", f"{NAME}.csv"])

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-import ragg_runtime.workflow.loop as ragg
+import ragg_runtime.api as ragg
 from ragg_runtime.cli.main import main
 from ragg_runtime.estimation import calibrate
 from ragg_runtime.estimation.fitted import fit

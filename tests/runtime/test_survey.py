@@ -21,20 +21,20 @@ import pyarrow.parquet as pq
 import pytest
 from flights_of_a_survey import COUNT, WITH_EFFECT, lines_of, make, without_effect
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.io import write_flight
 from ragg_runtime.io.tables import Column, Table
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.pages import survey_page
+from ragg_runtime.simulate import simulated
 from ragg_runtime.survey import local, run
 from ragg_runtime.survey import run as survey_run
 from ragg_runtime.survey.result import Survey, parquet
 from ragg_runtime.survey.run import distinct_names, ordered
 from ragg_runtime.survey.task import Record, divided, examine, expanded, job
 from ragg_runtime.wording.sections import render_text
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
 from tests.runtime.foreign_files import write
 
 Flights = tuple[Path, list[Path]]
@@ -47,7 +47,7 @@ def flights(tmp_path_factory: pytest.TempPathFactory) -> Flights:
 
 @pytest.fixture(scope="module")
 def whole(flights: Flights) -> Survey:
-    return loop.survey(loop.load(flights[0]), flights[1], jobs=2)
+    return api.survey(api.load(flights[0]), flights[1], jobs=2)
 
 
 def records_of(whole: Survey, files: list[Path]) -> str:
@@ -73,16 +73,16 @@ def _interruptible() -> None:
 
 
 def test_every_flight_has_its_own_figures(flights: Flights, whole: Survey) -> None:
-    m = loop.load(flights[0])
+    m = api.load(flights[0])
     assert [r["flight"] for r in whole.records] == sorted(p.name for p in flights[1])
     found = [r["flight"] for r in whole.done if "thermal-scale" in r["found"]]
     assert set(WITH_EFFECT) <= set(found)
     for name in WITH_EFFECT:
         record = next(r for r in whole.done if r["flight"] == name)
-        d = loop.diagnose(m, loop.read_flights(m, [flights[0].parent / name]))
+        d = api.diagnose(m, api.read_flights(m, [flights[0].parent / name]))
         assert (record["verdict"], record["found"]) == (d.verdict, list(d.found))
         assert record["error"]["after"]["rms_Eo"] == pytest.approx(d.after.rms_Eo, rel=1e-9)
-        c = loop.compare(m, loop.read_flights(m, [flights[0].parent / name]))
+        c = api.compare(m, api.read_flights(m, [flights[0].parent / name]))
         assert record["error"]["nominal"]["rms_Eo"] == pytest.approx(c.nominal.rms_Eo, rel=1e-9)
         assert record["error"]["holdout"]["rms_Eo"] == pytest.approx(c.holdout.rms_Eo, rel=1e-9)
         assert record["error"]["after"]["rms_Eo"] < 0.5 * record["error"]["calibrated"]["rms_Eo"]
@@ -104,8 +104,8 @@ def test_a_flight_that_cannot_be_read_is_reported_and_stops_nothing(flights: Fli
 
 def test_a_flight_with_a_likely_mistake_is_told_as_elsewhere(flights: Flights, tmp_path: Path) -> None:
     """Where a flight is diagnosed, here or on a cluster, ``examine`` is what looks at it."""
-    m = loop.load(flights[0])
-    (good,) = loop.read_flights(m, flights[1][1:2])
+    m = api.load(flights[0])
+    (good,) = api.read_flights(m, flights[1][1:2])
     bad = dataclasses.replace(good, outputs={"G_out": 1e3 * good.outputs["G_out"]})
     write_flight(bad, tmp_path / "millivolts.parquet")
     toml = flights[0] / "model.toml"
@@ -140,8 +140,8 @@ def test_provenance_names_every_flight(
 
 
 def test_the_number_of_workers_changes_no_bit(flights: Flights, whole: Survey) -> None:
-    m = loop.load(flights[0])
-    again = loop.survey(m, list(reversed(flights[1])), jobs=1)
+    m = api.load(flights[0])
+    again = api.survey(m, list(reversed(flights[1])), jobs=1)
     assert json.dumps(again.as_json()) == json.dumps(whole.as_json())
 
 
@@ -156,8 +156,8 @@ def test_a_killed_worker_is_replaced_and_its_flight_done_again(flights: Flights,
             for pid in pids:
                 os.kill(pid, signal.SIGKILL)
 
-    m, files = loop.load(flights[0]), without_effect(flights[1])
-    again = loop.survey(m, files, jobs=2, progress=kill_one)
+    m, files = api.load(flights[0]), without_effect(flights[1])
+    again = api.survey(m, files, jobs=2, progress=kill_one)
     assert len(killed) == 2
     assert json.dumps(list(again.records)) == records_of(whole, files)
     assert not multiprocessing.active_children()
@@ -263,51 +263,51 @@ def test_an_interrupted_survey_without_results_file_keeps_what_is_done(
 
 
 def test_results_of_something_else_are_refused(flights: Flights, whole: Survey, tmp_path: Path) -> None:
-    m = loop.load(flights[0])
+    m = api.load(flights[0])
     kept = tmp_path / "kept.jsonl"
     for text in ("time,a_x\n1,2\n", '{"kind": "another"}\n', "[1, 2]\n", "no line end"):
         kept.write_text(text)
         with pytest.raises(UserError, match="not a results file"):
-            loop.survey(m, flights[1], jobs=1, resume=kept)
+            api.survey(m, flights[1], jobs=1, resume=kept)
         assert kept.read_text() == text
     head = {"kind": "ragg survey", "model": "0" * 64, "program": {}}
     kept.write_text(json.dumps(head) + "\n")
     with pytest.raises(UserError, match=r"another model\.toml"):
-        loop.survey(m, flights[1], jobs=1, resume=kept)
+        api.survey(m, flights[1], jobs=1, resume=kept)
     with pytest.raises(UserError, match="cannot be written"):
-        loop.survey(m, flights[1], jobs=1, resume=tmp_path / "no-folder" / "x.jsonl")
+        api.survey(m, flights[1], jobs=1, resume=tmp_path / "no-folder" / "x.jsonl")
 
 
 def test_only_flights_that_have_not_changed_are_taken_from_the_results(
     flights: Flights, tmp_path: Path
 ) -> None:
-    m = loop.load(flights[0])
+    m = api.load(flights[0])
     kept, one, two = (tmp_path / n for n in ("kept.jsonl", "a/line.parquet", "b/line.parquet"))
     one.parent.mkdir()
     two.parent.mkdir()
     one.write_bytes(flights[1][1].read_bytes())
     two.write_bytes(flights[1][2].read_bytes())
-    first = loop.survey(m, [one, two], jobs=1, resume=kept)
+    first = api.survey(m, [one, two], jobs=1, resume=kept)
     two.write_bytes(flights[1][4].read_bytes())
     seen: list[str] = []
 
     def note(done: int, total: int, record: Record | None) -> None:
         seen.append(f"{done}/{total}" if record is None else record["flight"])
 
-    second = loop.survey(m, [two, one, one], jobs=1, resume=kept, progress=note)
+    second = api.survey(m, [two, one, one], jobs=1, resume=kept, progress=note)
     assert seen == ["1/2", "b/line.parquet"]
     assert second.records[0] == first.records[0]
     assert second.records[1]["sha256"] != first.records[1]["sha256"]
 
 
 def test_bad_use_is_one_message(flights: Flights) -> None:
-    m = loop.load(flights[0])
+    m = api.load(flights[0])
     with pytest.raises(UserError, match="needs flights"):
-        loop.survey(m, [])
+        api.survey(m, [])
     with pytest.raises(UserError, match="or on a cluster"):
-        loop.survey(m, flights[1], jobs=1, scheduler="tcp://127.0.0.1:1")
+        api.survey(m, flights[1], jobs=1, scheduler="tcp://127.0.0.1:1")
     with pytest.raises(UserError, match="needs a worker"):
-        loop.survey(m, flights[1], jobs=0)
+        api.survey(m, flights[1], jobs=0)
 
 
 def test_the_report_and_the_text_escape_what_strangers_wrote(whole: Survey) -> None:
@@ -415,7 +415,7 @@ MAPPING = '[time]\ncolumn = "T"\nunit = "s"\n[columns]\n'
 
 def made(tmp_path: Path) -> tuple[Path, str, Path]:
     """Two simulated flights as lines of one file under other names; the mapping; model.toml."""
-    m = loop.new(tmp_path / "model")
+    m = api.new(tmp_path / "model")
     tables, entries = [], []
     for seed in (1, 2):
         x = simulated(m.instrument, [], seed=seed, duration=120.0, rate=16.0)

@@ -18,11 +18,11 @@ from typing import Any
 import pytest
 from flights_of_a_survey import lines_of, make, without_effect
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.survey import run
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.task import Record, examine, fingerprint, job
-from ragg_runtime.workflow import loop
 
 Flights = tuple[Path, list[Path]]
 HERE = "127.0.0.1"
@@ -37,7 +37,7 @@ def flights(tmp_path_factory: pytest.TempPathFactory) -> Flights:
 @pytest.fixture(scope="module")
 def whole(flights: Flights) -> Survey:
     """What the local pool says."""
-    return loop.survey(loop.load(flights[0]), flights[1], jobs=1)
+    return api.survey(api.load(flights[0]), flights[1], jobs=1)
 
 
 class Cluster:
@@ -63,7 +63,7 @@ class Cluster:
 
     def _start(self, module: str, *arguments: object) -> subprocess.Popen[bytes]:
         words = [sys.executable, "-m", f"distributed.cli.{module}", *map(str, arguments)]
-        paths = [str(Path(loop.__file__).parents[1]), os.environ.get("PYTHONPATH", "")]
+        paths = [str(Path(api.__file__).parents[1]), os.environ.get("PYTHONPATH", "")]
         environment = os.environ | {"PYTHONPATH": os.pathsep.join(p for p in paths if p)}
         with (self.folder / f"{len(self.processes)}.log").open("wb") as log:
             process = subprocess.Popen(
@@ -125,8 +125,8 @@ def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
                 c.processes[1].send_signal(signal.SIGKILL)
                 c.processes[1].wait(30)
 
-        m = loop.load(flights[0])
-        found = loop.survey(m, flights[1], scheduler=c.address, progress=kill_one)
+        m = api.load(flights[0])
+        found = api.survey(m, flights[1], scheduler=c.address, progress=kill_one)
         assert killed
         assert json.dumps(found.summary.as_json()) == json.dumps(whole.summary.as_json())
         for there, here in zip(found.records, whole.records, strict=True):
@@ -148,7 +148,7 @@ def test_a_lost_scheduler_is_one_message_and_what_is_done_is_kept(
     flights: Flights, whole: Survey, tmp_path: Path
 ) -> None:
     kept = tmp_path / "kept.jsonl"
-    m = loop.load(flights[0])
+    m = api.load(flights[0])
     with running(tmp_path, 1) as c:
 
         def kill_scheduler(done: int, total: int, record: Record | None) -> None:
@@ -156,20 +156,20 @@ def test_a_lost_scheduler_is_one_message_and_what_is_done_is_kept(
                 c.scheduler.kill()
 
         with pytest.raises(UserError, match="connection to the scheduler is lost"):
-            loop.survey(m, flights[1], scheduler=c.address, resume=kept, progress=kill_scheduler)
+            api.survey(m, flights[1], scheduler=c.address, resume=kept, progress=kill_scheduler)
     assert 3 <= len(lines_of(kept)) < len(flights[1]) + 1
-    again = loop.survey(m, flights[1], jobs=1, resume=kept)  # continued on this machine
+    again = api.survey(m, flights[1], jobs=1, resume=kept)  # continued on this machine
     assert json.dumps(again.summary.as_json()) == json.dumps(whole.summary.as_json())
 
 
 def test_workers_of_another_version_are_refused(
     flights: Flights, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    m = loop.load(flights[0])
+    m = api.load(flights[0])
     with running(tmp_path, 0) as c:
         monkeypatch.setattr(run, "PATIENCE", 1.0)
         with pytest.raises(UserError, match="no workers"):
-            loop.survey(m, flights[1], scheduler=c.address)
+            api.survey(m, flights[1], scheduler=c.address)
         c.worker()
         c.wait_for_workers(1)
         monkeypatch.undo()
@@ -178,7 +178,7 @@ def test_workers_of_another_version_are_refused(
         there = tuple(own.items())
         monkeypatch.setattr(run, "fingerprint", lambda: other if os.getpid() == here else there)
         with pytest.raises(UserError) as error:
-            loop.survey(m, flights[1], scheduler=c.address)
+            api.survey(m, flights[1], scheduler=c.address)
     assert "does not run this version" in error.value.message
     assert f"numpy {own['numpy']}" in error.value.message
     assert "numpy 1.0" in error.value.message
@@ -195,21 +195,21 @@ def test_a_scheduler_that_is_not_there_is_one_message(
     flights: Flights, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("distributed", reason="Dask is an optional extra: pip install 'ragg[cluster]'")
-    m = loop.load(flights[0])
+    m = api.load(flights[0])
     with socket.socket() as s:
         s.bind((HERE, 0))
         free = s.getsockname()[1]
     monkeypatch.setattr(run, "PATIENCE", 1.0)
     start = time.monotonic()
     with pytest.raises(UserError, match="cannot be reached"):
-        loop.survey(m, flights[1], scheduler=f"tcp://{HERE}:{free}")
+        api.survey(m, flights[1], scheduler=f"tcp://{HERE}:{free}")
     assert time.monotonic() - start < 20
     for address in ("127.0.0.1", "tcp://", "tcp://host", "tcp://host:port", "", "scheduler.json"):
         with pytest.raises(UserError, match="cannot be reached"):
-            loop.survey(m, flights[1], scheduler=address)
+            api.survey(m, flights[1], scheduler=address)
 
 
 def test_without_the_extra_it_is_one_message(flights: Flights, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(UserError, match=r"ragg\[cluster\]"):
-        loop.survey(loop.load(flights[0]), flights[1], scheduler=f"tcp://{HERE}:8786")
+        api.survey(api.load(flights[0]), flights[1], scheduler=f"tcp://{HERE}:8786")

@@ -12,9 +12,9 @@ from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.switching import certain
 from ragg_runtime.estimation.unknown_gradient import windows
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector, voltages
-from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import Scenario, scenario
 
 

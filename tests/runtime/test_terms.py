@@ -19,9 +19,9 @@ from ragg_runtime.identification.omnibus import Scores
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.io import Flight
+from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.record import Record
-from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.reference.simulate import Simulation
 from tests.rate import RATE

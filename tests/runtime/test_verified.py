@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from derive import pipeline
+from ragg_runtime import api
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.model_dir import derive
-from ragg_runtime.workflow import loop
+from ragg_runtime.model import derive
 
-ROOT = Path(loop.__file__).parents[2]
+ROOT = Path(api.__file__).parents[1]
 EVIL = "\nimport pathlib\npathlib.Path({mark!r}).write_text('executed')\n"
 
 
@@ -25,7 +25,7 @@ def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def model(tmp_path: Path) -> Path:
-    return loop.add(loop.new(tmp_path / "model"), "gain-drift").loaded.directory.path
+    return api.add(api.new(tmp_path / "model"), "gain-drift").loaded.directory.path
 
 
 def derives(monkeypatch: pytest.MonkeyPatch) -> list[int]:
@@ -45,7 +45,7 @@ def derives(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
 def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     count = derives(monkeypatch)
-    m = loop.load(model)
+    m = api.load(model)
     assert ([e.id for e in m.model.effects], m.notes, count) == (["gain-drift"], (), [])
     for file in (model.parent / "cache" / "derived").iterdir():
         file.unlink()
@@ -55,10 +55,10 @@ def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: 
 
 def test_sympy_is_not_even_imported_then(model: Path, tmp_path: Path) -> None:
     code = (
-        "import sys; from pathlib import Path; from ragg_runtime.model_dir import derive; "
-        "from ragg_runtime.workflow import loop\n"
+        "import sys; from pathlib import Path; from ragg_runtime.model import derive; "
+        "from ragg_runtime import api\n"
         f"derive._folder = lambda: Path({str(tmp_path / 'cache' / 'derived')!r})\n"
-        "m = loop.load(sys.argv[1]); print([e.id for e in m.model.effects], 'sympy' in sys.modules)"
+        "m = api.load(sys.argv[1]); print([e.id for e in m.model.effects], 'sympy' in sys.modules)"
     )
     done = subprocess.run(
         [sys.executable, "-c", code, model], cwd=ROOT, capture_output=True, text=True, check=True
@@ -74,7 +74,7 @@ def test_generated_is_not_executed(
     with (model / "generated" / name).open("a") as stream:
         stream.write(EVIL.format(mark=str(mark)))
     count = derives(monkeypatch)
-    m = loop.load(model)
+    m = api.load(model)
     assert not mark.exists()
     assert count == []
     assert [e.id for e in m.model.effects] == ["gain-drift"]
@@ -86,11 +86,11 @@ def test_generated_is_derived_anew_where_it_is_of_another_model(model: Path) -> 
     toml.write_text(
         toml.read_text("utf-8").replace("order", "# order").replace('"full"', '"platform"'), "utf-8"
     )
-    m = loop.load(model)
+    m = api.load(model)
     assert "was not derived for this model.toml" in m.notes[0]
     before = (model / "generated" / "digest").read_text()
-    m = loop.add(m, "lag").loaded
-    assert m.notes == loop.load(model).notes == ()
+    m = api.add(m, "lag").loaded
+    assert m.notes == api.load(model).notes == ()
     assert (model / "generated" / "digest").read_text() != before
     assert "lag" in (model / "generated" / "chain.py").read_text("utf-8")
 
@@ -100,7 +100,7 @@ def test_what_is_damaged_is_derived_anew(model: Path, monkeypatch: pytest.Monkey
     for file in (model.parent / "cache" / "derived").iterdir():
         file.write_text(damage)
     count = derives(monkeypatch)
-    assert [e.id for e in loop.load(model).model.effects] == ["gain-drift"]
+    assert [e.id for e in api.load(model).model.effects] == ["gain-drift"]
     assert count == [1]
 
 

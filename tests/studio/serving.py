@@ -19,7 +19,7 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet as pq
 
-from ragg_runtime.workflow import loop
+from ragg_runtime import api
 
 DEMO = Path(__file__).parents[2] / "examples" / "demo-flight.parquet"
 PATIENCE = 120.0  # s; a busy machine is no failure
@@ -52,7 +52,7 @@ class Served:
 
 def new(model: Path) -> None:
     """The instrument that the shipped flight was made with: the example's."""
-    loop.new(model)
+    api.new(model)
 
 
 def brief(flight: Path, start: int = 0) -> None:

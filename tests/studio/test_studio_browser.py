@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 import pytest
 from serving import DEMO, Served, brief, foreign, new, served
 
-from ragg_runtime.model_dir.directory import load_model_dir
+from ragg_runtime.model.directory import load_model_dir
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update"]

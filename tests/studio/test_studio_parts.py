@@ -16,6 +16,7 @@ import pyarrow.csv
 import pytest
 from serving import brief, foreign, new
 
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification import foresee, heat
@@ -23,15 +24,14 @@ from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import field_of
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import write_flight
-from ragg_runtime.model_dir.history import Step
+from ragg_runtime.model.directory import Step
+from ragg_runtime.simulate import simulated
 from ragg_runtime.studio import mapping, session, views
 from ragg_runtime.studio.routes import ACTIONS
 from ragg_runtime.studio.session import Places, Session
+from ragg_runtime.studio.states import branches, tree
 from ragg_runtime.studio.tracks import HEAD, pyramid
 from ragg_runtime.studio.views import mathml, missing
-from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
-from ragg_runtime.workflow.versions import branches, tree
 from tests.layouts import sheets
 
 
@@ -40,8 +40,8 @@ def diagnosis(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
     folder = tmp_path_factory.mktemp("m")
     new(folder / "model")
     brief(folder / "flight.parquet")
-    m = loop.load(folder / "model")
-    return loop.diagnose(m, loop.read_flights(m, [folder / "flight.parquet"]))
+    m = api.load(folder / "model")
+    return api.diagnose(m, api.read_flights(m, [folder / "flight.parquet"]))
 
 
 @pytest.mark.parametrize(
@@ -139,7 +139,7 @@ def test_a_timeline_shows_gaps_and_lone_samples() -> None:
 
 def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(tmp_path: Path) -> None:
     new(tmp_path / "model")
-    m = loop.load(tmp_path / "model")
+    m = api.load(tmp_path / "model")
     path = tmp_path / "flight.csv"
     foreign(path)
     given = mapping.begun(m, path)
@@ -160,8 +160,8 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
         r["unit"] = "m/s^2"
     found = mapping.tried(m, path, given)
     mapping.keep(m, path, given, replace=False)
-    m = loop.load(tmp_path / "model")
-    (flight,) = loop.read_flights(m, [path])
+    m = api.load(tmp_path / "model")
+    (flight,) = api.read_flights(m, [path])
     assert flight.channels["a_z"] == pytest.approx(raw)
     assert tomllib.loads(found["text"]) == tomllib.loads((tmp_path / "model" / "mapping.toml").read_text())
     assert mapping.begun(m, path)["rows"][0]["unit"] == "m/s^2"
@@ -193,7 +193,7 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
 
 def test_another_flight_that_cannot_be_read_leaves_a_page_to_look_at(tmp_path: Path) -> None:
     """Its reading, and its failure, ended in a fault of the program: what was left out of the flight before was kept."""
-    m = loop.new(tmp_path / "model")
+    m = api.new(tmp_path / "model")
     flight = simulated(m.instrument, [], seed=3, duration=30.0, rate=8.0)
     write_flight(flight, tmp_path / "x.csv")
     (tmp_path / "y.csv").write_text("x\n1\n")
@@ -230,7 +230,7 @@ def test_names_of_several_lines_stay_in_the_comments_of_a_shell(tmp_path: Path) 
     """commands.sh is run by hand: names of strangers' files, lines and folders stand in its comments, too."""
     evil = "x\ntouch PWNED\n#"
     new(tmp_path / evil)
-    m = loop.load(tmp_path / evil)
+    m = api.load(tmp_path / evil)
     steps = (Step(action="add", time="", effect="lag", flights={evil: ""}), Step(action=evil, time=""))
     shown = SimpleNamespace(
         loaded=m,

@@ -21,8 +21,8 @@ import numpy as np
 import pytest
 from serving import Served, brief, compared, new, served, settled
 
-from ragg_runtime.model_dir.directory import load_model_dir
-from ragg_runtime.workflow import loop
+from ragg_runtime import api
+from ragg_runtime.model.directory import load_model_dir
 
 
 @pytest.fixture(scope="module")
@@ -335,7 +335,7 @@ def test_a_shell_and_two_tabs_change_one_directory(tmp_path: Path) -> None:
     ):
         compared(one)
         # a shell adds an effect while the page shows the old state: the page's change is refused, not laid over it
-        loop.add(loop.load(model), "bias-drift")
+        api.add(api.load(model), "bias-drift")
         row = next(r for r in one.get("/api/state").json()["sheet"]["rows"] if r["name"] == "K0")
         change = {"values": {"K0": {"value": [1.0, 2.0, 3.0, 4.0], "unit": row["unit"]}}}
         refused = two.post("/api/do/edit", json=change)

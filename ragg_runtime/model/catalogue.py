@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.model_dir.own_effects import own_entries
+from ragg_runtime.model.derive import own_entries
 from ragg_runtime.wording import describe
 from ragg_runtime.wording.sections import Section, render_notebook
 

@@ -29,7 +29,7 @@ from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.reference.turning import Turning
 
 if TYPE_CHECKING:
-    from ragg_runtime.workflow.loop import Loaded
+    from ragg_runtime.api import Loaded
 
 Array = NDArray[np.float64]
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.api import Loaded, diagnose
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
 from ragg_runtime.estimation.fitted import fit
@@ -33,7 +34,6 @@ from ragg_runtime.identification.next_motion import (
     moved,
 )
 from ragg_runtime.io import Flight, write_flight
-from ragg_runtime.workflow.loop import Loaded, diagnose
 
 Array = NDArray[np.float64]
 

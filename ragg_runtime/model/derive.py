@@ -1,9 +1,14 @@
-"""Derive models at run time, SymPy imported only then; a model directory's ``generated/`` is never executed."""
+"""Derive models at run time, SymPy imported only then; a model directory's ``generated/`` is never executed.
+
+Effects in Python come from installed packages (entry points ``ragg.effects``) and from the folder ``RAGG_EFFECTS``, never from a
+model directory: they are code.
+"""
 
 from __future__ import annotations
 
 import functools
 import hashlib
+import inspect
 import json
 import os
 import threading
@@ -11,22 +16,23 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import metadata, resources
+from importlib.metadata import entry_points
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, ParamSpec, TypeVar
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Literal, ParamSpec, TypeVar
 
 import platformdirs
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
-from ragg_runtime.base.files import write_text
+from ragg_runtime.base.files import read_text, write_text
 from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.layout import Layout
+from ragg_runtime.model.directory import DIGEST, read_digest
 from ragg_runtime.model.model import Model, from_files, packaged
-from ragg_runtime.model_dir.directory import DIGEST, read_digest
-from ragg_runtime.model_dir.own_effects import own_effects, own_sources
 
 if TYPE_CHECKING:
     from derive.effect import Effect as SymbolicEffect
@@ -266,6 +272,15 @@ def plain_c(instrument: Instrument) -> Mapping[str, str]:
     )
 
 
+def chain_of(instrument: Instrument) -> str:
+    """The text of the chain in NumPy."""
+    files = files_of(instrument)
+    if files:
+        return files["chain.py"]
+    package = "generated" if instrument.form.kinematics == "platform" else "generated.full"
+    return resources.files(package).joinpath("chain.py").read_text("utf-8")
+
+
 @_by_one
 def harmonics_of(instrument: Instrument) -> Mapping[str, str]:
     """The instrument's outputs as harmonics of their discs' angles, without effects: file name -> text."""
@@ -358,3 +373,106 @@ def _folder() -> Path:
 
 def _sha256(text: str) -> str:
     return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+
+
+GROUP = "ragg.effects"
+"""The group of entry points of packages; each is a module with ``EFFECT``."""
+
+VARIABLE = "RAGG_EFFECTS"
+"""Names a folder of Python files with ``EFFECT``."""
+
+
+def own_sources() -> Mapping[str, str]:
+    """The text of every module of a package or of RAGG_EFFECTS that defines an effect, by its name or path."""
+    return {name: inspect.getsource(module) for name, module in _installed().items()} | _in_folder()
+
+
+def own_effects() -> tuple[SymbolicEffect, ...]:
+    """The effects that they define, by id; UserError if one cannot be read."""
+    sources = own_sources()
+    if not sources:  # to import what derives takes a while
+        return ()
+    from derive.effects import of_module, of_text
+
+    found = []
+    for name, text in sources.items():
+        try:
+            module = _installed().get(name)
+            found.append(of_text(Path(name), text) if module is None else of_module(module, text))
+        except ValueError as error:
+            raise _unread(name, error) from error
+    return tuple(sorted(found, key=lambda e: e.id))
+
+
+def own_entries() -> tuple[Mapping[str, Any], ...]:
+    """What a catalogue says of them."""
+    found = own_effects()
+    if not found:
+        return ()
+    from derive.ir import manifest_of_effect
+
+    return tuple(manifest_of_effect(e) for e in found)
+
+
+@cache
+def _installed() -> Mapping[str, ModuleType]:
+    found = {}
+    for entry in sorted(entry_points(group=GROUP), key=lambda e: e.value):
+        try:
+            found[entry.value] = entry.load()
+        except Exception as error:
+            raise _unread(entry.value, error) from error
+    return found
+
+
+def _in_folder() -> dict[str, str]:
+    named = os.environ.get(VARIABLE)
+    if not named:
+        return {}
+    if not Path(named).is_dir():
+        raise UserError("there is no folder of effects", where=VARIABLE, found=named)
+    files = sorted(p for p in Path(named).glob("*.py") if not p.name.startswith((".", "_")))
+    return {str(path): read_text(path) for path in files}
+
+
+def _unread(where: str, error: Exception) -> UserError:
+    return UserError("an effect of your own cannot be read", where=where, found=str(error))
+
+
+def rederive(root: Path) -> list[str]:
+    """Derive everything that comes with the program and write it below ``root``; returns the paths that changed.
+
+    Cut off, it leaves whole files; the next one writes the others.
+    """
+    from derive import everything, tree
+
+    return [
+        f"{folder}/{name}"
+        for folder, files in everything.folders().items()
+        for name in tree.write(files, root / folder, exclusive=folder == everything.GENERATED)
+    ]
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What is committed below a root against what the derivation yields: ``difference`` is text, empty if there is none."""
+
+    difference: str
+    versions: str | None
+    committed_with: str
+
+
+def check(root: Path) -> Checked:
+    """Compare what is below ``root`` with what the derivation yields, and write nothing."""
+    from derive import everything
+
+    return Checked(
+        difference=everything.difference(root),
+        versions=everything.about_versions(root),
+        committed_with=everything.committed_with(root),
+    )
+
+
+def home() -> Path:
+    """Where the project stands: the root to write to unless another is named."""
+    return Path(str(resources.files("derive"))).parent

@@ -1,0 +1,712 @@
+"""What ragg does, step by step, for the command line, the studio and notebooks (``import ragg``).
+
+>>> import ragg                                                    # doctest: +SKIP
+>>> m = ragg.load("my-model")
+>>> flights = ragg.read_flights(m, ["flight.csv"])
+>>> d = ragg.diagnose(m, flights)
+>>> step = ragg.add(m, d.found[0], flights)
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from functools import partial
+from importlib import resources
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from ragg_runtime.base.errors import UserError, one_line
+from ragg_runtime.base.files import read_text, replacing
+from ragg_runtime.base.provenance import provenance
+from ragg_runtime.compensation import calibrated as _calibrated
+from ragg_runtime.compensation import frozen as _frozen
+from ragg_runtime.compensation.calibrated import Calibrated
+from ragg_runtime.compensation.compensate import Kind
+from ragg_runtime.compensation.export.contents import Contents
+from ragg_runtime.compensation.export.forms import FORMS, write_export
+from ragg_runtime.compensation.frozen import Held
+from ragg_runtime.compensation.result import QUALITY, Compensation, Compensator
+from ragg_runtime.compensation.saved import Saved, with_another
+from ragg_runtime.identification import comparison as _compare
+from ragg_runtime.identification import diagnose as _diagnose
+from ragg_runtime.identification.comparison import Comparison, climb
+from ragg_runtime.identification.next_motion import LIMITS
+from ragg_runtime.identification.parameters import ParameterValue, calibrated
+from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.identification.series import noise_floor_json
+from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, with_full_kinematics
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.layout import PAPER
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.units import RawQuantity, read_quantity
+from ragg_runtime.io import Flight
+from ragg_runtime.io import read_flights as _read_flights
+from ragg_runtime.io.files import require_writable as check_output
+from ragg_runtime.io.mapping import Mapped, parse_mapping, read_mapping
+from ragg_runtime.io.record import distinct
+from ragg_runtime.model import derive
+from ragg_runtime.model.catalogue import Catalogue, effects
+from ragg_runtime.model.directory import (
+    CALIBRATION,
+    MAPPING,
+    ModelDir,
+    Step,
+    create_model_dir,
+    identity,
+    load_model_dir,
+    replace_model_dir,
+)
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model, missing_channels
+from ragg_runtime.model.record import GRADIENTS
+from ragg_runtime.screening import check_settings, examined
+from ragg_runtime.wording import describe
+from ragg_runtime.wording.sections import render_notebook
+
+if TYPE_CHECKING:
+    from ragg_runtime.survey.result import Survey
+    from ragg_runtime.survey.run import Progress
+
+__all__ = [
+    "FORMS", "QUALITY", "Added", "Catalogue", "Compensation", "Kept", "Loaded", "add", "calibrate",
+    "calibration_notes", "change", "check_output", "compare", "compare_frozen", "compensate", "contents", "diagnose",
+    "effects", "export", "load", "new", "read_flights", "remove", "survey", "write_export",
+]  # fmt: skip
+
+
+# --- models
+
+
+@dataclass(frozen=True, repr=False)
+class Loaded:
+    """A model directory, the model derived for it, and what was odd, in sentences."""
+
+    directory: ModelDir
+    model: Model
+    notes: tuple[str, ...] = ()
+
+    @property
+    def instrument(self) -> Instrument:
+        """The instrument of model.toml."""
+        return self.directory.instrument
+
+    @property
+    def name(self) -> str:
+        """Name of the directory."""
+        return one_line(self.directory.path.resolve().name)
+
+    def __repr__(self) -> str:
+        return f"<Model {self.name}: effects {', '.join(e.id for e in self.model.effects) or 'none'}>"
+
+    def _repr_html_(self) -> str:
+        steps = [s.as_json() for s in self.directory.history]
+        return render_notebook(describe.describe_model(self.name, [e.id for e in self.model.effects], steps))
+
+
+FULL_KINEMATICS = (
+    'the sheet has no [model]: kinematics = "full" was written into model.toml, as real accelerometers feel that they turn with the '
+    'disc; the model of Eq. 9 of the paper, without that, is [model] kinematics = "platform"'
+)
+
+
+def new(path: Path | str, source: Path | str | None = None, mapping: Path | str | None = None) -> Loaded:
+    """Make a model directory.
+
+    Parameters
+    ----------
+    path
+        Where; it must not hold anything yet.
+    source
+        A test sheet (a model.toml); by default the packaged example.
+    mapping
+        A mapping of the columns of its flights, to be kept there.
+
+    Raises
+    ------
+    UserError
+        If the sheet or the mapping is none, or the directory cannot be made.
+    """
+    kept = None if mapping is None else mapping_text(Path(mapping))
+    text = _example_text() if source is None else read_text(Path(source))
+    completed = with_full_kinematics(text)
+    instrument = parse_instrument(completed, Path(source) if source else None)
+    made = create_model_dir(
+        path,
+        completed,
+        generated=derive.files_of(instrument),
+        history=(Step("new", _now(), text=completed),),
+        mapping=kept,
+    )
+    m = _loaded(made)
+    return m if completed == text else replace(m, notes=(*m.notes, FULL_KINEMATICS))
+
+
+def load(path: Path | str) -> Loaded:
+    """Read a model directory and derive its model."""
+    return _loaded(load_model_dir(path))
+
+
+def _loaded(directory: ModelDir) -> Loaded:
+    model = derive.model_of(directory.instrument)
+    check_settings(model, directory.instrument)
+    note = derive.departure(directory.instrument, directory.generated)
+    return Loaded(directory, model, () if note is None else (note,))
+
+
+def example() -> Instrument:
+    """The instrument of the packaged test sheet."""
+    return parse_instrument(_example_text())
+
+
+def _example_text() -> str:
+    return resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
+
+
+def as_of(m: Loaded, text: str) -> Loaded:
+    """The model with another text of model.toml, in memory alone: the directory stays as it is."""
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    model = derive.model_of(instrument)
+    check_settings(model, instrument)
+    return Loaded(replace(m.directory, text=text, instrument=instrument, generated=None), model, m.notes)
+
+
+def change(m: Loaded, text: str, action: str, effect: str = "") -> Loaded:
+    """Put another text in the place of model.toml, derive its model, and note the step in the history."""
+    instrument = as_of(m, text).instrument
+    step = Step(action, _now(), effect, text=text)
+    directory = replace_model_dir(m.directory, text, generated=derive.files_of(instrument), step=step)
+    return load(directory.path)
+
+
+def _now() -> str:
+    """The instant as it stands in a history."""
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+# --- flights
+
+
+Flights = Flight | Path | str | Any
+"""A flight as it was read, a path, a pandas DataFrame, an xarray Dataset, or a dict of arrays; or a list of these."""
+
+
+def read_flights(
+    m: Loaded, paths: Flights, mapping: Path | str | None = None, *, leave: frozenset[str] = frozenset()
+) -> list[Flight]:
+    """Read flights, every line of a file a flight, in the units of this model (its g0), and examine them.
+
+    Parameters
+    ----------
+    paths
+        Paths, pandas DataFrames, xarray Datasets or dicts of arrays (columns ``name [unit]``, or units in ``attrs``), one
+        or a list of these. Flights that were read already stay as they are.
+    mapping
+        What the columns are, by default the model's own.
+    leave
+        Columns that are not read.
+    """
+    given = list(paths) if isinstance(paths, list | tuple) else [paths]
+    how = mapping_of(m, mapping) if any(not isinstance(x, Flight) for x in given) else None
+    found: list[Flight] = []
+    for n, one in enumerate(given, 1):
+        if isinstance(one, Flight):
+            found.append(one)
+            continue
+        read = _read_flights(
+            one,
+            m.instrument.g0,
+            accelerometers=m.instrument.layout,
+            mapping=how,
+            leave=leave,
+            name="flight" if len(given) == 1 else f"flight {n}",
+        )
+        found += [examined(m.model, m.instrument, x) for x in read]
+    return found
+
+
+def read_for_compensation(m: Loaded, paths: Flights, mapping: Path | str | None = None) -> list[Flight]:
+    """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
+    return read_flights(m, paths, mapping, leave=frozenset(GRADIENTS))
+
+
+def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
+    """The mapping that is given, else the one that is kept with the model, else none."""
+    if given is not None:
+        return read_mapping(Path(given))
+    own = m.directory.mapping
+    return None if own is None else replace(read_mapping(own), kept=True)
+
+
+def keep_mapping(m: Loaded, text: str, *, replace: bool) -> None:
+    """Lay a mapping down in the model directory, where every command finds it; never over another unasked."""
+    place = m.directory.path / MAPPING
+    if place.exists() and not replace and read_text(place) != text:
+        raise UserError(
+            "the model has a mapping already", where=place, remedy="say that it shall be replaced"
+        )
+    with replacing(place) as temporary:
+        temporary.write_text(text, "utf-8")
+
+
+def mapping_text(path: Path) -> str:
+    """The text of a mapping that is to be kept; UserError if it is none."""
+    text = read_text(path)
+    parse_mapping(text, path)
+    return text
+
+
+def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
+    """What was done to model directory and flights, or looks odd in them."""
+    return [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)]
+
+
+def sources(m: Loaded, flights: Sequence[Flight]) -> list[tuple[str, str]]:
+    """(name, sha256) of everything that a result depends on."""
+    text = hashlib.sha256(m.directory.text.encode()).hexdigest()
+    return [(f"{m.name}/model.toml", text), *((x.name, x.digest) for x in flights)]
+
+
+def origin(
+    m: Loaded,
+    flights: Sequence[Flight],
+    command: str,
+    *,
+    files: Sequence[tuple[str, str | None]] = (),
+    before: Loaded | None = None,
+) -> dict[str, object]:
+    """What makes a result again (``provenance``), and what the reader did to the flights (``notes``).
+
+    ``files`` (path, SHA-256) are flights read elsewhere; ``before`` is the model that the command has changed.
+    """
+    model = identity(m.directory, m.model.digest, None if before is None else before.directory)
+    read = [(x.name if x.path is None else str(x.path), x.digest) for x in flights]
+    return {"notes": notes(m, flights), "provenance": provenance(command, model, [*read, *files])}
+
+
+# --- the loop
+
+
+def compare(m: Loaded, flights: Flights, *, ladder: bool = False) -> Comparison:
+    """How far the model is from the flights; with ``ladder`` also what each simplification of it is worth there."""
+    flights = read_flights(m, flights)
+    distinct(flights)
+    c = _compare.compare(m.model, m.instrument, flights)
+    if not ladder:
+        return c
+    simpler = partial(derive.without_signatures, m.instrument)
+    return replace(c, ladder=climb(m.instrument, flights, simpler))
+
+
+def diagnose(
+    m: Loaded,
+    flights: Flights,
+    limits: Mapping[str, float] = LIMITS,
+    compared: Comparison | None = None,
+) -> Diagnosis:
+    """Which physical effect the model lacks; with ``compared`` of the same flights nothing is fitted again."""
+    flights = read_flights(m, flights)
+    distinct(flights)
+    extended = partial(derive.with_effects, m.instrument)
+    if compared is not None:
+        return _diagnose.diagnose_fitted(compared.fitted, flights, extended, limits)
+    return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
+
+
+LIMIT_UNITS = {"a": "m/s^2", "omega": "rad/s", "jerk": "m/s^3", "alpha": "rad/s^2"}
+
+
+def motion_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
+    """Largest amplitudes of a motion to fly next, and of its rates of change, SI, from texts such as ``a=50mg``."""
+    found = dict(LIMITS)
+    for text in texts:
+        name, _, size = text.partition("=")
+        if name not in LIMIT_UNITS or not size:
+            raise UserError(
+                "the limit of a motion cannot be read",
+                where="--limit",
+                found=text,
+                expected="a=50mg, omega=500deg/h, jerk=1m/s^3 or alpha=1deg/s^2",
+            )
+        q = read_quantity(size, f"--limit {name}", count=1)
+        value = m.instrument.units.to_si(np.asarray(q.value), q.unit, LIMIT_UNITS[name], f"--limit {name}")
+        if not float(value) > 0.0:
+            raise UserError("the limit of a motion must be positive", where=f"--limit {name}", found=size)
+        found[name] = float(value)
+    return MappingProxyType(found)
+
+
+@dataclass(frozen=True, repr=False)
+class Added:
+    """The result of ``add``: errors and parameters; the model directory is as it was where it has not ``converged``."""
+
+    loaded: Loaded
+    effect: str
+    before: Comparison | None
+    after: Comparison | None
+    parameters: tuple[ParameterValue, ...]
+    combinations: tuple[ParameterValue, ...]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the effect was added."""
+        return self.after is None or self.after.converged
+
+    def __repr__(self) -> str:
+        before = None if self.before is None else self.before.calibrated.rms_Eo
+        after = None if self.after is None else self.after.calibrated.rms_Eo
+        noise = None if self.after is None else self.after.noise_floor
+        errors = (("before", before), ("after", after), ("noise", noise))
+        return describe.summarize("Added", self.effect, *errors)
+
+    def _repr_html_(self) -> str:
+        effects = [e.id for e in self.loaded.model.effects]
+        return render_notebook(describe.describe_addition(self.as_json(), effects))
+
+    def as_json(self) -> dict[str, object]:
+        """As ``ragg add --json`` writes it."""
+        return {
+            "effect": self.effect,
+            "converged": self.converged,
+            "reason": None if self.after is None else self.after.complaint,
+            "off_sheet": [] if self.after is None else [x.as_json() for x in self.after.off_sheet],
+            "before": _judged(self.before),
+            "after": _judged(self.after),
+            "parameters": [p.as_json() for p in self.parameters],
+            "combinations": [p.as_json() for p in self.combinations],
+        }
+
+
+def errors_of(c: Comparison | None) -> dict[str, object] | None:
+    """The ``error`` of compare: nominal, calibrated, holdout."""
+    if c is None:
+        return None
+    return {
+        "nominal": c.nominal.as_json(),
+        "calibrated": c.calibrated.as_json(),
+        "holdout": c.holdout.as_json(),
+    }
+
+
+def _judged(c: Comparison | None) -> dict[str, object] | None:
+    """The errors of a comparison with its noise floor, and whether the model is adequate."""
+    if c is None:
+        return None
+    floor = noise_floor_json(c.fitted, c.noise_floor)
+    return {**(errors_of(c) or {}), "noise_floor": floor, "adequate": c.adequate}
+
+
+def add(
+    m: Loaded,
+    effect: str,
+    flights: Flights = (),
+    tell: Callable[[Added], None] | None = None,
+    *,
+    save: bool = True,
+) -> Added:
+    """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
+
+    The directory is changed whole or not at all, after ``tell`` has been called with the result. Nothing is changed if
+    that raises, if the calibration does not converge, or without ``save``.
+    """
+    flights = read_flights(m, flights)
+    distinct(flights)
+    setting = _setting(m, effect, flights)
+    others = replace(m.instrument, effects=tuple(s for s in m.instrument.effects if s.id != effect))
+    before = _compare.compare(derive.model_of(others), others, flights) if flights else None
+    extended = replace(others, effects=(*others.effects, setting))
+    model = derive.model_of(extended)
+    after: Comparison | None = None
+    parameters: tuple[ParameterValue, ...] = ()
+    combinations: tuple[ParameterValue, ...] = ()
+    if flights:
+        after = _compare.compare(model, extended, flights)
+        parameters, combinations = calibrated(after.fitted, effect)
+        values = {**setting.values, **_written(parameters, m.instrument.layout.size)}
+        setting = replace(setting, values=MappingProxyType(values))
+        after = after.with_nominal(replace(extended, effects=(*others.effects, setting)))
+    made = Added(m, effect, before, after, parameters, combinations)
+    text = add_effect(m.directory.text, setting)
+    step = Step(
+        action="add",
+        time=_now(),
+        effect=effect,
+        before=errors_of(before),
+        after=errors_of(after),
+        flights=MappingProxyType({x.name: x.digest for x in flights}),
+        text=text,
+    )
+    if made.converged:
+        made = replace(made, loaded=_planned(m, text, model, step))
+    if tell is not None:
+        tell(made)
+    if not (save and made.converged):
+        return replace(made, loaded=m)
+    directory = replace_model_dir(m.directory, text, generated=derive.files_of(extended), step=step)
+    return replace(made, loaded=_loaded(directory))
+
+
+def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting:
+    """The effect as model.toml will list it, its values open but for a step's instant; UserError if it cannot be added."""
+    # a candidate of the model tells all that is asked here: the derivation, half a second to begin, is for others
+    found = next((e for e in m.model.candidates if e.id == effect), None)
+    offered = derive.offered(m.instrument, effect) if found is None else found
+    present = m.instrument.effect(effect)
+    if present is not None and present.values:
+        raise UserError(
+            "the effect is in the model already",
+            where=str(m.directory.path),
+            found=effect,
+            remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
+        )
+    for x in flights:
+        missing = missing_channels(offered, x.channels)
+        if missing:
+            raise UserError(
+                f"the effect {effect} needs a channel that the flight lacks",
+                where=x.path or x.name,
+                found=f"no {', '.join(missing)}",
+                expected="a column of that name with its unit",
+                remedy="record it, or choose another effect",
+            )
+    values: dict[str, RawQuantity] = {}
+    if offered.kind == "step" and flights:
+        values = {"t_step": RawQuantity(_instant(m, effect, flights), "s")}
+    expression = present.expression if present is not None else None
+    return EffectSetting(effect, MappingProxyType(values), expression)
+
+
+def _instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> float:
+    """The most likely instant of a step, s."""
+    ranking = _diagnose.diagnose(m.model, m.instrument, flights).ranking
+    own = (p for r in ranking if r.effect == effect for p in r.parameters if p.name == "t_step")
+    return next((p.value for p in own), 0.0)
+
+
+def _written(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:
+    """Calibrated parameters of an effect as they are written to model.toml, ``count`` accelerometers."""
+    values: dict[str, RawQuantity] = {}
+    for p in parameters:
+        if p.accelerometer is None:
+            values[p.name] = RawQuantity(p.value, p.unit)
+        else:
+            old = values.get(p.name)
+            each = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * count
+            each[p.accelerometer - 1] = p.value
+            values[p.name] = RawQuantity(tuple(each), p.unit)
+    return values
+
+
+def _planned(m: Loaded, text: str, model: Model, step: Step) -> Loaded:
+    """What the model will be after this step."""
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    history = (*m.directory.history, step)
+    return Loaded(replace(m.directory, text=text, instrument=instrument, history=history), model)
+
+
+def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None) -> Loaded:
+    """Take an effect out of the model again; ``tell`` as for :func:`add`."""
+    text = remove_effect(m.directory.text, effect)
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    step = Step("remove", _now(), effect, text=text)
+    if tell is not None:
+        tell(_planned(m, text, derive.model_of(instrument), step))
+    directory = replace_model_dir(m.directory, text, generated=derive.files_of(instrument), step=step)
+    return _loaded(directory)
+
+
+# --- many flights
+
+
+def survey(
+    m: Loaded,
+    flights: Sequence[Path | str],
+    *,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    resume: Path | None = None,
+    progress: Progress | None = None,
+    mapping: Path | None = None,
+) -> Survey:
+    """Diagnose many flights, each by itself, and sum them up; see :func:`ragg_runtime.survey.run.survey`."""
+    from ragg_runtime.survey.run import survey as of_many  # slow to import, and only surveys need it
+
+    how = mapping_of(m, mapping)
+    return of_many(
+        m.directory.text,
+        m.directory.path / "model.toml",
+        flights,
+        jobs=jobs,
+        scheduler=scheduler,
+        resume=resume,
+        progress=progress,
+        mapping=None if how is None else (read_text(how.path), str(how.path.resolve()), how.kept),
+    )
+
+
+def of_survey(m: Loaded, s: Survey, command: str) -> tuple[dict[str, object], dict[str, Any]]:
+    """As :func:`origin`, of a survey made with ``m``, flights that could not be read among its files; and what its page says."""
+    from ragg_runtime.survey.run import sha256
+
+    files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
+    read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
+    names = [*sources(m, []), *read]
+    told = origin(m, [], command, files=files) | {"sources": [{"name": n, "sha256": d} for n, d in names]}
+    title = f"{m.name} and {len(s.records)} flights"
+    return told, {"title": title, "command": command, "digest": m.model.digest, "sources": names}
+
+
+# --- calibrations
+
+
+@dataclass(frozen=True)
+class Kept:
+    """The result of ``calibrate``: the calibration, and the model directory as it is afterwards."""
+
+    loaded: Loaded
+    calibrated: Calibrated
+    saved: bool
+
+    def __repr__(self) -> str:
+        seen, of = self.calibrated.directions
+        return (
+            f"<calibration of {self.loaded.name}: {self.calibrated.error.rms_Eo:.4g} Eo rms, "
+            f"{seen} of {of} directions seen>"
+        )
+
+    def _repr_html_(self) -> str:
+        names = [o.name for o in self.calibrated.fitted.observations]
+        return render_notebook(describe.describe_calibration(self.as_json(), names))
+
+    def as_json(self) -> dict[str, Any]:
+        """As ``ragg calibrate --json`` writes it."""
+        return self.calibrated.as_json() | {"saved": self.saved}
+
+
+def calibrate(m: Loaded, flights: Flights, save: bool = False, mapping: Path | str | None = None) -> Kept:
+    """Fit the parameters to flights; ``save`` keeps them (and ``mapping``) in the model directory, older ones as history."""
+    flights = read_flights(m, flights, mapping)
+    distinct(flights)
+    text = None if mapping is None else mapping_text(Path(mapping))
+    c = _calibrated.calibrated(m.model, m.instrument, flights)
+    return Kept(loaded=_saved(m, c, flights, text) if save else m, calibrated=c, saved=save)
+
+
+def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | None) -> Loaded:
+    d = m.directory
+    new = _calibrated.to_save(c, flights, _now())
+    step = Step("calibrate", new.time, after=new.error, flights=MappingProxyType(dict(new.flights)))
+    directory = replace_model_dir(
+        d,
+        d.text,
+        generated=derive.files_of(d.instrument),
+        step=step,
+        calibration=lambda text: with_another(text, new, str(d.path / CALIBRATION)),
+        mapping=mapping,
+    )
+    return Loaded(directory, m.model, m.notes)
+
+
+def saved_calibration(m: Loaded) -> Saved:
+    """The calibration that the model directory keeps; UserError if there is none, or if it is of another model."""
+    return _frozen.in_force(m.directory.calibration, m.directory.path / CALIBRATION, m.model, m.instrument)
+
+
+def calibration_notes(m: Loaded) -> list[str]:
+    """What is odd about the calibration that is kept."""
+    return _frozen.notes(saved_calibration(m), m.model, m.instrument)
+
+
+def compare_frozen(m: Loaded, flights: Flights) -> Held:
+    """How far the model is from flights with the parameters as they were kept, and how these hold."""
+    flights = read_flights(m, flights)
+    distinct(flights)
+    return _frozen.hold(m.model, m.instrument, flights, saved_calibration(m))
+
+
+# --- compensation
+
+
+def compensate(
+    m: Loaded,
+    flights: Flights,
+    calibration: Kind | Literal["online"] = "self",
+    demodulator: str = "fir",
+    output: Path | str | None = None,
+    *,
+    noise: float | None = None,
+    walk: float | None = None,
+    forget: float = float("inf"),
+) -> Compensation:
+    """The gravity gradient as the instrument saw it: everything removed that the model explains, demodulated.
+
+    Parameters
+    ----------
+    calibration
+        ``self``: the parameters are fitted to these flights; ``crossed``: every block of time has those fitted to all
+        others; ``frozen``: as ``calibrate(..., save=True)`` kept them; ``online``: followed sample by sample by the recursive
+        filter, as a computer on board would, from the calibration that is kept, else from the sheet. It needs no demodulator.
+    demodulator
+        ``fir``, ``butterworth`` or ``causal``.
+    output
+        A file for the series.
+    noise
+        Of ``online``: density of the noise of the cross channel about twice the spin rate, Eo/sqrt(Hz); by default what the kept
+        calibration left.
+    walk
+        Of ``online``, of the cross channel, Eo/sqrt(s), twice that of the inline one; by default both are followed with the time
+        constant of the demodulators' low-pass, 1/(2 pi 0.2 Hz).
+    forget
+        Of ``online``: time constant, s, with which the parameters forget the flight.
+    """
+    flights = read_for_compensation(m, flights)
+    of = Compensator(m.name, m.model, m.instrument)
+    if calibration == "online":
+        kept = None if m.directory.calibration is None else saved_calibration(m)
+        found = of.follow(flights, kept, noise, walk, forget)
+    else:
+        if calibration != "frozen":
+            distinct(flights)
+        kept = saved_calibration(m) if calibration == "frozen" else None
+        found = of.compensate(flights, calibration, demodulator, kept)
+    if output is not None:
+        found.write(output)
+    return found
+
+
+# --- export
+
+
+def contents(m: Loaded) -> Contents:
+    """What is exported of a model: with the calibration that was kept, else with the values of model.toml."""
+    saved, of = None, "values of model.toml, not calibrated"
+    if m.directory.calibration is not None:
+        try:
+            saved = saved_calibration(m)
+            of = f"calibrated {saved.time} on {', '.join(saved.flights)}"
+        except UserError as error:
+            of = f"values of model.toml: {error.what}"
+    folded = {n: text for n, text in m.model.sources.items() if n.startswith("folded")}
+    if not m.instrument.layout.like_paper:  # of a single accelerometer a volt has few digits: then bit by bit
+        folded = {}
+    return Contents(
+        name=m.name,
+        model=m.model,
+        instrument=m.instrument,
+        p=vector(m.model, m.instrument) if saved is None else saved.p,
+        sources=folded or derive.plain_c(m.instrument),
+        module=derive.chain_of(m.instrument),
+        origin=of,
+        information=None if saved is None else _frozen.information(saved, m.model, m.instrument),
+        calibration=None if saved is None else saved.as_json(),
+    )
+
+
+def export(m: Loaded, folder: Path | str, form: str) -> list[Path]:
+    """Write the model into a folder, as ``c``, ``numpy``, ``json`` or ``harmonics``; the files."""
+    return write_export(contents(m), Path(folder), form)
