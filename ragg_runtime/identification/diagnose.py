@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import expit
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import columns as design
@@ -97,7 +98,7 @@ def diagnose_fitted(
     found = Conclusion.of(first, steps, last, outcome, extend, apart, output)
     outcome, left = found.outcome, found.left
     ranking = _ranked(*ranked, steps, last, found)
-    credence = weighed(last.field, steps)
+    credence = weighed(last.field, steps).within(found.share)
     rivals = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
     return Diagnosis(
         verdict=found.verdict,
@@ -192,6 +193,11 @@ class Outcome:
         return self.target.calibration.complaint
 
     @property
+    def remains(self) -> bool:
+        """Whether the discrepancy is significant."""
+        return self.remainder.significant or self.loud
+
+    @cached_property
     def loud(self) -> bool:
         return comparison.loud(self.target, self.scored, self.noise_floor)
 
@@ -204,7 +210,8 @@ class Outcome:
 class Conclusion:
     """The verdict, the effects that are claimed, and what is left beside them.
 
-    ``open``: effects that the record speaks for, but not surely enough; ``line``, ``steady``: see ``line_rival``.
+    ``open``: effects that the record speaks for, but not surely enough; ``line``, ``steady``: see ``line_rival``; ``share``: probability
+    of what the search chose against generic terms; ``rival``: these do as well.
     """
 
     verdict: str
@@ -214,6 +221,7 @@ class Conclusion:
     line: LineRival | None
     steady: tuple[Steady, ...]
     open: tuple[str, ...]
+    share: float = 1.0
     rival: bool = False
 
     @property
@@ -236,6 +244,8 @@ class Conclusion:
             line = None
         count = sum(t.rank > 0 for t in first.choice.tests.values()) + len(outcome.random)
         log_p = _p_values(last)
+        base = omnibus.remainders(first.fitted) if outcome.effects else None
+        share = 1.0 if base is None else float(expit(_ahead(first, steps, outcome, count, base)))
         weak: list[str] = []
         while not (line or apart) and (e := _weakest(outcome, log_p, count)):
             weak.append(e)
@@ -245,28 +255,31 @@ class Conclusion:
         # noise that follows the motion is louder where the motion is: a random effect says so itself
         remains = line is not None or left.significant or outcome.complaint is not None
         remains = remains or (outcome.loud and not random)
-        claims: tuple[str, ...] = ()
-        if not (line or apart or outcome.explained.complaint):
-            claims = _claims(first, steps, last, outcome, count)
-        rival = bool(outcome.effects) and not claims and not remains
-        if rival:  # generic terms do as well as what was chosen: they are what is left
-            left = _base(first)
+        claimed: tuple[str, ...] = ()
         doubted = apart is not None or outcome.explained.complaint is not None
-        if remains or rival or doubted:
-            verdict = "partly-explained" if claims else "unexplained"
-        else:
-            claims = (*claims, *(e for _, e in random[:1]), *output)
-            verdict = "missing-effect" if claims else "adequate"
+        if not (line or doubted):
+            claimed = () if base is None else _claims(first, steps, outcome, count, base)
+        rival = bool(outcome.effects) and not claimed and not remains
+        if rival and base is not None:  # generic terms do as well as what was chosen: they are what is left
+            _, left = claims.generic_evidence(base, np.inf, _rank(steps, first, outcome))
+        remains = remains or rival or doubted
+        if not remains:
+            claimed = (*claimed, *(e for _, e in random[:1]))
+        if not (line or doubted):  # what the recorder did stands in the record, whatever else does
+            claimed = (*claimed, *output)
+        verdict = ("partly-explained" if claimed else "unexplained") if remains else "missing-effect"
+        verdict = verdict if remains or claimed else "adequate"
         beside = last.choice.conditional
         unsure = sorted((t.log_p, e) for e, t in beside.items() if t.rank and t.log_p < np.log(OPEN))
         return Conclusion(
             verdict=verdict,
-            claims=claims,
+            claims=claimed,
             outcome=outcome,
             left=left,
             line=line,
-            steady=tuple(s for s in steady if s.effect in claims),
-            open=tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in unsure)) if e not in claims)),
+            steady=tuple(s for s in steady if s.effect in claimed),
+            open=tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in unsure)) if e not in claimed)),
+            share=share,
             rival=rival,
         )
 
@@ -287,9 +300,9 @@ class Conclusion:
         remark = self.remark(apart)
         if self.verdict == "adequate" or apart or self.line or self.outcome.explained.complaint:
             return remark
-        said = (
-            [f"{listed(self.claims)} {'is' if len(self.claims) == 1 else 'are'} sure"] if self.claims else []
-        )
+        sure = "is sure" if len(self.claims) == 1 else "are sure"
+        how = sure if self.remains else "is missing" if len(self.claims) == 1 else "are missing"
+        said = [f"{listed(self.claims)} {how}"] if self.claims else []
         if self.remains:
             said.append(self._left())
         if self.open:
@@ -302,8 +315,8 @@ class Conclusion:
         """What remains, in words."""
         o = self.outcome
         terms = [f"{t.term.harmonic} x {t.term.product}" for x in self.left.searches for t in x.terms]
-        if self.rival:
-            return f"{listed(o.effects)} would do, but so would a generic term, {terms[0] if terms else 'a line'}"
+        if self.rival and terms:
+            return f"{listed(o.effects)} would do, but no better than a generic term, {terms[0]}"
         rms = o.scored.whole.rms_Eo
         found = [] if o.complaint is None else [o.complaint]
         if terms:
@@ -336,27 +349,37 @@ def _weakest(o: Outcome, log_p: Mapping[str, float], count: int) -> str | None:
     return weakest if weakest is not None and p[weakest] > level else None
 
 
-def _claims(first: Stage, steps: Sequence[Taken], last: Stage, o: Outcome, count: int) -> tuple[str, ...]:
+def _claims(
+    first: Stage, steps: Sequence[Taken], o: Outcome, count: int, base: Sequence[Remainder]
+) -> tuple[str, ...]:
     """What of an outcome's effects may be claimed (``claims``)."""
     if not o.effects:
         return ()
-    steps_ = {e.id for e in first.fitted.model.candidates if e.kind == "step"}
-    lasting = [e for e in o.effects if e not in steps_]  # the instant of a step is from all of the record
+    instants = {e.id for e in first.fitted.model.candidates if e.kind == "step"}
+    lasting = [e for e in o.effects if e not in instants]  # the instant of a step is from all of the record
     if any(claims.held_out_gain(o.robust.regression, e) < -claims.WORSE for e in lasting):
         return ()
-    remains = o.remainder.significant or o.loud
-    tests = {t.effect: t.test for t in steps} | {e: first.choice.tests.get(e) for e in last.choice.chosen}
-    ranks = [max(1, t.rank) if (t := tests.get(e)) is not None else 1 for e in o.effects]
-    spread = max(claims.spread_of(o.remainder), o.target.calibration.excess) if remains else 1.0
-    chi2, rank, base = _explained(first, o), sum(ranks), _base(first)
-    if remains and chi2 - rank < claims.MORE * claims.best_single(base):
+    if o.remains and _explained(first, o) - _rank(steps, first, o) < claims.MORE * claims.best_single(base):
         return ()
-    ahead = claims.evidence(chi2, rank, [count] * len(ranks), spread)
-    # with a cap, if nothing remains: no terms explain more than all
-    ahead -= claims.generic_evidence(base, np.inf if remains else chi2, rank, spread)
     # of one effect that leaves but noise and generic terms that do as well, the one that is known to occur is taken
-    tie = not remains and len(o.effects) == 1
+    tie = not o.remains and len(o.effects) == 1
+    ahead = _ahead(first, steps, o, count, base)
     return o.effects if ahead > (-claims.PLAINLY if tie else claims.PLAINLY) else ()
+
+
+def _rank(steps: Sequence[Taken], first: Stage, o: Outcome) -> int:
+    """Number of coefficients that were tested of an outcome's effects."""
+    tests = dict(first.choice.tests) | {t.effect: t.test for t in steps}
+    return sum(max(1, tests[e].rank) if e in tests else 1 for e in o.effects)
+
+
+def _ahead(first: Stage, steps: Sequence[Taken], o: Outcome, count: int, base: Sequence[Remainder]) -> float:
+    """Log evidence by which an outcome's effects are ahead of the best generic terms of as many coefficients."""
+    chi2, rank = _explained(first, o), _rank(steps, first, o)
+    spread = max(claims.spread_of(o.remainder), o.target.calibration.excess) if o.remains else 1.0
+    # with a cap, if nothing remains: no terms explain more than all
+    terms, _ = claims.generic_evidence(base, np.inf if o.remains else chi2, rank, spread)
+    return claims.evidence(chi2, rank, [count] * len(o.effects), spread) - terms
 
 
 def _explained(first: Stage, o: Outcome) -> float:
@@ -368,11 +391,6 @@ def _explained(first: Stage, o: Outcome) -> float:
         return linear
     # second orders of strong effects: what is left once they are derived into the model, with a noise that is estimated anew
     return max(linear, float(np.sum(field.P[:, -1] ** 2) - o.target.whole[-1, -1] ** 2))
-
-
-def _base(first: Stage) -> Remainder:
-    """What generic terms are in the residual of the model without any effect."""
-    return omnibus.remainder(first.fitted)
 
 
 def _without(
@@ -395,7 +413,7 @@ def _ranked(
 ) -> list[Ranked]:
     """The effects as they stand in the ranking; ``ranking`` is the first stage's, ``before`` the error without any."""
     random = {} if found.remains else found.outcome.random
-    ranking = [*ranking, *_ranked_random(last.fitted, random, before)]
+    ranking = [*ranking, *_ranked_random(random, before)]
     if steps:
         chosen = last.choice.chosen
         later = (

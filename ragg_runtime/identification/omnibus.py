@@ -152,8 +152,8 @@ class Sums:
 class Scores:
     """The dictionary of a flight against its whitened residual, base and chosen effects projected out."""
 
-    def __init__(self, prepared: PreparedFlight, projector: Projector) -> None:
-        self.prepared, self.projector = prepared, projector
+    def __init__(self, prepared: PreparedFlight, projector: Projector, only: int | None = None) -> None:
+        self.prepared, self.projector, self.only = prepared, projector, only
         o = prepared.observation
         self.dictionary = Dictionary(o.record)
         self._excluded = None
@@ -181,7 +181,7 @@ class Scores:
         s.blocks.level(piece, y)
         s.spectrum.add(piece, y)
         for at, x, inner, norm2, X in self._of_terms(
-            Directions(self.prepared, self.dictionary, piece), right
+            Directions(self.prepared, self.dictionary, piece, self.only), right
         ):
             s.dot[at] = inner[:, 0]
             s.along[at] = inner[:, 1:]
@@ -206,7 +206,7 @@ class Scores:
 
     def whitened(self, piece: Piece, places: Sequence[int]) -> Singles:
         """(len(places), rows): the whitened series of some terms over a segment, in order of their places."""
-        d = Directions(self.prepared, self.dictionary, piece)
+        d = Directions(self.prepared, self.dictionary, piece, self.only)
         terms = [self.dictionary.terms[k] for k in sorted(places)]
         slow = sum(k < self.dictionary.slow for k in places)
         found = [*d.whitened(terms[:slow]), *(d.periodic if d.may_be_periodic else d.whitened)(terms[slow:])]
@@ -249,10 +249,15 @@ class Scores:
 
 
 def search(
-    prepared: PreparedFlight, projector: Projector, further: Callable[[Piece, Array], T]
+    prepared: PreparedFlight,
+    projector: Projector,
+    further: Callable[[Piece, Array], T],
+    only: int | None = None,
 ) -> tuple[Omnibus, list[T]]:
-    """What is left of a flight, and what ``further`` makes of every segment and its whitened, projected residual."""
-    scores = Scores(prepared, projector)
+    """What is left of a flight, or of ``only`` one of its series, and what ``further`` makes of every segment and its whitened,
+    projected residual.
+    """
+    scores = Scores(prepared, projector, only)
 
     def both(piece: Piece) -> tuple[Sums, T]:
         Q = projector.basis(piece)
@@ -403,13 +408,19 @@ class Remainder:
         return bool(self.log_p < np.log(FAMILY))
 
 
-def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
+def remainder(f: Fitted, given: Sequence[int] = (), only: int | None = None) -> Remainder:
     """Search what is left once base and ``given`` candidate columns are projected out."""
     found = []
     for x, triangles in zip(f.prepared, f.triangles, strict=True):
         lean, projector, _ = prepared_flight.projector(triangles, f.n_base, given).lean(x)
-        found.append(search(lean, projector, lambda piece, y: None)[0])
+        found.append(search(lean, projector, lambda piece, y: None, only)[0])
     return Remainder(tuple(found))
+
+
+def remainders(f: Fitted) -> list[Remainder]:
+    """What terms of the output are left, and where each accelerometer's voltage was recorded, terms of one voltage alone."""
+    count = min(len(o.series) for o in f.observations)
+    return [remainder(f), *(remainder(f, only=k) for k in range(count) if count > 1)]
 
 
 def terms_json(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, object]]:

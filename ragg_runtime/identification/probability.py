@@ -42,6 +42,12 @@ class Probabilities:
     of: Mapping[str, float]
     credible: tuple[tuple[str, ...], ...]
 
+    def within(self, share: float) -> Probabilities:
+        """The same where the catalogue has but a share of the probability; the rest, like what is not missing, is the empty set."""
+        others = tuple(s for s in self.credible if s)
+        credible = self.credible if share > HELD else ((), *others) if share > 1.0 - HELD else ((),)
+        return Probabilities({e: p * share for e, p in self.of.items()}, credible)
+
 
 @dataclass(frozen=True)
 class Sets:

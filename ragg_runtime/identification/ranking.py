@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -13,7 +12,7 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.score import Error, finite
 from ragg_runtime.estimation.significance import INDISTINGUISHABLE
 from ragg_runtime.identification import likelihood_ratio, probability, selection, sheet
-from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.parameters import ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.identification.probability import Probabilities
 from ragg_runtime.identification.selection import Choice, Field
@@ -23,7 +22,10 @@ from ragg_runtime.model.model import Effect
 
 @dataclass(frozen=True)
 class Ranked:
-    """One effect and the evidence for it, alone."""
+    """One effect and the evidence for it, alone.
+
+    ``delta_bic`` is -2 times the difference of log evidence, without the effect less with it: positive speaks for it.
+    """
 
     effect: str
     log_p: float
@@ -36,7 +38,7 @@ class Ranked:
     parameters: tuple[ParameterValue, ...]
     combinations: tuple[ParameterValue, ...]
     indistinguishable_from: tuple[str, ...]
-    probability: float = 0.0
+    probability: float | None = 0.0
 
     @property
     def p_value(self) -> float:
@@ -106,7 +108,7 @@ def _ranking(
                 log_p=t.log_p,
                 chi2=t.chi2,
                 rank=t.rank,
-                delta_bic=float(t.chi2 - t.rank * np.log(f.calibration.rows)),
+                delta_bic=2.0 * t.log_b,
                 before=before,
                 after=scored[2 * n].whole,
                 after_holdout=scored[2 * n + 1].held_out,
@@ -120,9 +122,8 @@ def _ranking(
     return ranked, before
 
 
-def _ranked_random(f: Fitted, random: Mapping[str, Test], before: Error) -> list[Ranked]:
-    rows = np.log(f.calibration.rows)
-    return [_unfitted(e, t, float(t.chi2 - rows), before) for e, t in random.items()]
+def _ranked_random(random: Mapping[str, Test], before: Error) -> list[Ranked]:
+    return [_unfitted(e, t, 2.0 * float(log_bayes(t.chi2, 1)), before) for e, t in random.items()]
 
 
 def _unfitted(effect: str, t: Test, delta_bic: float, before: Error) -> Ranked:
@@ -174,7 +175,7 @@ def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
         log_p=t.test.log_p,
         chi2=t.test.chi2,
         rank=t.test.rank,
-        delta_bic=float(t.test.chi2 - t.test.rank * np.log(c.rows)),
+        delta_bic=2.0 * t.test.log_b,
         before=before.whole,
         after=after.whole,
         after_holdout=held_out.held_out,
@@ -284,12 +285,9 @@ def weighed(field: Field, steps: Sequence[Taken]) -> Probabilities:
 
 
 def with_probability(r: Ranked, found: Probabilities, columns: Container[str]) -> Ranked:
-    """The row with its effect's probability: none where the model has another effect that explains the same; of an effect without
-    columns the largest that the p-value allows, 1 / (1 - e p ln p) (T. Sellke, M. Bayarri, J. Berger, Am. Stat. 55, 2001).
+    """The row with its effect's probability: none where the model has another effect that explains the same; ``None`` of a random
+    effect, of which there is no evidence but its p-value.
     """
     if r.effect in found.of or r.effect in columns:
         return replace(r, probability=found.of.get(r.effect, 0.0))
-    if r.log_p >= -1.0:
-        return replace(r, probability=0.5)
-    bound = -math.exp(1.0 + r.log_p) * r.log_p if r.log_p > -700.0 else 0.0
-    return replace(r, probability=1.0 / (1.0 + bound))
+    return replace(r, probability=1.0 if np.isneginf(r.log_p) else None)

@@ -23,7 +23,7 @@ from ragg_runtime.estimation.square_root import below, fold, prior
 from ragg_runtime.identification import contenders, selection
 from ragg_runtime.identification import steps as special
 from ragg_runtime.identification.contenders import Contest, Extend
-from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.selection import Choice, Field, field_of, testable_effects
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
@@ -151,19 +151,24 @@ def impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
 def _best(
     stage: Stage, tests: Mapping[str, Test], score: Callable[[Sequence[str]], dict[str, float]]
 ) -> tuple[str, tuple[str, ...]]:
-    """The effect that leaves least by its ``score``, and those that leave as little."""
+    """The effect that leaves least by its ``score``, that of the greatest linear evidence among equals, and those equals."""
     total = float(np.sum(stage.field.P[:, -1] ** 2))
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
-    near = sorted(near, key=lambda e: (-tests[e].log_b, e))
+    # not tempered: second orders make scores uneven
+    near = sorted(near, key=lambda e: (-float(log_bayes(tests[e].chi2, tests[e].rank)), e))
     tried = near[:CONTENDERS]
     left = score(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
-    least_left = min(tried, key=lambda e: (left[e], near.index(e)))
+    best = min(tried, key=lambda e: (left[e], e))
     # effects with the same signature are all of its group, however many they are
-    alike = [e for e in near[CONTENDERS:] if _alike(tests[e], tests[least_left])]
+    alike = [e for e in near[CONTENDERS:] if _alike(tests[e], tests[best])]
     left |= score(alike) if alike else {}
-    best = min(left, key=lambda e: (left[e], near.index(e)))
-    return best, tuple(sorted(e for e in left if e != best and left[e] < left[best] + INDISTINGUISHABLE))
+    equal = [e for e in left if left[e] < left[best] + INDISTINGUISHABLE]
+    effect = min(equal, key=near.index)
+    as_near = [
+        e for e in left if left[e] < left[effect] + INDISTINGUISHABLE and _as_sure(tests[e], tests[effect])
+    ]
+    return effect, tuple(sorted({*equal, *as_near} - {effect}))
 
 
 def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend) -> Taken:
@@ -189,7 +194,7 @@ def _alike(a: Test, b: Test) -> bool:
 
 def _as_sure(a: Test, b: Test) -> bool:
     """Whether the first is no less sure for its many coefficients."""
-    return a.log_b > b.log_b - selection.AS_SURE
+    return float(log_bayes(a.chi2, a.rank) - log_bayes(b.chi2, b.rank)) > -selection.AS_SURE
 
 
 BESIDE = 20.0

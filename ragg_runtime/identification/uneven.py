@@ -65,7 +65,7 @@ class Beside:
 def inflation(beside: Beside, tested: Sequence[int]) -> float:
     """How much more the scores vary than they should: at least 1.
 
-    That is the variance of a block's scores, relative to that of noise of unit variance, mean over directions. What is left
+    That is the variance of a block's score along what is fitted, relative to that of noise of unit variance. What is left
     of the data has the columns ``tested`` fitted, too, so that what is tested raises no doubt about itself.
     """
     if len(beside.blocks) < FEWEST:
@@ -74,13 +74,13 @@ def inflation(beside: Beside, tested: Sequence[int]) -> float:
     U, s, Vt = np.linalg.svd(beside.left(beside.T, tested), full_matrices=False)
     known = s > DIRECTIONS * s[0]
     W = Vt[known].T / s[known]
-    g = W @ (U[:, known].T @ whole)
+    along = U[:, known].T @ whole
+    g = W @ along
     power = 0.0
     for t, y in zip(beside.blocks, parts, strict=True):
         X = beside.left(t, tested)
-        score = W.T @ (X.T @ (y - X @ g))
-        power += float(score @ score)
-    return max(1.0, power / int(np.sum(known)))
+        power += float(g @ (X.T @ (y - X @ g))) ** 2
+    return max(1.0, power / float(along @ along))
 
 
 def telling(blocks: Iterable[Array]) -> tuple[Array, ...]:
@@ -92,7 +92,7 @@ def tempered(t: Test, by: float, freedom: float, blocks: int) -> Test:
     """A test with the p-value of its chi-square divided, by what so many blocks tell; corrections for variants stay."""
     if by <= 1.0:
         return t
-    known = min(freedom, t.rank * (blocks - 1.0))
+    known = min(freedom, blocks - 1.0)
     change = log_sf(t.chi2 / by, t.rank, known) - log_sf(t.chi2, t.rank, freedom)
     less = float(log_bayes(t.chi2, t.rank) - log_bayes(t.chi2 / by, t.rank))
     return replace(t, log_p=min(0.0, t.log_p + change), log_b=t.log_b - less)

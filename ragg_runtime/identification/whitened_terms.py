@@ -90,13 +90,18 @@ def _kept(X: Singles, valid: NDArray[np.bool_]) -> Singles:
 
 
 class Directions:
-    """Whitened series of the terms of a dictionary over a segment."""
+    """Whitened series of the terms of a dictionary over a segment, as terms of the output or of ``only`` one of its series."""
 
-    def __init__(self, prepared: PreparedFlight, dictionary: Dictionary, piece: Piece) -> None:
+    def __init__(
+        self, prepared: PreparedFlight, dictionary: Dictionary, piece: Piece, only: int | None = None
+    ) -> None:
         self.piece, self.dictionary, self.whole = piece, dictionary, prepared.observation
         r = piece.observation.record
         self.filters = [taps[:MEMORY] for taps in prepared.noise.filters]
-        self.weights = prepared.noise.weights(piece.observation.weights)
+        o = piece.observation
+        self.weights = prepared.noise.weights(
+            o.weights if only is None else np.where(np.arange(len(o.signs)) == only, o.signs, 0.0)
+        )
         self.samples = len(r.time)
         self.size = _quick(self.samples)
         self.level = prepared.noise.level.of(r.quantity)
