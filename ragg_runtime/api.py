@@ -66,7 +66,7 @@ from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model, missing_channels
 from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.screening import check_settings, examined
-from ragg_runtime.wording import describe
+from ragg_runtime.wording import describe, describe_other
 from ragg_runtime.wording.sections import render_notebook
 
 if TYPE_CHECKING:
@@ -581,7 +581,7 @@ class Kept:
 
     def _repr_html_(self) -> str:
         names = [o.name for o in self.calibrated.fitted.observations]
-        return render_notebook(describe.describe_calibration(self.as_json(), names))
+        return render_notebook(describe_other.describe_calibration(self.as_json(), names))
 
     def as_json(self) -> dict[str, Any]:
         """As ``ragg calibrate --json`` writes it."""

@@ -234,7 +234,7 @@ def next_motion(
     """
     from ragg_runtime import api
     from ragg_runtime.next_flight import calibration_flight, next_flight, write_motion
-    from ragg_runtime.wording import describe
+    from ragg_runtime.wording import describe_other
 
     if run_sheet is not None and purpose != "calibration":
         raise UserError("a run sheet is of a calibration", where="--run-sheet", expected="--for calibration")
@@ -248,7 +248,7 @@ def next_motion(
     else:
         found = next_flight(m, records, most, **options)
     write_motion(found, Path(output))
-    said = describe.describe_next_motion(found.as_json(), output)
+    said = describe_other.describe_next_motion(found.as_json(), output)
 
     def page() -> str:
         from ragg_runtime.report.pages import info_page
@@ -272,7 +272,7 @@ def calibrate(
     """Fit the parameters, with their uncertainty."""
     from ragg_runtime import api
     from ragg_runtime.next_flight import certify, read_plan
-    from ragg_runtime.wording import describe
+    from ragg_runtime.wording import describe_other
 
     m = load(model_dir)
     planned = None if plan is None else read_plan(plan)
@@ -284,7 +284,7 @@ def calibrate(
     found = kept.as_json()
     if planned is not None:
         found["certificate"] = certify(planned, found["parameters"])
-    said = describe.describe_calibration(found, [x.name for x in records], use if kept.saved else "")
+    said = describe_other.describe_calibration(found, [x.name for x in records], use if kept.saved else "")
 
     def page() -> str:
         from ragg_runtime.report.pages import calibrate_page
@@ -338,7 +338,7 @@ def compensate(
     The result is the gravity gradient as the instrument saw it, with its uncertainty.
     """
     from ragg_runtime import api
-    from ragg_runtime.wording import describe
+    from ragg_runtime.wording import describe_other
 
     out = Path(output)
     api.check_output(out)
@@ -358,7 +358,7 @@ def compensate(
             m, records, calibration, demodulator, out, noise=noise, walk=walk, forget=forget or float("inf")
         )
     result = c.as_json()
-    made = describe.describe_online if calibration == "online" else describe.describe_compensation
+    made = describe_other.describe_online if calibration == "online" else describe_other.describe_compensation
     said = made(result, output)
 
     def page() -> str:

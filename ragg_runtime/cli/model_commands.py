@@ -85,13 +85,13 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
 def effects(identifier: str | None) -> None:
     """List the catalogue of effects; with ID, one in full."""
     from ragg_runtime.model.catalogue import effects as catalogue
-    from ragg_runtime.wording import describe
+    from ragg_runtime.wording import describe_other
 
     found = catalogue()
     if identifier is None:
         conclude(found.as_json(), found.sections())
     else:
-        conclude(dict(found[identifier]), describe.describe_effect(found[identifier]))
+        conclude(dict(found[identifier]), describe_other.describe_effect(found[identifier]))
 
 
 @click.command(cls=Command)
@@ -210,11 +210,11 @@ def info(flight: Path, mapping: Path | None) -> None:
     """Show what a flight file holds, and what is assumed."""
     from ragg_runtime.io.info import PAPER_G, describe_flight
     from ragg_runtime.io.mapping import read_mapping
-    from ragg_runtime.wording import describe
+    from ragg_runtime.wording import describe_other
 
     how = None if mapping is None else read_mapping(mapping)
     found = describe_flight(flight, how)
-    said = describe.describe_flight_file(found.as_json())
+    said = describe_other.describe_flight_file(found.as_json())
 
     def page() -> str:
         from ragg_runtime.io import read_flights

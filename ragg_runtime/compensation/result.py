@@ -22,7 +22,7 @@ from ragg_runtime.compensation.series import MEANING
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import Model
-from ragg_runtime.wording import describe
+from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.sections import render_notebook
 
 QUALITY: Mapping[str, str] = MappingProxyType({str(q.name): text for q, text in MEANING.items()})
@@ -44,7 +44,7 @@ class Compensation:
 
     def _repr_html_(self) -> str | None:
         online = self.result["calibration"] == "online"
-        return None if online else render_notebook(describe.describe_compensation(self.as_json(), ""))
+        return None if online else render_notebook(describe_other.describe_compensation(self.as_json(), ""))
 
     def as_json(self) -> dict[str, Any]:
         """As ``ragg compensate --json`` writes it."""

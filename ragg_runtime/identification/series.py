@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from ragg_runtime.base import series_name
 from ragg_runtime.estimation.fitted import Fitted, estimated
@@ -75,6 +74,8 @@ class Spectrum:
 
 def spectrum(x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260) -> Spectrum | None:
     """Welch spectrum over the valid stretches of 32 samples and more, averaged to ``points`` steps of log frequency, or ``None``."""
+    from scipy import signal  # half a second to import, which a command that draws nothing need not wait for
+
     runs = stretches(valid, 32)
     if not runs:
         return None
@@ -127,8 +128,10 @@ def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
 def demodulated_noise(w: PreparedFlight, k_ggi: float, spin: float, multiple: int, amplitude: float) -> float:
     """Standard deviation, Eo, of LP(amplitude cos(2 pi multiple spin t) noise): a quarter of amplitude^2 to either side."""
     rate = w.observation.record.rate
-    f, H = signal.freqz(low_pass(rate), worN=4096, fs=rate)
-    H2 = np.abs(H) ** 2
+    taps = low_pass(rate)
+    size = max(8192, 1 << (len(taps) - 1).bit_length())
+    f = np.fft.rfftfreq(size, 1.0 / rate)[:-1]
+    H2 = np.abs(np.fft.rfft(taps, size)[:-1]) ** 2
     carrier = multiple * spin
     sides = [np.maximum(np.abs(f + s * carrier), f[1]) for s in (1.0, -1.0)]
     S = sum(_noise_psd(w, spin, g) for g in sides)

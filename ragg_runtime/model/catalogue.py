@@ -11,7 +11,7 @@ from typing import Any
 
 from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.model.derive import own_entries
-from ragg_runtime.wording import describe
+from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.sections import Section, render_notebook
 
 
@@ -43,7 +43,7 @@ class Catalogue:
 
     def sections(self) -> tuple[Section, ...]:
         """A line for every effect."""
-        return describe.describe_catalogue(self.entries)
+        return describe_other.describe_catalogue(self.entries)
 
     def _repr_html_(self) -> str:
         return render_notebook(self.sections())

@@ -75,7 +75,7 @@ def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
 def diagnose_page(d: Diagnosis, origin: Origin) -> str:
     """The report of ``diagnose``: verdict, one figure, where the model fails, the findings; everything else is folded."""
     f, said = d.target, describe.describe_diagnosis(d.as_json())
-    after = d.residual_after if d.after != d.before else None
+    after = d.residual_after if d.found else None
     lines = panels.before_and_after(d.residual, after)
     remains = d.verdict in ("unexplained", "partly-explained")
     main = panels.plot_spectrum(f, lines) or panels.plot_blocks(d.fitted, lines)

@@ -202,7 +202,7 @@ def plot_terms(terms: Sequence[Mapping[str, Any]], rms_Eo: float, key: str) -> B
     sizes = [(describe.term_label(t), float(np.sqrt(float(t["share"]))) * rms_Eo) for t in terms]
     bars = tuple(Bar(label, size) for label, size in sorted(sizes, key=lambda x: -x[1]))
     caption = "Motion terms that are significant in the residual, by their own size before demodulation."
-    return Bars(f"{key}-terms", "error by motion term", caption, bars, "Eo rms") if bars else None
+    return Bars(f"{key}-terms", "error by motion term", caption, bars, "Eo rms") if len(bars) > 2 else None
 
 
 def plot_evidence(ranking: Sequence[Mapping[str, Any]], found: Sequence[str], level: float) -> Bars | None:

@@ -39,11 +39,10 @@ LIKE_ONE = 0.05
 
 @dataclass(frozen=True)
 class Symbol:
-    """How a parameter is written: pieces (text, whether a subscript), and the name in model.toml."""
+    """How a parameter is written, and its name in model.toml."""
 
-    pieces: tuple[tuple[str, bool], ...]
+    text: str
     name: str
-    meaning: str
 
 
 @dataclass(frozen=True)
@@ -97,7 +96,7 @@ class Visibility:
 def symbol_of(column: Column) -> Symbol:
     """The written symbol of a calibrated parameter."""
     pieces = numbers.symbol(column.symbol) if column.symbol else ((numbers.clean(column.name), False),)
-    return Symbol(pieces, column.name, column.meaning)
+    return Symbol("".join(f"_{text}" if lowered else text for text, lowered in pieces), column.name)
 
 
 def _names(f: Fitted) -> dict[str, list[int]]:
@@ -290,54 +289,51 @@ def _single(f: Fitted, n: int) -> Piece:
 
 
 def describe_parameters(f: Fitted) -> tuple[Section, ...]:
-    """What the record determines of the parameters, and their values, as sections of a page."""
+    """What the record determines of the parameters, and their values, as sections."""
     v = visibility(f)
     known = (
         f"{v.determined} of {v.total} directions of the calibrated parameters are determined by this record"
     )
-    text = [f"{known}; the others stay where the test sheet puts them."]
-    text += [
-        f"Not observable: {name + ' of ' if name else ''}{', '.join(map(symbol_text, symbols))}."
-        for name, symbols in v.unseen
-    ]
+    text = [f"{known}; the others stay at their test-sheet values."]
+    for name, symbols in v.unseen:
+        text.append(f"Not observable: {f'{name} of ' if name else ''}{', '.join(s.text for s in symbols)}.")
     for g in v.groups:
         members = numbers.listed([piece_text(p) for p in g.members])
-        sums = numbers.listed([" ".join(piece_text(p) for p in row) for row in g.seen])
-        text.append(
-            f"Degenerate: of {members} only {sums} {'is' if len(g.seen) == 1 else 'are'} determined."
-            if sums
-            else f"Degenerate: {members}."
+        sums = numbers.listed([" ".join(map(piece_text, row)) for row in g.seen])
+        said = (
+            f"of {members} only {sums} {'is' if len(g.seen) == 1 else 'are'} determined" if sums else members
         )
-    determined = Section(
-        title="What the record determines", sentences=tuple(text), detail=True, summary=f"{known}."
-    )
-    names = f.instrument.layout.names
-    single = _table(
-        by_accelerometer(f),
-        names,
-        f"{NOTE} In parentheses: the test sheet's value, to which the record adds little.",
-    )
-    found = [determined, Section(title="Every parameter", table=single, detail=True)]
+        text.append(f"Degenerate: {said}.")
+    found = [
+        Section(title="What the record determines", sentences=tuple(text), detail=True, summary=f"{known}.")
+    ]
+    note = "Calibrated value ± standard deviation [nominal value]."
     if combined := by_combination(f):
-        meaning = ", ".join(f"{n} = {describe.PATTERNS[n.replace('Σ', 'Sigma')]}" for n, _ in PATTERNS)
-        table = _table(
-            combined, [n for n, _ in PATTERNS], f"{NOTE} {meaning}, each weighted by its scale factor."
-        )
-        found.insert(1, Section(title="Combinations of the accelerometers", table=table, detail=True))
-    return tuple(found)
+        names = [n for n, _ in PATTERNS]
+        meaning = ", ".join(f"{n} = {describe.PATTERNS[n.replace('Σ', 'Sigma')]}" for n in names)
+        table = _table(combined, names, f"{note} {meaning}, each weighted by its scale factor.")
+        found.append(Section(title="Combinations of the accelerometers", table=table, detail=True))
+    single = f"{note} In parentheses: the test sheet's value, to which the record adds little."
+    table = _table(by_accelerometer(f), f.instrument.layout.names, single)
+    moved = [(piece_text(p), numbers.number(sigma, 2)) for p, sigma in pulls(f, LISTED)]
+    tied = [(piece_text(a), piece_text(b), numbers.fixed(r, 3)) for a, b, r in correlations(f, LISTED)]
+    shift = Table(("parameter", "shift, prior standard deviations"), tuple(moved))
+    strongest = Table(("parameter", "and", "correlation"), tuple(tied), words=2)
+    return (
+        *found,
+        Section(title="Every parameter", table=table, detail=True),
+        Section(title="Shift from the test sheet", table=shift, detail=True),
+        Section(title="Strongest correlations", table=strongest, detail=True),
+    )
 
 
-NOTE = "Calibrated value ± standard deviation [nominal value]."
-
-
-def symbol_text(s: Symbol) -> str:
-    """A symbol in one line: ``K_0``."""
-    return "".join(f"_{text}" if lowered else text for text, lowered in s.pieces)
+LISTED = 16
+"""Parameters and pairs that are listed, the largest first."""
 
 
 def piece_text(p: Piece) -> str:
     """A term of a combination in one line."""
-    return " ".join(x for x in (p.sign, p.factor and f"{p.factor} ·", p.pattern, symbol_text(p.symbol)) if x)
+    return " ".join(x for x in (p.sign, p.factor and f"{p.factor} ·", p.pattern, p.symbol.text) if x)
 
 
 def _table(rows: Sequence[Row], heads: Sequence[str], note: str) -> Table:
@@ -345,7 +341,12 @@ def _table(rows: Sequence[Row], heads: Sequence[str], note: str) -> Table:
         return f"({c.nominal})" if c.state == "unseen" else f"{c.value} [{c.nominal}]"
 
     cells = [
-        (r.symbol.name, r.unit, *(cell(c) for c in r.cells), *[""] * (len(heads) - len(r.cells)))
+        (
+            f"{r.symbol.text}  {r.symbol.name}",
+            r.unit,
+            *map(cell, r.cells),
+            *[""] * (len(heads) - len(r.cells)),
+        )
         for r in rows
     ]
     return Table(("parameter", "unit", *heads), tuple(cells), words=2, note=note)
@@ -361,7 +362,7 @@ def pulls(f: Fitted, most: int) -> list[tuple[Piece, float]]:
 
 
 def correlations(f: Fitted, most: int) -> list[tuple[Piece, Piece, float]]:
-    """(parameter, parameter, correlation) of the pairs that the record ties most closely, largest first."""
+    """(parameter, parameter, correlation) of the pairs that are correlated most, largest first."""
     covariance = posterior(f).covariance
     std = np.sqrt(np.diag(covariance))
     r = covariance / np.outer(std, std)

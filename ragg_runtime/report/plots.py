@@ -120,7 +120,7 @@ def _mark(ax: Drawn, x: float, text: str) -> None:
         xytext=(3, -2),
         textcoords="offset points",
         va="top",
-        fontsize=7.5,
+        fontsize=9,
         color=draw.QUIET,
     )
 
@@ -144,7 +144,7 @@ def draw_bars(plot: Bars) -> str:
         away: dict[str, Any] = (
             {"xytext": (0, 4), "ha": "center"} if plot.upright else {"xytext": (4, 0), "va": "center"}
         )
-        ax.annotate(text, at, textcoords="offset points", fontsize=7.5, bbox=HALO, **away)
+        ax.annotate(text, at, textcoords="offset points", fontsize=9, bbox=HALO, **away)
     _draw_levels(ax, plot, place)
     _draw_dots(ax, plot, place, low)
     _label_bars(ax, plot, place, low, float(np.max(shown, initial=1e-12)))

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import shutil
+import subprocess
+import sys
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -166,10 +169,10 @@ async def receive(s: State, name: str, request: Request) -> Path:
     room = min(MOST, shutil.disk_usage(folder).free // 2)
     if announced > room:
         raise _too_long(announced, room)
-    path = _free(folder, wanted)
+    path = _claim(folder, wanted)
     written = 0
     try:
-        with replacing(path) as temporary, temporary.open("wb") as target:
+        with _given_back(path), replacing(path) as temporary, temporary.open("wb") as target:
             async for chunk in request.stream():
                 written += len(chunk)
                 if written > room:
@@ -182,14 +185,48 @@ async def receive(s: State, name: str, request: Request) -> Path:
     return path
 
 
-def _free(folder: Path, name: str) -> Path:
-    """A name that is not taken: ``flight.csv``, ``flight-2.csv`` ..."""
+def _claim(folder: Path, name: str) -> Path:
+    """A name that was not taken and is now, by an empty file: ``flight.csv``, ``flight-2.csv`` ..."""
     stem, dot, ending = name.partition(".")
     for n in range(1, 1000):
         path = folder / (name if n == 1 else f"{stem}-{n}{dot}{ending}")
-        if not path.exists():
+        with contextlib.suppress(FileExistsError):
+            path.touch(exist_ok=False)
             return path
     raise UserError("there are too many files of this name", where=name)
+
+
+@contextlib.contextmanager
+def _given_back(path: Path) -> Iterator[None]:
+    """Take the empty file away again if nothing came into its place."""
+    try:
+        yield
+    finally:
+        if not path.stat().st_size:
+            path.unlink()
+
+
+def check_upload(path: Path, seconds: float | None = None) -> None:
+    """Read an uploaded file in a process of its own; UserError, and the file is gone, if that fails or takes too long.
+
+    A damaged file can bring down the library that reads it: then that process ends, and not the studio. A file with columns of
+    other names is kept: what they are is asked on the page.
+    """
+    limit = 30.0 + path.stat().st_size / 2e6 if seconds is None else seconds
+    command = [sys.executable, "-m", "ragg_runtime", "info", str(path)]
+    found = "it ends with a fault"
+    try:
+        done = subprocess.run(
+            command, capture_output=True, text=True, errors="replace", timeout=limit, check=False
+        )
+        if done.returncode in (0, 1):
+            return  # a fault of the program is told where the flight is opened
+        if done.returncode == 2:
+            found = done.stderr.strip().removeprefix("ragg: ")
+    except subprocess.TimeoutExpired:
+        found = f"no end after {limit:.0f} s"
+    path.unlink(missing_ok=True)
+    raise UserError("the file cannot be read", where=path.name, found=found, remedy="see: ragg info FLIGHT")
 
 
 def _too_long(found: int, room: int) -> UserError:

@@ -19,7 +19,7 @@ from urllib.parse import parse_qs
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import (
     HTMLResponse,
     JSONResponse,
@@ -35,7 +35,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.identification import foresee
 from ragg_runtime.studio import drawing, mapping, states, views
-from ragg_runtime.studio.mapping import receive
+from ragg_runtime.studio.mapping import check_upload, receive
 from ragg_runtime.studio.session import Busy, Session
 from ragg_runtime.studio.views import take_away
 
@@ -46,6 +46,9 @@ WATCH = 1.5
 """How often the model directory is looked at for changes by others, s."""
 
 UPLOAD = "/api/upload"
+
+UNFINISHED = 10.0
+"""Longest wait for the rest of a request, s."""
 
 Answer = Callable[[Session, Request], Awaitable[Response]]
 
@@ -91,6 +94,8 @@ async def _guarded(answer: Answer, session: Session, request: Request) -> Respon
         return JSONResponse({"error": {"what": "something else is being worked on; cancel it or wait"}}, 409)
     except TooLong:
         return JSONResponse({"error": {"what": "the request is too long"}}, 413)
+    except ClientDisconnect:
+        return JSONResponse({"error": {"what": "the request did not come to its end"}}, 408)
     except Exception as e:
         if not isinstance(e, OSError):
             traceback.print_exc()
@@ -272,6 +277,7 @@ async def _take(session: Session, request: Request) -> Response:
 
 async def _upload(session: Session, request: Request) -> Response:
     path = await receive(session.state, request.query_params.get("name", ""), request)
+    await run_in_threadpool(check_upload, path)
     return _json({"path": str(path)})
 
 
@@ -507,21 +513,28 @@ class Guard:
 
     async def _inner(self, scope: Scope, receive: Receive, send: Send) -> None:
         long = scope["path"] in self._uploads
-        await self._app(scope, receive if long else _limited(scope, receive), send)
+        await self._app(scope, _limited(receive, math.inf if long else BODY), send)
 
 
 class TooLong(Exception):
     """A body longer than :data:`BODY`."""
 
 
-def _limited(scope: Scope, receive: Receive) -> Receive:
-    seen = 0
+def _limited(receive: Receive, longest: float) -> Receive:
+    """The body of a request up to a length; one that does not come on is given up as if the page had gone."""
+    seen, whole = 0, False
 
     async def counted() -> Message:
-        nonlocal seen
-        message = await receive()
+        nonlocal seen, whole
+        if whole:
+            return await receive()
+        try:
+            message = await asyncio.wait_for(receive(), UNFINISHED)
+        except TimeoutError:
+            return {"type": "http.disconnect"}
         seen += len(message.get("body", b""))
-        if seen > BODY:
+        whole = not message.get("more_body", False)
+        if seen > longest:
             raise TooLong
         return message
 

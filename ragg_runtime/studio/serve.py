@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import html
 import os
@@ -15,9 +16,10 @@ from pathlib import Path
 
 import platformdirs
 import uvicorn
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.studio.routes import UPLOAD, Guard, Keys, application
+from ragg_runtime.studio.routes import UNFINISHED, UPLOAD, Guard, Keys, application
 from ragg_runtime.studio.session import Places, Session
 
 LOOPBACK = "127.0.0.1"
@@ -52,25 +54,57 @@ def serve(
             log_level="warning",
             access_log=False,  # the token does not belong in a log
             server_header=False,
+            http=Connection,
             proxy_headers=False,
             lifespan="off",
             ws="none",
             timeout_graceful_shutdown=CLOSING,
         )
         address = f"http://{LOOPBACK}:{own}/?token={keys.token}"
-        say(address)
         if model is not None:
-            session.open(model, flights)
+            session.open(model, flights)  # first: a page that is opened at once finds it being read
+        say(address)
         if browser:
             page = write_opening(f"http://{LOOPBACK}:{own}/", keys.token)
             keys.forget = partial(remove_opening, page)
             webbrowser.open(page.as_uri())
         with contextlib.suppress(KeyboardInterrupt):  # which is how one ends it: what was done is kept
-            _Server(config, keys).run(sockets=[listening])
+            StudioServer(config, keys).run(sockets=[listening])
         session.jobs.cancel()
 
 
-class _Server(uvicorn.Server):
+class Connection(H11Protocol):
+    """A connection that is closed if the head of a request is not complete after :data:`UNFINISHED` seconds."""
+
+    deadline: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self._wait()
+
+    def data_received(self, data: bytes) -> None:
+        super().data_received(data)
+        if self._waits:
+            self._wait()
+        elif self.deadline is not None:
+            self.deadline.cancel()
+            self.deadline = None
+
+    @property
+    def _waits(self) -> bool:
+        return self.cycle is None or self.cycle.response_complete
+
+    def _wait(self) -> None:
+        if self.deadline is None:
+            self.deadline = self.loop.call_later(UNFINISHED, self._expire)
+
+    def _expire(self) -> None:
+        self.deadline = None
+        if self._waits and not self.transport.is_closing():
+            self.transport.close()
+
+
+class StudioServer(uvicorn.Server):
     """One that leaves no token behind, however it is ended."""
 
     def __init__(self, config: uvicorn.Config, keys: Keys) -> None:

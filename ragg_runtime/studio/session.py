@@ -25,6 +25,7 @@ from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.foresee import Unwhitened
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
+from ragg_runtime.io.draft import draft_mapping
 from ragg_runtime.io.files import ENDINGS, ending_of
 from ragg_runtime.studio import states
 from ragg_runtime.studio.states import Edit, branches, text_of
@@ -106,7 +107,12 @@ class Session:
         if flights:
             self._put(**_nothing(), paths=flights, flights=(), read=(), cuts=())
             part("reading and examining the flights", 1.0)
-            read = tuple(api.read_flights(self.state.model, flights))
+            try:
+                read = tuple(api.read_flights(self.state.model, flights))
+            except UserError:
+                if any(is_foreign(p) for p in flights):
+                    return  # the page asks what the columns are
+                raise
             places = tuple(x.path or flights[0] for x in read)  # a file of several lines is as many flights
             self._put(**_nothing(), paths=places, flights=read, read=read, cuts=((),) * len(read))
         self._look(part)
@@ -355,6 +361,14 @@ class Places:
             "roots": list(map(str, self.roots)),
             "entries": entries,
         }
+
+
+def is_foreign(path: Path) -> bool:
+    """Whether a file has columns of which it must be asked what they are."""
+    try:
+        return bool(draft_mapping(path).questions)
+    except (UserError, OSError):
+        return False
 
 
 def safe_name(name: str) -> str:

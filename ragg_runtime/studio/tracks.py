@@ -6,7 +6,7 @@ import struct
 import tempfile
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -33,7 +33,7 @@ KEPT = 48
 MOST_BYTES = 1 << 30
 """Most memory that they may take together, bytes."""
 
-STANDS_STILL = "of a disc that stands still nothing is demodulated"
+STANDS_STILL = "disc not spinning: no demodulation"
 
 
 @dataclass(frozen=True)
@@ -388,34 +388,3 @@ def file_of(c: Compensation, name: str) -> bytes:
         path = Path(folder, name)
         c.write(path)
         return path.read_bytes()
-
-
-def shown_compensation(c: Compensation) -> dict[str, Any]:
-    """What the page says of it, in the digits of the terminal."""
-    r = c.as_json()
-    return {
-        "calibration": r["calibration"],
-        "converged": r["converged"],
-        "demodulator": r["demodulator"],
-        "channels": [n for n, unit in c.units.items() if unit == "Eo" and f"{n}_std" in c.units],
-        "outputs": [_output(x) for x in r["flights"]],
-        "count": len(c.series),
-    }
-
-
-def _output(x: Mapping[str, Any]) -> dict[str, Any]:
-    density = [x["density"][k] for k in ("before", "after", "noise")]
-    return {
-        "flight": numbers.clean(str(x["flight"])),
-        "output": numbers.clean(str(x["output"])),
-        "samples": x["samples"],
-        "good": x["good"],
-        "rows": [
-            [c, *(numbers.number(d.get(f"{c}_Eo_per_rtHz")) for d in density)] for c in ("inline", "cross")
-        ],
-        "quality": [[count, api.QUALITY[name]] for name, count in x["quality"].items() if count],
-        "contributions": [
-            [numbers.clean(str(t["of"])), numbers.number(t["inline_Eo"]), numbers.number(t["cross_Eo"])]
-            for t in x["contributions"]
-        ],
-    }

@@ -20,17 +20,18 @@ from ragg_runtime import api
 from ragg_runtime.api import Loaded, errors_of
 from ragg_runtime.base import false_alarms
 from ragg_runtime.base.errors import UserError, one_line
+from ragg_runtime.compensation.result import Compensation
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io.record import WIDEST_SPIKE, left_out
+from ragg_runtime.model.directory import Step
 from ragg_runtime.report import pages, panels, parameters
 from ragg_runtime.report.page import Origin
-from ragg_runtime.report.parameters import Piece, Row, Symbol
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.studio import states, tracks
 from ragg_runtime.studio.session import State
 from ragg_runtime.studio.states import branches, tree
-from ragg_runtime.wording import describe, numbers
+from ragg_runtime.wording import describe, describe_other, numbers
 from ragg_runtime.wording.sections import Section
 
 Json = dict[str, Any]
@@ -53,10 +54,14 @@ def overview(s: State, version: str) -> Json:
             {**x, "words": describe.motion_sentence(x)}
             for x in (p.as_json() for p in s.diagnosed.next_motion)
         ],
-        "parameters": None if s.compared is None else _parameters(s.compared),
-        "sheet": None if s.loaded is None else states.shown_sheet(s.loaded.instrument),
+        "parameters": None
+        if s.compared is None
+        else shown_sections(parameters.describe_parameters(s.compared.fitted)),
+        "sheet": None
+        if s.loaded is None
+        else states.shown_sheet(s.loaded.instrument) | {"discs": _discs(s.loaded)},
         "history": None if s.loaded is None else _history(s.loaded),
-        "compensated": None if s.compensated is None else tracks.shown_compensation(s.compensated),
+        "compensated": None if s.compensated is None else _compensation(s.compensated),
         "beside": None if s.beside is None else _beside(*s.beside),
         "trial": None if s.trial is None else _trial(s),
         "before": s.previous is not None and s.compared is not None,
@@ -72,6 +77,31 @@ def _model(s: State) -> Json:
         "calibrated": tracks.kept(m),
         "effects": [_about(e) for e in m.model.effects],
         "spin_Hz": m.instrument.spin_frequency,
+    }
+
+
+def _discs(m: Loaded) -> Json:
+    """The discs and what sits on them, as a table."""
+    layout = m.instrument.layout
+    rows = []
+    for k, d in enumerate(layout.discs):
+        own = [(n, p) for n, p in zip(layout.names, layout.places, strict=True) if p.disc == k]
+        on = ", ".join(f"{n} at {math.degrees(p.angle):.4g}°" for n, p in own)
+        radii = sorted({p.radius for _, p in own})
+        rows.append(
+            [
+                numbers.clean(d.name),
+                f"{d.spin_frequency:g}",
+                ", ".join(f"{r:g}" for r in radii),
+                ", ".join(f"{x:g}" for x in d.axis),
+                numbers.clean(on),
+                ", ".join(dict.fromkeys(layout.output_names[p.output] for _, p in own)),
+            ]
+        )
+    return {
+        "heads": ["disc", "spin, Hz", "radius, m", "axis", "accelerometers", "output"],
+        "rows": rows,
+        "words": 6,
     }
 
 
@@ -146,8 +176,8 @@ def effects(d: Diagnosis) -> list[Json]:
                 "found": r.effect in d.found,
                 "significant": significant,
                 "p": numbers.probability(own["log10_p"]),
-                "evidence": -r.log_p / math.log(10.0),
                 "probability": own["probability"],
+                "chance": describe.chance(own["probability"], own["log10_p"]),
                 "after_Eo": r.after.rms_Eo,
                 "holdout_Eo": r.after_holdout.rms_Eo,
                 "testable": r.rank > 0 and r.effect in _linear(d),
@@ -167,7 +197,22 @@ def _values(own: Mapping[str, Any]) -> list[list[str]]:
 
 def _table(s: Section) -> Json:
     """A section's table for the page."""
-    return {"heads": list(s.table.heads), "rows": [list(r) for r in s.table.rows]} if s.table else {}
+    t = s.table
+    return {} if t is None else {"heads": t.heads, "rows": t.rows, "words": t.words, "note": t.note}
+
+
+def shown_sections(sections: Sequence[Section]) -> list[Json]:
+    """Sections for the page, which shows them as they are."""
+    return [
+        {
+            "title": s.title,
+            "sentences": list(s.sentences),
+            "table": _table(s),
+            "detail": s.detail,
+            "summary": s.summary,
+        }
+        for s in sections
+    ]
 
 
 def _linear(d: Diagnosis) -> set[str]:
@@ -199,59 +244,6 @@ def _unexplained(d: Diagnosis) -> Json:
         "expression": d.expression(),
         "needs": d.needs(),
     }
-
-
-def _symbol(s: Symbol) -> Json:
-    return {"pieces": [list(p) for p in s.pieces], "name": s.name, "meaning": numbers.clean(s.meaning)}
-
-
-def _rows(rows: Sequence[Row]) -> list[Json]:
-    return [
-        {
-            "symbol": _symbol(r.symbol),
-            "unit": r.unit,
-            "cells": [{"value": c.value, "nominal": c.nominal, "state": c.state} for c in r.cells],
-        }
-        for r in rows
-    ]
-
-
-def _piece(p: Piece) -> Json:
-    return {"sign": p.sign, "factor": p.factor, "pattern": p.pattern, "symbol": _symbol(p.symbol)}
-
-
-def _parameters(c: Comparison) -> Json:
-    f = c.fitted
-    v = parameters.visibility(f)
-    return {
-        "single": _rows(parameters.by_accelerometer(f)),
-        "combined": _rows(parameters.by_combination(f)),
-        "patterns": [name for name, _ in parameters.PATTERNS],
-        "accelerometers": list(f.instrument.layout.names),
-        "determined": v.determined,
-        "total": v.total,
-        "unseen": [{"pattern": k, "symbols": [_symbol(s) for s in symbols]} for k, symbols in v.unseen],
-        "groups": [
-            {
-                "members": [_piece(p) for p in g.members],
-                "unseen": g.unseen,
-                "seen": [[_piece(p) for p in row] for row in g.seen],
-            }
-            for g in v.groups
-        ],
-        "patterned": v.patterns,
-        "correlations": [
-            {"a": _piece(a), "b": _piece(b), "r": r} for a, b, r in parameters.correlations(f, CORRELATED)
-        ],
-        "pull": [{"of": _piece(p), "sigma": sigma} for p, sigma in parameters.pulls(f, PULLED)],
-    }
-
-
-PULLED = 16
-"""Parameters whose pull is shown, the farthest from their sheet."""
-
-CORRELATED = 16
-"""Pairs of correlated parameters that are shown."""
 
 
 def _history(m: Loaded) -> Json:
@@ -287,6 +279,16 @@ def _rms(entry: Any, which: str) -> float | None:
     return float(found) if isinstance(found, int | float) else None
 
 
+def _compensation(c: Compensation) -> Json:
+    r = c.as_json()
+    return {
+        "calibration": r["calibration"],
+        "demodulator": r["demodulator"]["name"],
+        "channels": [n for n, unit in c.units.items() if unit == "Eo" and f"{n}_std" in c.units],
+        "sections": shown_sections(describe_other.describe_compensation(r, "")),
+    }
+
+
 def _beside(step: int, c: Comparison) -> Json:
     return {
         "step": step,
@@ -316,17 +318,28 @@ def _trial(s: State) -> Json:
     }
 
 
+def lineage(history: Sequence[Step]) -> list[int]:
+    """The steps that lead to the present state, without those that were undone or left."""
+    made, past = tree(history), branches(history)[0]
+    now: int | None = past[-1] if past and past[-1] in made else None
+    found: list[int] = []
+    while now is not None:
+        found.insert(0, now)
+        now = made[now][0]
+    return found
+
+
 def _done(s: State, model: str, flights: str) -> list[str]:
     """The steps of the present branch, as comments: they are in the model already."""
     history = s.model.directory.history
     found = []
-    for n in branches(history)[0]:
+    for n in lineage(history):
         step = history[n]
         on = flights if set(step.flights) <= {x.name for x in s.flights} else "FLIGHTS"
         if step.action in ("add", "remove"):
             told = f"ragg {step.action} {model} {shlex.quote(step.effect)}"
             found.append(f"# done: {told}{f' {on}' if step.flights else ''}")
-        elif step.action != "new":
+        elif step.action not in ("new", "restore"):
             found.append(f"# done: {step.action} {numbers.clean(step.effect)}")
     return [one_line(x) for x in found]  # a name of several lines would go on as a command
 

@@ -19,7 +19,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.false_alarms import PROMISED, SURVEY
 from ragg_runtime.estimation.significance import log_sf
 from ragg_runtime.survey.task import Record
-from ragg_runtime.wording import describe
+from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.numbers import clean
 from ragg_runtime.wording.sections import Section, render_notebook
 
@@ -52,7 +52,7 @@ class Survey:
 
     def sections(self, model_dir: Path | str) -> tuple[Section, ...]:
         """What the survey says, with the commands that come next."""
-        return describe.describe_survey(
+        return describe_other.describe_survey(
             self.as_json(), f"{counted(self.summary.counts)}.", recommended(self, model_dir)
         )
 

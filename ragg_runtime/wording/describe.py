@@ -25,9 +25,6 @@ PATTERNS = {"Sigma": "A1 + A2 + A3 + A4", "D1234": "A1 + A2 − A3 − A4", "D12
 CLEAR, CLEAR_ALONE = 1.0, 3.0
 """Standard deviations below which a value is shown on request alone; of a single accelerometer, where combinations are known."""
 
-LISTED = 60
-"""Flights of a survey that are listed one by one."""
-
 
 def eotvos(e: Json | None) -> str:
     """The error before demodulation of an error object."""
@@ -57,12 +54,16 @@ def error_text(before: Json | None, after: Json | None) -> str:
     return f"error {eotvos(before)} → {eotvos(after)} Eo"
 
 
-def _flights(names: Sequence[str]) -> str:
+def flights_text(names: Sequence[str]) -> str:
     return listed([clean(n) for n in names]) if len(names) < 4 else f"{len(names)} flights"
 
 
-def _effects(names: Sequence[str]) -> str:
+def effects_text(names: Sequence[str]) -> str:
     return f"effects in the model: {', '.join(map(clean, names)) or 'none'}"
+
+
+def counted(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def errors_section(
@@ -85,11 +86,11 @@ def floor_row(c: Json) -> tuple[str, Json]:
     return "noise floor", floor
 
 
-def _next(command: str) -> Sections:
+def next_section(command: str) -> Sections:
     return (Section(sentences=(f"next: {command}",)),) if command else ()
 
 
-def _plain(*sentences: str) -> Sections:
+def plain_section(*sentences: str) -> Sections:
     found = tuple(text for text in sentences if text)
     return (Section(sentences=found),) if found else ()
 
@@ -147,7 +148,7 @@ def describe_comparison(
     e = c["error"]
     usual = [("nominal", e["nominal"]), ("calibrated", e["calibrated"]), ("held out", e["holdout"])]
     sentences = [
-        f"{_flights(flights)}: {numbers.fixed(c['samples'], 0)} samples at {number(c['rate_Hz'])} Hz; {_effects(c['effects'])}."
+        f"{flights_text(flights)}: {numbers.fixed(c['samples'], 0)} samples at {number(c['rate_Hz'])} Hz; {effects_text(c['effects'])}."
     ]
     if c["converged"] and c["reason"]:
         sentences.append(f"Note: {clean(c['reason'])}.")
@@ -166,7 +167,7 @@ def describe_comparison(
     if c["off_sheet"]:
         found.append(_off_sheet(c["off_sheet"]))
     found += _ladder(c.get("ladder", ()))
-    return (*found, *(_next(then) if judged and not c["adequate"] else ()))
+    return (*found, *(next_section(then) if judged and not c["adequate"] else ()))
 
 
 def comparison_headline(c: Json) -> tuple[str, ...]:
@@ -224,7 +225,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     head = (
         f"The saved calibration {holds} here: it leaves {eotvos(frozen)} Eo, parameters fitted to this record"
         f" {eotvos(free)} Eo; the noise floor is {eotvos(c['noise_floor'])} Eo.",
-        f"It was made {h['made']} on {_flights(list(h['flights']))}. Test of the step to the free fit: chi-square"
+        f"It was made {h['made']} on {flights_text(list(h['flights']))}. Test of the step to the free fit: chi-square"
         f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions (p {_equals(h['log10_p'])}).",
     )
     rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))
@@ -261,7 +262,9 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
         found.append(Section(title=title, table=table))
     return (
         *found,
-        *_next("" if h["holds"] or not again else f"if the instrument may have changed: {again} --save"),
+        *next_section(
+            "" if h["holds"] or not again else f"if the instrument may have changed: {again} --save"
+        ),
     )
 
 
@@ -279,7 +282,7 @@ def verdict_headline(d: Json) -> str:
     mostly = f", mostly at {term_label(terms[0])}" if terms else ""
     left = excess(after["rms_Eo"], noise["rms_Eo"])
     if not d["converged"]:
-        return f"No verdict: {clean(d['reason'])}."
+        return f"No verdict: {clean(d['remark'])}."
     if d["verdict"] == "adequate":
         return (
             f"Adequate: no effect is missing that this record could show. The calibrated model leaves {eotvos(before)} Eo;"
@@ -316,14 +319,12 @@ def best_values(r: Json) -> list[Json]:
     every: dict[str, list[Json]] = {}
     for q in (*r["combinations"], *r["parameters"]):
         every.setdefault(str(q["name"]).rpartition(" ")[2], []).append(q)
-    chosen = [
-        max([q for q in same if q.get("weights")] or same, key=_significance) for same in every.values()
-    ]
-    clear = [q for q in chosen if _significance(q) > CLEAR]
-    return sorted(clear or chosen, key=_significance, reverse=True)
+    chosen = [max([q for q in same if q.get("weights")] or same, key=significance) for same in every.values()]
+    clear = [q for q in chosen if significance(q) > CLEAR]
+    return sorted(clear or chosen, key=significance, reverse=True)
 
 
-def _significance(p: Json) -> float:
+def significance(p: Json) -> float:
     return abs(p["value"]) / p["std"] if p["std"] > 0.0 else math.inf
 
 
@@ -342,7 +343,7 @@ def _clear_values(effects: Sequence[Json]) -> list[Json]:
 
 def _is_clear(p: Json, effect: Json) -> bool:
     alone = p["accelerometer"] is not None and bool(effect["combinations"])
-    return _significance(p) > (CLEAR_ALONE if alone else CLEAR)
+    return significance(p) > (CLEAR_ALONE if alone else CLEAR)
 
 
 def patterns_note(values: Sequence[Json]) -> list[str]:
@@ -366,7 +367,7 @@ def values_sections(effects: Sequence[Json]) -> Sections:
         title="All values",
         table=Table(heads=heads, rows=tuple(rows), words=3),
         detail=True,
-        summary=f"{_counted(hidden, 'value')} of little significance",
+        summary=f"{counted(hidden, 'value')} of little significance",
     )
     return tuple(s for s in (shown, rest if hidden else None) if s is not None)
 
@@ -393,16 +394,12 @@ def describe_diagnosis(d: Json, then: str = "") -> Sections:
     found += [*_evidence(d), *_next_motions(d["next_motion"]), *_silent(d)]
     if d["off_sheet"]:
         found.append(_off_sheet(d["off_sheet"]))
-    return (*found, *(_next(then) if d["found"] else ()))
+    return (*found, *(next_section(then) if d["found"] else ()))
 
 
 def _remarks(d: Json) -> list[str]:
     """What belongs beside the verdict: its reason, groups, flights that disagree, from when on the model fails."""
-    said = (
-        [f"{clean(d['reason'])[:1].upper()}{clean(d['reason'])[1:]}."]
-        if d["reason"] and d["converged"]
-        else []
-    )
+    said = [f"Note: {text}." for text in _reasons(d)] if d["converged"] else []
     for g in d["groups"]:
         main, *others = map(clean, g["effects"])
         if others and not g["name"]:
@@ -412,7 +409,7 @@ def _remarks(d: Json) -> list[str]:
     for x in d.get("disagree") or ():
         what = listed([clean(e) for e in x["found"]]) or "no effect"
         said.append(
-            f"By itself, {_flights(x['flights'])} {'needs' if len(x['flights']) == 1 else 'need'} {what}."
+            f"By itself, {flights_text(x['flights'])} {'needs' if len(x['flights']) == 1 else 'need'} {what}."
         )
     if d["holds_until_s"] is not None:
         said.append(
@@ -433,14 +430,20 @@ def _remarks(d: Json) -> list[str]:
     return said
 
 
+def _reasons(d: Json) -> list[str]:
+    """The parts of a verdict's reason that the headline does not say already."""
+    parts = clean(d["reason"] or "").split("; ")
+    return [x for x in parts if x and not x.startswith("what remains") and not x.endswith(" sure")]
+
+
 def _evidence(d: Json) -> Sections:
     if not d["ranking"]:
-        return _plain("No effect of the catalogue could be tested on this record.")
+        return plain_section("No effect of the catalogue could be tested on this record.")
     rows = [
         (
             clean(r["effect"]),
             numbers.probability(r["log10_p"]),
-            _chance(r["probability"]),
+            chance(r["probability"]),
             eotvos(r["error_after"]),
             eotvos(r["error_after_holdout"]),
         )
@@ -457,10 +460,10 @@ def _evidence(d: Json) -> Sections:
     )
 
 
-def _chance(p: float | None) -> str:
-    """A probability: two digits, never 1 and never 0 for what is neither."""
+def chance(p: float | None, log10_p: float | None = None) -> str:
+    """A probability: two digits, never 1 and never 0 for what is neither; where there is none, the p-value if that is given."""
     if p is None:
-        return numbers.ABSENT
+        return numbers.ABSENT if log10_p is None else f"p {numbers.probability(log10_p)}"
     return "> 0.99" if p > 0.995 else "< 0.01" if p < 0.005 else f"{p:.2f}"
 
 
@@ -484,11 +487,11 @@ def motion_sentence(p: Json) -> str:
     return (
         f"to separate {p['effect']} from {p['rival']}: {number(p['duration_s'])} s of {p['axis']} = {size} at"
         f" {number(p['frequency_Hz'])} Hz ({p['frequency_over_spin']:g} times the spin), {number(p['separation_now'], 2)} →"
-        f" {_promised(p['separation_then'], p['separation_spread'])} σ"
+        f" {promised(p['separation_then'], p['separation_spread'])} σ"
     )
 
 
-def _promised(then: float, spread: float) -> str:
+def promised(then: float, spread: float) -> str:
     """A separation that a motion promises, with its spread where that shows."""
     return number(then) if spread < 0.05 * then else numbers.plus_minus(then, spread)
 
@@ -560,147 +563,16 @@ def describe_step(
 def describe_addition(a: Json, effects: Sequence[str], then: str = "") -> Sections:
     """The result of ``add``; ``effects`` are those of the model afterwards."""
     if not a.get("converged", True):
-        return _plain(f"{clean(a['effect'])} was NOT added: {clean(a['reason'])}.")
+        return plain_section(f"{clean(a['effect'])} was NOT added: {clean(a['reason'])}.")
     if a["before"] is None or a["after"] is None:
-        return _plain(f"Added {clean(a['effect'])}; {_effects(effects)}.")
+        return plain_section(f"Added {clean(a['effect'])}; {effects_text(effects)}.")
     found = [
         *describe_step([a["effect"]], [], a["before"], a["after"], [a]),
-        *_plain(f"{_effects(effects)}."),
+        *plain_section(f"{effects_text(effects)}."),
     ]
     if a["off_sheet"]:
         found.append(_off_sheet(a["off_sheet"]))
-    return (*found, *(_next(then) if not a["after"]["adequate"] else ()))
-
-
-def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sections:
-    """The result of ``calibrate``."""
-    e, seen = c["error"], c["directions"]
-    head = (
-        f"Calibrated on {_flights(flights)}: {error_text(e['nominal'], e['calibrated'])}, held out {eotvos(e['holdout'])} Eo;"
-        f" the noise floor is {eotvos(c['noise_floor'])} Eo."
-        if c["converged"]
-        else "The calibration has NOT converged: do not rely on these values."
-    )
-    text = (
-        f"The record determines {seen['seen']} of {seen['fitted']} directions of the parameters; the rest stay at their"
-        f" test-sheet values. {_effects(c['effects'])[:1].upper()}{_effects(c['effects'])[1:]}."
-    )
-    rows = [
-        ("nominal", e["nominal"]),
-        ("calibrated", e["calibrated"]),
-        ("held out", e["holdout"]),
-        floor_row(c),
-    ]
-    clear = [p for p in c["combinations"] if _significance(p) > CLEAR]
-    combined = tuple((parameter_label(p), with_uncertainty(p)) for p in clear)
-    note = " ".join(patterns_note(clear))
-    single = tuple(
-        (parameter_label(p), with_uncertainty(p), *(number(p.get(k), 4) for k in ("sheet", "sheet_sigma")))
-        for p in (*c["combinations"], *c["parameters"])
-    )
-    found = [
-        Section(sentences=(head, text), state="good" if c["converged"] else "bad"),
-        errors_section(rows),
-        Section(
-            title="Best-determined combinations",
-            table=Table(("parameter", "value"), combined, words=2, note=note),
-        ),
-        Section(
-            title="Every parameter",
-            table=Table(("parameter", "value", "test sheet", "its uncertainty"), single, words=2),
-            detail=True,
-            summary=f"all {len(single)} combinations and parameters",
-        ),
-    ]
-    if c["drift"]:
-        drift = tuple((clean(q["flight"]), parameter_label(q), with_uncertainty(q)) for q in c["drift"])
-        found.append(
-            Section(title="Each flight alone", table=Table(("flight", "parameter", "value"), drift, words=3))
-        )
-    if "certificate" in c:
-        found.append(_certificate(c["certificate"]))
-    return (*found, *_next(then))
-
-
-def _certificate(rows: Sequence[Json]) -> Section:
-    """Each parameter as planned and as reached, those that were not reached first."""
-    reached = sum(q["reached"] for q in rows)
-    table = tuple(
-        (
-            parameter_label(q),
-            numbers.with_unit(number(q["value"], 6), q["unit"]),
-            *(number(q[f"std_{k}"], 2) for k in ("before", "planned", "reached")),
-            "" if q["reached"] else "NOT reached",
-        )
-        for q in sorted(rows, key=lambda q: q["reached"])
-    )
-    return Section(
-        title="Certificate",
-        sentences=(f"{reached} of {len(rows)} parameters are as sure as planned (standard uncertainty).",),
-        table=Table(("parameter", "value", "before", "planned", "reached", ""), table, words=2),
-    )
-
-
-def describe_compensation(r: Json, output: str) -> Sections:
-    """The result of ``compensate``, written to a file."""
-    d = r["demodulator"]
-    lag = f", {number(d['latency_s'])} s late" if d["latency_s"] else ""
-    head = [
-        f"{output}: calibration {r['calibration']}, {d['what']}{lag}."
-        if output
-        else f"Calibration {r['calibration']}, {d['what']}."
-    ]
-    if not r["converged"]:
-        head.append("The calibration has NOT converged: do not rely on these values.")
-    found = [
-        Section(sentences=(*head, *map(clean, r.get("notes", ()))), state="good" if r["converged"] else "bad")
-    ]
-    several = len({x["output"] for x in r["flights"]}) > 1
-    for x in r["flights"]:
-        name = clean(x["flight"]) + (f": {clean(x['output'])}" if several else "")
-        counts = ", ".join(f"{clean(k)} {n}" for k, n in x["quality"].items() if n)
-        text = f"{x['good']} of {x['samples']} samples are good{f' ({counts})' if counts else ''}."
-        removed = [
-            (clean(str(q["of"])), number(q["inline_Eo"]), number(q["cross_Eo"])) for q in x["contributions"]
-        ]
-        found += [
-            Section(title=name, sentences=(text,), table=_channels_table(x)),
-            Section(
-                title="What was removed, rms",
-                table=Table(("", "inline, Eo", "cross, Eo"), tuple(removed), brief=8),
-                detail=several or len(r["flights"]) > 1,
-            ),
-        ]
-    return tuple(found)
-
-
-def _channels_table(x: Json) -> Table:
-    rows = []
-    for channel in ("inline", "cross"):
-        density = [x["density"][k].get(f"{channel}_Eo_per_rtHz") for k in ("before", "after", "noise")]
-        sizes = [x["std"][k][f"{channel}_Eo"] for k in ("noise", "parameters")]
-        rows.append((channel, *map(number, (*density, *sizes))))
-    heads = (
-        "channel",
-        "nominal, Eo/√Hz",
-        "compensated, Eo/√Hz",
-        "noise, Eo/√Hz",
-        "std by noise, Eo",
-        "std by parameters, Eo",
-    )
-    return Table(heads, tuple(rows))
-
-
-def describe_online(r: Json, output: str) -> Sections:
-    """The result of ``compensate --calibration online``, written to a file."""
-    within, forget = r["follows_within_s"], r["forget_s"]
-    follows = "" if within is None else f" and is followed within {number(within)} s"
-    return _plain(
-        f"{output}: sample by sample from the {r['started']}; noise {number(r['noise_Eo_per_rtHz'])} Eo/√Hz.",
-        f"The gradient wanders by {number(r['walk_Eo_per_rts'])} Eo/√s{follows}; the parameters"
-        f" {'forget nothing' if forget is None else f'forget within {number(forget)} s'}.",
-        *(f"{clean(x['flight'])}: {x['samples']} samples" for x in r["flights"]),
-    )
+    return (*found, *(next_section(then) if not a["after"]["adequate"] else ()))
 
 
 def rms_of(entry: Json | None, which: str = "calibrated") -> float | None:
@@ -734,206 +606,7 @@ def describe_history(steps: Sequence[Json]) -> Sections:
 
 def describe_model(name: str, effects: Sequence[str], steps: Sequence[Json]) -> Sections:
     """A model directory and its history."""
-    return (Section(sentences=(f"{clean(name)}; {_effects(effects)}",), table=history_table(steps)),)
-
-
-def describe_catalogue(entries: Sequence[Json]) -> Sections:
-    """The catalogue of effects."""
-    rows = tuple((str(e["id"]), str(e["title"]), ", ".join(e["channels"])) for e in entries)
-    return (Section(table=Table(("effect", "what it is", "channels it needs"), rows, words=3)),)
-
-
-def describe_effect(e: Json) -> Sections:
-    """One effect in full."""
-    rows = tuple(
-        (
-            q["name"],
-            q["unit"],
-            f"{q['plausible']:g}",
-            "one value" if q["shared"] else "each accelerometer",
-            q["meaning"],
-        )
-        for q in e["parameters"]
-    )
-    facts = (
-        ("needs", ", ".join(e["channels"]) or "the motion alone"),
-        ("limits", e["limits"] or "none stated"),
-        ("source", e["source"]),
-    )
-    return (
-        Section(sentences=(f"{e['id']}: {e['title']}", e["physics"]), code=(e["equation"],)),
-        Section(
-            title="Parameters", table=Table(("name", "unit", "prior (1 σ)", "for", "meaning"), rows, words=5)
-        ),
-        Section(table=Table(("", ""), facts, words=2)),
-    )
-
-
-def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
-    """The result of ``survey``; ``headline`` counts the verdicts, ``advice`` says what to do, in sentences."""
-    done = [r for r in s["flights"] if "verdict" in r]
-    failed = [r for r in s["flights"] if "verdict" not in r]
-    rows = [
-        (
-            clean(r["flight"]),
-            r["verdict"],
-            *(
-                number((r["error"][k] or {}).get("rms_Eo"))
-                for k in ("nominal", "calibrated", "holdout", "after")
-            ),
-            number(r["noise_floor"]["rms_Eo"]),
-            " ".join(map(clean, r["found"])),
-        )
-        for r in done[:LISTED]
-    ]
-    heads = (
-        "flight",
-        "verdict",
-        "nominal, Eo",
-        "calibrated, Eo",
-        "held out, Eo",
-        "after, Eo",
-        "noise, Eo",
-        "found",
-    )
-    bad = s["counts"]["error"] or s["counts"]["unexplained"]
-    state = "bad" if bad else "good" if s["counts"]["adequate"] == len(done) else "found"
-    found = [Section(sentences=(headline, *advice), state=state)]
-    if rows:
-        more = f"and {len(done) - LISTED} more" if len(done) > LISTED else ""
-        found.append(Section(title="Flights", table=Table(heads, tuple(rows), words=2, note=more)))
-    if s["effects"]:
-        counts = tuple(
-            (clean(e["effect"]), str(e["found"]), str(e["perhaps"]), str(e["testable"])) for e in s["effects"]
-        )
-        note = "found: claimed; perhaps: explains as much as what is claimed; testable: the record could have shown it"
-        found.append(
-            Section(
-                title="Effects", table=Table(("effect", "found", "perhaps", "testable"), counts, note=note)
-            )
-        )
-    if s["unexplained_terms"]:
-        terms = tuple((term_label(t), str(t["flights"])) for t in s["unexplained_terms"])
-        found.append(
-            Section(
-                title="What no effect explains",
-                table=Table(("harmonic × motion term", "flights"), terms, brief=8),
-            )
-        )
-    if s["parameters"]:
-        found.append(_trends(s["parameters"]))
-    if failed:
-        rows_ = tuple(
-            (clean(r["flight"]), " ".join(clean(str(r["error"]["message"])).split())) for r in failed
-        )
-        text = ("The other flights are not affected.",)
-        found.append(
-            Section(
-                title="Flights in error",
-                sentences=text,
-                table=Table(("flight", "what is wrong"), rows_, words=2),
-            )
-        )
-    return tuple(found)
-
-
-def _trends(parameters: Sequence[Json]) -> Section:
-    rows = []
-    for t in parameters:
-        std = min(s for s in t["stds"] if s is not None)
-        label = t["name"] if t["accelerometer"] is None else f"{t['name']}[{t['accelerometer']}]"
-        mean = numbers.with_unit(numbers.rounded(t["mean"], std), t["unit"])
-        cells = (
-            str(t["dof"] + 1),
-            mean,
-            number(t["scatter"], 2),
-            number(t["chi2"] / t["dof"], 2),
-            number(t["slope_z"], 2),
-        )
-        rows.append((clean(label), *cells))
-    varying = sum(bool(t["varies"]) for t in parameters)
-    heads = ("parameter", "flights", "mean", "scatter", "χ²/dof", "slope/sd")
-    text = f"{varying} of {len(rows)} calibrated parameters differ from flight to flight; the least constant first."
-    return Section(
-        title="Parameters from flight to flight", sentences=(text,), table=Table(heads, tuple(rows), brief=12)
-    )
-
-
-def describe_next_motion(r: Json, output: str) -> Sections:
-    """The result of ``next-motion``, written to a file."""
-    head = (
-        f"{output}: {len(r['sinusoids'])} sinusoids, {number(r['duration_s'])} s at {number(r['rate_Hz'])} Hz"
-    )
-    if "channels" in r:
-        now, then = r["channels"]["now"], r["channels"]["planned"]
-        gain = ", ".join(
-            f"{k} {number(now[f'{k}_Eo'])} → {number(then[f'{k}_Eo'])} Eo" for k in ("inline", "cross")
-        )
-        return _plain(head, f"What the parameters' uncertainty adds to the compensated channels: {gain} rms.")
-    if not r["separations"]:
-        return _plain(
-            head, "No effects are left to separate: a multisine about all axes, which excites every effect."
-        )
-    said = [
-        f"if it is {clean(x['effect'])}: {clean(x['rival'])} is ruled out ({number(x['now'], 2)} → {_promised(x['then'], x['spread'])} σ)"
-        if x["then"] > 3.0
-        else f"if it is {clean(x['effect'])}: no motion within the limits rules out {clean(x['rival'])}, which acts alike"
-        f" ({number(x['now'], 2)} → {number(x['then'])} σ)"
-        for x in r["separations"]
-    ]
-    return _plain(head, *said)
-
-
-def describe_flight_file(f: Json) -> Sections:
-    """What a flight file holds, and what is assumed: the result of ``info``."""
-    head = f"{clean(f['path'])}: {f['format']}, {numbers.fixed(f['bytes'] / 1e6, 2)} MB, {_counted(len(f['records']), 'record')}."
-    found = [Section(sentences=(head,), state="bad" if any(r["refused"] for r in f["records"]) else "good")]
-    for r in f["records"]:
-        found += _record_sections(r)
-    return tuple(found)
-
-
-def _counted(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"
-
-
-def _record_sections(r: Json) -> list[Section]:
-    said = [f"{numbers.fixed(r['rows'], 0)} rows"]
-    if r["rate_Hz"] is not None:
-        said.append(
-            f"{number(r['rate_Hz'], 5)} Hz, {numbers.seconds(r['duration_s'])} from {number(r['start_s'], 4)} s on"
-        )
-    if r["origin"]:
-        said.append(f"time 0 is {r['origin']}")
-    text = [f"{'; '.join(said)}."]
-    if r["gap_count"]:
-        longest = max(r["gaps"], key=lambda g: g["samples"])
-        text.append(
-            f"{_counted(r['gap_count'], 'gap')}, {_counted(r['missing'], 'sample')} missing; the longest from"
-            f" {number(longest['from_s'], 5)} to {number(longest['to_s'], 5)} s."
-        )
-    text += [f"note: {clean(n)}" for n in r["notes"]]
-    if r["refused"]:
-        text.append(f"This record cannot be used as it is: {' '.join(clean(r['refused']).split())}")
-    rows = [
-        (
-            clean(c["name"]),
-            numbers.unit(c["unit"]) or "1",
-            *(number(c[k], 4) for k in ("minimum", "mean", "maximum")),
-            str(c["missing"]),
-        )
-        for c in r["columns"]
-    ]
-    table = Table(("column", "unit", "minimum", "mean", "maximum", "missing"), tuple(rows), words=2)
-    gaps = [(number(g["from_s"], 6), number(g["to_s"], 6), str(g["samples"])) for g in r["gaps"]]
-    found = [Section(title=clean(r["name"]), sentences=tuple(text), table=table)]
-    if gaps:
-        found.append(
-            Section(
-                title="Gaps", table=Table(("from, s", "to, s", "samples"), tuple(gaps), words=0), detail=True
-            )
-        )
-    return found
+    return (Section(sentences=(f"{clean(name)}; {effects_text(effects)}",), table=history_table(steps)),)
 
 
 def summarize(kind: str, said: str, *errors: tuple[str, float | None]) -> str:

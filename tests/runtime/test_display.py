@@ -111,7 +111,7 @@ def test_every_verdict_has_its_sentence(result: Result) -> None:
     assert describe.verdict_headline(nothing).startswith("Unexplained: ")
     assert "Not explained:" in render_text(describe.describe_diagnosis(nothing))
     assert describe.verdict_headline(d | {"verdict": "adequate"}).startswith("Adequate: ")
-    failed = describe.verdict_headline(d | {"converged": False, "reason": "it was stopped"})
+    failed = describe.verdict_headline(d | {"converged": False, "remark": "it was stopped"})
     assert failed == "No verdict: it was stopped."
 
 

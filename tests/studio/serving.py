@@ -91,7 +91,7 @@ def served(*arguments: object, browser: str = "") -> Iterator[Served]:
     finally:
         if process.poll() is None:  # else a test has killed it
             process.send_signal(signal.SIGINT)  # as a user ends it: no failure
-            assert process.wait(20) == 0, process.stderr.read()
+            assert process.wait(60) == 0, process.stderr.read()
         process.stdout.close()
         process.stderr.close()
 

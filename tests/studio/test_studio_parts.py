@@ -196,7 +196,7 @@ def test_another_flight_that_cannot_be_read_leaves_a_page_to_look_at(tmp_path: P
     m = api.new(tmp_path / "model")
     flight = simulated(m.instrument, [], seed=3, duration=30.0, rate=8.0)
     write_flight(flight, tmp_path / "x.csv")
-    (tmp_path / "y.csv").write_text("x\n1\n")
+    (tmp_path / "y.csv").write_bytes(b"\x00\x01")
     s = Session(Places((tmp_path,)))
     s._put(loaded=m, paths=(tmp_path / "x.csv",), flights=(flight,), read=(flight,), cuts=((),))
     s.open(None, [tmp_path / "y.csv"])

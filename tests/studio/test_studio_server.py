@@ -11,6 +11,7 @@ import struct
 import sys
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -251,13 +252,21 @@ def test_uploads_keep_to_their_folder_their_kinds_and_their_size(
     for name in ("x.exe", "", ".csv", "model.toml", "a" * 200 + ".csv", "..", "x.csv/.."):
         assert client.post("/api/upload", params={"name": name}, content=b"x").status_code == 400, name
     assert client.post("/api/upload", params={"name": "empty.csv"}, content=b"").status_code == 400
-    found = [
-        client.post("/api/upload", params={"name": name}, content=b"time [s]\n0\n").json()["path"]
-        for name in ("../../evil.csv", "..\\evil.csv", "evil.csv")
-    ]
+    names = ("../../evil.csv", "..\\evil.csv", "evil.csv")
+
+    def send(name: str) -> str:  # all at once: none takes the place of another
+        answer = client.post("/api/upload", params={"name": name}, content=b"time [s]\n0\n")
+        return str(answer.json()["path"])
+
+    with ThreadPoolExecutor(3) as pool:
+        found = list(pool.map(send, names))
     inside = folder / "model" / "flights"
-    assert sorted(found) == sorted(str(inside / n) for n in ("evil.csv", "evil-2.csv", "evil-3.csv"))
-    assert sorted(p.name for p in inside.iterdir()) == ["evil-2.csv", "evil-3.csv", "evil.csv"]
+    kept = ["evil-2.csv", "evil-3.csv", "evil.csv"]
+    assert sorted(found) == [str(inside / n) for n in kept]
+    damaged = client.post("/api/upload", params={"name": "damaged.parquet"}, content=b"PAR1 no more")
+    assert damaged.status_code == 400
+    assert "cannot be read" in damaged.json()["error"]["what"]
+    assert sorted(p.name for p in inside.iterdir()) == kept
     cookie = "; ".join(f"{k}={v}" for k, v in client.cookies.items())
     ask = (
         f"POST /api/upload?name=big.csv HTTP/1.1\nHost: 127.0.0.1:{server.port}\nOrigin: {server.origin}\n"
@@ -265,6 +274,15 @@ def test_uploads_keep_to_their_folder_their_kinds_and_their_size(
     )
     assert raw(server.port, ask).split()[1] == "400"
     assert not (inside / "big.csv").exists()
+
+
+def test_a_request_that_does_not_come_to_its_end_is_closed(server: Served) -> None:
+    with socket.create_connection(("127.0.0.1", server.port)) as s:
+        s.settimeout(30)
+        s.sendall(b"GET /api/state HTTP/1.1\r\nHost: 127.0.0.1\r\n")
+        began = time.monotonic()
+        assert s.recv(1000) == b""
+        assert 5.0 < time.monotonic() - began < 25.0
 
 
 def test_a_long_or_broken_body_is_refused(client: httpx.Client) -> None:

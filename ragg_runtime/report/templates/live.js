@@ -77,7 +77,7 @@
       const whole = shown[0] === 0 && shown[1] === 1;
       own.forEach((g) => (g.style.display = whole ? "" : "none"));
       if (whole) return;
-      const made = drawn("g", { class: "own", "font-size": 8 }, group);
+      const made = drawn("g", { class: "own", "font-size": 9 }, group);
       const [a, b] = shown.map((s) => at(limits, s));
       for (const v of ticks(a, b, limits[2], most)) {
         const s = (share(limits, v) - shown[0]) / (shown[1] - shown[0]);

@@ -63,9 +63,9 @@ function job(status) {
   }
   const bar = box.querySelector("progress");
   if (status.share > 0.02) bar.value = status.share;
-  const beyond = status.share > 0.985; // nobody knows how long what takes longer than foreseen will take
+  const beyond = status.share > 0.985; // beyond the estimate nothing is known
   const left = status.share > 0.05 && !beyond ? (status.spent_s * (1 - status.share)) / status.share : null;
-  box.querySelector(".left").textContent = beyond ? "longer than foreseen" : left !== null && left > 3 ? `about ${left < 100 ? `${Math.round(left)} s` : `${Math.round(left / 60)} min`} left` : "";
+  box.querySelector(".left").textContent = beyond ? "longer than estimated" : left !== null && left > 3 ? `about ${left < 100 ? `${Math.round(left)} s` : `${Math.round(left / 60)} min`} left` : "";
 }
 
 function darker() {
@@ -141,13 +141,24 @@ recall();
 themed();
 on("theme", themed);
 on("view", opened);
-on("server", () => (heading(), tools()));
+on("server", () => (heading(), tools(), lead()));
+
+// Without a model, or with a file whose columns must be described, the page goes to Files by itself, once, and back.
+let led = "";
+function lead() {
+  const { state } = server;
+  if (!state || state.status.job) return;
+  const [foreign] = state.status.error ? [] : state.unread;
+  const why = foreign || (state.model ? "" : "no model");
+  if (why && why !== led && view.view === "loop") look({ view: "files" });
+  else if (!why && led === "no model" && view.view === "files") look({ view: "loop" });
+  led = why;
+}
 addEventListener("hashchange", () => recall());
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", themed);
 tabs();
 tools();
 await refresh();
-if (server.state && !server.state.model && view.view === "loop") look({ view: "files" });
 opened();
 // A browser keeps few connections to one server: a tab that is not seen must not hold one.
 let listening = null;

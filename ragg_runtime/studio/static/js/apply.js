@@ -1,15 +1,15 @@
 // What a model is for: compensated channels with their band, and as files.
 import { choose } from "./figures.js";
-import { counted, fill, h } from "./dom.js";
+import { fill, h, sectionNode, tableNode } from "./dom.js";
 import { curvesText, fileName, frame } from "./drawings.js";
 import { doing, Refused, series } from "./api.js";
 import { look, on, server, view } from "./store.js";
 import { timePlot } from "./curves.js";
 
 const KINDS = [
-  ["self", "fitted to these flights", "parameters fitted to all of it: the band is a little narrow"],
-  ["crossed", "fitted to the other blocks of time", "every block has the parameters of all others: what it leaves is held out"],
-  ["frozen", "as kept with the model", "ragg calibrate --save keeps them; nothing of these flights gets into them"],
+  ["self", "fitted to these flights"],
+  ["crossed", "fitted to the other blocks of time"],
+  ["frozen", "as saved with the model"],
 ];
 const DEMODULATORS = [["fir", "FIR, 0.2 Hz, no delay"], ["butterworth", "Butterworth, order 6, both ways"], ["causal", "Butterworth, forward alone"]];
 
@@ -18,7 +18,6 @@ const choice = (id, label, options) => [
   h("label", { for: id }, label),
   h("select", { id, onchange: (e) => (chosen[id] = e.target.value) }, options.map(([value, name]) => h("option", { value, selected: chosen[id] === value }, name))),
 ];
-const head = (names) => h("thead", {}, h("tr", {}, names.map((n, k) => h(k ? "th.n" : "th", { scope: "col" }, n))));
 
 export function applyView(main) {
   const box = h("section.card"), figures = h("section.card.channels", { hidden: true });
@@ -29,18 +28,13 @@ export function applyView(main) {
   const compensation = (state) => {
     const c = state.compensated, busy = Boolean(state.status.job);
     fill(box, h("h2", {}, "Compensated channels"),
-      h("p.note", {}, "The gravity gradient as the instrument saw it: all removed that the model explains, demodulated, with one standard uncertainty of parameters and noise together."),
+      h("p.note", {}, "The gravity gradient as the instrument saw it, without the modelled motion errors, with its standard uncertainty."),
       h("div.row.choices", {}, choice("calibration", "parameters", KINDS), choice("demodulator", "demodulator", DEMODULATORS),
         h("button.main", { type: "button", disabled: busy || !flown(state), onclick: () => doing("compensate", chosen) }, "Compensate")),
       h("div.row", {},
-        h("button", { type: "button", disabled: busy || !flown(state), onclick: () => doing("calibrate") }, "Keep the parameters of these flights"),
-        h("p.note", {}, state.model.calibrated ? `The model keeps a calibration ${state.model.calibrated}.` : "The model keeps no calibration yet: it is what “as kept with the model” and the exported C use.")),
-      c ? c.outputs.map((x) => [
-        h("h3", {}, c.outputs.length > 1 ? `${x.flight}, ${x.output}` : x.flight),
-        h("p.note", {}, `${counted(x.good)} of ${counted(x.samples)} samples have a value; ${c.demodulator.what}.`, x.quality.map(([n, what]) => ` ${counted(n)}: ${what}.`)),
-        h("div.wide", {}, h("table.numbers", {}, head(["channel", "before, Eo/√Hz", "after", "noise alone"]), h("tbody", {}, x.rows.map(([name, ...cells]) => h("tr", {}, h("th", { scope: "row" }, name), cells.map((t) => h("td.n", {}, t))))))),
-        h("details", {}, h("summary", {}, "What was removed, Eo"), h("div.wide", {}, h("table.numbers", {}, head(["of", "inline", "cross"]), h("tbody", {}, x.contributions.map(([name, ...cells]) => h("tr", {}, h("th", { scope: "row" }, h("code", {}, name)), cells.map((t) => h("td.n", {}, t)))))))),
-      ]) : null,
+        h("button", { type: "button", disabled: busy || !flown(state), onclick: () => doing("calibrate") }, "Save the parameters of these flights"),
+        h("p.note", {}, state.model.calibrated ? `The model has a saved calibration ${state.model.calibrated}.` : "The model has no saved calibration yet.")),
+      c ? c.sections.map(sectionNode) : null,
       c ? h("p.row", {}, ["csv", "parquet"].map((e) => h("a", { href: `/api/take/compensated.${e}`, download: `compensated.${e}` }, `Take it as ${e === "csv" ? "CSV" : "Parquet"}`))) : null);
   };
 
@@ -65,7 +59,7 @@ export function applyView(main) {
   };
   const curves = (state) => {
     const c = state.compensated;
-    const key = JSON.stringify([c && [c.calibration, c.demodulator.name, c.channels, c.outputs.map((x) => x.rows)], view.flight]);
+    const key = JSON.stringify([c && [c.calibration, c.demodulator, c.channels, c.sections], view.flight]);
     if (key === shown) return;
     shown = key;
     window_ = null;
@@ -98,16 +92,16 @@ export function applyView(main) {
 // What one takes along: reports, results, the model, and the commands that do the same in a shell.
 
 const FILES = [
-  ["diagnosis.html", "Report of the diagnosis", "the printed page: verdict, evidence, figures, how to make it again"],
+  ["diagnosis.html", "Report of the diagnosis", "verdict, evidence, figures, how to make it again"],
   ["compare.html", "Report of the comparison", "errors, where the model fails, parameters"],
   ["steps.html", "Report of the steps", "the error before and after, step by step"],
-  ["diagnosis.json", "Diagnosis as JSON", "every number, with what it was made of"],
+  ["diagnosis.json", "Diagnosis as JSON", "every number, with its provenance"],
   ["compare.json", "Comparison as JSON", "errors before and after calibration, terms, outputs"],
-  ["compensated.csv", "Compensated channels", "inline and cross with their standard uncertainties, once they are made under Apply"],
+  ["compensated.csv", "Compensated channels", "inline and cross with their standard uncertainties (first compensate under Apply)"],
   ["model.toml", "The model", "test sheet and effects with their calibrated values"],
-  ["model-c.zip", "The model in C", "a C17 program with the calibration that is kept (under Apply), else the sheet’s values"],
+  ["model-c.zip", "The model in C", "a C17 program with the saved calibration, else the test sheet’s values"],
   ["model-numpy.zip", "The model for NumPy", "the same as a folder that runs with NumPy alone"],
-  ["commands.sh", "The commands", "what does the same in a shell"],
+  ["commands.sh", "The commands", "the same in a shell"],
 ];
 
 export function takeView(main) {
@@ -121,10 +115,8 @@ export function takeView(main) {
       h("section.card", {}, h("h2", {}, "The same in a shell"),
         state && state.commands.length ? h("pre", { tabindex: "0" }, state.commands.join("\n")) : h("p.note", {}, "Open a model first."),
         state && state.commands.length ? h("div.row", {}, h("button", { type: "button", onclick: (e) => navigator.clipboard.writeText(state.commands.join("\n")).then(() => (e.target.textContent = "Copied")) }, "Copy")) : null,
-        h("p.note", {}, "What the page looks at stands in its address; what was done stands in the model directory. Closing either loses nothing.")),
-      state && state.banner ? h("section.card", {}, h("h2", {}, "Errors"), h("div.wide", {}, h("table.numbers", {},
-        h("thead", {}, h("tr", {}, h("th", {}, ""), ["V rms", "Eo rms", "inline, Eo", "inline, Eo/√Hz", "cross, Eo", "cross, Eo/√Hz"].map((x) => h("th.n", {}, x)))),
-        h("tbody", {}, state.banner.table.map((r) => h("tr", {}, h("th", { scope: "row" }, r.label), r.cells.map((c) => h("td.n", {}, c)))))))) : null,
+        h("p.note", {}, "The view is stored in the URL, the steps in the model directory: closing the page loses nothing.")),
+      state && state.banner ? h("section.card", {}, h("h2", {}, "Errors"), tableNode(state.banner.table)) : null,
     );
   };
   known();

@@ -3,9 +3,6 @@ import { ask, doing, Refused } from "./api.js";
 import { fill, h, maths, number } from "./dom.js";
 import { look, on, server, view } from "./store.js";
 
-// a meter is full at this evidence (-log10 p) at least, lest chance look like a finding
-const LEAST = 100;
-
 let pointed = "";
 /** The effect under the pointer or the focus. */
 export const pointedAt = () => pointed;
@@ -20,11 +17,11 @@ const tick = (id) => look({ ticked: view.ticked.includes(id) ? view.ticked.filte
 const unfold = (id) => look({ open: view.open === id ? "" : id });
 
 export function effectsPane(box) {
-  const list = h("ol.ranking");
+  const list = h("ol.ranking"), more = h("ol.ranking"), others = h("details.others", {}, h("summary"), more);
   const foot = h("div.foot");
   const rest = h("div.rest");
   const lead = h("div.pane-head");
-  fill(box, lead, foot, list, rest);
+  fill(box, lead, foot, list, others, rest);
 
   const known = () => {
     const { state } = server;
@@ -33,30 +30,33 @@ export function effectsPane(box) {
     fill(
       lead,
       h("h2", {}, "What may be missing"),
+      effects.length ? h("p.note", {}, "Bar: probability among the effects of the catalogue. Right: error with the effect alone.") : null,
       inside.length ? h("p.inside", {}, "In the model: ", inside.map((e) => h("span.chip", { title: e.title }, e.id, h("button", { type: "button", "aria-label": `Take ${e.id} out of the model`, title: "Take it out of the model", onclick: () => doing("remove", { effect: e.id }) }, "×")))) : null,
-      !effects.length && state && state.banner ? state.status.job ? h("p.note", {}, "Every effect of the catalogue is being tested …") : h("button", { type: "button", onclick: () => doing("look") }, "Test every effect") : null,
+      !effects.length && state && state.banner ? state.status.job ? h("p.note", {}, "Testing every effect of the catalogue …") : h("button", { type: "button", onclick: () => doing("look") }, "Test every effect") : null,
     );
-    const most = Math.max(LEAST, ...effects.map((e) => e.evidence ?? 0));
-    fill(list, effects.map((e) => row(e, most)));
+    const open = (e) => e.found || view.ticked.includes(e.id) || (e.significant && state.banner.verdict !== "adequate");
+    const hidden = effects.filter((e) => !open(e));
+    fill(list, effects.filter(open).map(row));
+    fill(more, hidden.map(row));
+    others.hidden = !hidden.length;
+    others.firstChild.textContent = hidden.length === effects.length ? `No further effect needed; ${hidden.length} tested` : `${hidden.length} others, not significant`;
     const silent = state ? state.silent : [];
-    fill(rest, silent.length ? h("details", {}, h("summary", {}, `${silent.length} effects on which this record is silent`), h("ul.silent", {}, silent.map((e) => h("li", {}, h("b", {}, e.title || e.id), " ", h("code", {}, e.id), h("p", {}, e.why))))) : null,
-      state && state.next_motion.length ? h("details", { open: true }, h("summary", {}, "Which flight next"), h("ul.silent", {}, state.next_motion.map((m) => h("li", {}, m.words)))) : null);
+    fill(rest, silent.length ? h("details", {}, h("summary", {}, `${silent.length} effects are not testable on this record`), h("ul.silent", {}, silent.map((e) => h("li", {}, h("b", {}, e.title || e.id), " ", h("code", {}, e.id), h("p", {}, e.why))))) : null,
+      state && state.next_motion.length ? h("details", { open: true }, h("summary", {}, "Next motion"), h("ul.silent", {}, state.next_motion.map((m) => h("li", {}, m.words)))) : null);
     marks();
     footer();
   };
 
-  const row = (e, most) => {
-    // evidence spans thousands of decades: its logarithm is drawn
-    const share = Math.log10(1 + Math.max(0, e.evidence ?? most)) / Math.log10(1 + most);
+  const row = (e) => {
     const meter = h("span.meter", { "aria-hidden": "true" }, h("span"));
-    meter.firstChild.style.width = `${Math.max(1, Math.round(100 * share))}%`;
-    const check = h("input", { type: "checkbox", id: `tick-${e.id}`, checked: view.ticked.includes(e.id), disabled: !e.testable, onchange: () => tick(e.id), "aria-label": `${e.title || e.id}: see what it would do` });
+    meter.firstChild.style.width = `${Math.round(100 * (e.probability ?? 0))}%`;
+    const check = h("input", { type: "checkbox", id: `tick-${e.id}`, checked: view.ticked.includes(e.id), disabled: !e.testable, onchange: () => tick(e.id), "aria-label": `${e.title || e.id}: predict the error` });
     return h(
       "li", { class: [e.found ? "found" : "", e.significant ? "" : "weak"].join(" "), "data-effect": e.id, onpointerenter: () => point(e.testable ? e.id : ""), onpointerleave: () => point(""), onfocusin: () => point(e.testable ? e.id : ""), onfocusout: () => point("") },
       check,
       h("button.title", { type: "button", "aria-expanded": "false", onclick: () => unfold(e.id) }, h("b", {}, e.title || e.id), h("code", {}, e.id), e.found ? h("em.badge", {}, "missing") : null),
-      h("span.after", { title: "error that it alone would leave" }, e.after_Eo === null ? "–" : number(e.after_Eo), h("small", {}, " Eo")),
-      h("span.evidence", { title: `p = ${e.p}, ΔBIC ${e.delta_bic}` }, meter, h("small", {}, e.probability === null ? `p ${e.p}` : `${number(100 * e.probability, 2)} %`)),
+      h("span.after", { title: "error with this effect alone" }, e.after_Eo === null ? "–" : number(e.after_Eo), h("small", {}, " Eo")),
+      h("span.evidence", { title: `p-value ${e.p}` }, meter, h("small", {}, e.chance)),
       h("div.about", { hidden: true }),
     );
   };
@@ -64,18 +64,18 @@ export function effectsPane(box) {
   const about = (e) => [
     e.equation ? h("div.equation", { tabindex: "0", role: "group", "aria-label": "Equation" }, maths(e.equation)) : null,
     e.physics ? h("p.physics", {}, e.physics) : null,
-    e.values.length ? h("table.values", {}, h("tbody", {}, e.values.map((v) => h("tr", {}, h("th", { scope: "row" }, v.name, v.of ? h("small", {}, ` ${v.of}`) : ""), h("td", {}, v.text))))) : null,
+    e.values.length ? h("table.values", {}, h("tbody", {}, e.values.map(([name, text]) => h("tr", {}, h("th", { scope: "row" }, name), h("td", {}, text))))) : null,
     h("dl.facts", {},
-      h("dt", {}, "alone"), h("dd", {}, `${number(e.after_Eo)} Eo, held out ${number(e.holdout_Eo)} Eo; p ${e.p}; ΔBIC ${e.delta_bic}`),
-      e.indistinguishable.length ? [h("dt", {}, "not told from"), h("dd", {}, e.indistinguishable.map((t, k) => [k ? ", " : "", h("code", {}, t)]))] : null,
-      e.seen_from.length ? [h("dt", {}, "seen from"), h("dd", {}, e.seen_from.join("; "), " on (3 σ)")] : null,
+      h("dt", {}, "alone"), h("dd", {}, `${number(e.after_Eo)} Eo, held out ${number(e.holdout_Eo)} Eo; p-value ${e.p}`),
+      e.indistinguishable.length ? [h("dt", {}, "indistinguishable from"), h("dd", {}, e.indistinguishable.map((t, k) => [k ? ", " : "", h("code", {}, t)]))] : null,
+      e.seen_from.length ? [h("dt", {}, "detection limit"), h("dd", {}, e.seen_from.join("; "), " (3 σ)")] : null,
       e.channels && e.channels.length ? [h("dt", {}, "needs"), h("dd", {}, e.channels.join(", "))] : null,
       e.limits ? [h("dt", {}, "limits"), h("dd", {}, e.limits)] : null,
       e.source ? [h("dt", {}, "source"), h("dd", {}, e.source)] : null),
   ];
 
   const marks = () => {
-    for (const li of list.children) {
+    for (const li of box.querySelectorAll("li[data-effect]")) {
       const id = li.dataset.effect, open = view.open === id;
       li.querySelector("input").checked = view.ticked.includes(id);
       li.classList.toggle("ticked", view.ticked.includes(id));
@@ -96,7 +96,7 @@ export function effectsPane(box) {
       foot,
       n && now
         ? h("p.foreseen", { role: "status" }, h("span", {}, number(now.before_Eo)), " → ", h("b", {}, number(now.rms_Eo)), " Eo", h("small", {}, `held out ${number(now.holdout_Eo)}, noise ${number(now.noise_Eo)}`))
-        : h("p.foreseen.quiet", {}, "Tick an effect to see what the error would become."),
+        : h("p.foreseen.quiet", {}, "Tick an effect to predict the error."),
       h("button.main", { type: "button", disabled: !n || Boolean(state.status.job), onclick: commit, title: "Derive and calibrate (a)" }, n > 1 ? `Derive ${n} effects and calibrate` : "Derive and calibrate"),
     );
   };
@@ -105,7 +105,7 @@ export function effectsPane(box) {
 
   const keys = (e) => {
     if (e.ctrlKey || e.metaKey || e.altKey || /^(textarea|select)$/i.test(e.target.tagName) || (e.target.tagName === "INPUT" && e.target.type !== "checkbox")) return;
-    const items = [...list.querySelectorAll(".title")];
+    const items = [...box.querySelectorAll(".ranking .title")].filter((b) => b.checkVisibility());
     const at = items.findIndex((b) => b.closest("li").contains(document.activeElement));
     if (e.key === "j" || e.key === "k") {
       const next = items[Math.min(items.length - 1, Math.max(0, at + (e.key === "j" ? 1 : -1)))];

@@ -9,7 +9,7 @@ export function filesView(main) {
   const now = h("section.card");
   const list = h("section.card"), columns = h("section.card", { hidden: true });
   const chosen = new Set();
-  let folder = "";
+  let folder = "", asked = "";
   const show = async (place) => {
     try {
       const found = await ask("folder", { place });
@@ -37,7 +37,7 @@ export function filesView(main) {
         : e.kind === "model" ? [h("span", {}, h("b", {}, e.name), h("small", {}, " model directory")), h("span.do", {}, h("button", { type: "button", onclick: () => show(e.path) }, "look inside"), h("button", { type: "button", disabled: busy, onclick: () => open(e.path, []) }, "open"))]
         : e.kind === "sheet" ? [h("span", {}, e.name, h("small", {}, " test sheet")), h("span.do", {}, h("button", { type: "button", disabled: busy, onclick: () => doing("new", { model: `${folder}/${name.value}`, sheet: e.path }) }, "make a model of it"))]
         : [h("label", {}, h("input", { type: "checkbox", checked: chosen.has(e.path), onchange: (x) => (x.target.checked ? chosen.add(e.path) : chosen.delete(e.path), show(folder)) }), e.name, h("small", {}, ` ${SIZE(e.bytes)}`)),
-          e.kind === "flight" && model ? h("span.do", {}, h("button", { type: "button", disabled: busy, onclick: () => mappingPane(columns, e.path, trouble), "aria-label": `Say what the columns of ${e.name} are` }, "columns")) : null]))),
+          e.kind === "flight" && model ? h("span.do", {}, h("button", { type: "button", disabled: busy, onclick: () => mappingPane(columns, e.path, trouble), "aria-label": `Describe the columns of ${e.name}` }, "columns")) : null]))),
       h("div.row", {},
         h("button.main", { type: "button", disabled: !chosen.size || !model || busy, onclick: () => open(null, [...chosen]) }, chosen.size ? `Open ${chosen.size} ${chosen.size > 1 ? "flights" : "flight"} with ${model ? server.state.model.name : "a model"}` : "Tick flights to open them"),
         h("span.spacer"), name,
@@ -48,7 +48,7 @@ export function filesView(main) {
 
   const drop = h("section.card.drop", {},
     h("p", {}, "Drop flights here (CSV, Parquet, NetCDF, HDF5, MATLAB, Excel), or ", h("label.file", {}, "choose them", h("input", { type: "file", multiple: true, onchange: (e) => take([...e.target.files]) })), "."),
-    h("p.note", {}, "They are laid into the folder flights of the model directory, never over another file. Columns carry their units: time [s], a_x [m/s^2], omega_x [deg/h], G_out [V] …"));
+    h("p.note", {}, "They are saved in the folder flights of the model directory; no file is overwritten. Columns have their units: time [s], a_x [m/s^2], omega_x [deg/h], G_out [V] …"));
   const take = async (files) => {
     const paths = [];
     try {
@@ -70,13 +70,11 @@ export function filesView(main) {
       state && state.flights.length ? h("div.wide", {}, h("table.numbers", {}, h("thead", {}, h("tr", {}, h("th", {}, "flight"), h("th.n", {}, "samples"), h("th.n", {}, "rate, Hz"), h("th.n", {}, "duration, s"), h("th.n", {}, "not usable"), h("th", {}, "outputs"))),
         h("tbody", {}, state.flights.map((f) => h("tr", {}, h("th", { scope: "row" }, f.name, f.notes.map((n) => h("small.block", {}, n))), h("td.n", {}, counted(f.samples)), h("td.n", {}, number(f.rate_Hz, 4)), h("td.n", {}, number(f.duration_s, 4)), h("td.n", {}, String(f.samples - f.valid)), h("td", {}, f.outputs.join(", "))))))) : h("p.note", {}, "No flight."));
     if (folder) show(folder);
+    const [foreign] = state && !state.status.job && !state.status.error ? state.unread : [];
+    if (foreign && foreign !== asked) mappingPane(columns, (asked = foreign), trouble);
   };
   fill(main, now, columns, drop, list);
   known();
-  if (view.columns) {
-    mappingPane(columns, view.columns, trouble);
-    look({ columns: "" }, true);
-  }
   show("");
   return on("server", known);
 }
@@ -124,7 +122,7 @@ export async function mappingPane(box, path, trouble) {
       h("td", {}, h("select", { "aria-label": `sign of ${r.channel}`, onchange: (e) => ((r.sign = Number(e.target.value)), again()) }, h("option", { value: "1", selected: r.sign !== -1 }, "+"), h("option", { value: "-1", selected: r.sign === -1 }, "−"))),
       h("td", {}, h("input", { type: "text", inputmode: "decimal", value: String(r.scale), "aria-label": `factor of ${r.channel}`, oninput: (e) => ((r.scale = Number(e.target.value)), again()) })), place);
   };
-  const table = (found) => h("div.wide", {}, h("table.numbers.mapping", {}, h("thead", {}, h("tr", {}, ["channel", "column of the file", "unit there", "sign", "factor", "what comes of it"].map((t) => h("th", { scope: "col" }, t)))), h("tbody", {}, found.map(row))));
+  const table = (found) => h("div.wide", {}, h("table.numbers.mapping", {}, h("thead", {}, h("tr", {}, ["channel", "column of the file", "unit there", "sign", "factor", "preview"].map((t) => h("th", { scope: "col" }, t)))), h("tbody", {}, found.map(row))));
 
   const clock = () => {
     const two = ["date clock", "gps"].includes(time.format), given = [time.column].flat();
@@ -146,7 +144,7 @@ export async function mappingPane(box, path, trouble) {
     try {
       const found = await post("mapping", sent());
       const e = found.error;
-      message.textContent = e ? [e.where, e.what, e.expected && `expected: ${e.expected}`].filter(Boolean).join(" – ") : "Every channel has an answer.";
+      message.textContent = e ? [e.where, e.what, e.expected && `expected: ${e.expected}`].filter(Boolean).join(" – ") : "All columns recognised.";
       keep.disabled = Boolean(e);
       for (const place of seen.values()) place.replaceChildren();
       for (const p of found.preview) if (seen.has(p.channel)) fill(seen.get(p.channel), sparkline(p.points), h("small", {}, `${p.ends.join(" … ")} ${p.unit}, median ${p.median}`));
@@ -158,11 +156,11 @@ export async function mappingPane(box, path, trouble) {
   }, 150);
 
   const asked = rows.filter((r) => r.asked), sure = rows.filter((r) => !r.asked);
-  keep.textContent = known.kept ? "Replace the model’s mapping and open the flight" : "Keep with the model and open the flight";
+  keep.textContent = known.kept ? "Replace the model’s mapping and open the flight" : "Save with the model and open the flight";
   keep.onclick = async () => (await doing("map", { ...sent(), replace: known.kept })) && look({ view: "loop", from: null, to: null, ticked: [], term: "", flight: 0 });
   box.hidden = false;
-  fill(box, h("h2", { tabindex: "-1" }, `What the columns of ${path.split("/").pop()} are`),
-    h("p.note", {}, asked.length ? "Only what the file leaves open is asked. A unit is never guessed." : "The file leaves nothing open."),
+  fill(box, h("h2", { tabindex: "-1" }, `Columns of ${path.split("/").pop()}`),
+    h("p.note", {}, asked.length ? "Only what the file does not say is asked. Units are never guessed." : "All columns recognised."),
     clocks, asked.length ? table(asked) : null,
     sure.length ? h("details", { open: !asked.length }, h("summary", {}, `${sure.length} more, by their names`), table(sure), axes) : axes,
     h("div.row", {}, keep, h("button", { type: "button", onclick: () => (box.hidden = true) }, "Close"), message));

@@ -7,7 +7,7 @@ import { fill, h, number } from "./dom.js";
 import { look, on, server, view } from "./store.js";
 
 export function loopView(main) {
-  const top = h("section.banner", { "aria-label": "Where one stands" });
+  const top = h("section.banner", { "aria-label": "Verdict" });
   const left = h("div.figures");
   const right = h("aside.effects", { "aria-label": "Effects" });
   const below = h("section.unexplained", { "aria-label": "What is unexplained" });
@@ -31,9 +31,9 @@ export function banner(box) {
     const b = state && state.banner;
     if (!b) {
       const busy = state && state.status.job;
-      fill(box, h("div.verdict.wait", {}, h("p.headline", {}, !state || !state.model ? "Open a model and a flight to begin." : !state.flights.length ? (busy ? "Reading the flights …" : "Choose a flight to hold this model against.") : busy ? "Calibrating the model on the flight …" : "Nothing is known of these flights yet."), state && state.flights.length && !busy ? h("button", { type: "button", onclick: () => doing("look") }, "Compare them with the model") : null,
+      fill(box, h("div.verdict.wait", {}, h("p.headline", {}, !state || !state.model ? "Open a model and a flight to begin." : !state.flights.length ? (busy ? "Reading the flights …" : "Choose a flight to compare with this model.") : busy ? "Calibrating the model on the flight …" : "These flights are not compared yet."), state && state.flights.length && !busy ? h("button", { type: "button", onclick: () => doing("look") }, "Compare them with the model") : null,
         state && !state.flights.length && !busy ? h("p.row", {},
-          (state.unread || []).map((path) => h("button.main", { type: "button", onclick: () => look({ view: "files", columns: path }) }, `Say what the columns of ${path.split("/").at(-1)} are`)),
+          (state.unread || []).map((path) => h("button.main", { type: "button", onclick: () => look({ view: "files" }) }, `Describe the columns of ${path.split("/").at(-1)}`)),
           h("button", { type: "button", onclick: () => look({ view: "files" }) }, "Choose files")) : null));
       return;
     }
@@ -103,19 +103,19 @@ export function unexplainedPane(box) {
     fill(
       status,
       u && u.significant
-        ? [h("p", {}, `The remainder is significant (p = ${u.p}); these terms hold ${u.share} of it:`),
+        ? [h("p", {}, `The residual is significant (p-value ${u.p}); these terms explain ${u.share} of it:`),
            h("ul.terms", {}, u.terms.map((t) => h("li", {}, h("button", { type: "button", class: "term", onclick: () => look({ term: `${t.harmonic}|${t.product}`, low: null, high: null }) }, t.label), h("small", {}, ` ${t.z} σ`)))),
            u.expression ? h("button", { type: "button", onclick: () => form.put(u.expression) }, "Write the strongest as an expression") : null,
            u.needs.length ? h("p.note", {}, `The flight must have: ${u.needs.join("; ")}`) : null]
-        : h("p.note", {}, u ? "Nothing that is left asks for an effect beyond the catalogue’s." : ""),
+        : h("p.note", {}, u ? "No further effect needed." : ""),
     );
     const t = state && state.trial;
     fill(
       trial,
       t ? h("div.trial", {},
         h("p", {}, h("code", {}, t.id), `: ${number(t.before_Eo)} → `, h("b", {}, number(t.after_Eo)), ` Eo (held out ${number(t.holdout_before_Eo)} → ${number(t.holdout_Eo)}, noise ${number(t.noise_Eo)})`),
-        t.holdout_Eo > t.holdout_before_Eo ? h("p.note", {}, "On held-out time the error does not fall: this record does not confirm it.") : null,
-        h("ul.terms", {}, t.values.map((v) => h("li", {}, `${v.name}${v.of ? ` of ${v.of}` : ""} = ${v.text}`))),
+        t.holdout_Eo > t.holdout_before_Eo ? h("p.note", {}, "Held out, the error does not fall: this record does not confirm it.") : null,
+        h("ul.terms", {}, t.values.map((v) => h("li", {}, v))),
         h("button.main", { type: "button", disabled: Boolean(state.status.job), onclick: () => doing("keep") }, `Keep ${t.id} in the model`)) : null,
     );
     form.known();
@@ -134,7 +134,7 @@ function own() {
   const element = h(
     "form.own", { onsubmit: (e) => (e.preventDefault(), send()) },
     h("label", { for: "own-id" }, "name"), id,
-    h("label", { for: "own-add" }, "adds to what the accelerometer feels"), add,
+    h("label", { for: "own-add" }, "added to the specific force of an accelerometer"), add,
     h("label", { for: "own-unit" }, "unit of each parameter (K_…)"), unit,
     names, h("div.row", {}, button),
   );

@@ -1,57 +1,9 @@
-// Which parameters the record sees: combinations with uncertainty, correlations, the pull of the sheet, the next motion.
+// What the record determines of the parameters, the test sheet, and the history.
 import { ask, doing, Refused } from "./api.js";
-import { branchTree, curvesText, drawingText, fileName, frame, pullBars, saves } from "./drawings.js";
-import { fill, h, number, symbol } from "./dom.js";
+import { branchTree, curvesText, drawingText, fileName, frame, saves } from "./drawings.js";
+import { fill, h, number, sectionNode, symbol, tableNode } from "./dom.js";
 import { on, server, view } from "./store.js";
 import { spectrumLines, spectrumPlot } from "./curves.js";
-
-const CAPTION = "Calibrated ± uncertainty; below it the test sheet. Grey: the record does not see it, the value is the sheet’s. Italic: it sees a part of it.";
-const FEW = 2; // sums up to which they are told in the line; more are unfolded
-
-const cell = (c) => h("td", { class: `n ${c.state}`, title: `test sheet: ${c.nominal}` }, c.value, h("small", {}, c.nominal));
-
-const table = (rows, heads, caption) =>
-  h("div.wide", { tabindex: "0", role: "group", "aria-label": caption }, h("table.numbers", { class: heads.length > 4 ? "many" : "" }, h("caption", {}, caption),
-    h("thead", {}, h("tr", {}, h("th", {}, "parameter"), h("th", {}, "unit"), heads.map((x) => h("th.n", {}, x)))),
-    h("tbody", {}, rows.map((row) => h("tr", {}, h("th", { scope: "row", title: row.symbol.meaning }, symbol(row.symbol.pieces), h("small", {}, ` ${row.symbol.name}`)), h("td", {}, row.unit), row.cells.length === 1 ? [cell(row.cells[0]), h("td", { colspan: String(heads.length - 1) })] : row.cells.map(cell))))));
-
-const piece = (p, k) => [p.sign ? ` ${p.sign} ` : k ? " " : "", p.factor ? `${p.factor} ` : "", p.pattern ? [h("span.pattern", {}, p.pattern), " "] : "", symbol(p.symbol.pieces)];
-const sum = (row) => row.map(piece);
-const listed = (items) => items.map((x, k) => [k ? ", " : "", x]);
-
-/** [{pattern, symbol}] as "K₂, K₅ of A1, A2": those that stand for the same accelerometers together. */
-function gathered(members) {
-  const own = new Map();
-  for (const m of members) {
-    const known = own.get(m.symbol.name) || { symbol: m.symbol, of: [] };
-    known.of.push(m.pattern);
-    own.set(m.symbol.name, known);
-  }
-  const alike = new Map();
-  for (const x of own.values()) {
-    const key = x.of.join(", ");
-    alike.set(key, [...(alike.get(key) || []), x.symbol]);
-  }
-  return [...alike].map(([of, symbols], k) => [k ? "; " : "", listed(symbols.map((x) => symbol(x.pieces))), of ? [" of ", h("span.pattern", {}, of)] : ""]);
-}
-
-const group = (g) =>
-  g.seen.length <= FEW
-    ? h("li", {}, gathered(g.members), g.seen.length ? [": the record sees ", g.seen.map((row, k) => [k ? "; " : "", sum(row)])] : ": none of them")
-    : h("li", {}, h("details", {}, h("summary", {}, gathered(g.members), `: of ${g.members.length} the record sees ${g.seen.length} sums`), h("ul.sums", {}, g.seen.map((row) => h("li", {}, sum(row))))));
-
-/** What stays as the sheet has it: by combination, or of which accelerometers. */
-const unseen = (p) =>
-  p.patterned
-    ? p.unseen.map((u) => h("li", {}, h("span.pattern", {}, u.pattern), " of ", listed(u.symbols.map((x) => symbol(x.pieces)))))
-    : h("li", {}, gathered(p.unseen.flatMap((u) => u.symbols.map((x) => ({ pattern: u.pattern, symbol: x })))));
-
-function pull(rows, model) {
-  const drawn = pullBars(rows.map((x) => ({ name: x.of.pattern, pieces: x.of.symbol.pieces, symbol: x.of.symbol.name, sigma: x.sigma })));
-  return h("section.card", {}, h("figure.drawn", { "aria-label": "Pull of the test sheet" },
-    h("figcaption", {}, h("h2", {}, "Pull of the test sheet"), h("span.spacer"), saves("Pull of the test sheet", () => fileName(model, "pull"), () => drawingText(drawn))),
-    h("p.note", {}, "How far the calibration moved a value from the sheet, in plausible errors; the farthest."), drawn));
-}
 
 export function parametersView(main) {
   let shown = "";
@@ -64,17 +16,8 @@ export function parametersView(main) {
     if (!p) return void fill(main, h("p.empty-note", {}, "The parameters are known once a flight is compared."));
     fill(
       main,
-      h("section.card", {}, h("h2", {}, "What the record determines"),
-        h("p.lead", {}, `${p.determined} of ${p.total} directions of the parameters are the record’s own; the others stay where the test sheet puts them.`),
-        p.groups.length ? [h("h3", {}, "Seen together only"), h("ul.together", {}, p.groups.map(group))] : null,
-        p.unseen.length ? [h("h3", {}, "Not seen at all"), h("ul", {}, unseen(p))] : null),
-      p.combined.length ? h("section.card", {}, h("h2", {}, "Combinations of the four accelerometers"), table(p.combined, p.patterns, CAPTION)) : null,
-      h("div.pair", {},
-        pull(p.pull, state.model.name),
-        h("section.card", {}, h("h2", {}, "Tied most closely"), h("p.note", {}, "Correlations of calibrated values: what the record tells of both together rather than of each."),
-          h("ul.tied", {}, p.correlations.map((x) => h("li", {}, h("span", {}, piece(x.a, 0)), h("span", {}, piece(x.b, 0)), h("b", {}, (x.r < 0 ? "−" : "+") + Math.abs(x.r).toFixed(3))))))),
-      h("section.card", {}, h("h2", {}, "Each accelerometer"), table(p.single, p.accelerometers, CAPTION)),
-      h("section.card", {}, h("h2", {}, "Which flight next"), state.next_motion.length ? h("ul", {}, state.next_motion.map((m) => h("li", {}, m.words))) : h("p.note", {}, "No rivals are left that another motion would have to tell apart.")),
+      p.map((s) => h("section.card", {}, h("h2", {}, s.title), sectionNode({ ...s, title: "", detail: false }))),
+      h("section.card", {}, h("h2", {}, "Next motion"), state.next_motion.length ? h("ul", {}, state.next_motion.map((m) => h("li", {}, m.words))) : h("p.note", {}, "No effects are left that another motion would separate.")),
     );
   };
   known();
@@ -107,20 +50,21 @@ export function sheetView(main) {
   const revert = h("button", { type: "button", onclick: () => ((shown = ""), known()) }, "Discard");
 
   const sure = ({ sigma }) => (sigma === null ? "" : sigma.every((v) => v === sigma[0]) ? plain(sigma[0]) : sigma.map(plain).join("; "));
-  const draw = ({ names, rows }) =>
+  const draw = ({ names, rows, discs }) =>
     fill(
       main,
       h("section.card", {},
         h("h2", {}, "Test sheet"),
-        h("p.note", {}, "The nominal values, as model.toml holds them; comments there are kept. “Sure to” is how far the sheet says a value may be off, one standard deviation: one number for all accelerometers, or one for each with semicolons between. Where it is empty, the plausible error counts: one that would not surprise. The calibration moves a value by a few of these."),
+        h("p.note", {}, "The nominal values of model.toml; its comments are kept. 1 sigma: how uncertain the test sheet is, one number for all accelerometers, or one for each, separated by semicolons. Where it is empty, the default prior holds."),
         h("div.wide", { tabindex: "0", role: "group", "aria-label": "Values of the test sheet" }, h("table.numbers.sheet", { class: names.length > 4 ? "many" : "" },
-          h("thead", {}, h("tr", {}, h("th", {}, "parameter"), h("th", {}, "unit"), names.map((a) => h("th.n", {}, a)), h("th.n", {}, "sure to ±"), h("th.n", {}, "plausible ±"))),
+          h("thead", {}, h("tr", {}, h("th", {}, "parameter"), h("th", {}, "unit"), names.map((a) => h("th.n", {}, a)), h("th.n", {}, "1 sigma"), h("th.n", {}, "default prior"))),
           h("tbody", {}, rows.map((row) => h("tr", {},
             h("th", { scope: "row" }, symbol(row.symbol), h("small", {}, ` ${row.meaning}`)), h("td", {}, row.unit_shown),
             row.values.map((v, k) => h("td.n", {}, h("input", { type: "text", inputmode: "decimal", value: plain(v), "aria-label": `${row.name} of ${names[k]}, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.value[k] = parsed(e.target.value))) }))),
-            h("td.n", {}, h("input", { type: "text", value: sure(row), placeholder: plain(row.plausible[0]), "aria-label": `${row.name}: how sure the sheet is, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.sigma = sigmas(e.target.value, names.length))) })),
+            h("td.n", {}, h("input", { type: "text", value: sure(row), placeholder: plain(row.plausible[0]), "aria-label": `${row.name}: 1 sigma of the sheet, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.sigma = sigmas(e.target.value, names.length))) })),
             h("td.n.quiet", {}, number(row.plausible[0], 3))))))),
         h("div.row", {}, save, revert)),
+      h("section.card", {}, h("h2", {}, "Discs"), h("p.note", {}, "As [[disc]] of model.toml says; edit them there."), tableNode(discs)),
     );
 
   const sigmas = (text, count) => {
@@ -158,7 +102,7 @@ export function sheetView(main) {
 
 // The steps as they were made, and the branches that were left; any state can be compared beside the present one.
 
-const SAID = { new: "made from a test sheet", add: "added", remove: "removed", edit: "sheet edited:", undo: "undo", redo: "redo", restore: "went back", calibrate: "calibration kept" };
+const SAID = { new: "made from a test sheet", add: "added", remove: "removed", edit: "sheet edited:", undo: "undo", redo: "redo", restore: "went back", calibrate: "calibration saved" };
 const SHORT = { new: () => "test sheet", add: (s) => `+ ${s.effect}`, remove: (s) => `− ${s.effect}`, edit: (s) => `sheet: ${s.effect}`, restore: (s) => `as after ${Number(s.effect) + 1}` };
 
 export function historyView(main) {
@@ -187,7 +131,7 @@ export function historyView(main) {
     fill(
       steps,
       h("h2", {}, "History"),
-      h("p.note", {}, "Nothing is ever taken out of it: undo and redo are steps themselves. Grey states lie on a branch that was left; one can go back to each."),
+      h("p.note", {}, "Append-only: undo and redo are steps, too. Grey states are on a branch that was left; you can go back to each."),
       h("div.row", {},
         h("button", { type: "button", disabled: !history.can_undo || busy, onclick: () => doing("undo") }, "Undo"),
         h("button", { type: "button", disabled: !history.can_redo || busy, onclick: () => doing("redo") }, "Redo")),

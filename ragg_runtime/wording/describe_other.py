@@ -1,0 +1,360 @@
+"""What comes after a model, of many flights, of files and of the catalogue, as sections."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ragg_runtime.wording import numbers
+from ragg_runtime.wording.describe import (
+    CLEAR,
+    Json,
+    Sections,
+    counted,
+    effects_text,
+    eotvos,
+    error_text,
+    errors_section,
+    flights_text,
+    floor_row,
+    next_section,
+    parameter_label,
+    patterns_note,
+    plain_section,
+    promised,
+    significance,
+    term_label,
+    with_uncertainty,
+)
+from ragg_runtime.wording.numbers import clean, number
+from ragg_runtime.wording.sections import Section, Table
+
+LISTED = 60
+"""Flights of a survey that are listed one by one."""
+
+
+def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sections:
+    """The result of ``calibrate``."""
+    e, seen = c["error"], c["directions"]
+    head = (
+        f"Calibrated on {flights_text(flights)}: {error_text(e['nominal'], e['calibrated'])}, held out {eotvos(e['holdout'])} Eo;"
+        f" the noise floor is {eotvos(c['noise_floor'])} Eo."
+        if c["converged"]
+        else "The calibration has NOT converged: do not rely on these values."
+    )
+    text = (
+        f"The record determines {seen['seen']} of {seen['fitted']} directions of the parameters; the rest stay at their"
+        f" test-sheet values. {effects_text(c['effects'])[:1].upper()}{effects_text(c['effects'])[1:]}."
+    )
+    rows = [
+        ("nominal", e["nominal"]),
+        ("calibrated", e["calibrated"]),
+        ("held out", e["holdout"]),
+        floor_row(c),
+    ]
+    clear = [p for p in c["combinations"] if significance(p) > CLEAR]
+    combined = tuple((parameter_label(p), with_uncertainty(p)) for p in clear)
+    note = " ".join(patterns_note(clear))
+    single = tuple(
+        (parameter_label(p), with_uncertainty(p), *(number(p.get(k), 4) for k in ("sheet", "sheet_sigma")))
+        for p in (*c["combinations"], *c["parameters"])
+    )
+    found = [
+        Section(sentences=(head, text), state="good" if c["converged"] else "bad"),
+        errors_section(rows),
+        Section(
+            title="Best-determined combinations",
+            table=Table(("parameter", "value"), combined, words=2, note=note),
+        ),
+        Section(
+            title="Every parameter",
+            table=Table(("parameter", "value", "test sheet", "its uncertainty"), single, words=2),
+            detail=True,
+            summary=f"all {len(single)} combinations and parameters",
+        ),
+    ]
+    if c["drift"]:
+        drift = tuple((clean(q["flight"]), parameter_label(q), with_uncertainty(q)) for q in c["drift"])
+        found.append(
+            Section(title="Each flight alone", table=Table(("flight", "parameter", "value"), drift, words=3))
+        )
+    if "certificate" in c:
+        found.append(_certificate(c["certificate"]))
+    return (*found, *next_section(then))
+
+
+def _certificate(rows: Sequence[Json]) -> Section:
+    """Each parameter as planned and as reached, those that were not reached first."""
+    reached = sum(q["reached"] for q in rows)
+    table = tuple(
+        (
+            parameter_label(q),
+            numbers.with_unit(number(q["value"], 6), q["unit"]),
+            *(number(q[f"std_{k}"], 2) for k in ("before", "planned", "reached")),
+            "" if q["reached"] else "NOT reached",
+        )
+        for q in sorted(rows, key=lambda q: q["reached"])
+    )
+    return Section(
+        title="Certificate",
+        sentences=(f"{reached} of {len(rows)} parameters are as certain as planned (standard uncertainty).",),
+        table=Table(("parameter", "value", "before", "planned", "reached", ""), table, words=2),
+    )
+
+
+def describe_compensation(r: Json, output: str) -> Sections:
+    """The result of ``compensate``, written to a file."""
+    d = r["demodulator"]
+    lag = f", {number(d['latency_s'])} s late" if d["latency_s"] else ""
+    head = [
+        f"{output}: calibration {r['calibration']}, {d['what']}{lag}."
+        if output
+        else f"Calibration {r['calibration']}, {d['what']}."
+    ]
+    if not r["converged"]:
+        head.append("The calibration has NOT converged: do not rely on these values.")
+    found = [
+        Section(sentences=(*head, *map(clean, r.get("notes", ()))), state="good" if r["converged"] else "bad")
+    ]
+    several = len({x["output"] for x in r["flights"]}) > 1
+    for x in r["flights"]:
+        name = clean(x["flight"]) + (f": {clean(x['output'])}" if several else "")
+        counts = ", ".join(f"{clean(k)} {n}" for k, n in x["quality"].items() if n)
+        text = f"{x['good']} of {x['samples']} samples are good{f' ({counts})' if counts else ''}."
+        removed = [
+            (clean(str(q["of"])), number(q["inline_Eo"]), number(q["cross_Eo"])) for q in x["contributions"]
+        ]
+        found += [
+            Section(title=name, sentences=(text,), table=_channels_table(x)),
+            Section(
+                title="What was removed, rms",
+                table=Table(("", "inline, Eo", "cross, Eo"), tuple(removed), brief=8),
+                detail=several or len(r["flights"]) > 1,
+            ),
+        ]
+    return tuple(found)
+
+
+def _channels_table(x: Json) -> Table:
+    rows = []
+    for channel in ("inline", "cross"):
+        density = [x["density"][k].get(f"{channel}_Eo_per_rtHz") for k in ("before", "after", "noise")]
+        sizes = [x["std"][k][f"{channel}_Eo"] for k in ("noise", "parameters")]
+        rows.append((channel, *map(number, (*density, *sizes))))
+    heads = (
+        "channel",
+        "nominal, Eo/√Hz",
+        "compensated, Eo/√Hz",
+        "noise, Eo/√Hz",
+        "std by noise, Eo",
+        "std by parameters, Eo",
+    )
+    return Table(heads, tuple(rows))
+
+
+def describe_online(r: Json, output: str) -> Sections:
+    """The result of ``compensate --calibration online``, written to a file."""
+    within, forget = r["follows_within_s"], r["forget_s"]
+    follows = "" if within is None else f" and is followed within {number(within)} s"
+    return plain_section(
+        f"{output}: sample by sample from the {r['started']}; noise {number(r['noise_Eo_per_rtHz'])} Eo/√Hz.",
+        f"The gradient wanders by {number(r['walk_Eo_per_rts'])} Eo/√s{follows}; the parameters"
+        f" {'forget nothing' if forget is None else f'forget within {number(forget)} s'}.",
+        *(f"{clean(x['flight'])}: {x['samples']} samples" for x in r["flights"]),
+    )
+
+
+def describe_catalogue(entries: Sequence[Json]) -> Sections:
+    """The catalogue of effects."""
+    rows = tuple((str(e["id"]), str(e["title"]), ", ".join(e["channels"])) for e in entries)
+    return (Section(table=Table(("effect", "what it is", "channels it needs"), rows, words=3)),)
+
+
+def describe_effect(e: Json) -> Sections:
+    """One effect in full."""
+    rows = tuple(
+        (
+            q["name"],
+            q["unit"],
+            f"{q['plausible']:g}",
+            "one value" if q["shared"] else "each accelerometer",
+            q["meaning"],
+        )
+        for q in e["parameters"]
+    )
+    facts = (
+        ("needs", ", ".join(e["channels"]) or "the motion alone"),
+        ("limits", e["limits"] or "none stated"),
+        ("source", e["source"]),
+    )
+    return (
+        Section(sentences=(f"{e['id']}: {e['title']}", e["physics"]), code=(e["equation"],)),
+        Section(
+            title="Parameters", table=Table(("name", "unit", "prior (1 σ)", "for", "meaning"), rows, words=5)
+        ),
+        Section(table=Table(("", ""), facts, words=2)),
+    )
+
+
+def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
+    """The result of ``survey``; ``headline`` counts the verdicts, ``advice`` says what to do, in sentences."""
+    done = [r for r in s["flights"] if "verdict" in r]
+    failed = [r for r in s["flights"] if "verdict" not in r]
+    rows = [
+        (
+            clean(r["flight"]),
+            r["verdict"],
+            *(
+                number((r["error"][k] or {}).get("rms_Eo"))
+                for k in ("nominal", "calibrated", "holdout", "after")
+            ),
+            number(r["noise_floor"]["rms_Eo"]),
+            " ".join(map(clean, r["found"])),
+        )
+        for r in done[:LISTED]
+    ]
+    heads = (
+        "flight",
+        "verdict",
+        "nominal, Eo",
+        "calibrated, Eo",
+        "held out, Eo",
+        "after, Eo",
+        "noise, Eo",
+        "found",
+    )
+    bad = s["counts"]["error"] or s["counts"]["unexplained"]
+    state = "bad" if bad else "good" if s["counts"]["adequate"] == len(done) else "found"
+    found = [Section(sentences=(headline, *advice), state=state)]
+    if rows:
+        more = f"and {len(done) - LISTED} more" if len(done) > LISTED else ""
+        found.append(Section(title="Flights", table=Table(heads, tuple(rows), words=2, note=more)))
+    if s["effects"]:
+        counts = tuple(
+            (clean(e["effect"]), str(e["found"]), str(e["perhaps"]), str(e["testable"])) for e in s["effects"]
+        )
+        note = "found: claimed; perhaps: explains as much as what is claimed; testable: the record could have shown it"
+        found.append(
+            Section(
+                title="Effects", table=Table(("effect", "found", "perhaps", "testable"), counts, note=note)
+            )
+        )
+    if s["unexplained_terms"]:
+        terms = tuple((term_label(t), str(t["flights"])) for t in s["unexplained_terms"])
+        found.append(
+            Section(
+                title="What no effect explains",
+                table=Table(("harmonic × motion term", "flights"), terms, brief=8),
+            )
+        )
+    if s["parameters"]:
+        found.append(_trends(s["parameters"]))
+    if failed:
+        rows_ = tuple(
+            (clean(r["flight"]), " ".join(clean(str(r["error"]["message"])).split())) for r in failed
+        )
+        text = ("The other flights are not affected.",)
+        found.append(
+            Section(
+                title="Flights in error",
+                sentences=text,
+                table=Table(("flight", "what is wrong"), rows_, words=2),
+            )
+        )
+    return tuple(found)
+
+
+def _trends(parameters: Sequence[Json]) -> Section:
+    rows = []
+    for t in parameters:
+        std = min(s for s in t["stds"] if s is not None)
+        label = t["name"] if t["accelerometer"] is None else f"{t['name']}[{t['accelerometer']}]"
+        mean = numbers.with_unit(numbers.rounded(t["mean"], std), t["unit"])
+        cells = (
+            str(t["dof"] + 1),
+            mean,
+            number(t["scatter"], 2),
+            number(t["chi2"] / t["dof"], 2),
+            number(t["slope_z"], 2),
+        )
+        rows.append((clean(label), *cells))
+    varying = sum(bool(t["varies"]) for t in parameters)
+    heads = ("parameter", "flights", "mean", "scatter", "χ²/dof", "slope/sd")
+    text = f"{varying} of {len(rows)} calibrated parameters differ from flight to flight; the least constant first."
+    return Section(
+        title="Parameters from flight to flight", sentences=(text,), table=Table(heads, tuple(rows), brief=12)
+    )
+
+
+def describe_next_motion(r: Json, output: str) -> Sections:
+    """The result of ``next-motion``, written to a file."""
+    head = (
+        f"{output}: {len(r['sinusoids'])} sinusoids, {number(r['duration_s'])} s at {number(r['rate_Hz'])} Hz"
+    )
+    if "channels" in r:
+        now, then = r["channels"]["now"], r["channels"]["planned"]
+        gain = ", ".join(
+            f"{k} {number(now[f'{k}_Eo'])} → {number(then[f'{k}_Eo'])} Eo" for k in ("inline", "cross")
+        )
+        return plain_section(
+            head, f"What the parameters' uncertainty adds to the compensated channels: {gain} rms."
+        )
+    if not r["separations"]:
+        return plain_section(
+            head, "No effects are left to separate: a multisine about all axes, which excites every effect."
+        )
+    said = [
+        f"if it is {clean(x['effect'])}: {clean(x['rival'])} is ruled out ({number(x['now'], 2)} → {promised(x['then'], x['spread'])} σ)"
+        if x["then"] > 3.0
+        else f"if it is {clean(x['effect'])}: no motion within the limits rules out {clean(x['rival'])}, which acts alike"
+        f" ({number(x['now'], 2)} → {number(x['then'])} σ)"
+        for x in r["separations"]
+    ]
+    return plain_section(head, *said)
+
+
+def describe_flight_file(f: Json) -> Sections:
+    """What a flight file holds, and what is assumed: the result of ``info``."""
+    head = f"{clean(f['path'])}: {f['format']}, {numbers.fixed(f['bytes'] / 1e6, 2)} MB, {counted(len(f['records']), 'record')}."
+    found = [Section(sentences=(head,), state="bad" if any(r["refused"] for r in f["records"]) else "good")]
+    for r in f["records"]:
+        found += _record_sections(r)
+    return tuple(found)
+
+
+def _record_sections(r: Json) -> list[Section]:
+    said = [f"{numbers.fixed(r['rows'], 0)} rows"]
+    if r["rate_Hz"] is not None:
+        said.append(
+            f"{number(r['rate_Hz'], 5)} Hz, {numbers.seconds(r['duration_s'])} from {number(r['start_s'], 4)} s on"
+        )
+    if r["origin"]:
+        said.append(f"time 0 is {r['origin']}")
+    text = [f"{'; '.join(said)}."]
+    if r["gap_count"]:
+        longest = max(r["gaps"], key=lambda g: g["samples"])
+        text.append(
+            f"{counted(r['gap_count'], 'gap')}, {counted(r['missing'], 'sample')} missing; the longest from"
+            f" {number(longest['from_s'], 5)} to {number(longest['to_s'], 5)} s."
+        )
+    text += [f"note: {clean(n)}" for n in r["notes"]]
+    if r["refused"]:
+        text.append(f"This record cannot be used as it is: {' '.join(clean(r['refused']).split())}")
+    rows = [
+        (
+            clean(c["name"]),
+            numbers.unit(c["unit"]) or "1",
+            *(number(c[k], 4) for k in ("minimum", "mean", "maximum")),
+            str(c["missing"]),
+        )
+        for c in r["columns"]
+    ]
+    table = Table(("column", "unit", "minimum", "mean", "maximum", "missing"), tuple(rows), words=2)
+    gaps = [(number(g["from_s"], 6), number(g["to_s"], 6), str(g["samples"])) for g in r["gaps"]]
+    found = [Section(title=clean(r["name"]), sentences=tuple(text), table=table)]
+    if gaps:
+        found.append(
+            Section(
+                title="Gaps", table=Table(("from, s", "to, s", "samples"), tuple(gaps), words=0), detail=True
+            )
+        )
+    return found
