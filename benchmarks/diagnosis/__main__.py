@@ -17,7 +17,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -61,19 +61,17 @@ def commit() -> str:
 class Cache:
     """Results that are there: a line of JSON each, by their key; a line that was cut off by an interruption is left out."""
 
-    def __init__(self, path: Path, source: str | None) -> None:
+    def __init__(self, path: Path, source: str) -> None:
         self.path, self.source = path, source
         self.lines: dict[str, dict[str, Any]] = {}
         text = path.read_text("utf-8") if path.exists() else ""
         if text and not text.endswith("\n"):
             path.write_text(text + "\n", "utf-8")
         for one in text.splitlines():
-            try:
+            with suppress(json.JSONDecodeError):
                 x = json.loads(one)
-            except json.JSONDecodeError:
-                continue
-            if source is None or x["source"] == source:
-                self.lines[x["key"]] = x
+                if x["source"] == source:
+                    self.lines[x["key"]] = x
 
     def add(self, key: str, x: dict[str, Any]) -> None:
         x = {"key": key, "source": self.source} | x
@@ -166,28 +164,19 @@ def _array(options: argparse.Namespace, source: str, pool: Executor | None) -> l
 
 def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.diagnosis")
-    parser.add_argument("--seed", type=int, action="append", help="which flights (default: the reference's)")
-    parser.add_argument("--only", action="append", choices=list(plan.COUNTS), help="kinds of flights")
-    parser.add_argument("--flight", action="append", default=[], metavar="ID", help="show one flight")
-    parser.add_argument("--array", action="store_true", help="ask the real array instead")
-    parser.add_argument(
-        "--real", type=Path, metavar="FOLDER", help="its recordings, *.bin.gz (default: what is shipped)"
-    )
-    parser.add_argument(
-        "--ablate", action="store_true", help="fly with one rule after the other switched off"
-    )
-    parser.add_argument(
-        "--rule", action="append", choices=[r.id for r in ablation.RULES], help="of the ablation"
-    )
-    parser.add_argument("--jobs", type=int, default=1, help="processes")
-    parser.add_argument("--cache", type=Path, default=CACHE, help="results, a JSON line each")
-    parser.add_argument("--save", type=Path, metavar="CSV", help="keep the results in short")
-    parser.add_argument(
-        "--against", type=Path, metavar="CSV", help="compare flight by flight with results in short"
-    )
-    parser.add_argument(
-        "--page", action="store_true", help="write the page from the results that are committed"
-    )
+    ask = parser.add_argument
+    ask("--seed", type=int, action="append", help="which flights (default: the reference's)")
+    ask("--only", action="append", choices=list(plan.COUNTS), help="kinds of flights")
+    ask("--flight", action="append", default=[], metavar="ID", help="show one flight")
+    ask("--array", action="store_true", help="ask the real array instead")
+    ask("--real", type=Path, metavar="FOLDER", help="its recordings, *.bin.gz (default: what is shipped)")
+    ask("--ablate", action="store_true", help="fly with one rule after the other switched off")
+    ask("--rule", action="append", choices=[r.id for r in ablation.RULES], help="of the ablation")
+    ask("--jobs", type=int, default=1, help="processes")
+    ask("--cache", type=Path, default=CACHE, help="results, a JSON line each")
+    ask("--save", type=Path, metavar="CSV", help="keep the results in short")
+    ask("--against", type=Path, metavar="CSV", help="compare flight by flight with results in short")
+    ask("--page", action="store_true", help="write the page from the results that are committed")
     options = parser.parse_args(arguments)
     for name in options.flight:
         sample, kind, record, index = name.split("/")
@@ -197,11 +186,10 @@ def main(arguments: Sequence[str]) -> int:
     if options.page:
         PAGE.write_text(table.page({n: read_rows(p) for n, p in RESULTS.items() if p.exists()}), "utf-8")
         return 0
-    source = source_digest()
     what = _ablate if options.ablate else _array if options.array else _fly
     try:
         with pool_of(options.jobs) as pool:
-            rows = what(options, source, pool)
+            rows = what(options, source_digest(), pool)
         if options.save is not None:
             write_rows(rows, options.save)
     except KeyboardInterrupt:

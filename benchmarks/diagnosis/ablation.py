@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -57,15 +58,14 @@ def quiet(*names: str) -> Kinds:
 
 @dataclass(frozen=True)
 class Patch:
-    """A name of the runtime (``fit.noise:_level``), and what takes its place.
+    """A name of the runtime (``estimation.noise:_level``), and what takes its place.
 
-    ``neutral`` is called with what the function is called with; if ``after``, with what it returns; if ``constant``, it is the value.
-    ``acts``: whether what the function returned is not neutral (default: it differs from what ``neutral`` returns).
+    ``neutral`` is called with what the function is called with; if ``constant``, it is the value. ``acts``: whether what the function
+    returned is not neutral (default: it differs from what ``neutral`` returns).
     """
 
     name: str
     neutral: Any
-    after: bool = False
     constant: bool = False
     acts: Callable[[Any], bool] | None = None
 
@@ -86,6 +86,27 @@ class Patch:
             return bool(self.place)
         except (ImportError, AttributeError):
             return False
+
+    @contextmanager
+    def put(self, make: Callable[[Any], Any]) -> Iterator[None]:
+        """With what ``make`` makes of the original in its place."""
+        owner, name = self.place
+        original = owner.__dict__[name] if isinstance(owner, type) else getattr(owner, name)
+        setattr(owner, name, make(original))
+        try:
+            yield
+        finally:
+            setattr(owner, name, original)
+
+    def did(self, result: Any, args: Any, kwargs: Any) -> bool:
+        """Whether what the function returned is not neutral."""
+        if self.acts is not None:
+            return self.acts(result)
+        other = self.neutral(*args, **kwargs)
+        try:
+            return result is not other and not bool(result == other)
+        except (ValueError, TypeError):  # arrays
+            return True
 
 
 @dataclass(frozen=True)
@@ -262,68 +283,25 @@ def flights(rule: Rule) -> list[Spec]:
 
 
 @contextmanager
-def _patched(patch: Patch, make: Callable[[Any], Any]) -> Iterator[None]:
-    """With what ``make`` makes of the original in its place."""
-    owner, name = patch.place
-    original = owner.__dict__[name] if isinstance(owner, type) else getattr(owner, name)
-    setattr(owner, name, make(original))
-    try:
-        yield
-    finally:
-        setattr(owner, name, original)
-
-
-@contextmanager
-def off(rule: Rule) -> Iterator[None]:
-    """With a rule switched off."""
-
-    def neutral(patch: Patch) -> Callable[[Any], Any]:
-        if patch.after:
-            return lambda original: lambda *a, **k: patch.neutral(original(*a, **k))
-        return lambda original: patch.neutral
-
-    with ExitStack() as stack:
-        for p in rule.patches:
-            stack.enter_context(_patched(p, neutral(p)))
-        yield
-
-
-@contextmanager
 def watching(acted: set[str]) -> Iterator[None]:
     """With all rules on; those that do anything are put into ``acted``."""
 
-    def watched(rule: Rule, p: Patch) -> Callable[[Any], Any]:
-        def make(original: Any) -> Any:
-            def call(*a: Any, **k: Any) -> Any:
-                result = original(*a, **k)
-                if rule.id not in acted and _does(p, result, a, k):
-                    acted.add(rule.id)
-                return result
+    def watched(rule: Rule, p: Patch, original: Any) -> Callable[..., Any]:
+        def call(*a: Any, **k: Any) -> Any:
+            result = original(*a, **k)
+            if rule.id not in acted and p.did(result, a, k):
+                acted.add(rule.id)
+            return result
 
-            return call
-
-        return make
+        return call
 
     with ExitStack() as stack:
-        for rule in RULES:
-            for p in rule.patches:
-                if not p.there:
-                    continue
-                if p.constant:
-                    acted.add(rule.id)
-                else:
-                    stack.enter_context(_patched(p, watched(rule, p)))
+        for rule, p in ((r, p) for r in RULES for p in r.patches if p.there):
+            if p.constant:
+                acted.add(rule.id)
+            else:
+                stack.enter_context(p.put(partial(watched, rule, p)))
         yield
-
-
-def _does(p: Patch, result: Any, args: Any, kwargs: Any) -> bool:
-    if p.acts is not None:
-        return p.acts(result)
-    other = p.neutral(result) if p.after else p.neutral(*args, **kwargs)
-    try:
-        return result is not other and not bool(result == other)
-    except (ValueError, TypeError):  # arrays
-        return True
 
 
 def watched(spec: Spec) -> dict[str, Any]:
@@ -336,7 +314,9 @@ def watched(spec: Spec) -> dict[str, Any]:
 
 def without(rule: str, spec: Spec) -> dict[str, Any]:
     """The line of a flight with a rule switched off."""
-    with off(next(r for r in RULES if r.id == rule)):
+    with ExitStack() as stack:
+        for p in next(r for r in RULES if r.id == rule).patches:
+            stack.enter_context(p.put(lambda original, p=p: p.neutral))  # type: ignore[misc]
         return fly(spec)
 
 
@@ -346,31 +326,26 @@ def acts(rule: Rule, line: Mapping[str, Any]) -> bool:
 
 def row(rule: Rule, specs: Sequence[Spec], lines: Mapping[str, Any]) -> Row:
     """What changes without a rule."""
-    pairs = []
-    for s in specs:
-        on = lines[f"/{s.id}"]
-        pairs.append((on, lines[f"{rule.id}/{s.id}"] if acts(rule, on) else on))
-    outcomes = [(score.outcome(a), score.outcome(b)) for a, b in pairs]
+    on = [lines[f"/{s.id}"] for s in specs]
+    off = [lines[f"{rule.id}/{s.id}"] if acts(rule, x) else x for s, x in zip(specs, on, strict=True)]
+    outcomes = [(score.outcome(a), score.outcome(b)) for a, b in zip(on, off, strict=True)]
     change = np.array([score.WORTH[b] - score.WORTH[a] for a, b in outcomes])
     moved = Counter(f"{a} to {b}" for a, b in outcomes if a != b)
-    flown = [(a, b) for a, b in pairs if a is not b]
-    time = (
-        [sum(x.get("cpu", 0.0) for x in side) for side in zip(*flown, strict=True)] if flown else [0.0, 0.0]
-    )
-    half = 1.6449 * float(np.std(change)) / np.sqrt(len(change))
+    flown = [(a, b) for a, b in zip(on, off, strict=True) if a is not b]
+    time = [sum(pair[side].get("cpu", 0.0) for pair in flown) for side in (0, 1)]
     return {
         "rule": rule.id,
         "sentence": rule.sentence,
         "lines": str(sum(map(_lines, rule.code))),
         "kinds": ", ".join(f"{k} {r}" for k, r in rule.kinds),
-        "acts": f"{len(flown)} of {len(pairs)}",
+        "acts": f"{len(flown)} of {len(on)}",
         "worse": str(int(np.sum(change < 0))),
         "better": str(int(np.sum(change > 0))),
-        "other": str(sum(a != b for a, b in outcomes) - int(np.sum(change != 0))),
-        "change": f"{np.mean(change):+.3f} ± {half:.3f}",
+        "other": str(moved.total() - int(np.sum(change != 0))),
+        "change": score.mean_change(outcomes),
         "time": f"{time[0]:.0f} s to {time[1]:.0f} s",
         "moved": ", ".join(f"{n} {m}" for m, n in sorted(moved.items())),
-        "commit": str(pairs[0][0]["commit"]),
+        "commit": str(on[0]["commit"]),
     }
 
 

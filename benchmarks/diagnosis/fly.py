@@ -111,7 +111,7 @@ def prepared(spec: Spec) -> Prepared:
                 duration=w.scenario.duration,
                 scenario=w.scenario,
             )
-            term = outside.drawn(oracle, at, plan.outside_name(spec), 10.0)
+            term = outside.drawn(oracle, at, outside.name_of(spec), 10.0)
     values = {h.effect: h.values for h in hidden}
     recorder = {e: values.pop(e) for e in ("quantisation", "saturation") if e in values}
     sim = _simulated(w, values) if values else plain

@@ -9,21 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from benchmarks.diagnosis.plan import COUNTS, Spec
+from benchmarks.diagnosis.records import QUARTERS
+from benchmarks.diagnosis.strength import Oracle
 from ragg_runtime.reference.scenario import Scenario
 from ragg_runtime.reference.simulate import combine
 
-if TYPE_CHECKING:
-    from benchmarks.diagnosis.strength import Oracle
-
 Array = NDArray[np.float64]
-
-_QUARTERS = np.array([0.0, np.pi, np.pi / 2, 3 * np.pi / 2])
 
 
 @dataclass(frozen=True)
@@ -43,7 +40,7 @@ class World:
 
     @property
     def psi(self) -> Array:
-        return self.phi[None] + _QUARTERS[:, None]
+        return self.phi[None] + QUARTERS[:, None]
 
     @property
     def f_i(self) -> Array:
@@ -149,6 +146,11 @@ FURTHER: Mapping[str, Callable[[World], Array]] = {
 """Further terms, of which it holds most in no such form."""
 
 NAMES = (*TERMS, *FURTHER)
+
+
+def name_of(s: Spec) -> str:
+    """What is put into a flight with physics outside the catalogue."""
+    return NAMES[(s.index + COUNTS["outside"] * (s.sample % 3)) % len(NAMES)]
 
 
 @dataclass(frozen=True)

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.diagnosis import outside, records
+from benchmarks.diagnosis import records
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import read_flight
 from ragg_runtime.reference.accelerometer_noise import eotvos_noise
@@ -91,11 +90,6 @@ def spec(kind: str, index: int, sample: int) -> Spec:
         return Spec(kind, "white" if index % 2 else "red", index, sample)
     names = tuple(records.KINDS) if kind == "quiet" else records.KNOWN
     return Spec(kind, names[(index + sample) % len(names)], index, sample)
-
-
-def digest(s: Spec) -> str:
-    """Of a flight's plan."""
-    return hashlib.sha256(json.dumps(asdict(s)).encode()).hexdigest()[:12]
 
 
 @dataclass(frozen=True)
@@ -258,11 +252,6 @@ def _elsewhere(rng: np.random.Generator) -> tuple[Instrument, Instrument, Instru
 def replaced_spin(i: Instrument, f: float) -> Instrument:
     """An instrument of the paper's layout whose disc turns at f Hz."""
     return Instrument.build(radius=i.radius, spin_frequency=f, g0=i.g0, accelerometers=i.accelerometers)
-
-
-def outside_name(s: Spec) -> str:
-    """What is put into a flight with physics outside the catalogue."""
-    return outside.NAMES[(s.index + COUNTS["outside"] * (s.sample % 3)) % len(outside.NAMES)]
 
 
 def ablation(kinds: Sequence[tuple[str, str]], count: int) -> Iterator[Spec]:

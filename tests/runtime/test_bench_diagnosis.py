@@ -119,4 +119,4 @@ def test_the_plan_is_large_enough_and_seeds_have_nothing_in_common() -> None:
     assert {s.record for s in every if s.kind == "quiet"} == set(records.KINDS)
     assert not {*plan.REFERENCE, plan.ABLATION} & set(plan.HELD)
     assert sum(s.kind == "quiet" for s in every) >= 300 and sum(s.kind == "outside" for s in every) >= 100
-    assert {plan.outside_name(s) for s in every if s.kind == "outside"} == set(outside.NAMES)
+    assert {outside.name_of(s) for s in every if s.kind == "outside"} == set(outside.NAMES)
