@@ -11,10 +11,15 @@ import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import sympy
+import sympy as sp
+from sympy import QQ
+from sympy.polys.orderings import lex
+from sympy.polys.rings import PolyRing
 
-from derive import ir, recogniser
+from derive import ir, recogniser, stages
 from derive.effect import Effect
 from derive.effects import catalogue
 from derive.emit import c as _c
@@ -27,7 +32,7 @@ from derive.layout import Layout
 from derive.output_harmonics import layout_harmonics
 from derive.propagation import collect, ideal
 from derive.stages import PAPER, Kinematics, Order
-from derive.transduction import starred
+from derive.symbols import SECOND_ORDER, symbol
 
 FORMAT = 1
 """Version of the generated interface, in every manifest."""
@@ -202,3 +207,37 @@ def _told(form: Form) -> Mapping[str, object]:
 def manifest_text(manifest: Mapping[str, object]) -> str:
     """A manifest as it stands in the file."""
     return json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
+
+
+STARRED: Mapping[str, tuple[int, int, int]] = {
+    "vartheta_z": (0, 1, 0),
+    "vartheta_y": (0, 0, 1),
+    "K2": (2, 0, 0),
+    "K4": (1, 0, 1),
+    "K5": (0, 2, 0),
+    "K6": (1, 1, 0),
+    "K7": (0, 0, 2),
+    "K8": (0, 1, 1),
+}
+"""Starred quantity of Eq. 5a -> powers of (f_x, f_y, f_z) that it multiplies (vartheta_y with a minus sign)."""
+
+
+@cache
+def starred() -> dict[str, sp.Expr]:
+    """Eq. 5b: every starred coefficient by the angles and the second-order coefficients."""
+    forces = [symbol(n) for n in ("f_x", "f_y", "f_z")]
+    angles = [symbol(f"vartheta_{k}") for k in "xyz"]
+    coefficients = [symbol(n) for n in SECOND_ORDER]
+    ring = PolyRing([*forces, *angles, *coefficients], QQ, lex)
+    x, y, z = (stages.turn(sp.eye(3)[:, n], -a, PAPER.rotation) for n, a in enumerate(angles))
+    sensed = z * (y * (x * sp.Matrix(forces)))
+    f = stages.SensedForce(*(ring.from_expr(e) for e in sensed))
+    k = {s.name: ring.from_expr(s) for s in coefficients} | {"K0": ring.zero}
+    by_powers: dict[tuple[int, ...], dict[tuple[int, ...], object]] = {}
+    for monomial, c in stages.transducer(f, f, k).terms():
+        by_powers.setdefault(monomial[:3], {})[(0, 0, 0, *monomial[3:])] = c
+    signs = {"vartheta_y": -1}
+    return {
+        name: ring.from_dict(by_powers[powers]).as_expr() * signs.get(name, 1)
+        for name, powers in STARRED.items()
+    }

@@ -68,7 +68,7 @@ def _block(self: Any, node: Any) -> None:
 def _made(app: Sphinx, config: Any) -> None:
     """What is not written by hand: pages from the code, the notebook, figures, the reports of the demonstration."""
     from benchmarks.compensation import draw_transfer
-    from derive import audit, pages
+    from derive import audit
     from derive.simplify.page import page as simplified
     from docs import made as build
     from ragg_runtime.cli import demo
@@ -81,7 +81,7 @@ def _made(app: Sphinx, config: Any) -> None:
     (made / "effects").mkdir(parents=True, exist_ok=True)
     for name in ("first-steps.ipynb", "demo-flight.parquet"):
         _written(made / name, (ROOT / "examples" / name).read_bytes())
-    texts = pages.effects() | {
+    texts = build.effects() | {
         "errata.md": audit.page(),
         "simplified.md": simplified(),
         "experiments.md": page([multifrequency(), dynamic(), turbulence()]),

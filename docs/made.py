@@ -37,6 +37,16 @@ def commands() -> str:
     return "\n".join(text)
 
 
+def effects() -> dict[str, str]:
+    """``effects/<id>.md`` of every effect of the catalogue, and their index."""
+    from derive.effects import catalogue
+    from derive.emit.render import environment
+
+    one, index = (environment("derive.emit").get_template(f"{n}.md.j2") for n in ("effect", "effects"))
+    found = {f"effects/{e.id}.md": one.render(e=e) for e in catalogue()}
+    return found | {"effects.md": index.render(effects=catalogue())}
+
+
 def model_toml() -> str:
     """Keys of model.toml: prose with the table of the accelerometers' parameters."""
     from ragg_runtime.instrument.parameters import PARAMETERS

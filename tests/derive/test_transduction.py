@@ -8,8 +8,8 @@ from random import Random
 import pytest
 import sympy as sp
 
+from derive.pipeline import STARRED, starred
 from derive.propagation import MOTION_NUMBERS, collect, ideal
-from derive.transduction import STARRED, starred
 
 
 def draw(rng: Random) -> Fraction:
