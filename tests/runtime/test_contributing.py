@@ -1,4 +1,4 @@
-"""The worked example of CONTRIBUTING: the file is written to where its first line says, and does what is promised."""
+"""The worked examples of CONTRIBUTING: each file does what is promised."""
 
 from __future__ import annotations
 
@@ -17,19 +17,31 @@ import derive.effects
 from derive import pipeline
 from derive.symbols import MOTION
 from generated import folded
+from ragg_runtime.report.plots import draw_plot
+from ragg_runtime.wording.sections import render_html
 from tests.generated import draws
 
 TEXT = (Path(__file__).parents[2] / "CONTRIBUTING.md").read_text("utf-8")
 T = np.linspace(0.0, 100.0, 60)
 
 
+def body_of(path: str) -> str:
+    """The example whose first line names this path."""
+    (found,) = re.findall(rf"^```python\n(# {re.escape(path)}\n.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
+    return str(found)
+
+
+def module_of(path: str) -> ModuleType:
+    """The example as a module."""
+    module = ModuleType(Path(path).stem)
+    exec(compile(body_of(path), path, "exec"), module.__dict__)
+    return module
+
+
 @pytest.fixture
 def effect(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     """The example, beside the files of the catalogue as far as Python is concerned."""
-    (body,) = re.findall(
-        r"^```python\n(# derive/effects/humidity_bias.py\n.*?)^```$", TEXT, re.MULTILINE | re.DOTALL
-    )
-    (tmp_path / "humidity_bias.py").write_text(body, "utf-8")
+    (tmp_path / "humidity_bias.py").write_text(body_of("derive/effects/humidity_bias.py"), "utf-8")
     monkeypatch.setattr(derive.effects, "__path__", [*derive.effects.__path__, str(tmp_path)])
     derive.effects.catalogue.cache_clear()
     importlib.invalidate_caches()
@@ -64,3 +76,19 @@ def test_an_effect_is_one_file(effect: Any) -> None:
     found = voltages((effect,), {"dK0_dh": bias})
     assert found == pytest.approx(voltages((), {"K0": 0.5 * bias}), rel=1e-12)
     assert not np.allclose(found, voltages((), {}), rtol=1e-9)
+
+
+def test_a_target_is_a_package_with_four_functions(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = module_of("derive/emit/names/__init__.py")
+    monkeypatch.setattr(pipeline, "targets", lambda: (names,))
+    table = pipeline.derive_model((), ())["names/chain.csv"].splitlines()
+    assert table[0] == "kind,name,values"
+    assert {"input,a_x,1", "parameter,K1,4", "parameter,radius,1"} <= set(table)
+
+
+def test_a_panel_is_a_function_that_returns_a_section() -> None:
+    panel = module_of("ragg_runtime/report/against.py").describe_against
+    x = np.linspace(0.0, 2.0, 400)
+    section = panel(x, 3.0 * x, "temperature")
+    assert "changes by 5.7 Eo" in section.sentences[0]
+    assert "<svg" in render_html([section], draw_plot)
