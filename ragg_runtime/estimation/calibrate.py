@@ -24,8 +24,9 @@ from ragg_runtime.model.model import Model
 Array = NDArray[np.float64]
 
 MISFIT = 1.1
-"""Power of what is left, over that of the noise, from which it is more than noise: then how the noise is coloured says
-nothing of what is left, and all samples weigh the same, so that the rms is as small as it can be."""
+"""Chi-square over the number of samples from which what is left is more than noise: then how the noise is coloured says nothing of
+what is left, and all samples weigh the same, so that the rms is as small as it can be. It is that of whitened samples: the rms of a
+noise that drifts is mostly that of periods longer than the record, of which no spectrum tells."""
 
 LEAN = 10.0
 """There the noise counts as no less than what is left over this: the prior then weighs little, but keeps parameters from drifting.
@@ -80,6 +81,11 @@ class _Fall(Linear):
     def excess(self) -> float:
         """Chi-square of the data over their number."""
         return float(self.data[:, -1] @ self.data[:, -1]) / max(self.rows, 1)
+
+    @property
+    def unheld(self) -> float:
+        """The same at the end of the step that the data ask for without the prior."""
+        return float(self.data[-1, -1] ** 2) / max(self.rows, 1)
 
     def over(self, size: float) -> _Fall:
         """The same with a noise so many times as large."""
@@ -229,7 +235,7 @@ def fit(
         begun = whole if some is task else _Unweighted(some)
         x = begun.fit(x, begun.promised(x)).x
         noise = task.noise(x)
-        loud = loud or begun.left(x) ** 2 > MISFIT * task.size(noise) ** 2
+        loud = loud or task.at(x, noise).unheld > MISFIT
     if not loud:
         if start is None and some is not task:
             x = minimise(lambda at: some.at(at, noise), x).x
@@ -272,7 +278,7 @@ def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> 
         rows=at.rows,
         chi2=at.cost,
         excess=at.excess,
-        unheld=float(at.data[-1, -1] ** 2) / max(at.rows, 1),
+        unheld=at.unheld,
         converged=found.converged,
         reason=found.reason,
     )

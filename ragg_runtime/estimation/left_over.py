@@ -12,7 +12,7 @@ from scipy import fft, linalg
 
 from ragg_runtime.base.threads import stretches
 from ragg_runtime.estimation.disturbances import Disturbance, disturbances
-from ragg_runtime.estimation.noise_spectrum import estimate, hann
+from ragg_runtime.estimation.noise_spectrum import NoiseModel, estimate, hann
 from ragg_runtime.estimation.square_root import triangle
 from ragg_runtime.signals.fir import GROUP, SPARSE, filtered, not_zero
 
@@ -28,7 +28,7 @@ class Left:
 
     ``rest`` (rows,) is at the valid samples; ``rank`` the degrees of freedom of the columns; ``kept`` the share of white noise that
     they leave at each frequency of the periodogram; ``found`` the lines and jumps fitted beside them; ``shapes`` (k, rows) their
-    fitted series. ``columns`` (n, rows) times ``directions`` (n, n) are orthonormal.
+    fitted series. ``columns`` (n, rows) times ``directions`` (n, n) are orthonormal. ``valid`` (N,) says where the rows are.
     """
 
     rest: Array
@@ -38,6 +38,36 @@ class Left:
     shapes: Array
     columns: Array = field(repr=False)
     directions: Array = field(repr=False)
+    valid: NDArray[np.bool_] = field(repr=False)
+
+    def kept_of(self, noise: NoiseModel) -> Array:
+        """As ``kept``, of noise that is not white: power at each frequency of the periodogram over its density.
+
+        Columns that follow slow noise take what is slowest of it, and in return leave as much of it at frequencies beside: of white
+        noise the two balance, of red noise the second is little. With Q the columns' orthonormal basis, C the covariance and v a
+        windowed wave it is v'Cv - 2 Re v'CQ Q'v + v'Q (Q'CQ) Q'v.
+        """
+        n, valid = len(self.valid), self.valid
+        size, window = fft.next_fast_len(2 * n, real=True), hann(n)
+        density = noise.psd(fft.rfftfreq(size, 1.0 / noise.rate)) * noise.rate / 2
+        own = fft.rfft(window * valid, size)
+        lags = fft.irfft(own.real**2 + own.imag**2, size) * fft.irfft(density, size)
+        bins = n // 2 + 1
+        power = np.interp(np.arange(bins) / n, fft.rfftfreq(size), fft.rfft(lags).real)
+        cross, square, Q = np.zeros(bins), np.zeros(bins), self.directions.T @ self.columns
+        CQ, waves, coloured = (
+            np.empty_like(Q),
+            np.empty((len(Q), bins), complex),
+            np.empty((len(Q), bins), complex),
+        )
+        for k, q in enumerate(Q):
+            wide = placed(q, valid)
+            through = fft.irfft(fft.rfft(wide, size) * density, size)[:n] * valid
+            waves[k], coloured[k], CQ[k] = fft.rfft(window * wide), fft.rfft(window * through), through[valid]
+        cross = 2.0 * np.sum((waves.conj() * coloured).real, axis=0)
+        square = np.sum((waves.conj() * ((Q @ CQ.T) @ waves)).real, axis=0)
+        plain = noise.psd(np.arange(bins) * noise.rate / n) * noise.rate / 2
+        return np.asarray(np.maximum(power - cross + square, 0.0) / (plain * np.sum(window**2)))
 
 
 def left_over(
@@ -77,7 +107,7 @@ def left_over(
         if not seen:
             break
         left = beside([*left.found, *(lines or seen)])
-    return replace(left, columns=np.empty(0), directions=np.empty(0))
+    return left
 
 
 def _and(left: Left, column: Array, valid: NDArray[np.bool_]) -> Left:
@@ -109,6 +139,7 @@ def _fitted(
         shapes=np.array([fit.solution[a:b] @ wide[a:b] for a, b in pairwise(ends)]),
         columns=wide[:-1],
         directions=fit.directions,
+        valid=valid,
     )
 
 

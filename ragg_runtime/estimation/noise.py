@@ -30,7 +30,13 @@ from ragg_runtime.estimation.observation import Observation, telling
 from ragg_runtime.estimation.passes import Piece, flight_segments, passed
 from ragg_runtime.estimation.segments import ROWS, THINNER, Segment, beginnings, spread
 from ragg_runtime.estimation.slow_noise import averages
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
+from ragg_runtime.io.record import (
+    ANGULAR_ACCELERATION,
+    ANGULAR_RATE,
+    GRADIENT,
+    SPECIFIC_FORCE,
+    is_disc_angle,
+)
 from ragg_runtime.model.record import Record, quantities_of
 from ragg_runtime.signals import combinations
 from ragg_runtime.signals.fir import filtered
@@ -43,8 +49,18 @@ TAPS = 24576
 NOISE_SEGMENTS = 8
 """Most segments of a flight of which the noise is estimated: 260,000 samples tell a smooth spectrum."""
 
+COLOURED = 3
+"""Times that what columns have taken of noise that is not white is computed anew, with the spectrum that it led to."""
+
+RED = 1.5
+"""Density at the lowest frequencies over that in the middle from which that is done."""
+
 SHORTEST = 128
 """Least number of samples of which noise can be estimated."""
+
+
+MOTION = frozenset((*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION, *GRADIENT))
+"""Channels whose own values are no quantity for a level, but their sizes."""
 
 
 @dataclass(frozen=True)
@@ -166,13 +182,19 @@ def _of_level(
 ) -> Noise:
     """The noise's spectra, given how its level changes."""
     rate, band = o.record.rate, unknown_gradient.band(o)
+    spin = unknown_gradient.spin_frequency(o) if o.record.turning else None
     loud = [level.of(quantities_of(o.record, p.rows)) for p in parts]
     mean = float(np.sqrt(np.mean([np.mean(np.square(x)) for x in loud])))
     models, filters = [], []
     for m in range(len(o.series)):
         rest = [p.rest(m) / x for p, x in zip(parts, loud, strict=True)]
         slow = None if means is None else replace(means[m], rest=means[m].rest / mean)
-        model = estimate(rest, rate, band, [p.outputs[m].kept for p in parts], slow)
+        model = estimate(rest, rate, band, [p.outputs[m].kept for p in parts], slow, spin)
+        for _ in range(COLOURED if parts[0].outputs[m].columns.size else 0):
+            if model.red < RED:
+                break
+            kept = [p.outputs[m].kept_of(model) for p in parts]
+            model = estimate(rest, rate, band, kept, slow, spin)
         models.append(model)
         taps = TAPS if o.thin is None else TAPS // THINNER
         filters.append(model.whitening_filter(int(min(taps, len(o.record.time)))))
@@ -194,6 +216,10 @@ def _parts(at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segm
     random = {e.id for e in at.model.candidates if e.kind == "random"}
     shown = [(n, c.effect) for n, c in enumerate(at.candidates, len(at.base)) if c.effect in random]
 
+    def kept(x: Left) -> Left:
+        # of several segments only the means know what is slow
+        return x if len(chosen) == 1 else replace(x, columns=np.empty(0), directions=np.empty(0))
+
     def part(piece: Piece) -> _Part:
         valid = piece.observation.record.valid
         each = np.split(piece.white[piece.heard], len(o.series), axis=1)
@@ -201,7 +227,7 @@ def _parts(at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segm
         return _Part(
             rows=piece.segment.rows,
             valid=valid,
-            outputs=tuple(left_over(x, valid, rate, band, t) for x, t in zip(each, known, strict=True)),
+            outputs=tuple(kept(left_over(x, valid, rate, band, t)) for x, t in zip(each, known, strict=True)),
             taken=sum(w.white.shape[1] for w in piece.windows) / len(o.series),
             random={
                 e: tuple(piece.white[place].reshape(len(o.series), -1) ** 2)
@@ -257,14 +283,27 @@ def _disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:
     return sorted(found, key=lambda d: d.at)
 
 
+def level_quantities(r: Record) -> list[str]:
+    """Names of what a level of noise may follow in a record."""
+    names = ["time", *(f"abs({c})" for c in SPECIFIC_FORCE if c in r.wide)]
+    names += [f"abs({c[0][:-2]})" for c in (ANGULAR_RATE, ANGULAR_ACCELERATION) if set(c) <= set(r.wide)]
+    if set(SPECIFIC_FORCE) <= set(r.wide):
+        names += ["abs(a)", "in-plane", *(("input",) if r.turning else ())]
+    names += sorted(n for n in r.wide if n not in MOTION and not is_disc_angle(n))
+    names += ["phi"] if r.turning else []
+    names += [] if r.valid.all() else ["gap"]
+    return names
+
+
+def variance_shapes(noise: Noise, r: Record) -> Array:
+    """(k, rows): what the variance of whitened samples may follow, one output after the other (:func:`noise_level.shapes`)."""
+    found = noise_level.shapes(r.quantity, level_quantities(r), noise.level)[:, r.valid]
+    return np.tile(found, len(noise.filters))
+
+
 def _level(parts: Sequence[_Part], o: Observation, noise: Noise) -> Level:
     """How loud the noise is from sample to sample."""
-    names = ["time", *(f"abs({c})" for c in SPECIFIC_FORCE if c in o.record.wide)]
-    names += [
-        f"abs({c[0][:-2]})" for c in (ANGULAR_RATE, ANGULAR_ACCELERATION) if set(c) <= set(o.record.wide)
-    ]
-    names += ["phi"] if o.record.turning else []
-    names += [] if o.record.valid.all() else ["gap"]
+    names = level_quantities(o.record)
     white: list[Array] = []
     quantities: dict[str, list[Array]] = {n: [] for n in names}
     rivals: dict[str, list[Array]] = {}

@@ -9,7 +9,7 @@ against groups of samples, with their own fourth moment, so that heavy tails are
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,11 +26,20 @@ CHANGES = false_alarms.LEVEL
 INTERVALS = 48
 """Stretches of time whose levels are compared."""
 
-GROUPS = 8
-"""Groups, of equal size, of samples in the order of some quantity."""
+GROUPS = (*(np.arange(1, 8) / 8), 15 / 16, 31 / 32)
+"""Shares of the samples, in the order of some quantity, at which groups end: forces have long tails, and there the noise is loudest."""
+
+STEPPED = ("time", "phi", "gap")
+"""Quantities between whose groups the level steps; with any other one it goes on smoothly."""
 
 SECTORS = 16
 """Sectors of the disc's angle: a level that swells twice a turn takes eight for each time."""
+
+SHAPELESS = ("time", "phi", "gap")
+"""Quantities with which no variance grows."""
+
+ABSENT = 1e-9
+"""Share of a direction's square below which it is rounding."""
 
 NEAR = (1.5, 2.5, 4.5, 8.5, 16.5, 32.5, 64.5)
 """Samples from a gap between which groups are divided: what is derived there is poorer, and a filter starts anew."""
@@ -44,15 +53,19 @@ MOST = 3
 
 @dataclass(frozen=True)
 class Part:
-    """A factor of the level: ``values`` (k,) between ``edges`` (k - 1,) of a quantity, which has a name."""
+    """A factor of the level: ``values`` (k,) of a quantity, which has a name: between ``at`` (k - 1,) of it, or, geometrically
+    interpolated, where it is as large as ``at`` (k,).
+    """
 
     name: str
-    edges: Array
+    at: Array
     values: Array
 
     def of(self, quantity: Array) -> Array:
         """(N,): the factor where the quantity (N,) is so large."""
-        return np.asarray(self.values[np.searchsorted(self.edges, quantity, side="right")])
+        if len(self.at) < len(self.values):
+            return np.asarray(self.values[np.searchsorted(self.at, quantity, side="right")])
+        return np.exp(np.interp(quantity, self.at, np.log(self.values)))
 
     @property
     def ratio(self) -> float:
@@ -75,6 +88,43 @@ class Level:
         return level
 
 
+def shapes(quantity: Callable[[str], Array], names: Iterable[str], level: Level) -> Array:
+    """What a noise of known weights may still vary with: shapes (k, N) of the variance of whitened samples.
+
+    An amplifier's noise is a floor, a part in proportion to what it amplifies, and their products: variances grow with the sizes
+    of forces and rates and with their squares, and with auxiliary channels. A random effect is one only if it explains more.
+    """
+    found = [1.0]
+    for n in dict.fromkeys(names):
+        if n not in SHAPELESS:
+            x = quantity(n)
+            found += [x, x**2] if n.startswith("abs(") or n in ("in-plane", "input") else [x]
+    weight = np.broadcast_to(level.of(quantity), np.shape(found[-1]) or quantity("time").shape) ** -2.0
+    return np.stack([np.ones_like(weight), *(f * weight for f in found)])
+
+
+def excess(gram: Array) -> tuple[float, float]:
+    """Score of a variance in squared residuals, standard normal where there is none, and the share of it that no shape explains.
+
+    ``gram`` (k + 2, k + 2): inner products of shapes, of the variance, and of the squares, over samples, of which the first shape
+    is constant. The squares' own fourth moment counts, so that heavy tails raise no alarm (R. Koenker).
+    """
+    count, size = gram[0, 0], np.sqrt(np.diag(gram))
+    if not count > 0.0 or not np.all(size[-2:] > 0.0):
+        return 0.0, 0.0
+    size[size == 0.0] = 1.0
+    C = gram / np.outer(size, size)
+    k = len(C) - 2
+    values, vectors = np.linalg.eigh(C[:k, :k])
+    kept = values > ABSENT * values[-1]
+    root = vectors[:, kept] / np.sqrt(values[kept])
+    along = root.T @ C[:k, k:]
+    left = C[k:, k:] - along.T @ along
+    if left[0, 0] < ABSENT or left[1, 1] <= 0.0:
+        return 0.0, 0.0
+    return float(np.sqrt(count) * left[0, 1] / np.sqrt(left[0, 0] * left[1, 1])), float(left[0, 0])
+
+
 def estimated(
     white: Array,
     quantities: Mapping[str, Array],
@@ -82,12 +132,13 @@ def estimated(
 ) -> Level:
     """The level of whitened residuals (N,) as a function of ``quantities``, (N,) each; ``time`` and ``phi`` have a meaning.
 
-    Nothing is concluded once one of the ``rivals``, variances (N,) that random effects would add, explains it best: that is
-    for a test of that effect.
+    Nothing is concluded once one of the ``rivals``, variances (N,) that random effects would add, explains it best and more than
+    quantities can: that is for a test of that effect.
     """
     parts: list[Part] = []
     u = white
     asked = len(quantities) + len(rivals)
+    rivals = {n: x for n, x in rivals.items() if _is_rival(white, x, quantities, asked)}
     while len(parts) < MOST:
         tests = [(*_test(u, n, x), n) for n, x in (*quantities.items(), *rivals.items())]
         log_p, part, name = min(tests, key=lambda t: (t[0], t[2]))
@@ -99,6 +150,12 @@ def estimated(
     for p in parts:
         level *= p.of(quantities[p.name])
     return Level(tuple(parts), 1.0 / float(np.sqrt(np.mean(level**2)))) if parts else Level()
+
+
+def _is_rival(u: Array, variance: Array, quantities: Mapping[str, Array], asked: int) -> bool:
+    """Whether a variance (N,) explains more of u (N,) than shapes of the quantities can."""
+    X = np.stack([*shapes(quantities.__getitem__, quantities, Level()), variance, u**2])
+    return bool(special.log_ndtr(-excess(X @ X.T)[0]) + np.log(asked) < np.log(CHANGES))
 
 
 def _test(u: Array, name: str, x: Array) -> tuple[float, Part | None]:
@@ -122,7 +179,8 @@ def _test(u: Array, name: str, x: Array) -> tuple[float, Part | None]:
         edges, mean_of = _stretches(edges, count.astype(np.float64), np.asarray(power), max(2.0, inner))
         if not len(edges):
             return 0.0, None
-    return max(log_p, -1e6), Part(name, edges, np.sqrt(mean_of / mean))
+    at = edges if name in STEPPED else np.bincount(which, x) / count
+    return max(log_p, -1e6), Part(name, np.asarray(at), np.sqrt(mean_of / mean))
 
 
 def _edges(name: str, x: Array) -> Array:
@@ -134,7 +192,7 @@ def _edges(name: str, x: Array) -> Array:
         return np.array(NEAR)[fewest >= 2 * FEWEST]
     if name == "phi":
         return np.linspace(0.0, 2 * np.pi, SECTORS + 1)[1:-1]
-    edges: Array = np.unique(np.quantile(x, np.arange(1, GROUPS) / GROUPS)).astype(np.float64)
+    edges: Array = np.unique(np.quantile(x, GROUPS)).astype(np.float64)
     return edges[(edges > np.min(x)) & (edges <= np.max(x))]
 
 
@@ -168,6 +226,8 @@ def in_words(level: Level) -> str | None:
         "time": "in the course of the record",
         "phi": "with the angle of the disc",
         "gap": "next to gaps",
+        "in-plane": "with the specific force in the plane of the disc",
+        "input": "with the specific force along the input axes",
     }
     said = [f"{names.get(p.name, f'with {p.name}')} ({p.ratio:.2g} times)" for p in level.parts]
     return f"the noise changes its level {' and '.join(said)}; every sample is weighed by it"

@@ -17,7 +17,7 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft, interpolate, optimize
+from scipy import fft, interpolate, linalg, optimize
 
 from ragg_runtime.estimation.noise_level import Level
 
@@ -82,6 +82,14 @@ class NoiseModel:
         area = np.sum(np.diff(f) * (S[1:] + S[:-1]) / 2.0)  # NumPy 1 has no trapezoid
         return float(np.sqrt(area + S[0] * f[0]))
 
+    @property
+    def red(self) -> float:
+        """Density at the lowest frequency that was seen over that in the middle (of the logarithm)."""
+        low = self.log_f[0] + BELOW
+        at = np.exp([low, (low + self.log_f[-1]) / 2])
+        lowest, middle = self.psd(at)
+        return float(lowest / middle)
+
     def whitening_filter(self, length: int) -> Array:
         """Causal minimum-phase FIR (length,) that turns this noise into white noise of unit variance.
 
@@ -123,26 +131,33 @@ def estimate(
     without: tuple[float, float] | None = None,
     kept: Sequence[Array] | None = None,
     slow: Averages | None = None,
+    spin: float | None = None,
 ) -> NoiseModel:
     """Spectrum of the noise from contiguous stretches of residual, by Whittle fits.
 
     Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise. ``kept``: for
     every stretch the share of the noise that a fit has left it at each frequency of its periodogram (default: all). ``slow``: of
-    a record of which the stretches are but parts.
+    a record of which the stretches are but parts. ``spin``: the spin rate, Hz; about one and two times it the spectrum is resolved
+    finely where it asks for that.
 
-    First alpha f^-b + omega_T (paper, Eq. 53), which also says how the noise goes on below the lowest
+    First alpha f^-b + omega_T (paper, Eq. 53), b from 1 to 2, which also says how the noise goes on below the lowest
     frequency of the record; then a smooth correction, a spline of the logarithm over log frequency, fitted
     as a gamma generalised linear model. Neither bends to a single line.
     """
     f, p, count = _periodogram(residuals, rate, without, kept, slow)
-    coarse = _corrected(f, p, count, _red_and_white(f, p, count), None)
-    fine = _corrected(f, p, count, _red_and_white(*_lower(f, p, count)), rate)
-    # Twice the gain in log likelihood against the number of coefficients (BIC).
-    gain = coarse.cost - fine.cost
-    chosen = fine if gain > (fine.size - coarse.size) * np.log(len(f)) else coarse
+    low = _lower(f, p, count)
+    choices = [
+        _corrected(f, p, count, _red_and_white(*some), dense, humps)
+        for humps in _humps(spin)
+        for some, dense in ((_beside(humps, f, p, count), None), (_beside(humps, *low), rate))
+    ]
+    # twice the log likelihood against the number of coefficients (BIC)
+    chosen = min(choices, key=lambda c: c.cost + c.size * np.log(len(f)))
     x = np.log(f)
     grid = np.linspace(x[0] - BELOW, x[-1], 513)
     near = np.abs(np.clip(grid, x[0], x[-1])[:, None] - x[None, :]) < SMOOTH
+    hump = np.any(_hats(np.exp(grid), chosen.humps), axis=1)
+    near[hump] = np.abs(np.exp(grid[hump])[:, None] - f[None, :]) < APART
     spread = 1 / np.sqrt(np.maximum(near @ count, 1.0))
     log_psd = np.asarray(np.log(chosen.base(np.exp(grid))) + chosen.at(np.exp(np.clip(grid, x[0], x[-1]))))
     model = NoiseModel(rate, grid, log_psd, spread)
@@ -159,6 +174,34 @@ class _Correction:
     at: Callable[[Array], Array]
     size: int
     cost: float
+    humps: tuple[float, ...]
+
+
+FREE = 0.1
+"""How much they are held back: hardly."""
+
+APART, HATS = 0.08, 2
+"""Hz between nodes of what is resolved about a multiple of the spin rate, and how many there are on either side: noise that modulates
+a carrier is as far from it as the noise is slow, and as strong on both sides."""
+
+
+def _humps(spin: float | None) -> list[tuple[float, ...]]:
+    """Frequencies about which the spectrum may be resolved finely."""
+    return [()] if spin is None else [(), (spin,), (2 * spin,), (spin, 2 * spin)]
+
+
+def _hats(f: Array, humps: Sequence[float]) -> Array:
+    """(n, HATS for each): hat functions of the distance from the humps, Hz; of near ones they are narrower."""
+    apart = min(APART, 0.32 * humps[0]) if humps else APART
+    away = [np.abs(f - h) / apart for h in humps]
+    found = [np.clip(1.0 - np.abs(x - k), 0.0, None) for x in away for k in range(HATS)]
+    return np.stack(found, axis=1) if found else np.empty((len(f), 0))
+
+
+def _beside(humps: Sequence[float], f: Array, p: Array, count: Array) -> tuple[Array, Array, Array]:
+    """The frequencies beside the humps."""
+    beside = ~np.any(_hats(f, humps), axis=1)
+    return (f[beside], p[beside], count[beside]) if 2 * np.sum(beside) > len(f) else (f, p, count)
 
 
 def _lower(f: Array, p: Array, count: Array) -> tuple[Array, Array, Array]:
@@ -168,7 +211,12 @@ def _lower(f: Array, p: Array, count: Array) -> tuple[Array, Array, Array]:
 
 
 def _corrected(
-    f: Array, p: Array, count: Array, base: Callable[[Array], Array], dense: float | None
+    f: Array,
+    p: Array,
+    count: Array,
+    base: Callable[[Array], Array],
+    dense: float | None,
+    humps: tuple[float, ...] = (),
 ) -> _Correction:
     """The correction of ``base`` to the periodogram p (n,) at f (n,).
 
@@ -193,6 +241,10 @@ def _corrected(
         centre = np.array([np.mean(knots[k + 1 : k + 4]) for k in range(len(b))])
         held[centre > scale(np.array(dense / (2 * FINE)))] = LOOSE
     penalty = 20.0 * (roughness.T * held[1:-1]) @ roughness + 2.0 * np.diag(held)
+    hats = _hats(f, humps)
+    X = np.hstack([X, hats])
+    penalty = linalg.block_diag(penalty, FREE * np.eye(hats.shape[1]))
+    b = np.zeros(X.shape[1])
     if dense is not None:  # the search begins near its end
         b[:] = np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ np.log(p / level))
     for _ in range(50):
@@ -204,8 +256,12 @@ def _corrected(
             break
     fitted = X @ b
     cost = 2 * float(np.sum(count * (np.log(level) + fitted + p / (level * np.exp(fitted)))))
-    spline = interpolate.BSpline(knots, b, 3)
-    return _Correction(base, lambda g: np.asarray(spline(np.clip(scale(g), x[0], x[-1]))), size, cost)
+    spline, over = interpolate.BSpline(knots, b[:size], 3), b[size:]
+
+    def at(g: Array) -> Array:
+        return np.asarray(spline(np.clip(scale(g), x[0], x[-1])) + _hats(g, humps) @ over)
+
+    return _Correction(base, at, X.shape[1], cost, humps)
 
 
 LEFT = 0.1
@@ -292,32 +348,47 @@ def without_lines(p: Array) -> Array:
     return found
 
 
+EXPONENTS = (1.0, 1.5, 2.0)
+"""Of red noise, from flicker to a random walk, each as likely as any other before a record is seen."""
+
+
 def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]:
-    """alpha f^-b + omega_T by maximum (Whittle) likelihood, with a weak prior that the noise is white."""
+    """alpha f^-b + omega_T by maximum (Whittle) likelihood for each of :data:`EXPONENTS`: the mean density, by their likelihoods.
+
+    A few bins hardly tell one exponent from another, and below them all depends on it: there the mean is of the noise that there may be.
+    """
     white = float(np.median(p[f >= np.sqrt(f[0] * f[-1])]))
-
-    def density(theta: Array, f: Array) -> Array:
-        return np.asarray(white * (np.exp(theta[0]) + np.exp(theta[1]) * (f / 0.1) ** (-theta[2])))
-
     log_f = np.log(f / 0.1)
 
-    def cost(theta: Array) -> tuple[float, Array]:
-        """And its gradient, by which the optimum is found to rounding, whatever that does on the way."""
-        flat, red = white * np.exp(theta[0]), white * np.exp(theta[1] - theta[2] * log_f)
-        s = flat + red
-        slope = count * (1.0 - p / s) / s
-        sums = np.array([np.sum(slope) * flat, slope @ red, -(slope * red) @ log_f + theta[2] - 1.0])
-        return float(np.sum(count * (np.log(s) + p / s)) + 0.5 * (theta[2] - 1.0) ** 2), sums
+    def fitted(b: float) -> tuple[float, Array]:
+        def cost(theta: Array) -> tuple[float, Array]:
+            """And its gradient, by which the optimum is found to rounding, whatever that does on the way."""
+            flat, red = white * np.exp(theta[0]), white * np.exp(theta[1] - b * log_f)
+            s = flat + red
+            slope = count * (1.0 - p / s) / s
+            return float(np.sum(count * (np.log(s) + p / s))), np.array([np.sum(slope) * flat, slope @ red])
 
-    best = optimize.minimize(
-        cost,
-        np.array([0.0, -3.0, 1.0]),
-        jac=True,
-        method="L-BFGS-B",
-        bounds=[(-5, 5), (-14, 8), (0.1, 3.0)],
-        options={"ftol": 1e-14, "gtol": 1e-8},
-    )
-    return lambda g: density(best.x, g)
+        best = optimize.minimize(
+            cost,
+            np.array([0.0, -3.0]),
+            jac=True,
+            method="L-BFGS-B",
+            bounds=[(-5, 5), (-14, 8)],
+            options={"ftol": 1e-14, "gtol": 1e-8},
+        )
+        return float(best.fun), white * np.exp(best.x)
+
+    fits = [fitted(b) for b in EXPONENTS]
+    weights = np.exp(min(c for c, _ in fits) - np.array([c for c, _ in fits]))
+    weights /= np.sum(weights)
+
+    def density(g: Array) -> Array:
+        found = np.zeros(np.shape(g))
+        for w, b, (_, (flat, red)) in zip(weights, EXPONENTS, fits, strict=True):
+            found += w * (flat + red * (g / 0.1) ** -b)
+        return found
+
+    return density
 
 
 @lru_cache(maxsize=64)

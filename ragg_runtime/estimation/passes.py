@@ -42,6 +42,7 @@ class Piece:
     sample: NDArray[np.intp]
     windows: Sequence[Window]
     heard: slice | NDArray[np.intp]
+    noise: Noise
 
     def triangle(self, first: int = 0, stop: int | None = None) -> Array:
         """Triangular factor (n + 1, n + 1) of the whitened columns: of the flight's samples from ``first`` on, before ``stop``."""
@@ -150,6 +151,7 @@ def passed(
             sample=sample,
             windows=windows,
             heard=heard,
+            noise=noise,
         )
         made = work(piece)
         progress.step(share * (s.rows.stop - s.rows.start))

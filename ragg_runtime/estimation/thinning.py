@@ -196,6 +196,7 @@ def _kept(o: Observation, thin: Thin) -> Observation:
         valid=_supported(r.valid, thin),
         halo=(0, 0),
         whole=None,
+        instants=None,
     )
     return replace(o, record=record, series=tuple(series), thin=thin, memo=[])
 

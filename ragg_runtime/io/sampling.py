@@ -14,6 +14,9 @@ from ragg_runtime.io.record import Array
 JITTER_NOTED = 1e-3
 """Deviation from uniform sampling, in steps, that is worth a note."""
 
+JITTER_FOLLOWED = 1e-7
+"""The same from which derivatives are made by way of even instants: the last digits of a time of a day."""
+
 JITTER_REFUSED = 0.25
 """Error of one step, in steps, from which the samples have to follow a steady clock instead."""
 
@@ -35,7 +38,7 @@ class Grid:
 
     ``index`` (n,): places of the file's samples, increasing from 0. ``time`` (N,) s: the whole grid, the file's own
     instants where it has a sample. ``step``: s. ``jitters``: whether instants leave the grid by more than
-    ``JITTER_NOTED``.
+    ``JITTER_FOLLOWED``.
     """
 
     index: NDArray[np.int64]
@@ -85,7 +88,7 @@ def uniform(time: Array, path: Path | str | None) -> Grid:
             remedy="split the record at its gaps into one file each",
         )
     whole = time if count == len(time) else np.interp(np.arange(count), index, time)
-    jitters = bool(np.max(deviation) > JITTER_NOTED)
+    jitters = bool(np.max(deviation) > JITTER_FOLLOWED)
     return Grid(
         index=index,
         time=whole,

@@ -13,7 +13,7 @@ from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Vector3, gain
 from ragg_runtime.io import Flight
-from ragg_runtime.io.record import GRADIENT, RATES
+from ragg_runtime.io.record import GRADIENT, RATES, SPECIFIC_FORCE
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.signals.demodulators import Demodulator
@@ -42,6 +42,9 @@ SPIN = ("d_spin_angle", "d2_spin_angle")
 SPIN_WINDOW = 0.6
 """Half the stretch, s, over which the encoder's angle is smoothed for its rate."""
 
+EVEN = 1e-7
+"""Steps by which instants may be off even ones to count as even: the last digits of a time of a day."""
+
 CHUNK = 1 << 16
 """Samples of a long record's encoder that are looked at at a time."""
 
@@ -56,7 +59,7 @@ class Record:
     gradient shows as T_1 sin(2 phi + phase) + T_2 cos(2 phi + phase). ``axes``: first two of the disc at rest in the
     measurement frame; ``None``: x and y. ``every``: samples from one recorded inline and cross to the next. ``whole``:
     what this is a part of. ``resolution``: column -> the step in which it was recorded, SI; columns that are not in it have
-    none to speak of.
+    none to speak of. ``instants`` (before + N + after,): times of all samples of a part.
     """
 
     time: Array
@@ -72,6 +75,7 @@ class Record:
     demodulation: Demodulation = OURS
     every: int = 1
     whole: Record | None = None
+    instants: Array | None = None
     resolution: Mapping[str, float] = field(default_factory=dict)
     start: float = 0.0
 
@@ -119,7 +123,7 @@ class Record:
         """Of the polynomials that give the disc's rate from its encoder: those of the whole record, in every part of it."""
         if self.whole is not None:
             return self.whole.spin_degree
-        return spin_degree(self.wide.get(self.angle_column), self.rate)
+        return spin_degree(self.wide.get(self.angle_column), self.rate, self._lateness)
 
     @cached_property
     def cos_phi(self) -> Array:
@@ -128,6 +132,11 @@ class Record:
     @cached_property
     def sin_phi(self) -> Array:
         return np.asarray(np.sin(self.phi))
+
+    @property
+    def _lateness(self) -> Array | None:
+        """Of all samples, those of the halo too."""
+        return lateness(self.time if self.instants is None else self.instants, self.rate)
 
     def inputs(self, chain: Chain) -> Array:
         """(n_inputs, N) in the order of the module's INPUTS; channels that were not recorded are zero."""
@@ -150,7 +159,8 @@ class Record:
 
     def quantity(self, name: str) -> Array:
         """(N,): what a level of noise may follow: ``time``, ``phi`` (from 0 to 2 pi), ``gap`` (samples from the next that is
-        not valid), ``abs(CHANNEL)``, or ``abs(VECTOR)``, its length.
+        not valid), a channel, ``abs(CHANNEL)``, ``abs(VECTOR)``, its length, ``in-plane``, the length of the specific force in the
+        disc's plane, or ``input``, the sum of its sizes along the input axes of two accelerometers a quarter apart.
         """
         if name == "time":
             return self.time
@@ -158,10 +168,26 @@ class Record:
             return _from_gap(self.valid)
         if name == "phi":
             return np.asarray(np.mod(self.phi, 2 * np.pi))
+        if name == "in-plane":
+            return np.hypot(*self._in_plane)
+        if name == "input":
+            x, y = self._in_plane
+            return np.abs(y * self.cos_phi - x * self.sin_phi) + np.abs(x * self.cos_phi + y * self.sin_phi)
+        if name in self.channels:
+            return self.channels[name]
         inner = name[4:-1]
         if inner in self.channels:
             return np.abs(self.channels[inner])
         return np.sqrt(sum((self.channels[f"{inner}_{k}"] ** 2 for k in "xyz"), np.zeros(len(self.time))))
+
+    @property
+    def _in_plane(self) -> tuple[Array, Array]:
+        """The specific force along the first two axes of the disc at rest, (N,) each, m/s^2."""
+        a = [self.channels[n] for n in SPECIFIC_FORCE]
+        if self.axes is None:
+            return a[0], a[1]
+        one, two = (np.asarray(sum(w * x for w, x in zip(axis, a, strict=True))) for axis in self.axes)
+        return one, two
 
     def part(self, rows: slice, only: Container[str] | None = None) -> Record:
         """Some of the samples, copied, with what derivatives need of their neighbours; ``only`` some channels, and the angle."""
@@ -178,7 +204,15 @@ class Record:
         valid = np.array(self.valid[rows])
         time = np.array(self.time[rows])
         halo = (a - first, last - b)
-        return replace(self, time=time, wide=wide, valid=valid, halo=halo, whole=self.whole or self)
+        return replace(
+            self,
+            time=time,
+            wide=wide,
+            valid=valid,
+            halo=halo,
+            whole=self.whole or self,
+            instants=np.array(self.time[first:last]),
+        )
 
     def moved(self, moves: Mapping[str, tuple[float, float]]) -> Record:
         """The record with motion taken from later in it: quantity (``a`` ...) -> lateness, s, at time 0 and per second."""
@@ -240,12 +274,20 @@ class Record:
         if name in SPIN:
             encoder = self.wide.get(self.angle_column)
             length = len(self.time) + sum(self.halo)
-            return spin(name, encoder, length, self.rate, self.spin_frequency, self.spin_degree)
+            return spin(
+                name, encoder, length, self.rate, self.spin_frequency, self.spin_degree, self._lateness
+            )
         for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
             if name.startswith(prefix):
                 inner = self._wide(base)
                 return None if inner is None else differentiate(inner, self.rate)
         return None
+
+
+def lateness(time: Array, rate: float) -> Array | None:
+    """By how many steps samples at these instants, (N,), s, are later than evenly spaced ones; ``None`` if they are even."""
+    late = (time - time[0]) * rate - np.arange(len(time)) if len(time) else time
+    return late if np.max(np.abs(late), initial=0.0) > EVEN else None
 
 
 def spin(
@@ -255,22 +297,27 @@ def spin(
     rate: float,
     spin_frequency: float,
     degree: int = DEGREES[0],
+    late: Array | None = None,
 ) -> Array:
-    """Rate, rad/s, or acceleration, rad/s^2, of the disc angle, (samples,), by the encoder (rad); NaN where it has none."""
+    """Rate, rad/s, or acceleration, rad/s^2, of the disc angle, (samples,), by the encoder (rad); NaN where it has none.
+
+    ``late`` (samples,): by how many steps each sample is later than an evenly spaced one. What the disc turns meanwhile is no
+    swing of it; the swing itself is so slow that it may be differentiated as if steps were even.
+    """
     order = SPIN.index(name) + 1
     if encoder is None:
         return np.full(samples, 2 * np.pi * spin_frequency if order == 1 else 0.0)
     found = np.full(samples, np.nan)
     for run in stretches(np.isfinite(encoder), DEGREES[0] + 2):
         half = min(_half(rate), (run.stop - run.start - 1) // 2)
-        steady, swing = steady_and_swing(encoder[run])
+        steady, swing = steady_and_swing(encoder[run], None if late is None else late[run])
         bearable = max(d for d in DEGREES if d == DEGREES[0] or d <= min(degree, 2 * half - 1))
         slope = smooth_slope(swing, half, order, bearable)
         found[run] = (slope + steady) * rate if order == 1 else slope * (rate * rate)
     return found
 
 
-def spin_degree(encoder: Array | None, rate: float) -> int:
+def spin_degree(encoder: Array | None, rate: float, late: Array | None = None) -> int:
     """Of the polynomials for the rate of the angle (N,), rad, of a whole record; the lowest without an encoder."""
     if encoder is None:
         return DEGREES[0]
@@ -278,9 +325,10 @@ def spin_degree(encoder: Array | None, rate: float) -> int:
 
     def angles() -> Iterator[Array]:
         for a in range(0, len(encoder), CHUNK):
-            angle = np.array(encoder[max(0, a - half) : a + CHUNK + half])
+            rows = slice(max(0, a - half), a + CHUNK + half)
+            angle = np.array(encoder[rows])
             for run in stretches(np.isfinite(angle), 2):
-                yield steady_and_swing(angle[run])[1]
+                yield steady_and_swing(angle[run], None if late is None else late[rows][run])[1]
 
     return best_degree(angles(), half)
 

@@ -16,7 +16,16 @@ from ragg_runtime.instrument.layout import PAPER, Disc, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
-from ragg_runtime.model.record import GRADIENTS, SPIN, differentiated, disc_angle, spin, spin_degree, start_of
+from ragg_runtime.model.record import (
+    GRADIENTS,
+    SPIN,
+    differentiated,
+    disc_angle,
+    lateness,
+    spin,
+    spin_degree,
+    start_of,
+)
 from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.derivative import differentiate
 from ragg_runtime.signals.fir import convolved
@@ -275,9 +284,10 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (),
         if name in SPIN:
             disc = instrument.layout.discs[instrument.layout.outputs[place].disc]
             encoder = flight.channels.get(disc.angle_column)
-            degree = spin_degree(encoder, flight.rate)
+            late = None if encoder is None else lateness(flight.time, flight.rate)
+            degree = spin_degree(encoder, flight.rate, late)
             samples = 1 if encoder is None else len(flight)  # without an encoder it is a constant
-            one = spin(name, encoder, samples, flight.rate, disc.spin_frequency, degree)
+            one = spin(name, encoder, samples, flight.rate, disc.spin_frequency, degree, late)
             derived[name] = np.broadcast_to(one, len(flight))
             continue
         order = 2 if name.startswith("d2_") else 1

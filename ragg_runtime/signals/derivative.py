@@ -156,15 +156,20 @@ def smooth_slope(x: Array, half: int, order: int, degree: int = DEGREES[0]) -> A
     return found
 
 
-def steady_and_swing(angle: Array) -> tuple[float, Array]:
+def steady_and_swing(angle: Array, late: Array | None = None) -> tuple[float, Array]:
     """An angle, rad, (N,), N > 1, in which whole turns may be missing: its mean step a sample, and what it has beyond it, (N,).
+
+    ``late`` (N,): by how many steps each sample is later than an evenly spaced one.
 
     A swing of a radian keeps its digits where the angle itself, of thousands of radians, would lose them.
     """
     steps = np.diff(angle)
     steps -= 2 * np.pi * np.rint(steps / (2 * np.pi))
     mean = float(np.cumsum(steps)[-1]) / len(steps)
-    return mean, np.concatenate([[0.0], np.cumsum(steps - mean)])
+    if late is None:
+        return mean, np.concatenate([[0.0], np.cumsum(steps - mean)])
+    mean /= 1.0 + float(late[-1] - late[0]) / len(steps)
+    return mean, np.concatenate([[0.0], np.cumsum(steps - mean)]) - mean * (late - late[0])
 
 
 def best_degree(x: Iterable[Array], half: int) -> int:
