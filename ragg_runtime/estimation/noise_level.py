@@ -94,12 +94,12 @@ def shapes(quantity: Callable[[str], Array], names: Iterable[str], level: Level)
     An amplifier's noise is a floor, a part in proportion to what it amplifies, and their products: variances grow with the sizes
     of forces and rates and with their squares, and with auxiliary channels. A random effect is one only if it explains more.
     """
-    found = [1.0]
+    found = [np.ones_like(quantity("time"))]
     for n in dict.fromkeys(names):
         if n not in SHAPELESS:
             x = quantity(n)
             found += [x, x**2] if n.startswith("abs(") or n in ("in-plane", "input") else [x]
-    weight = np.broadcast_to(level.of(quantity), np.shape(found[-1]) or quantity("time").shape) ** -2.0
+    weight = np.broadcast_to(level.of(quantity), found[0].shape) ** -2.0
     return np.stack([np.ones_like(weight), *(f * weight for f in found)])
 
 

@@ -11,8 +11,8 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import read_flight, write_flight
+from ragg_runtime.model.record import Record, spin_degree
 from ragg_runtime.model.record import spin as turning_rate
-from ragg_runtime.model.record import spin_degree
 from ragg_runtime.signals.derivative import DEGREES
 from ragg_runtime.simulate import simulated, turning_of
 from tests.layouts import sheets
@@ -115,3 +115,14 @@ def test_the_option(tmp_path: Path) -> None:
     out = tmp_path / "flight.csv"
     assert ragg("simulate", tmp_path / "m", "-o", out, "--duration", 5, "--spin", "-0.25").returncode == 0
     assert np.all(np.diff(np.unwrap(read_flight(out, 9.8).channels["spin_angle"])) < 0)
+
+
+def test_an_encoder_read_at_uneven_instants_turns_evenly() -> None:
+    """What the disc turns while a sample is late is no change of its rate."""
+    rng = np.random.default_rng(3)
+    time = (np.arange(800.0) + 1e-3 * rng.normal(size=800)) / 16.0
+    r = Record(time, {"spin_angle": 2 * np.pi * 0.25 * time}, 16.0, np.ones(800, dtype=np.bool_), 0.25)
+    for part in (r, r.part(slice(200, 500))):
+        rate, change = part.series("d_spin_angle"), part.series("d2_spin_angle")
+        assert rate == pytest.approx(np.full(len(part.time), np.pi / 2), abs=1e-9)
+        assert change == pytest.approx(np.zeros(len(part.time)), abs=1e-9)
