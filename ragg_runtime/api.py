@@ -304,10 +304,7 @@ def compare(m: Loaded, flights: Flights, *, ladder: bool = False) -> Comparison:
 
 
 def diagnose(
-    m: Loaded,
-    flights: Flights,
-    limits: Mapping[str, float] = LIMITS,
-    compared: Comparison | None = None,
+    m: Loaded, flights: Flights, limits: Mapping[str, float] = LIMITS, compared: Comparison | None = None
 ) -> Diagnosis:
     """Which physical effect the model lacks; with ``compared`` of the same flights nothing is fitted again."""
     flights = read_flights(m, flights)

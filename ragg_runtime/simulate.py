@@ -199,8 +199,7 @@ def _numbers(effect: Effect, name: str, text: str, instrument: Instrument) -> Ar
             break
     else:
         raise UserError(
-            f"{effect.id} has no parameter {name!r}",
-            expected=", ".join(q.name for q in effect.parameters),
+            f"{effect.id} has no parameter {name!r}", expected=", ".join(q.name for q in effect.parameters)
         )
     try:
         raw = np.array([float(x) for x in text.split("/")])
@@ -208,10 +207,7 @@ def _numbers(effect: Effect, name: str, text: str, instrument: Instrument) -> Ar
         raise UserError("not a number", where=f"--effect {effect.id}", found=repr(text)) from None
     if len(raw) not in ((1,) if q.shared else (1, count)):
         wanted = "one value" if q.shared else f"one value or {'four' if count == 4 else count} joined by /"
-        raise UserError(
-            f"{effect.id}: {name} takes {wanted}",
-            found=repr(text),
-        )
+        raise UserError(f"{effect.id}: {name} takes {wanted}", found=repr(text))
     known = units(instrument.g0)
     si = np.asarray(known.to_si(raw, q.unit, known.base_unit(q.unit)))
     return si if len(si) == count and not q.shared else si[0]

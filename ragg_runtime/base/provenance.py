@@ -33,9 +33,7 @@ def command() -> str:
 
 
 def provenance(
-    made_by: str,
-    model: Mapping[str, object] | None = None,
-    files: Sequence[tuple[str, str | None]] = (),
+    made_by: str, model: Mapping[str, object] | None = None, files: Sequence[tuple[str, str | None]] = ()
 ) -> dict[str, object]:
     """The object ``provenance`` of a JSON result: command line, identity of the model, (path, SHA-256) of the flights."""
     flights = [{"path": path, "digest": digest} for path, digest in files]

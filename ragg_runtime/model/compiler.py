@@ -42,6 +42,9 @@ FOR_PROCESSOR: tuple[tuple[str, ...], ...] = (
 HANGING = 30.0
 """How long a compiler is waited for, s: half a second is usual, on a busy machine ten. NumPy serves after that."""
 
+SLOW = 4.0
+"""Times as long that of ziglang is waited for, which compiles its own library first."""
+
 
 class BuildError(Exception):
     """The C cannot be compiled or loaded; the message says why."""
@@ -110,6 +113,7 @@ def find_compiler() -> list[str]:
 
 def _run(command: Sequence[str], folder: str | None = None) -> tuple[int, str]:
     """Exit status, and what was said: to a file, as children of a compiler that hangs would keep a pipe open."""
+    patience = HANGING * (SLOW if "ziglang" in command else 1.0)
     with tempfile.TemporaryFile("w+", errors="replace") as said:
         try:
             done = subprocess.run(
@@ -118,11 +122,11 @@ def _run(command: Sequence[str], folder: str | None = None) -> tuple[int, str]:
                 stdin=subprocess.DEVNULL,
                 stdout=said,
                 stderr=said,
-                timeout=HANGING,
+                timeout=patience,
                 check=False,
             )
         except subprocess.TimeoutExpired:
-            told = f"the C compiler {command[0]} does not answer within {HANGING:g} s"
+            told = f"the C compiler {command[0]} does not answer within {patience:g} s"
             _given_up[command[0]] = told
             progress.remark(f"{told}; the slower NumPy code serves")
             raise BuildError(told) from None

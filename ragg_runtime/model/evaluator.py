@@ -236,11 +236,7 @@ def _warn_once(why: str) -> None:
 
 
 def for_fits(
-    modules: Mapping[str, Chain],
-    sources: Mapping[str, str],
-    layout: Layout = PAPER,
-    *,
-    quick: bool = False,
+    modules: Mapping[str, Chain], sources: Mapping[str, str], layout: Layout = PAPER, *, quick: bool = False
 ) -> Callable[[str], Evaluator]:
     """Evaluators of generated modules (name -> module) for their derivatives, each made when it is asked for by name.
 

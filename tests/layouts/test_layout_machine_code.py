@@ -35,7 +35,7 @@ def drawn(chain_inputs: tuple[str, ...]) -> np.ndarray:
     return np.stack([rng.standard_normal(N) * size[n.split("_")[0]] for n in chain_inputs])
 
 
-@pytest.mark.parametrize("name", LAYOUTS)
+@pytest.mark.parametrize("name", ["odd"])  # the others against fifty digits
 def test_c_agrees_with_numpy(name: str) -> None:
     i = instrument(name, sheets.EXACT)
     model, _ = derive.derived((), (), i.form, i.layout)

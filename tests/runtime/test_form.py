@@ -126,13 +126,11 @@ def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> No
     "form",
     [
         PAPER,
-        Form(kinematics="full"),
         EXACT,
-        Form(mounting="exact", misalignment="exact"),
         Form(mounting=2, misalignment="exact"),
         Form(kinematics="full", mounting="exact", second_order_angles=True),
     ],
-    ids=["paper", "full", "exact", "platform exact", "mixed", "mixed full"],
+    ids=["paper", "exact", "mixed", "mixed full"],
 )
 def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -> None:
     """Nominal error below 0.1 Eo; measured below 1e-5."""
@@ -219,7 +217,7 @@ def test_a_paper_model_lacks_the_spin_and_adding_it_brings_the_error_to_the_nois
 
 def test_the_ladder_says_what_each_step_is_worth(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     m = api.new(tmp_path / "m")
-    flight = simulated(m.instrument, (), seed=5, duration=300.0, no_gradient=False)
+    flight = simulated(m.instrument, (), seed=5, duration=120.0, no_gradient=False)
     c = api.compare(m, [flight], ladder=True)
     assert [r.form for r in c.ladder] == list(STEPS)
     steps = [r.step.rms_Eo for r in c.ladder if r.step is not None]

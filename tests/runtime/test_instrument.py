@@ -66,12 +66,6 @@ def test_values_in_si() -> None:
     assert all(v.shape == (4,) and not v.flags.writeable for v in k.values())
 
 
-def test_scale_factor_of_the_shared_nominal() -> None:
-    """Four equal accelerometers: 4 k_VI K1 R."""
-    found = parse_instrument(with_line("[0, 30, 35, 25]", "0")).replace(K1=1e-3, k_VI=2e9)
-    assert found.scale_factor == pytest.approx(4 * 2e9 * 1e-3 * 0.1)
-
-
 def test_effects() -> None:
     found = parse_instrument(
         with_effects(
@@ -167,25 +161,6 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
     assert read_instrument(tmp_path / "windows.toml").radius == 0.1
 
 
-def test_build_and_replace_check_names_and_shapes() -> None:
-    made = Instrument.build(0.1, 0.25, 9.8, {"K1": 1e-3, "k_VI": 1e9})
-    assert made.replace(K0=[1, 2, 3, 4]).accelerometers["K0"].tolist() == [1, 2, 3, 4]
-    assert not made.accelerometers["K0"].any()
-    with pytest.raises(UserError, match="K9"):
-        made.replace(K9=1.0)
-    with pytest.raises(UserError, match="K1"):
-        Instrument.build(0.1, 0.25, 9.8, {"k_VI": 1e9})
-
-
-def test_plausible_sizes() -> None:
-    sizes = {p.name: p.plausible_si(np.full(4, 2.0), 9.8) for p in PARAMETERS}
-    assert sizes["dR"] == pytest.approx([50e-6] * 4)
-    assert sizes["beta_x"] == pytest.approx([5e-4] * 4, rel=0.05)
-    assert sizes["K0"] == pytest.approx([50e-6 * 9.8] * 4)
-    assert sizes["K4"] == pytest.approx([20e-6 / 9.8] * 4)
-    assert sizes["K1"] == pytest.approx([2e-3] * 4)
-
-
 def test_edits_keep_everything_else() -> None:
     text = set_parameters(
         TEXT, {"dR": RawQuantity((1.0, 2.5, 3.0, 4.0), "um"), "K5": RawQuantity(7.0, "ug/g^2")}
@@ -232,7 +207,7 @@ def test_effects_are_added_to_any_form_of_the_list(head: str, tail: str) -> None
     assert [e.id for e in parse_instrument(remove_effect(added, "lag")).effects] == before
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=8)
 @given(st.floats(0.1, 100), st.lists(st.floats(-1e3, 1e3), min_size=4, max_size=4), st.floats(1e-4, 1e-2))
 def test_written_instruments_read_back(g0: float, values: list[float], k1: float) -> None:
     made = Instrument.build(

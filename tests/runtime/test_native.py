@@ -16,7 +16,6 @@ from derive.pipeline import derive_model
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import observation
 from ragg_runtime.estimation.linearise import Point, linearised
-from ragg_runtime.identification import comparison
 from ragg_runtime.model.compiler import BuildError, build, find_compiler, load, private_folder
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.evaluator import Evaluator, NativeWarning, _warn_once, changes
@@ -122,8 +121,8 @@ def test_extended_model_is_that_of_numpy(extended: Model, case: tuple[Array, Arr
 
 @needs_compiler
 def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Same verdict of the evidence and, but for rounding, the same figures; NumPy serves without a note."""
-    s = scenario(63, duration=300.0)
+    """But for rounding; NumPy serves without a note."""
+    s = scenario(63, duration=60.0)
     flight = s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
     found = []
     for off in (False, True):
@@ -134,16 +133,11 @@ def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch
         at = Point(model, s.sheet, vector(model, s.sheet), with_candidates=True)
         columns = linearised(at, o)
         assert {model.evaluators(n).backend for n in ("chain", "signatures")} == {"numpy" if off else "c"}
-        found.append((columns, comparison.compare(model, s.sheet, [flight])))
-    (c, by_c), (n, by_numpy) = found
+        found.append(columns)
+    c, n = found
     size = np.max(np.abs(n), axis=2, keepdims=True)
     assert np.sum(size > 0.0) > 150
     assert np.all(np.abs(c - n) <= 1e-9 * size)
-    # half of five minutes says little of the other half: what rounding does to the noise is magnified there
-    for name, close in (("nominal", 1e-5), ("calibrated", 1e-5), ("holdout", 1e-4)):
-        a, b = getattr(by_c, name), getattr(by_numpy, name)
-        assert a.rms_Eo == pytest.approx(b.rms_Eo, rel=close)
-    assert by_c.noise_floor == pytest.approx(by_numpy.noise_floor, rel=1e-4)
 
 
 @needs_compiler
@@ -242,10 +236,3 @@ def test_a_cache_that_others_can_write_to_is_not_used(tmp_path: Path) -> None:
     assert made.parent != tmp_path
     assert stat.S_IMODE(made.parent.stat().st_mode) == 0o700
     assert list(tmp_path.iterdir()) == []
-
-
-def test_sources_of_models_are_what_was_derived() -> None:
-    files = derive_model([e for e in catalogue() if e.id == "lag"], ())
-    assert from_files(files).sources == {"chain.c": files["c/chain.c"], "chain.h": files["c/chain.h"]}
-    assert sorted(packaged().sources) == ["chain.c", "chain.h", "folded.c", "folded.h"]
-    assert replace(packaged(), sources={}) == packaged()  # how it is evaluated is no part of what it is

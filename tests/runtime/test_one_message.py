@@ -41,24 +41,20 @@ def model(tmp_path: Path) -> Path:
 
 def test_streams_that_are_closed_or_full(model: Path) -> None:
     before = {p: p.read_bytes() for p in model.iterdir() if p.is_file()}
-    for shell, status in (("2>&-", 0), ("1>&-", 2), ("0<&- 1>&- 2>&-", 2), ("1>/dev/full", 2)):
+    for shell, status in (("2>&-", 0), ("0<&- 1>&- 2>&-", 2), ("1>/dev/full", 2)):
         done = run("history", model, shell=shell)
         assert done.returncode == status, (shell, done.stderr)
         assert "Traceback" not in done.stderr
     assert run("add", model, "lag", shell="0<&- 1>&- 2>&-").returncode == 2  # nobody would hear of it
     assert {p: p.read_bytes() for p in model.iterdir() if p.is_file()} == before
-    assert run("add", model, "lag", shell="0<&- 2>&-").returncode == 0
 
 
 @pytest.mark.parametrize(
     "step",
     [
         {"before": 3},
-        {"before": "x"},
         {"before": {"calibrated": [1]}},
         {"after": {"rms_Eo": "many"}},
-        {"after": {"calibrated": {"rms_Eo": {}}}},
-        {"flights": 3},
         {"flights": ["a"]},
     ],
     ids=str,

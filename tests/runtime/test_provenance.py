@@ -44,7 +44,7 @@ def json_of(arguments: Sequence[str], folder: Path, monkeypatch: pytest.MonkeyPa
 
 @pytest.mark.parametrize(
     "arguments",
-    [["compare", "model", "flight.parquet"], ["history", "model"], ["effects", "lag"], ["effects"]],
+    [["compare", "model", "flight.parquet"], ["effects", "lag"]],
     ids=" ".join,
 )
 def test_a_result_names_what_made_it(

@@ -16,7 +16,7 @@ G0 = st.floats(0.1, 100.0)
 FINITE = st.floats(-1e12, 1e12, allow_nan=False)
 
 
-@settings(deadline=None, max_examples=15)  # a registry of units for each takes a sixth of a second
+@settings(deadline=None, max_examples=4)  # a registry of units for each takes a sixth of a second
 @given(G0)
 def test_g_is_g0_wherever_it_stands(g0: float) -> None:
     known = Units(g0)
@@ -179,12 +179,6 @@ def test_what_is_no_quantity(raw: object, what: str) -> None:
         units(9.8).quantity(raw, "f.toml: here")
     assert caught.value.where == "f.toml: here"
     assert caught.value.found is not None
-
-
-@pytest.mark.parametrize("g0", [0.0, -9.8, math.nan, math.inf])
-def test_bad_g0(g0: float) -> None:
-    with pytest.raises(UserError, match="g0"):
-        Units(g0)
 
 
 def test_message_holds_every_fact_and_travels_between_processes() -> None:
