@@ -89,14 +89,9 @@ def _discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, float]:
             raise UserError("g0 belongs into the table [disc]", where=at(path, "g0"))
         disc = _disc(_table(table, "disc", path), path)
         return paper(disc["radius"], disc["spin_frequency"]), disc["g0"]
-    given = [("g0", table["g0"])] if "g0" in table else []
-    for number, entry in enumerate(table["disc"], 1):
-        if isinstance(entry, dict) and "g0" in entry:
-            given.append((f"[[disc]] {number}: g0", entry["g0"]))
-    found = {
-        float(_si(read_quantity(raw, at(path, key), count=1), DISC_UNITS["g0"], None, at(path, key))[0])
-        for key, raw in given
-    }
+    tables = [(at(path, "[[disc]]"), table)]
+    tables += [(at(path, f"[[disc]] {n}"), t) for n, t in enumerate(table["disc"], 1)]
+    found = {_number(t, "g0", "m/s^2", where) for where, t in tables if isinstance(t, dict) and "g0" in t}
     if len(found) > 1:
         raise UserError("g0 is given twice", where=path, found=sorted(found), expected="one value")
     return read_layout(table["disc"], path), found.pop() if found else STANDARD_G0
@@ -112,24 +107,9 @@ def _table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[st
 
 
 def _disc(table: Mapping[str, Any], path: Path | None) -> dict[str, float]:
-    check_keys(table, DISC_UNITS, at(path, "[disc]"))
-    for name in DISC_UNITS:
-        if name not in table:
-            raise UserError(
-                f"{name} is missing", where=at(path, "[disc]"), expected=f'{name} = "... {DISC_UNITS[name]}"'
-            )
-    return {
-        # g0 defines g and so cannot be given in g; radius and frequency do not depend on it.
-        name: float(
-            _si(
-                read_quantity(table[name], at(path, f"[disc] {name}"), count=1),
-                unit,
-                None,
-                at(path, f"[disc] {name}"),
-            )[0]
-        )
-        for name, unit in DISC_UNITS.items()
-    }
+    where = at(path, "[disc]")
+    check_keys(table, DISC_UNITS, where)
+    return {name: _number(table, name, unit, where) for name, unit in DISC_UNITS.items()}
 
 
 def _accelerometers(
@@ -154,14 +134,9 @@ def _accelerometers(
     return found, sigmas
 
 
-def _si(quantity: RawQuantity, si_unit: str, g0: float | None, where: str) -> Vector:
+def _si(quantity: RawQuantity, si_unit: str, g0: float, where: str) -> Vector:
     value = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
-    if quantity.unit == si_unit:  # as g0 mostly is: nothing need be known of units for it
-        return _finite(value, where)
-    known = units(1.0 if g0 is None else g0)
-    if g0 is None and known.uses_g(quantity.unit, where):
-        raise UserError("g cannot be used here: g0 defines it", where=where, found=quantity, expected=si_unit)
-    return _finite(np.asarray(known.to_si(value, quantity.unit, si_unit, where), dtype=np.float64), where)
+    return _finite(np.asarray(units(g0).to_si(value, quantity.unit, si_unit, where), dtype=np.float64), where)
 
 
 def _effects(
@@ -309,6 +284,8 @@ def _place(entry: Any, where: str, disc: int, radius: float | None, outputs: dic
     own = _number(entry, "radius", "m", where) if "radius" in entry else radius
     if own is None:
         raise UserError("radius is missing", where=where, expected='radius = "0.1 m", here or in [[disc]]')
+    if own < 0.0:
+        raise UserError("radius is out of range", where=where, found=f"{own} m", expected="not negative")
     return Place(
         name=_text(entry, "name", where, None),
         disc=disc,
@@ -368,22 +345,24 @@ def _text(table: Mapping[str, Any], key: str, where: str, default: str | None) -
 
 
 def _number(table: Mapping[str, Any], key: str, si_unit: str, where: str) -> float:
-    place = at(where, key)
+    """One number in SI, whose unit is not made with g: g0 defines g, and nothing else here depends on it."""
+    place = f"{where} {key}"
     if key not in table:
-        unit_ = {"rad": "deg", "m": "m", "Hz": "Hz"}[si_unit]
-        raise UserError(f"{key} is missing", where=where, expected=f'{key} = "... {unit_}"')
+        example = {"rad": "deg"}.get(si_unit, si_unit)
+        raise UserError(f"{key} is missing", where=place, expected=f'{key} = "... {example}"')
     raw = table[key]
     if isinstance(raw, int | float) and not isinstance(raw, bool) and raw == 0:
         return 0.0  # nothing has no unit
     q = read_quantity(raw, place, count=1)
-    known = units(1.0)
-    if known.uses_g(q.unit, place):
-        raise UserError("g cannot be used here", where=place, found=q, expected=si_unit)
-    value = float(known.to_si(np.asarray(q.value, dtype=np.float64), q.unit, si_unit, place))
-    if not math.isfinite(value) or (key == "radius" and value < 0):
-        raise UserError(
-            f"{key} is out of range", where=place, found=q, expected="a finite number, not negative"
-        )
+    if q.unit == si_unit:  # as g0 mostly is: nothing need be known of units for it
+        value = float(np.asarray(q.value))
+    else:
+        known = units(1.0)
+        if known.uses_g(q.unit, place):
+            raise UserError("g cannot be used here: g0 defines it", where=place, found=q, expected=si_unit)
+        value = float(known.to_si(np.asarray(q.value, dtype=np.float64), q.unit, si_unit, place))
+    if not math.isfinite(value):
+        raise UserError(f"{key} is out of range", where=place, found=q, expected="a finite number")
     return value
 
 

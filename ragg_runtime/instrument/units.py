@@ -38,11 +38,14 @@ _ANGLES = frozenset(
 )
 _CYCLES = frozenset(("hertz", "counts_per_second"))
 
-# pint evaluates powers of numbers in a unit ("9**9**9" never returns) and drops signs that it does not
-# know ("m;s"): only products and quotients of names with small exponents reach it.
-_TOKEN = re.compile(
-    r"\s*(?:(?P<name>[^\W\d]\w*|°|%)|(?P<power>\^|\*\*)|(?P<number>[+-]?\d+(?:\.\d+)?)|(?P<sign>[*/()·]))\s*"
-)
+# pint evaluates powers of numbers in a unit ("9**9**9" never returns) and drops signs that it does not know ("m;s"): only
+# products and quotients of names with small exponents reach it, in brackets at most once.
+_POWER = r"(?:\s*(?:\^|\*\*)\s*[+-]?(?:\d|1[012])(?:\.\d+)?)?"
+_NAME = rf"(?:[^\W\d]\w*|°|%){_POWER}"
+_BY = r"(?:\s*[*/·]\s*|\s+)"
+_TERM = rf"(?:{_NAME}|\(\s*{_NAME}(?:{_BY}{_NAME})*\s*\){_POWER})"
+_UNIT = re.compile(rf"\s*(?:1\s*[*/]\s*)?{_TERM}(?:{_BY}{_TERM})*\s*")
+_LONGEST = 100
 
 
 @dataclass(frozen=True)
@@ -89,18 +92,17 @@ class Units:
 
         if text in DIMENSIONLESS:
             return self._registry.dimensionless
-        remedy: str | None = None
-        for spelling in spellings(text):
-            complaint = _complaint(spelling)
-            if complaint is None:
-                try:
-                    return self._registry.parse_units(spelling.replace("·", "*"))
-                except pint.UndefinedUnitError as error:
-                    names = (error.unit_names,) if isinstance(error.unit_names, str) else error.unit_names
-                    complaint = f"{', '.join(map(str, names))} is not a known unit"
-                except Exception:  # what pint raises for a malformed expression is not documented
-                    complaint = None
-            remedy = remedy or complaint
+        remedy = "join names of units by * or /, with exponents up to 12; a number belongs into the value"
+        for spelling in spellings(text) if len(text) <= _LONGEST else ():
+            if _UNIT.fullmatch(spelling) is None:
+                continue
+            try:
+                return self._registry.parse_units(spelling.replace("·", "*"))
+            except pint.UndefinedUnitError as error:
+                names = (error.unit_names,) if isinstance(error.unit_names, str) else error.unit_names
+                remedy = f"{', '.join(map(str, names))} is not a known unit"
+            except Exception:  # what pint raises for a malformed expression is not documented
+                continue
         raise UserError("not a unit", where=where, found=repr(text), expected=_EXAMPLES, remedy=remedy)
 
     def to_si(self, value: Value, unit: str, si_unit: str, where: str | None = None) -> Value:
@@ -263,30 +265,6 @@ def _each(count: int) -> str:
 
 def _numbers(count: int) -> str:
     return ", ".join(str(k + 1) for k in range(count)) if count <= 4 else f"1, 2, ... {count}"
-
-
-def _complaint(text: str) -> str | None:
-    """Why ``text`` cannot be a product of named units with small exponents, or ``None`` if it can."""
-    before, position, depth = "start", 0, 0
-    if len(text) > 100:
-        return "a unit is a short text"
-    while position < len(text):
-        match = _TOKEN.match(text, position)
-        if match is None:
-            return f"the sign {text[position]!r} has no meaning in a unit"
-        kind, token = str(match.lastgroup), match[0].strip()
-        depth += (token == "(") - (token == ")")
-        if before == "power":
-            if kind != "number":
-                return "an exponent must be a number"
-            if abs(float(token)) > 12:
-                return "the exponent is out of all proportion"
-        elif kind == "number" and not (before == "start" and token == "1"):
-            return "a number may stand only as an exponent: give factors in the value"
-        elif before == "number" and kind != "sign":
-            return "after a number only *, / or ) may follow"
-        before, position = kind, match.end()
-    return None if depth == 0 and before != "power" else "the unit is incomplete"
 
 
 def _dimension(unit: Any) -> str:

@@ -17,6 +17,7 @@ from ragg_runtime.instrument.units import units
 from ragg_runtime.io.assemble import make_flight, require_enough
 from ragg_runtime.io.files import flight_name, format_of, read_tables, write_instant
 from ragg_runtime.io.mapping import Mapped
+from ragg_runtime.io.record import Flight, is_disc_angle
 from ragg_runtime.io.recording import Recording, make_recordings, require_units
 from ragg_runtime.io.sampling import uniform
 from ragg_runtime.io.tables import Column
@@ -142,7 +143,7 @@ def _describe(r: Recording, name: str, several: bool, g0: float, layout: Layout)
     try:
         require_units(r.columns, r.place)
         x = require_enough(make_flight(r, g0, accelerometers=layout), len(r))
-        notes = x.notes
+        notes = (*x.notes, *_angle_note(x))
     except UserError as error:
         refused = error.message
     start = duration = rate = None
@@ -175,6 +176,14 @@ def _describe(r: Recording, name: str, several: bool, g0: float, layout: Layout)
         notes=notes,
         refused=refused,
     )
+
+
+def _angle_note(x: Flight) -> tuple[str, ...]:
+    """From where the angle of a disc without an encoder counts."""
+    if any(is_disc_angle(n) for n in x.channels):
+        return ()
+    zero = "the first sample, as the stamps are instants" if x.instants else "t = 0 of time"
+    return (f"no spin_angle: the disc angle counts from {zero} (angle_origin in model.toml overrides this)",)
 
 
 def _in_seconds(time: Column, g0: float) -> np.ndarray[Any, np.dtype[np.float64]]:

@@ -92,18 +92,8 @@ class Effect:
         return missing_channels(self, recorded)
 
 
-class Needs(Protocol):
-    """An effect, as far as the channels go that it needs: all of them, or one of them (``either``)."""
-
-    @property
-    def channels(self) -> tuple[str, ...]: ...
-
-    @property
-    def either(self) -> bool: ...
-
-
-def missing_channels(e: Needs, recorded: Container[str]) -> tuple[str, ...]:
-    """As :meth:`Effect.missing`, of an effect whoever describes it."""
+def missing_channels(e: Any, recorded: Container[str]) -> tuple[str, ...]:
+    """As :meth:`Effect.missing`, of an effect of the derivation, too: it has ``channels`` and ``either``."""
     missing = tuple(c for c in e.channels if c not in recorded)
     return () if e.either and len(missing) < len(e.channels) else missing
 
