@@ -29,7 +29,7 @@ RESIDUAL = "#1f4e79"
 RESIDUAL_LIGHT = "#b9cde0"
 BEFORE = "#a3a8ad"
 NOISE = "#b4531f"
-"""Noise is always this orange-brown and dashed: it must be told in black and white, too."""
+"""Noise is always this orange-brown and dashed: it must be distinguishable in black and white, too."""
 
 NAMES = {
     INK: "ink",

@@ -169,7 +169,7 @@ class _Direction:
 
 
 def _in_patterns(f: Fitted) -> bool:
-    """Whether directions are told as sums of A1 ... A4 with signs: those that the paper's G_out sees, and only it."""
+    """Whether directions are named as sums of A1 ... A4 with signs: those that the paper's G_out depends on."""
     form = f.observations[0].recorded
     return f.instrument.layout.like_paper and not (form.separate or form.demodulated)
 

@@ -171,7 +171,7 @@ def heat_map(s: State, a: Asked) -> dict[str, Any]:
     ]
     rest = [int(k) for k in np.argsort(-strongest, kind="stable") if k not in single]
     chosen = [*single, *rest[: max(0, COLUMNS - len(single))]]
-    # a disc that stands still has no harmonics
+    # without spin there are no harmonics
     there = [i for i in range(len(h.harmonics)) if np.isfinite(h.z[i]).any()]
     return {
         "harmonics": [{"id": h.harmonics[i], "words": numbers.harmonic(h.harmonics[i])} for i in there],

@@ -38,7 +38,7 @@ POINTS = 160
 """Samples of a column that are drawn."""
 
 UNWRITTEN = Path("mapping.toml")
-"""Where a mapping says that it is while it stands in the page alone."""
+"""Path of a mapping that is not saved yet, for messages."""
 
 
 def begun(m: Loaded, path: Path) -> Json:
@@ -220,7 +220,7 @@ def check_upload(path: Path, seconds: float | None = None) -> None:
             command, capture_output=True, text=True, errors="replace", timeout=limit, check=False
         )
         if done.returncode in (0, 1):
-            return  # a fault of the program is told where the flight is opened
+            return  # a fault of the program is reported where the flight is opened
         if done.returncode == 2:
             found = done.stderr.strip().removeprefix("ragg: ")
     except subprocess.TimeoutExpired:

@@ -40,7 +40,7 @@ from ragg_runtime.studio.session import Busy, Session
 from ragg_runtime.studio.views import take_away
 
 BEAT = 0.15
-"""How often a page is told of changes, s."""
+"""How often a page hears of changes, s."""
 
 WATCH = 1.5
 """How often the model directory is looked at for changes by others, s."""

@@ -39,7 +39,7 @@ def serve(
     *,
     browser: bool,
 ) -> None:
-    """Open model and flights and serve the page; ``say`` is told its address once."""
+    """Open model and flights and serve the page; ``say`` is called with its address once."""
     for path in (*([model] if model else []), *flights):
         if not path.exists():
             raise UserError("there is no such file or folder", where=path)

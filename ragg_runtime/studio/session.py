@@ -437,7 +437,7 @@ class Status:
 
 @dataclass
 class Jobs:
-    """One worker. ``told`` is called, in its thread, whenever the status changes."""
+    """One worker. Its status changes in its thread."""
 
     status: Status = field(default_factory=Status)
     _lock: threading.Lock = field(default_factory=threading.Lock)

@@ -33,7 +33,7 @@ KEPT = 48
 MOST_BYTES = 1 << 30
 """Most memory that they may take together, bytes."""
 
-STANDS_STILL = "disc not spinning: no demodulation"
+NOT_SPINNING = "disc not spinning: no demodulation"
 
 
 @dataclass(frozen=True)
@@ -212,7 +212,7 @@ class Tracks:
             time = r.time
             if unit in DEMODULATED:
                 if not r.turning:
-                    raise UserError(STANDS_STILL)
+                    raise UserError(NOT_SPINNING)
                 found = comparison.demodulated_one(f, flight, x)
                 if not len(found[0]):
                     raise UserError(

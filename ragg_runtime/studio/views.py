@@ -46,7 +46,7 @@ def overview(s: State, version: str) -> Json:
         "unread": [] if s.flights else [str(p) for p in s.paths],
         "banner": _banner(s),
         "effects": [] if s.diagnosed is None else effects(s.diagnosed),
-        "silent": [] if s.diagnosed is None else _silent(s.diagnosed),
+        "untestable": [] if s.diagnosed is None else _untestable(s.diagnosed),
         "unexplained": None if s.diagnosed is None else _unexplained(s.diagnosed),
         "next_motion": []
         if s.diagnosed is None
@@ -128,9 +128,9 @@ def _about(e: Any) -> Json:
     }
 
 
-def error(rms: float, told: Mapping[str, object]) -> Json:
+def shown_error(rms: float, error: Mapping[str, object]) -> Json:
     """The error object, as numbers and as text."""
-    return {"json": told, "rms_Eo": rms, "text": numbers.number(rms)}
+    return {"json": error, "rms_Eo": rms, "text": numbers.number(rms)}
 
 
 def _banner(s: State) -> Json | None:
@@ -145,7 +145,7 @@ def _banner(s: State) -> Json | None:
         "headline": "Testing every effect of the catalogue …" if first is None else first.sentences[0],
         "lead": [] if first is None else list(first.sentences[1:]),
         "errors": [
-            {"label": label, **error(e.rms_Eo, e.as_json()), "about": about}
+            {"label": label, **shown_error(e.rms_Eo, e.as_json()), "about": about}
             for label, e, about in (
                 ("nominal", c.nominal, "with the values of the test sheet"),
                 ("calibrated", c.calibrated, "parameters fitted to these flights"),
@@ -220,7 +220,7 @@ def _linear(d: Diagnosis) -> set[str]:
     return {e.id for e in d.fitted.model.candidates if e.kind in ("deterministic", "step")}
 
 
-def _silent(d: Diagnosis) -> list[Json]:
+def _untestable(d: Diagnosis) -> list[Json]:
     found = []
     for n in d.not_testable:
         found.append({**_about(d.fitted.model.effect(n.effect)), "id": n.effect, "why": numbers.clean(n.why)})
@@ -337,8 +337,8 @@ def _done(s: State, model: str, flights: str) -> list[str]:
         step = history[n]
         on = flights if set(step.flights) <= {x.name for x in s.flights} else "FLIGHTS"
         if step.action in ("add", "remove"):
-            told = f"ragg {step.action} {model} {shlex.quote(step.effect)}"
-            found.append(f"# done: {told}{f' {on}' if step.flights else ''}")
+            command = f"ragg {step.action} {model} {shlex.quote(step.effect)}"
+            found.append(f"# done: {command}{f' {on}' if step.flights else ''}")
         elif step.action not in ("new", "restore"):
             found.append(f"# done: {step.action} {numbers.clean(step.effect)}")
     return [one_line(x) for x in found]  # a name of several lines would go on as a command
@@ -418,16 +418,13 @@ def mathml(latex: str, *, block: bool = False) -> str:
     return str(made) if "\\" not in made else plain
 
 
-File = tuple[str, str, bytes]
-HTML, JSON, TEXT = "text/html", "application/json", "text/plain"
-
-
-def take_away(s: State, what: str) -> File:
+def take_away(s: State, what: str) -> tuple[str, str, bytes]:
     """(name, media type, content) of a file to download."""
-    make = FILES.get(what)
-    if make is None:
+    if what not in FILES:
         raise UserError("there is no such file", found=what[:40], expected=", ".join(FILES))
-    return make(s)
+    kind, make = FILES[what]
+    content = make(s)
+    return what, kind, content.encode() if isinstance(content, str) else content
 
 
 def _origin(s: State, command: str) -> Origin:
@@ -436,94 +433,67 @@ def _origin(s: State, command: str) -> Origin:
     return Origin(title, _command(s, command), api.sources(m, flights), api.notes(m, flights))
 
 
-def _dumped(s: State, result: dict[str, object], command: str) -> bytes:
-    return _json(result | api.origin(s.model, s.flights, command))
-
-
-def _json(result: dict[str, object]) -> bytes:
-    return (json.dumps(result, indent=1, allow_nan=False) + "\n").encode()
-
-
 def _command(s: State, name: str) -> str:
     return next((c for c in commands(s) if c.startswith(f"ragg {name} ")), f"ragg {name}")
 
 
-def _wait() -> UserError:
-    return UserError("there is no result yet", remedy="open a flight and wait until it is compared")
-
-
-def _compare_report(s: State) -> File:
+def _compared(s: State) -> Comparison:
     if s.compared is None:
-        raise _wait()
-    return "compare.html", HTML, pages.compare_page(s.compared, _origin(s, "compare")).encode()
+        raise UserError("there is no result yet", remedy="open a flight and wait until it is compared")
+    return s.compared
 
 
-def _diagnose_report(s: State) -> File:
+def _diagnosed(s: State) -> Diagnosis:
     if s.diagnosed is None:
-        raise _wait()
-    return "diagnosis.html", HTML, pages.diagnose_page(s.diagnosed, _origin(s, "diagnose")).encode()
+        raise UserError("there is no result yet", remedy="open a flight and wait until it is diagnosed")
+    return s.diagnosed
 
 
-def _steps_report(s: State) -> File:
+def _steps_report(s: State) -> str:
     if s.compared is None or s.previous is None:
         raise UserError("there is no step to report yet", remedy="derive an effect into the model first")
     history = s.model.directory.history
     steps = [history[n].as_json() for n in branches(history)[0]]
-    page = pages.add_page(steps, s.previous, s.compared, _origin(s, "history"), s.diagnosed)
-    return "steps.html", HTML, page.encode()
+    return pages.add_page(steps, s.previous, s.compared, _origin(s, "history"), s.diagnosed)
 
 
-def _compare_json(s: State) -> File:
-    if s.compared is None:
-        raise _wait()
-    return "compare.json", JSON, _dumped(s, s.compared.as_json(), _command(s, "compare"))
-
-
-def _diagnose_json(s: State) -> File:
-    if s.diagnosed is None:
-        raise _wait()
-    return "diagnosis.json", JSON, _dumped(s, s.diagnosed.as_json(), _command(s, "diagnose"))
-
-
-def _compensated(s: State, name: str) -> File:
+def _compensated(s: State, name: str) -> bytes:
     if s.compensated is None:
         raise UserError("nothing is compensated yet", remedy="do it under Apply")
-    kind = "text/csv" if name.endswith(".csv") else "application/vnd.apache.parquet"
-    return name, kind, tracks.file_of(s.compensated, name)
+    return tracks.file_of(s.compensated, name)
 
 
-def _model_file(s: State) -> File:
-    return "model.toml", "application/toml", s.model.directory.text.encode()
-
-
-def _exported(s: State, form: str) -> File:
-    """The model to run elsewhere, with the calibration that is kept: what ``ragg export`` writes, as one file."""
-    files = api.FORMS[form](api.contents(s.model))
-    name = f"model-{form}"
+def _exported(s: State, form: str) -> bytes:
+    """The model to run elsewhere, with the saved calibration: what ``ragg export`` writes, as one file."""
     made = io.BytesIO()
     with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as z:
-        for path, text in files.items():
-            z.writestr(zipfile.ZipInfo(f"{name}/{path}"), text, zipfile.ZIP_DEFLATED)
-    return f"{name}.zip", "application/zip", made.getvalue()
+        for path, text in api.FORMS[form](api.contents(s.model)).items():
+            z.writestr(zipfile.ZipInfo(f"model-{form}/{path}"), text, zipfile.ZIP_DEFLATED)
+    return made.getvalue()
 
 
-def _commands(s: State) -> File:
-    return "commands.sh", TEXT, ("#!/bin/sh\n" + "\n".join(commands(s)) + "\n").encode()
+def _dumped(s: State, result: Json, command: str) -> str:
+    origin = api.origin(s.model, s.flights, _command(s, command))
+    return json.dumps(result | origin, indent=1, allow_nan=False) + "\n"
 
 
-FILES: Mapping[str, Callable[[State], File]] = {
-    "compare.html": _compare_report,
-    "diagnosis.html": _diagnose_report,
-    "steps.html": _steps_report,
-    "compare.json": _compare_json,
-    "diagnosis.json": _diagnose_json,
-    "compensated.csv": lambda s: _compensated(s, "compensated.csv"),
-    "compensated.parquet": lambda s: _compensated(s, "compensated.parquet"),
-    "model.toml": _model_file,
-    "model-c.zip": lambda s: _exported(s, "c"),
-    "model-numpy.zip": lambda s: _exported(s, "numpy"),
-    "commands.sh": _commands,
+FILES: Mapping[str, tuple[str, Callable[[State], str | bytes]]] = {
+    "compare.html": ("text/html", lambda s: pages.compare_page(_compared(s), _origin(s, "compare"))),
+    "diagnosis.html": ("text/html", lambda s: pages.diagnose_page(_diagnosed(s), _origin(s, "diagnose"))),
+    "steps.html": ("text/html", _steps_report),
+    "compare.json": ("application/json", lambda s: _dumped(s, _compared(s).as_json(), "compare")),
+    "diagnosis.json": ("application/json", lambda s: _dumped(s, _diagnosed(s).as_json(), "diagnose")),
+    "compensated.csv": ("text/csv", lambda s: _compensated(s, "compensated.csv")),
+    "compensated.parquet": (
+        "application/vnd.apache.parquet",
+        lambda s: _compensated(s, "compensated.parquet"),
+    ),
+    "model.toml": ("application/toml", lambda s: s.model.directory.text),
+    "model-c.zip": ("application/zip", lambda s: _exported(s, "c")),
+    "model-numpy.zip": ("application/zip", lambda s: _exported(s, "numpy")),
+    "commands.sh": ("text/plain", lambda s: "#!/bin/sh\n" + "\n".join(commands(s)) + "\n"),
 }
+"""Name of a file to download -> its media type, and what makes it."""
 
 
 MOST_MARKS = 300

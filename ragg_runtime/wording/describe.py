@@ -391,7 +391,7 @@ def describe_diagnosis(d: Json, then: str = "") -> Sections:
     if terms and d["verdict"] in ("unexplained", "partly-explained"):
         found.append(Section(title="Not explained", table=terms_table(terms)))
         found += _own_effect(d["unexplained"])
-    found += [*_evidence(d), *_next_motions(d["next_motion"]), *_silent(d)]
+    found += [*_evidence(d), *_next_motions(d["next_motion"]), *_untestable(d)]
     if d["off_sheet"]:
         found.append(_off_sheet(d["off_sheet"]))
     return (*found, *(next_section(then) if d["found"] else ()))
@@ -501,7 +501,7 @@ def _next_motions(proposals: Sequence[Json]) -> Sections:
     return (Section(title="Next motion", sentences=said),) if said else ()
 
 
-def _silent(d: Json) -> Sections:
+def _untestable(d: Json) -> Sections:
     """Effects that this record cannot test, and how large the others would have to be."""
     silent = tuple((clean(n["effect"]), clean(n["why"])) for n in d["not_testable"])
     sizes: dict[str, list[str]] = {}

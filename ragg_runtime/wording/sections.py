@@ -105,7 +105,7 @@ Plot = Curves | Bars
 class Section:
     """A part of what a result says. The first of a result has no title: it is the verdict, and ``state`` gives its colour.
 
-    ``detail``: a terminal shows it on request alone, and a page folds it; ``summary`` then stands for it, in one line.
+    ``detail``: a terminal shows it on request alone, and a page folds it; ``summary`` then replaces it, in one line.
     """
 
     title: str = ""

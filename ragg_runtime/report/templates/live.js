@@ -114,7 +114,7 @@
       zoomed,
       inside: (p) => p.x >= left && p.x <= left + width && p.y >= top && p.y <= top + height,
       shares: (p, q) => [[ofX(p.x), ofX(q.x)], [ofY(p.y), ofY(q.y)]].map((r) => r.sort((a, b) => a - b).map((s) => Math.min(1, Math.max(0, s)))),
-      /** What stands at a point: its abscissa, and a row a curve. */
+      /** What is at a point: its abscissa, and a row for each curve. */
       read(p) {
         const full = left + width * ofX(p.x), rows = [];
         for (const c of curves) {
@@ -184,7 +184,7 @@
       if (marks) marks.remove();
       marks = null;
     };
-    function tell(c, p, e) {
+    function show(c, p, e) {
       const found = c.read(p);
       away();
       marks = drawn("g", { "pointer-events": "none" }, svg);
@@ -215,7 +215,7 @@
         return away();
       }
       const c = own.find((o) => o.inside(p));
-      if (c) tell(c, p, e);
+      if (c) show(c, p, e);
       else away();
     });
     svg.addEventListener("pointerleave", away);

@@ -89,7 +89,7 @@ export function trouble(facts) {
   );
 }
 
-/** Do something; what goes wrong is told. */
+/** Do something, and show what goes wrong. */
 export async function doing(what, body) {
   try {
     trouble(null);

@@ -59,9 +59,9 @@ export const LOG = {
 
 /**
  * A plot that fills its box and is drawn anew when that or the colours change.
- * `told(u, k)` says in words what stands at sample k below the pointer; it is shown in the figure's heading.
+ * `label(u, k)` gives the text for sample k below the pointer; it is shown in the figure's heading.
  */
-export function mounted(box, options, data, told) {
+export function mounted(box, options, data, label) {
   const size = () => ({ width: Math.max(200, box.clientWidth), height: Math.max(60, box.clientHeight) });
   const plot = new uPlot({ ...size(), ...options, legend: { show: false } }, data, box);
   let written = rem();
@@ -78,7 +78,7 @@ export function mounted(box, options, data, told) {
   };
   const watcher = new ResizeObserver(() => (rewritten(), plot.setSize(size())));
   watcher.observe(box);
-  if (told) reading(plot, box, told);
+  if (label) reading(plot, box, label);
   const themed = () => plot.redraw(false);
   document.addEventListener("themed", themed);
   return {
@@ -91,14 +91,14 @@ export function mounted(box, options, data, told) {
   };
 }
 
-function reading(plot, box, told) {
+function reading(plot, box, label) {
   const place = () => box.closest("figure") && box.closest("figure").querySelector(".readout");
   const say = () => {
     const at = place(), { left, idx } = plot.cursor;
-    const text = left >= 0 && idx !== null && idx !== undefined ? told(plot, idx) : "";
+    const text = left >= 0 && idx !== null && idx !== undefined ? label(plot, idx) : "";
     if (at && at.textContent !== text) at.textContent = text;
   };
-  // linked plots move their cursors together, and each says what stands there
+  // linked plots move their cursors together, and each shows its values
   (plot.hooks.setCursor ||= []).push(say);
 }
 

@@ -193,7 +193,7 @@ export function frame({ id, title, name, text, body = h("div.plot"), kind = "fig
 /** A file name of what a figure shows. */
 export const fileName = (...parts) => parts.filter(Boolean).join("-").replace(/[^\p{L}\p{N}]+/gu, "-").slice(0, 80) || "figure";
 
-// The error after every step as bars against the noise floor; what is ticked stands beside them as a hatched one.
+// The error after every step as bars against the noise floor; what is ticked is the hatched one.
 
 const MOST = 7;
 
@@ -263,7 +263,7 @@ function shade(z, level, top) {
 const parsed = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
 const light = (rgb) => rgb.map((v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4)).reduce((sum, v, k) => sum + v * [0.2126, 0.7152, 0.0722][k], 0);
 
-/** Ground and ink of a shade: black or white, whichever stands out more (at least 4.5 to 1). */
+/** Ground and ink of a shade: black or white, whichever has more contrast (at least 4.5 to 1). */
 function painted(amount) {
   const [low, high] = [parsed(colour("grid")), parsed(colour("residual"))];
   const ground = low.map((v, k) => Math.round(v + amount * (high[k] - v)));

@@ -120,7 +120,8 @@ export function figures(box) {
     if (!ready()) return;
     const [from, to] = limits();
     const found = await ask("spectrum", { flight: view.flight, output: view.output, from, to, effects: view.ticked.join(",") });
-    note("spectrum", "");
+    const known = flight().channels.some((c) => c.name.startsWith("Gamma_"));
+    note("spectrum", known || !found.spin_Hz ? "" : "The notch at 2Ω: the gravity gradient is not recorded, so what varies slowly there is fitted as gradient.");
     plots.spectrum.show(found);
     legend("spectrum", spectrumLines.filter((l) => l.id === "noise" || found.lines[l.id]).map((l) => [l.name, l.colour, l.dash ? "dashed" : ""]));
   });
@@ -139,8 +140,8 @@ export function figures(box) {
     if (!heatShown) note("heat", "Every term is being tried …");
     const found = await ask("heat", { flight: view.flight, output: view.output, effects: view.ticked.join(",") });
     heatShown = found;
-    const stands = found.z.flat().some((z) => Math.abs(z) > found.level);
-    note("heat", `${stands ? `Above ${number(found.level, 2)} σ` : `Nothing stands out: only above ${number(found.level, 2)} σ would`} one of the ${counted(found.tried)} terms that are tried${stands ? " stands out" : ""}${view.ticked.length ? ", with what is ticked in the model" : ""}. Choose a cell to lay the term over the residual.`);
+    const significant = found.z.flat().some((z) => Math.abs(z) > found.level);
+    note("heat", `${significant ? "Some" : "None"} of the ${counted(found.tried)} terms tried are above ${number(found.level, 2)} σ${view.ticked.length ? ", with what is ticked in the model" : ""}. Choose a cell to lay its term over the residual.`);
     drawHeatTable();
   });
   let heatShown = null;
@@ -262,9 +263,9 @@ export const band = () => [view.low, view.high];
 export const harmonicOf = (id) => (id.startsWith("const") ? 0 : Number(id.split("|")[0].split(" ")[1]));
 export const harmonic = () => (view.term ? harmonicOf(view.term) : null);
 const part = () => ((flight() && flight().parts) || [])[view.output];
-/** How fast the disc turns that the output stands on, Hz; 0: it stands still. */
+/** Spin rate of the disc of the output, Hz; 0: it does not spin. */
 export const spin = () => (part() ? part().spin_Hz : server.state && server.state.model ? Math.abs(server.state.model.spin_Hz) : 0);
-/** Whether a unit can be shown: of a disc that stands still nothing is demodulated. */
+/** Whether a unit can be shown: without spin there is no demodulation. */
 const shows = (unit) => unit === "V" || unit === "Eo" || spin() > 0;
 export const ready = () => Boolean(server.state && server.state.banner && flight());
 export const unitName = () => (view.unit === "V" ? "V" : "Eo");

@@ -1,4 +1,4 @@
-// The loop: where one stands, where the model fails, what is missing, and what ticking it would do.
+// The loop: the verdict, where the model fails, what is missing, and what adding it would do.
 import { doing } from "./api.js";
 import { drawingText, fileName, saves, stepBars } from "./drawings.js";
 import { effectsPane, foreseen } from "./effects.js";

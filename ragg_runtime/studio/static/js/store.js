@@ -1,4 +1,4 @@
-// Two states: what the server knows (server), and what this page looks at (view), which stands in the address.
+// Two states: what the server knows (server), and what this page looks at (view), which is stored in the URL.
 const DEFAULTS = {
   view: "loop", flight: 0, output: 0, from: null, to: null, unit: "Eo", ticked: [], open: "", term: "", low: null, high: null, theme: "",
 };
@@ -52,7 +52,7 @@ function keep() {
   }, 120);
 }
 
-/** What stands in the address. */
+/** The view that is stored in the URL. */
 export function recall() {
   const q = new URLSearchParams(location.hash.slice(1));
   const found = { ...DEFAULTS, ticked: [] };
