@@ -57,7 +57,7 @@ def test_the_commands_of_the_five_minutes_work_as_typed(typed: list[tuple[str, s
     said = {line.split("#")[0].split()[1]: out for line, out in typed}
     assert "NOT adequate" in said["compare"]
     assert "thermal-scale" in said["diagnose"]
-    assert "The model is now adequate" in said["add"]
+    assert "the model is now adequate" in said["add"]
     assert "thermal-scale" in said["history"]
     for line, _ in typed:
         for option in ("--report ", "-o "):
