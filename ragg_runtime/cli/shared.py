@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.shell_completion import CompletionItem
 
-from ragg_runtime.base.errors import UserError, one_line, printable
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import Target
 
 if TYPE_CHECKING:
@@ -228,7 +228,7 @@ def conclude(
             click.echo(text)
             return
         run.write(run.json_file, text + "\n")
-    click.echo(printable(render_text([*sections, *notes_of(flights)], verbose=run.verbose)))
+    click.echo(render_text([*sections, *notes_of(flights)], verbose=run.verbose))
 
 
 @contextlib.contextmanager

@@ -138,12 +138,13 @@ def _banner(s: State) -> Json | None:
     if c is None:
         return None
     first = None if d is None else describe.describe_diagnosis(d.as_json())[0]
+    said = [] if first is None else [numbers.clean(x) for x in first.sentences]
     errors = c.as_json()
     return {
         "state": "wait" if first is None else first.state,
         "verdict": None if d is None else d.verdict,
-        "headline": "Testing every effect of the catalogue …" if first is None else first.sentences[0],
-        "lead": [] if first is None else list(first.sentences[1:]),
+        "headline": "Testing every effect of the catalogue …" if first is None else said[0],
+        "lead": said[1:],
         "errors": [
             {"label": label, **shown_error(e.rms_Eo, e.as_json()), "about": about}
             for label, e, about in (
@@ -198,15 +199,18 @@ def _values(own: Mapping[str, Any]) -> list[list[str]]:
 def _table(s: Section) -> Json:
     """A section's table for the page."""
     t = s.table
-    return {} if t is None else {"heads": t.heads, "rows": t.rows, "words": t.words, "note": t.note}
+    if t is None:
+        return {}
+    rows = [[numbers.clean(x) for x in row] for row in t.rows]
+    return {"heads": t.heads, "rows": rows, "words": t.words, "note": t.note}
 
 
 def shown_sections(sections: Sequence[Section]) -> list[Json]:
     """Sections for the page, which shows them as they are."""
     return [
         {
-            "title": s.title,
-            "sentences": list(s.sentences),
+            "title": numbers.clean(s.title),
+            "sentences": [numbers.clean(x) for x in s.sentences],
             "table": _table(s),
             "detail": s.detail,
             "summary": s.summary,

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ragg_runtime.wording import numbers
-from ragg_runtime.wording.numbers import clean, listed, number
+from ragg_runtime.wording.numbers import listed, number
 from ragg_runtime.wording.sections import Section, Table
 
 Json = Mapping[str, Any]
@@ -41,7 +41,7 @@ def parameter_label(p: Json) -> str:
     of, _, name = str(p["name"]).rpartition(" ")
     j = p.get("accelerometer")
     of = of or ("" if j is None else str(p.get("accelerometer_name") or f"A{j}"))
-    return f"{clean(of)} of {numbers.parameter(name)}" if of else numbers.parameter(name)
+    return f"{of!s} of {numbers.parameter(name)}" if of else numbers.parameter(name)
 
 
 def parameter_line(p: Json) -> str:
@@ -55,11 +55,11 @@ def error_text(before: Json | None, after: Json | None) -> str:
 
 
 def flights_text(names: Sequence[str]) -> str:
-    return listed([clean(n) for n in names]) if len(names) < 4 else f"{len(names)} flights"
+    return listed([str(n) for n in names]) if len(names) < 4 else f"{len(names)} flights"
 
 
 def effects_text(names: Sequence[str]) -> str:
-    return f"effects in the model: {', '.join(map(clean, names)) or 'none'}"
+    return f"effects in the model: {', '.join(map(str, names)) or 'none'}"
 
 
 def counted(count: int, noun: str) -> str:
@@ -151,7 +151,7 @@ def describe_comparison(
         f"{flights_text(flights)}: {numbers.fixed(c['samples'], 0)} samples at {number(c['rate_Hz'])} Hz; {effects_text(c['effects'])}."
     ]
     if c["converged"] and c["reason"]:
-        sentences.append(f"Note: {clean(c['reason'])}.")
+        sentences.append(f"Note: {c['reason']!s}.")
     head = comparison_headline(c) if judged else ()
     found = [
         Section(sentences=(*head, *sentences), state="good" if c["adequate"] else "bad"),
@@ -174,13 +174,13 @@ def comparison_headline(c: Json) -> tuple[str, ...]:
     """Whether the model is adequate, with the error, the noise and what says so."""
     error, noise = c["error"]["calibrated"]["rms_Eo"], c["noise_floor"]["rms_Eo"]
     if not c["converged"]:
-        return (f"The calibration has not converged: {clean(c['reason'])}.",)
+        return (f"The calibration has not converged: {c['reason']!s}.",)
     if c["adequate"]:
         return (
             f"The model is adequate: calibrated, it leaves {number(error)} Eo, which is the noise of this record"
             f" ({number(noise)} Eo).",
         )
-    why = "; ".join(map(clean, c.get("grounds", ())))
+    why = "; ".join(map(str, c.get("grounds", ())))
     return (
         f"The model is NOT adequate: calibrated, it leaves {number(error)} Eo where the noise floor is {number(noise)} Eo"
         f"{f' ({why})' if why else ''}.",
@@ -193,7 +193,7 @@ def _worst(where: Json) -> list[str]:
         return []
     b = where["time"][0]
     return [
-        f"The worst block of time: {number(b['from_s'], 4)} to {number(b['to_s'], 4)} s of {clean(b['flight'])},"
+        f"The worst block of time: {number(b['from_s'], 4)} to {number(b['to_s'], 4)} s of {b['flight']!s},"
         f" {number(b['rms_Eo'])} Eo."
     ]
 
@@ -232,7 +232,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     first, *others = describe_comparison(c, flights, then, rows, judged=False)
     moved = [
         (
-            clean(r["flight"]),
+            str(r["flight"]),
             parameter_label(r),
             numbers.plus_minus(r["frozen"], r["frozen_std"]),
             numbers.plus_minus(r["value"], r["std"]),
@@ -251,7 +251,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     if h["suspects"]:
         single = [
             (
-                clean(x["name"]),
+                str(x["name"]),
                 numbers.with_unit(number(x["change"], 3), x["unit"]),
                 numbers.percent(x["share"]),
             )
@@ -282,7 +282,7 @@ def verdict_headline(d: Json) -> str:
     mostly = f", mostly at {term_label(terms[0])}" if terms else ""
     left = excess(after["rms_Eo"], noise["rms_Eo"])
     if not d["converged"]:
-        return f"No verdict: {clean(d['remark'])}."
+        return f"No verdict: {d['remark']!s}."
     if d["verdict"] == "adequate":
         return (
             f"Adequate: no effect is missing that this record could show. The calibrated model leaves {eotvos(before)} Eo;"
@@ -310,8 +310,8 @@ def verdict_headline(d: Json) -> str:
 def _group_name(effect: str, groups: Sequence[Json]) -> str:
     for g in groups:
         if g["effects"][0] == effect and g["name"]:
-            return f"{clean(g['name'])} ({listed([clean(e) for e in g['effects']], 'or')})"
-    return clean(effect)
+            return f"{g['name']!s} ({listed([str(e) for e in g['effects']], 'or')})"
+    return str(effect)
 
 
 def best_values(r: Json) -> list[Json]:
@@ -333,7 +333,7 @@ def finding(r: Json) -> str:
     values = ", ".join(parameter_line(p) for p in best_values(r)[:3])
     held = r.get("error_after_holdout")
     errors = f"{error_text(r['error_before'], r['error_after'])}, held out {eotvos(held)} Eo"
-    return f"{clean(r['effect'])}: {values}{'; ' if values else ''}{errors}"
+    return f"{r['effect']!s}: {values}{'; ' if values else ''}{errors}"
 
 
 def _clear_values(effects: Sequence[Json]) -> list[Json]:
@@ -358,7 +358,7 @@ def values_sections(effects: Sequence[Json]) -> Sections:
     every = [(e, p) for e in effects for p in (*e["combinations"], *e["parameters"])]
     if not every:
         return ()
-    rows = [(clean(e["effect"]), parameter_label(p), with_uncertainty(p)) for e, p in every]
+    rows = [(str(e["effect"]), parameter_label(p), with_uncertainty(p)) for e, p in every]
     clear = [row for row, (e, p) in zip(rows, every, strict=True) if _is_clear(p, e)]
     heads = ("effect", "parameter", "value")
     hidden = len(rows) - len(clear)
@@ -385,7 +385,7 @@ def describe_diagnosis(d: Json, then: str = "") -> Sections:
     )
     rows = [("model as it is", d["error"]["before"])]
     if d["found"]:
-        rows.append((f"with {listed([clean(e) for e in d['found']])}", d["error"]["after"]))
+        rows.append((f"with {listed([str(e) for e in d['found']])}", d["error"]["after"]))
     found = [first, errors_section([*rows, floor_row(d)]), *values_sections(claimed)]
     terms = d["unexplained"]["terms"]
     if terms and d["verdict"] in ("unexplained", "partly-explained"):
@@ -401,19 +401,19 @@ def _remarks(d: Json) -> list[str]:
     """What belongs beside the verdict: its reason, groups, flights that disagree, from when on the model fails."""
     said = [f"Note: {text}." for text in _reasons(d)] if d["converged"] else []
     for g in d["groups"]:
-        main, *others = map(clean, g["effects"])
+        main, *others = map(str, g["effects"])
         if others and not g["name"]:
             said.append(
                 f"This record cannot distinguish {main} from {listed(others, 'or')}: they are one finding."
             )
     for x in d.get("disagree") or ():
-        what = listed([clean(e) for e in x["found"]]) or "no effect"
+        what = listed([str(e) for e in x["found"]]) or "no effect"
         said.append(
             f"By itself, {flights_text(x['flights'])} {'needs' if len(x['flights']) == 1 else 'need'} {what}."
         )
     if d["holds_until_s"] is not None:
         said.append(
-            f"The fit fails from {number(d['holds_until_s'], 4)} s of {clean(d['holds_until_flight'])} on."
+            f"The fit fails from {number(d['holds_until_s'], 4)} s of {d['holds_until_flight']!s} on."
         )
     best = d["ranking"][0] if d["ranking"] else None
     if (
@@ -424,7 +424,7 @@ def _remarks(d: Json) -> list[str]:
         and best["log10_p"] < -4.0
     ):
         said.append(
-            f"Nearest of the catalogue is {clean(best['effect'])} (error {eotvos(best['error_after'])} Eo with it), which is not"
+            f"Nearest of the catalogue is {best['effect']!s} (error {eotvos(best['error_after'])} Eo with it), which is not"
             " claimed: probabilities compare the effects of the catalogue only, and the cause may be another one."
         )
     return said
@@ -432,7 +432,7 @@ def _remarks(d: Json) -> list[str]:
 
 def _reasons(d: Json) -> list[str]:
     """The parts of a verdict's reason that the headline does not say already."""
-    parts = clean(d["reason"] or "").split("; ")
+    parts = str(d["reason"] or "").split("; ")
     return [x for x in parts if x and not x.startswith("what remains") and not x.endswith(" sure")]
 
 
@@ -441,7 +441,7 @@ def _evidence(d: Json) -> Sections:
         return plain_section("No effect of the catalogue could be tested on this record.")
     rows = [
         (
-            clean(r["effect"]),
+            str(r["effect"]),
             numbers.probability(r["log10_p"]),
             chance(r["probability"]),
             eotvos(r["error_after"]),
@@ -497,16 +497,16 @@ def promised(then: float, spread: float) -> str:
 
 
 def _next_motions(proposals: Sequence[Json]) -> Sections:
-    said = tuple(clean(motion_sentence(p)) for p in proposals)
+    said = tuple(str(motion_sentence(p)) for p in proposals)
     return (Section(title="Next motion", sentences=said),) if said else ()
 
 
 def _untestable(d: Json) -> Sections:
     """Effects that this record cannot test, and how large the others would have to be."""
-    silent = tuple((clean(n["effect"]), clean(n["why"])) for n in d["not_testable"])
+    silent = tuple((str(n["effect"]), str(n["why"])) for n in d["not_testable"])
     sizes: dict[str, list[str]] = {}
     for s in d["detectable"]:
-        sizes.setdefault(s["effect"], []).append(clean(s["three_sigma"]))
+        sizes.setdefault(s["effect"], []).append(str(s["three_sigma"]))
     count = f"{len(silent)} effect{'s' if len(silent) != 1 else ''} of the catalogue cannot be tested on this record"
     found = []
     if silent:
@@ -519,7 +519,7 @@ def _untestable(d: Json) -> Sections:
             )
         )
     if sizes:
-        rows = tuple((clean(e), ", ".join(v)) for e, v in sizes.items())
+        rows = tuple((str(e), ", ".join(v)) for e, v in sizes.items())
         note = (
             "Size that would stand out at three standard deviations, in the accelerometer that shows it best."
         )
@@ -536,7 +536,7 @@ def describe_step(
     ``values`` are the effects of the model afterwards with their parameters.
     """
     done = [
-        f"{what} {listed([clean(e) for e in names])}"
+        f"{what} {listed([str(e) for e in names])}"
         for what, names in (("added", added), ("removed", removed))
         if names
     ]
@@ -563,9 +563,9 @@ def describe_step(
 def describe_addition(a: Json, effects: Sequence[str], then: str = "") -> Sections:
     """The result of ``add``; ``effects`` are those of the model afterwards."""
     if not a.get("converged", True):
-        return plain_section(f"{clean(a['effect'])} was NOT added: {clean(a['reason'])}.")
+        return plain_section(f"{a['effect']!s} was NOT added: {a['reason']!s}.")
     if a["before"] is None or a["after"] is None:
-        return plain_section(f"Added {clean(a['effect'])}; {effects_text(effects)}.")
+        return plain_section(f"Added {a['effect']!s}; {effects_text(effects)}.")
     found = [
         *describe_step([a["effect"]], [], a["before"], a["after"], [a]),
         *plain_section(f"{effects_text(effects)}."),
@@ -587,8 +587,8 @@ def history_table(steps: Sequence[Json]) -> Table:
     rows = [
         (
             str(s["time"]),
-            clean(str(s["action"])),
-            clean(str(s["effect"] or numbers.ABSENT)),
+            str(s["action"]),
+            str(s["effect"] or numbers.ABSENT),
             *(
                 number(rms_of(s.get(entry), which))
                 for entry, which in (("before", "calibrated"), ("after", "calibrated"), ("after", "holdout"))
@@ -606,7 +606,7 @@ def describe_history(steps: Sequence[Json]) -> Sections:
 
 def describe_model(name: str, effects: Sequence[str], steps: Sequence[Json]) -> Sections:
     """A model directory and its history."""
-    return (Section(sentences=(f"{clean(name)}; {effects_text(effects)}",), table=history_table(steps)),)
+    return (Section(sentences=(f"{name!s}; {effects_text(effects)}",), table=history_table(steps)),)
 
 
 def summarize(kind: str, said: str, *errors: tuple[str, float | None]) -> str:

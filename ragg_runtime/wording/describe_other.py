@@ -25,7 +25,7 @@ from ragg_runtime.wording.describe import (
     term_label,
     with_uncertainty,
 )
-from ragg_runtime.wording.numbers import clean, number
+from ragg_runtime.wording.numbers import number
 from ragg_runtime.wording.sections import Section, Table
 
 LISTED = 60
@@ -73,7 +73,7 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
         ),
     ]
     if c["drift"]:
-        drift = tuple((clean(q["flight"]), parameter_label(q), with_uncertainty(q)) for q in c["drift"])
+        drift = tuple((str(q["flight"]), parameter_label(q), with_uncertainty(q)) for q in c["drift"])
         found.append(
             Section(title="Each flight alone", table=Table(("flight", "parameter", "value"), drift, words=3))
         )
@@ -113,16 +113,14 @@ def describe_compensation(r: Json, output: str) -> Sections:
     if not r["converged"]:
         head.append("The calibration has NOT converged: do not rely on these values.")
     found = [
-        Section(sentences=(*head, *map(clean, r.get("notes", ()))), state="good" if r["converged"] else "bad")
+        Section(sentences=(*head, *map(str, r.get("notes", ()))), state="good" if r["converged"] else "bad")
     ]
     several = len({x["output"] for x in r["flights"]}) > 1
     for x in r["flights"]:
-        name = clean(x["flight"]) + (f": {clean(x['output'])}" if several else "")
-        counts = ", ".join(f"{clean(k)} {n}" for k, n in x["quality"].items() if n)
+        name = str(x["flight"]) + (f": {x['output']!s}" if several else "")
+        counts = ", ".join(f"{k!s} {n}" for k, n in x["quality"].items() if n)
         text = f"{x['good']} of {x['samples']} samples are good{f' ({counts})' if counts else ''}."
-        removed = [
-            (clean(str(q["of"])), number(q["inline_Eo"]), number(q["cross_Eo"])) for q in x["contributions"]
-        ]
+        removed = [(str(q["of"]), number(q["inline_Eo"]), number(q["cross_Eo"])) for q in x["contributions"]]
         found += [
             Section(title=name, sentences=(text,), table=_channels_table(x)),
             Section(
@@ -159,7 +157,7 @@ def describe_online(r: Json, output: str) -> Sections:
         f"{output}: sample by sample from the {r['started']}; noise {number(r['noise_Eo_per_rtHz'])} Eo/√Hz.",
         f"The gradient wanders by {number(r['walk_Eo_per_rts'])} Eo/√s{follows}; the parameters"
         f" {'forget nothing' if forget is None else f'forget within {number(forget)} s'}.",
-        *(f"{clean(x['flight'])}: {x['samples']} samples" for x in r["flights"]),
+        *(f"{x['flight']!s}: {x['samples']} samples" for x in r["flights"]),
     )
 
 
@@ -201,14 +199,14 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
     failed = [r for r in s["flights"] if "verdict" not in r]
     rows = [
         (
-            clean(r["flight"]),
+            str(r["flight"]),
             r["verdict"],
             *(
                 number((r["error"][k] or {}).get("rms_Eo"))
                 for k in ("nominal", "calibrated", "holdout", "after")
             ),
             number(r["noise_floor"]["rms_Eo"]),
-            " ".join(map(clean, r["found"])),
+            " ".join(map(str, r["found"])),
         )
         for r in done[:LISTED]
     ]
@@ -230,7 +228,7 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
         found.append(Section(title="Flights", table=Table(heads, tuple(rows), words=2, note=more)))
     if s["effects"]:
         counts = tuple(
-            (clean(e["effect"]), str(e["found"]), str(e["perhaps"]), str(e["testable"])) for e in s["effects"]
+            (str(e["effect"]), str(e["found"]), str(e["perhaps"]), str(e["testable"])) for e in s["effects"]
         )
         note = "found: claimed; perhaps: explains as much as what is claimed; testable: the record could have shown it"
         found.append(
@@ -249,9 +247,7 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
     if s["parameters"]:
         found.append(_trends(s["parameters"]))
     if failed:
-        rows_ = tuple(
-            (clean(r["flight"]), " ".join(clean(str(r["error"]["message"])).split())) for r in failed
-        )
+        rows_ = tuple((str(r["flight"]), " ".join(str(r["error"]["message"]).split())) for r in failed)
         text = ("The other flights are not affected.",)
         found.append(
             Section(
@@ -276,7 +272,7 @@ def _trends(parameters: Sequence[Json]) -> Section:
             number(t["chi2"] / t["dof"], 2),
             number(t["slope_z"], 2),
         )
-        rows.append((clean(label), *cells))
+        rows.append((str(label), *cells))
     varying = sum(bool(t["varies"]) for t in parameters)
     heads = ("parameter", "flights", "mean", "scatter", "χ²/dof", "slope/sd")
     text = f"{varying} of {len(rows)} calibrated parameters differ from flight to flight; the least constant first."
@@ -303,9 +299,9 @@ def describe_next_motion(r: Json, output: str) -> Sections:
             head, "No effects are left to separate: a multisine about all axes, which excites every effect."
         )
     said = [
-        f"if it is {clean(x['effect'])}: {clean(x['rival'])} is ruled out ({number(x['now'], 2)} → {promised(x['then'], x['spread'])} σ)"
+        f"if it is {x['effect']!s}: {x['rival']!s} is ruled out ({number(x['now'], 2)} → {promised(x['then'], x['spread'])} σ)"
         if x["then"] > 3.0
-        else f"if it is {clean(x['effect'])}: no motion within the limits rules out {clean(x['rival'])}, which acts alike"
+        else f"if it is {x['effect']!s}: no motion within the limits rules out {x['rival']!s}, which acts alike"
         f" ({number(x['now'], 2)} → {number(x['then'])} σ)"
         for x in r["separations"]
     ]
@@ -314,7 +310,7 @@ def describe_next_motion(r: Json, output: str) -> Sections:
 
 def describe_flight_file(f: Json) -> Sections:
     """What a flight file holds, and what is assumed: the result of ``info``."""
-    head = f"{clean(f['path'])}: {f['format']}, {numbers.fixed(f['bytes'] / 1e6, 2)} MB, {counted(len(f['records']), 'record')}."
+    head = f"{f['path']!s}: {f['format']}, {numbers.fixed(f['bytes'] / 1e6, 2)} MB, {counted(len(f['records']), 'record')}."
     found = [Section(sentences=(head,), state="bad" if any(r["refused"] for r in f["records"]) else "good")]
     for r in f["records"]:
         found += _record_sections(r)
@@ -336,12 +332,12 @@ def _record_sections(r: Json) -> list[Section]:
             f"{counted(r['gap_count'], 'gap')}, {counted(r['missing'], 'sample')} missing; the longest from"
             f" {number(longest['from_s'], 5)} to {number(longest['to_s'], 5)} s."
         )
-    text += [f"note: {clean(n)}" for n in r["notes"]]
+    text += [f"note: {n!s}" for n in r["notes"]]
     if r["refused"]:
-        text.append(f"This record cannot be used as it is: {' '.join(clean(r['refused']).split())}")
+        text.append(f"This record cannot be used as it is: {' '.join(str(r['refused']).split())}")
     rows = [
         (
-            clean(c["name"]),
+            str(c["name"]),
             numbers.unit(c["unit"]) or "1",
             *(number(c[k], 4) for k in ("minimum", "mean", "maximum")),
             str(c["missing"]),
@@ -350,7 +346,7 @@ def _record_sections(r: Json) -> list[Section]:
     ]
     table = Table(("column", "unit", "minimum", "mean", "maximum", "missing"), tuple(rows), words=2)
     gaps = [(number(g["from_s"], 6), number(g["to_s"], 6), str(g["samples"])) for g in r["gaps"]]
-    found = [Section(title=clean(r["name"]), sentences=tuple(text), table=table)]
+    found = [Section(title=str(r["name"]), sentences=tuple(text), table=table)]
     if gaps:
         found.append(
             Section(

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base.errors import one_line
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
@@ -122,27 +123,33 @@ def render_text(sections: Sequence[Section], *, verbose: bool = False) -> str:
     """The sections for a terminal, in ASCII but for names; ``verbose``: with their details."""
     parts = []
     for s in sections:
-        lines = [f"{s.title}:"] if s.title and not s.detail else []
+        title = f"{_terminal(s.title)}:"
+        lines = [title] if s.title and not s.detail else []
         indent = "  " if s.title else ""
         if s.detail and not verbose:
-            parts += [f"{s.summary} (-v)"] if s.summary else []
+            parts += [f"{_terminal(s.summary)} (-v)"] if s.summary else []
             continue
         if s.detail:
-            lines = [f"{s.title}:"]
-        lines += [f"{indent}{text}" for text in s.sentences]
+            lines = [title]
+        lines += [f"{indent}{_terminal(text)}" for text in s.sentences]
         lines += [] if s.table is None else _text_table(s.table, indent, verbose)
-        lines += [f"  {line}" for line in s.code]
-        if lines != [f"{s.title}:"]:
+        lines += [f"  {one_line(line)}" for line in s.code]
+        if lines != [title]:
             parts.append("\n".join(lines))
     spaced = [
         p if k == 0 or ("\n" not in p and "\n" not in parts[k - 1]) else f"\n{p}" for k, p in enumerate(parts)
     ]
-    return numbers.to_ascii(numbers.clean("\n".join(spaced)))
+    return "\n".join(spaced)
+
+
+def _terminal(text: str) -> str:
+    """A line in ASCII, but for names; these in one line, without what would steer a terminal."""
+    return one_line(numbers.to_ascii(text))
 
 
 def _text_table(t: Table, indent: str, verbose: bool) -> list[str]:
     rows = t.rows if verbose or t.brief is None else t.rows[: t.brief]
-    cells = [[numbers.to_ascii(x) for x in row] for row in (t.heads, *rows)]
+    cells = [[_terminal(x) for x in row] for row in (t.heads, *rows)]
     wide = [max(len(row[k]) for row in cells) for k in range(len(t.heads))]
     lines = []
     for row in cells:
@@ -154,7 +161,7 @@ def _text_table(t: Table, indent: str, verbose: bool) -> list[str]:
         lines = lines[1:]
     if len(rows) < len(t.rows):
         lines.append(f"{indent}and {len(t.rows) - len(rows)} more (-v)")
-    return [*lines, *([f"{indent}{t.note}"] if t.note and (verbose or t.brief is None) else [])]
+    return [*lines, *([f"{indent}{_terminal(t.note)}"] if t.note and (verbose or t.brief is None) else [])]
 
 
 def escape(text: object) -> str:
