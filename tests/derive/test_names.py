@@ -51,7 +51,7 @@ def under(identifier: str) -> Model:
     return model(*(Effect(**{**vars(e), "id": f"{identifier}{'-a' * n}"}) for n, e in enumerate(made)))
 
 
-@pytest.mark.parametrize("identifier", ["f", "d2", "f-disc", "rate", "bar", "in", "sensed"])
+@pytest.mark.parametrize("identifier", ["d2", "f-disc", "sensed"])
 def test_every_stage_under_ids_that_the_derivation_uses_itself(identifier: str) -> None:
     """Effects of all stages under two ids at once: what they do depends on the ids in no way."""
     one, other = under(identifier), under("zz")
@@ -61,12 +61,17 @@ def test_every_stage_under_ids_that_the_derivation_uses_itself(identifier: str) 
 
 
 @pytest.mark.parametrize(
-    "step", ["sign(f_i)", "abs(sign(f_p))", "sign(abs(f_i) - f_o)", "abs(abs(f_i) - f_o)"]
+    "text",
+    [
+        "K*f_i*sign(f_i)",
+        "K*(abs(sign(f_p)) + f_i)",
+        "K*tanh(sign(abs(f_i) - f_o))",
+        "f_i*tanh(K*abs(abs(f_i) - f_o))",
+    ],
 )
-@pytest.mark.parametrize("shape", ["K*f_i*{}", "K*({} + f_i)", "K*tanh({})", "f_i*tanh(K*{})"])
-def test_a_step_has_no_slope(step: str, shape: str) -> None:
+def test_a_step_has_no_slope(text: str) -> None:
     """sign(...) in an effect: its derivatives are those between the steps."""
-    effect = from_expression("mine", "transducer", shape.format(step), {"K": {"unit": "ug"}})
+    effect = from_expression("mine", "transducer", text, {"K": {"unit": "ug"}})
     m = from_files(derive_model((effect,), (effect,)))
     inputs, p, t = drawn(m)
     x, phi = np.stack([*inputs.values()]), 2 * np.pi * p[1] * t

@@ -96,7 +96,7 @@ def test_committed_files_are_what_the_derivation_yields_under_any_hash_seed() ->
         assert p.returncode == 0, said
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(3))
 def test_derived_amplitudes_are_the_instrument_at_50_digits(seed: int) -> None:
     """Eq. 17-19 as derived, exact rationals, against Eq. 1-15 in vectors: equal to 45 digits."""
     draw = np.random.default_rng(seed)
@@ -122,7 +122,7 @@ def test_motion_numbers_are_those_of_the_gradient() -> None:
 def test_generated_code_is_the_instrument_at_50_digits(tmp_path: Path) -> None:
     """The committed NumPy and C, analytical model and chain, at parameters of order one: every term counts."""
     library = compiled.committed(tmp_path)
-    for seed in range(5):
+    for seed in range(3):
         draw = np.random.default_rng(100 + seed)
         p = np.concatenate([[0.7, 0.25], draw.uniform(-1, 1, 60)])
         inputs, t = draw.uniform(-1, 1, (15, 7)), draw.uniform(0, 4, 7)
