@@ -42,6 +42,7 @@ OWN = ("plan", "records", "strength", "outside", "fly")
 def source_digest(root: Path = ROOT) -> str:
     """Of the sources that a flight's result depends on."""
     paths = [root / "generated" / "manifest.json", *(root / "derive").rglob("*.py")]
+    paths += (root / "ragg_runtime").glob("*.py")
     for package in sorted((root / "ragg_runtime").iterdir()):
         if package.is_dir() and package.name not in ASIDE:
             paths += package.rglob("*.py")

@@ -17,6 +17,8 @@ import derive.effects
 from derive import pipeline
 from derive.symbols import MOTION
 from generated import folded
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.io import files
 from ragg_runtime.report.plots import draw_plot
 from ragg_runtime.wording.sections import render_html
 from tests.generated import draws
@@ -76,6 +78,20 @@ def test_an_effect_is_one_file(effect: Any) -> None:
     found = voltages((effect,), {"dK0_dh": bias})
     assert found == pytest.approx(voltages((), {"K0": 0.5 * bias}), rel=1e-12)
     assert not np.allclose(found, voltages((), {}), rtol=1e-9)
+
+
+def test_a_file_format_is_a_function_and_a_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    read_dat = module_of("ragg_runtime/io/dat_file.py").read_dat
+    monkeypatch.setitem(files.ENDINGS, ".dat", files.Format("dat", (".dat",), (), read_dat))
+    rows = [f"{k / 16} " + " ".join(f"{x:.6f}" for x in np.sin(k + np.arange(7))) for k in range(800)]
+    head = "# time a_x a_y a_z omega_x omega_y omega_z G_out\n# s g g g deg/h deg/h deg/h V\n"
+    (tmp_path / "flight.dat").write_text(head + "\n".join(rows))
+    flight = files.read_flight(tmp_path / "flight.dat", 9.8)
+    assert (len(flight), flight.rate) == (800, 16.0)
+    assert flight.channels["a_y"][3] == pytest.approx(9.8 * np.sin(4.0), abs=1e-5)
+    (tmp_path / "flight.dat").write_text("1 2 3\n")
+    with pytest.raises(UserError, match="header"):
+        files.read_flight(tmp_path / "flight.dat", 9.8)
 
 
 def test_a_target_is_a_package_with_four_functions(monkeypatch: pytest.MonkeyPatch) -> None:
