@@ -11,13 +11,15 @@ import pytest
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.io import Flight, read_flight
+from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.files import convert
+from ragg_runtime.model.evaluate import output, scale_factor, vector
 from ragg_runtime.model.model import packaged
 from ragg_runtime.model.record import record
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import examined
+from ragg_runtime.simulate import simulated
 from tests.rate import RATE
 
 S = scenario(5, trim="table-v", duration=120.0, rate=RATE)
@@ -82,3 +84,15 @@ def test_what_is_converted_keeps_its_angle(stamp: str, tmp_path: Path) -> None:
     assert second.time[0] == 0.0
     np.testing.assert_allclose(record(first, S.sheet).phi, record(second, S.sheet).phi, atol=1e-9)
     assert any("time counts from" in n for n in told.notes)
+
+
+def test_a_motion_that_is_flown_keeps_its_time(tmp_path: Path) -> None:
+    write_flight(flown(11.0), tmp_path / "motion.parquet")
+    x = simulated(
+        S.sheet, [], motion=tmp_path / "motion.parquet", noise=0.0, sheet_error=0.0, no_gradient=False
+    )
+    assert x.time[0] == 11.0
+    model, r = packaged(), record(x, S.sheet)
+    p = vector(model, S.sheet)
+    left = (x.outputs["G_out"] - output(model.chain, r, p)) / scale_factor(model, p)
+    assert np.std(left) < 1e-5

@@ -22,6 +22,7 @@ from ragg_runtime.model.evaluate import output, scale_factor, vector
 from ragg_runtime.model.model import packaged
 from ragg_runtime.model.record import SPIN, Record, record, spin, spin_degree
 from ragg_runtime.simulate import simulated
+from tests.rate import RATE
 
 EXAMPLE = (Path(__file__).parents[2] / "ragg_runtime" / "example.toml").read_text("utf-8")
 EXACT = Form(kinematics="full", mounting="exact", misalignment="exact", second_order_angles=True)
@@ -202,8 +203,10 @@ def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
 def test_a_paper_model_lacks_the_spin_and_adding_it_brings_the_error_to_the_noise(tmp_path: Path) -> None:
     (tmp_path / "sheet.toml").write_text(sheet("[model]"))
     m = api.new(tmp_path / "paper", tmp_path / "sheet.toml")
-    flight = simulated(replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=600.0)
-    same = simulated(m.instrument, ["disc-spin:share=1"], seed=4, duration=600.0)
+    flight = simulated(
+        replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=600.0, rate=RATE
+    )
+    same = simulated(m.instrument, ["disc-spin:share=1"], seed=4, duration=600.0, rate=RATE)
     np.testing.assert_array_equal(flight.outputs["G_out"], same.outputs["G_out"])
     d = api.diagnose(m, [flight])
     assert (d.verdict, d.found) == ("missing-effect", ("disc-spin",))
@@ -217,7 +220,7 @@ def test_a_paper_model_lacks_the_spin_and_adding_it_brings_the_error_to_the_nois
 
 def test_the_ladder_says_what_each_step_is_worth(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     m = api.new(tmp_path / "m")
-    flight = simulated(m.instrument, (), seed=5, duration=120.0, no_gradient=False)
+    flight = simulated(m.instrument, (), seed=5, duration=120.0, rate=RATE, no_gradient=False)
     c = api.compare(m, [flight], ladder=True)
     assert [r.form for r in c.ladder] == list(STEPS)
     steps = [r.step.rms_Eo for r in c.ladder if r.step is not None]

@@ -185,6 +185,9 @@ def test_without_a_compiler_numpy_serves_and_says_so_once(
     t, inputs, p = case
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
+    assert find_compiler()[1:] == ["-m", "ziglang", "cc"]
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
     with pytest.warns(NativeWarning, match="slower NumPy code serves: there is no C compiler") as said:
         e = packaged().compiled()
     assert len(said) == 1

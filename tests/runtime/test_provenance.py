@@ -29,7 +29,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A model and a flight of a few minutes."""
     folder = tmp_path_factory.mktemp("provenance")
     m = api.new(folder / "model")
-    flight = simulated(m.instrument, [], seed=1, duration=240.0, rate=16.0)
+    flight = simulated(m.instrument, [], seed=1, duration=240.0, rate=8.0)
     write_flight(flight, folder / "flight.parquet")
     return folder
 
