@@ -65,7 +65,7 @@ def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     found = likely_mistake(model, instrument, p)
     if found is not None:
         asked = found.origin and instrument.angle_origin is None  # nobody has answered yet
-        if asked or (found.factor > SENSELESS and not found.timing):
+        if asked or (found.factor > SENSELESS and not (found.timing or found.origin)):
             raise _refused(flight, found, notes)
         notes.append(_remark(found))
     valid, said = _output_spikes(model, instrument, p)

@@ -66,7 +66,9 @@ def searches(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     if not p.recorded.demodulated:  # a demodulator at the wrong rate lets nothing through
         found += _spin(model, instrument, p)
     if p.disc.angle_column not in p.flight.channels or p.recorded.demodulated:
-        found += _origin(model, instrument, p) + _phase(model, instrument, p)
+        found += _phase(model, instrument, p)
+    if p.disc.angle_column not in p.flight.channels:
+        found += _origin(model, instrument, p)
     return found
 
 
