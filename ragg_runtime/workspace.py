@@ -1,0 +1,240 @@
+"""What is worked with: a model directory with the model derived for it, and flights that are read and examined for it."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from ragg_runtime.base.errors import UserError, one_line
+from ragg_runtime.base.files import read_text, replacing
+from ragg_runtime.base.provenance import provenance
+from ragg_runtime.instrument.edit_toml import with_full_kinematics
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import Flight
+from ragg_runtime.io import read_flights as _read_flights
+from ragg_runtime.io.mapping import Mapped, parse_mapping, read_mapping
+from ragg_runtime.model import derive
+from ragg_runtime.model.directory import (
+    MAPPING,
+    ModelDir,
+    Step,
+    create_model_dir,
+    identity,
+    load_model_dir,
+    replace_model_dir,
+)
+from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import GRADIENTS
+from ragg_runtime.screening import check_settings, examined
+from ragg_runtime.wording import describe
+from ragg_runtime.wording.sections import render_notebook
+
+
+@dataclass(frozen=True, repr=False)
+class Loaded:
+    """A model directory, the model derived for it, and what was odd, in sentences."""
+
+    directory: ModelDir
+    model: Model
+    notes: tuple[str, ...] = ()
+
+    @property
+    def instrument(self) -> Instrument:
+        """The instrument of model.toml."""
+        return self.directory.instrument
+
+    @property
+    def name(self) -> str:
+        """Name of the directory."""
+        return one_line(self.directory.path.resolve().name)
+
+    def __repr__(self) -> str:
+        return f"<Model {self.name}: effects {', '.join(e.id for e in self.model.effects) or 'none'}>"
+
+    def _repr_html_(self) -> str:
+        steps = [s.as_json() for s in self.directory.history]
+        return render_notebook(describe.describe_model(self.name, [e.id for e in self.model.effects], steps))
+
+
+FULL_KINEMATICS = (
+    'the sheet has no [model]: kinematics = "full" was written into model.toml, as real accelerometers feel that they turn with the '
+    'disc; the model of Eq. 9 of the paper, without that, is [model] kinematics = "platform"'
+)
+
+
+def new(path: Path | str, source: Path | str | None = None, mapping: Path | str | None = None) -> Loaded:
+    """Make a model directory.
+
+    Parameters
+    ----------
+    path
+        Where; it must not hold anything yet.
+    source
+        A test sheet (a model.toml); by default the packaged example.
+    mapping
+        A mapping of the columns of its flights, to be kept there.
+
+    Raises
+    ------
+    UserError
+        If the sheet or the mapping is none, or the directory cannot be made.
+    """
+    kept = None if mapping is None else mapping_text(Path(mapping))
+    text = _example_text() if source is None else read_text(Path(source))
+    completed = with_full_kinematics(text)
+    instrument = parse_instrument(completed, Path(source) if source else None)
+    made = create_model_dir(
+        path,
+        completed,
+        generated=derive.files_of(instrument),
+        history=(Step("new", now(), text=completed),),
+        mapping=kept,
+    )
+    m = load_state(made)
+    return m if completed == text else replace(m, notes=(*m.notes, FULL_KINEMATICS))
+
+
+def load(path: Path | str) -> Loaded:
+    """Read a model directory and derive its model."""
+    return load_state(load_model_dir(path))
+
+
+def load_state(directory: ModelDir) -> Loaded:
+    """A model directory that was read, with the model derived for it."""
+    model = derive.model_of(directory.instrument)
+    check_settings(model, directory.instrument)
+    note = derive.departure(directory.instrument, directory.generated)
+    return Loaded(directory, model, () if note is None else (note,))
+
+
+def example() -> Instrument:
+    """The instrument of the packaged test sheet."""
+    return parse_instrument(_example_text())
+
+
+def _example_text() -> str:
+    return resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
+
+
+def as_of(m: Loaded, text: str) -> Loaded:
+    """The model with another text of model.toml, in memory alone: the directory stays as it is."""
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    model = derive.model_of(instrument)
+    check_settings(model, instrument)
+    return Loaded(replace(m.directory, text=text, instrument=instrument, generated=None), model, m.notes)
+
+
+def change(m: Loaded, text: str, action: str, effect: str = "") -> Loaded:
+    """Put another text in the place of model.toml, derive its model, and note the step in the history."""
+    instrument = as_of(m, text).instrument
+    step = Step(action, now(), effect, text=text)
+    directory = replace_model_dir(m.directory, text, generated=derive.files_of(instrument), step=step)
+    return load(directory.path)
+
+
+def now() -> str:
+    """The instant as it stands in a history."""
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+Flights = Flight | Path | str | Any
+"""A flight as it was read, a path, a pandas DataFrame, an xarray Dataset, or a dict of arrays; or a list of these."""
+
+
+def read_flights(
+    m: Loaded, paths: Flights, mapping: Path | str | None = None, *, leave: frozenset[str] = frozenset()
+) -> list[Flight]:
+    """Read flights, every line of a file a flight, in the units of this model (its g0), and examine them.
+
+    Parameters
+    ----------
+    paths
+        Paths, pandas DataFrames, xarray Datasets or dicts of arrays (columns ``name [unit]``, or units in ``attrs``), one
+        or a list of these. Flights that were read already stay as they are.
+    mapping
+        What the columns are, by default the model's own.
+    leave
+        Columns that are not read.
+    """
+    given = list(paths) if isinstance(paths, list | tuple) else [paths]
+    how = mapping_of(m, mapping) if any(not isinstance(x, Flight) for x in given) else None
+    found: list[Flight] = []
+    for n, one in enumerate(given, 1):
+        if isinstance(one, Flight):
+            found.append(one)
+            continue
+        read = _read_flights(
+            one,
+            m.instrument.g0,
+            accelerometers=m.instrument.layout,
+            mapping=how,
+            leave=leave,
+            name="flight" if len(given) == 1 else f"flight {n}",
+        )
+        found += [examined(m.model, m.instrument, x) for x in read]
+    return found
+
+
+def read_for_compensation(m: Loaded, paths: Flights, mapping: Path | str | None = None) -> list[Flight]:
+    """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
+    return read_flights(m, paths, mapping, leave=frozenset(GRADIENTS))
+
+
+def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
+    """The mapping that is given, else the one that is kept with the model, else none."""
+    if given is not None:
+        return read_mapping(Path(given))
+    own = m.directory.mapping
+    return None if own is None else replace(read_mapping(own), kept=True)
+
+
+def keep_mapping(m: Loaded, text: str, *, replace: bool) -> None:
+    """Lay a mapping down in the model directory, where every command finds it; never over another unasked."""
+    place = m.directory.path / MAPPING
+    if place.exists() and not replace and read_text(place) != text:
+        raise UserError(
+            "the model has a mapping already", where=place, remedy="say that it shall be replaced"
+        )
+    with replacing(place) as temporary:
+        temporary.write_text(text, "utf-8")
+
+
+def mapping_text(path: Path) -> str:
+    """The text of a mapping that is to be kept; UserError if it is none."""
+    text = read_text(path)
+    parse_mapping(text, path)
+    return text
+
+
+def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
+    """What was done to model directory and flights, or looks odd in them."""
+    return [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)]
+
+
+def sources(m: Loaded, flights: Sequence[Flight]) -> list[tuple[str, str]]:
+    """(name, sha256) of everything that a result depends on."""
+    text = hashlib.sha256(m.directory.text.encode()).hexdigest()
+    return [(f"{m.name}/model.toml", text), *((x.name, x.digest) for x in flights)]
+
+
+def origin(
+    m: Loaded,
+    flights: Sequence[Flight],
+    command: str,
+    *,
+    files: Sequence[tuple[str, str | None]] = (),
+    before: Loaded | None = None,
+) -> dict[str, object]:
+    """What makes a result again (``provenance``), and what the reader did to the flights (``notes``).
+
+    ``files`` (path, SHA-256) are flights read elsewhere; ``before`` is the model that the command has changed.
+    """
+    model = identity(m.directory, m.model.digest, None if before is None else before.directory)
+    read = [(x.name if x.path is None else str(x.path), x.digest) for x in flights]
+    return {"notes": notes(m, flights), "provenance": provenance(command, model, [*read, *files])}
