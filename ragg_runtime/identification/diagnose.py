@@ -52,7 +52,7 @@ from ragg_runtime.identification.ranking import (
     weighed,
     with_probability,
 )
-from ragg_runtime.identification.result import Diagnosis, groups
+from ragg_runtime.identification.result import Diagnosis, Disagreement, groups, words
 from ragg_runtime.identification.strong import Stage, Taken
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
@@ -93,9 +93,13 @@ def diagnose_fitted(
     apart = contradiction(first)
     # before strong effects, whose columns take the place of these
     ranked = _ranking(first.fitted, first.field, first.choice, first.instants, output)
-    steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend)
+    budget = strong.Budget()
+    steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend, budget)
     last, outcome = confirmed(steps, last, extend)
-    found = Conclusion.of(first, steps, last, outcome, extend, apart, output)
+    found = Conclusion.of(first, steps, last, outcome, extend, bool(apart), output)
+    if not apart and len(flights) > 1 and found.contradictory:
+        apart = disagreement(f, flights, extend)
+        found = replace(found, verdict="unexplained", claims=()) if apart else found
     outcome, left = found.outcome, found.left
     ranking = _ranked(*ranked, steps, last, found)
     credence = weighed(last.field, steps).within(found.share)
@@ -123,8 +127,9 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(rivals), limits)
         ),
         complaint=outcome.complaint,
-        remark=found.remark(apart),
-        reason=found.reason(apart),
+        remark=found.remark(words(apart), budget.spent),
+        reason=found.reason(words(apart), budget.spent),
+        disagree=apart,
         explained=outcome.explained,
         groups=groups(found.claims, ranking, found.steady),
         credible_set=credence.credible,
@@ -235,7 +240,7 @@ class Conclusion:
         last: Stage,
         outcome: Outcome,
         extend: Extend | None,
-        apart: str | None,
+        apart: bool,
         output: Sequence[str],
     ) -> Conclusion:
         """Judge what the search has chosen."""
@@ -256,7 +261,7 @@ class Conclusion:
         remains = line is not None or left.significant or outcome.complaint is not None
         remains = remains or (outcome.loud and not random)
         claimed: tuple[str, ...] = ()
-        doubted = apart is not None or outcome.explained.complaint is not None
+        doubted = apart or outcome.explained.complaint is not None
         if not (line or doubted):
             claimed = () if base is None else _claims(first, steps, outcome, count, base)
         rival = bool(outcome.effects) and not claimed and not remains
@@ -283,7 +288,13 @@ class Conclusion:
             rival=rival,
         )
 
-    def remark(self, apart: str | None) -> str | None:
+    @property
+    def contradictory(self) -> bool:
+        """Whether flights that contradict each other would explain the verdict."""
+        loud = self.outcome.target.calibration.excess > QUIET
+        return self.verdict == "unexplained" or (self.remains and loud)
+
+    def remark(self, apart: str | None, spent: bool) -> str | None:
         """What is wrong with the record, or what else than the effects found would do, or how the record is disturbed."""
         doubt = apart or self.outcome.explained.complaint
         if doubt is not None:
@@ -291,13 +302,13 @@ class Conclusion:
         if self.line is not None:
             return self.line.words
         disturbed = comparison.disturbed(self.outcome.target)
-        return (
-            "; ".join([*(s.words for s in self.steady), *([] if disturbed is None else [disturbed])]) or None
-        )
+        said = [s.words for s in self.steady]
+        said += [f"the search was ended after {strong.FITS} fits"] if spent and self.remains else []
+        return "; ".join([*said, *([] if disturbed is None else [disturbed])]) or None
 
-    def reason(self, apart: str | None) -> str | None:
+    def reason(self, apart: str | None, spent: bool) -> str | None:
         """In one sentence, why the verdict is not ``adequate``, and what is odd about the record."""
-        remark = self.remark(apart)
+        remark = self.remark(apart, spent)
         if self.verdict == "adequate" or apart or self.line or self.outcome.explained.complaint:
             return remark
         sure = "is sure" if len(self.claims) == 1 else "are sure"
@@ -359,12 +370,15 @@ def _claims(
     lasting = [e for e in o.effects if e not in instants]  # the instant of a step is from all of the record
     if any(claims.held_out_gain(o.robust.regression, e) < -claims.WORSE for e in lasting):
         return ()
-    if o.remains and _explained(first, o) - _rank(steps, first, o) < claims.MORE * claims.best_single(base):
-        return ()
-    # of one effect that leaves but noise and generic terms that do as well, the one that is known to occur is taken
-    tie = not o.remains and len(o.effects) == 1
+    chi2, single = _explained(first, o) - _rank(steps, first, o), claims.best_single(base)
     ahead = _ahead(first, steps, o, count, base)
-    return o.effects if ahead > (-claims.PLAINLY if tie else claims.PLAINLY) else ()
+    if o.remains:
+        return o.effects if chi2 > claims.MORE * single and ahead > claims.PLAINLY else ()
+    # of one effect that leaves but noise and generic terms that do as well, the one that is known to occur is taken
+    if len(o.effects) == 1:
+        return o.effects if ahead > -claims.PLAINLY else ()
+    feigned = single > claims.NEARLY * chi2
+    return o.effects if ahead > claims.PLAINLY * (2 * len(o.effects) - 1 if feigned else 1) else ()
 
 
 def _rank(steps: Sequence[Taken], first: Stage, o: Outcome) -> int:
@@ -382,6 +396,10 @@ def _ahead(first: Stage, steps: Sequence[Taken], o: Outcome, count: int, base: S
     return claims.evidence(chi2, rank, [count] * len(o.effects), spread) - terms
 
 
+SECOND_ORDER = 0.05
+"""Share by which second orders may change what an effect explains: more is not its doing, but that of a base that has moved."""
+
+
 def _explained(first: Stage, o: Outcome) -> float:
     """Chi-square that an outcome's effects explain of what the model leaves without them."""
     field = first.field
@@ -390,7 +408,8 @@ def _explained(first: Stage, o: Outcome) -> float:
     if o.given or len(known) < len(o.effects):
         return linear
     # second orders of strong effects: what is left once they are derived into the model, with a noise that is estimated anew
-    return max(linear, float(np.sum(field.P[:, -1] ** 2) - o.target.whole[-1, -1] ** 2))
+    fitted = float(np.sum(field.P[:, -1] ** 2) - o.target.whole[-1, -1] ** 2)
+    return max(linear, min(fitted, (1.0 + SECOND_ORDER) * linear))
 
 
 def _without(
@@ -487,32 +506,41 @@ UNEXPLAINED = 10.0
 """Times the noise's chi-square that all effects of the catalogue together must leave for flights to contradict each other."""
 
 
-def contradiction(first: Stage) -> str | None:
-    """That flights contradict each other, in words, and which agree; ``None`` if they do not. ``first`` is the stage without
-    effects.
-    """
+def contradiction(first: Stage) -> tuple[Disagreement, ...]:
+    """The flights that agree, where each is explained by the model and all together are not; ``first`` is the stage without effects."""
     f = first.fitted
-    flights: dict[int, list[Observation]] = {}
-    for o in f.observations:
-        flights.setdefault(o.flight, []).append(o)
+    flights = _by_flight(f)
     left = float(first.field.P[-1, -1] ** 2)
     if len(flights) < 2 or left < UNEXPLAINED * f.calibration.rows:
-        return None
-    if not all(_quiet(f, x) for x in flights.values()):
-        return None
+        return ()
+    if not all(_quiet(f, x) for x in flights):
+        return ()
     agree: list[list[Sequence[Observation]]] = []
-    for one in flights.values():
+    for one in flights:
         group = next((g for g in agree if _quiet(f, [*g[0], *one])), None)
         if group is None:
             agree.append([one])
         else:
             group.append(one)
-    names = "; ".join(", ".join(x[0].flight_name for x in g) for g in agree)
-    return (
-        f"each of the {len(flights)} flights alone is explained to its noise, but they contradict each other, and no effect of"
-        f" the catalogue acts so between flights. Those that agree: {names}. Was the instrument, its mounting, an axis or a unit"
-        " changed between them? ragg calibrate of each shows what differs; diagnose those together that agree"
-    )
+    return tuple(Disagreement(tuple(x[0].flight_name for x in g), ()) for g in agree)
+
+
+def disagreement(f: Fitted, flights: Sequence[Flight], extend: Extend | None) -> tuple[Disagreement, ...]:
+    """What each of the flights lacks by itself, where each is explained so; nothing if one is not."""
+    found: dict[tuple[str, ...], list[str]] = {}
+    for x, own in zip(flights, _by_flight(f), strict=True):
+        d = diagnose_fitted(fit(f.model, f.instrument, own), [x], extend)
+        if d.remains:
+            return ()
+        found.setdefault(tuple(sorted(d.found)), []).append(own[0].flight_name)
+    return tuple(Disagreement(tuple(names), effects) for effects, names in found.items())
+
+
+def _by_flight(f: Fitted) -> list[list[Observation]]:
+    flights: dict[int, list[Observation]] = {}
+    for o in f.observations:
+        flights.setdefault(o.flight, []).append(o)
+    return list(flights.values())
 
 
 def _quiet(f: Fitted, observations: Sequence[Observation]) -> bool:

@@ -52,6 +52,7 @@ class Diagnosis:
     holds: Evidence | None = None
     explained: Explained | None = None
     groups: tuple[Group, ...] = ()
+    disagree: tuple[Disagreement, ...] = ()
     staged: bool = False
     """Whether what was found was derived into the model one after the other."""
 
@@ -136,6 +137,7 @@ class Diagnosis:
             "ranking": [{"place": n, **r.as_json()} for n, r in enumerate(self.ranking, 1)],
             "found": list(self.found),
             "groups": [g.as_json() for g in self.groups],
+            "disagree": [x.as_json() for x in self.disagree],
             "not_testable": [{"effect": n.effect, "why": n.why} for n in self.not_testable],
             "unexplained": {
                 "share": self.remainder_share,
@@ -153,6 +155,36 @@ class Diagnosis:
             "next_motion": [p.as_json() for p in self.next_motion],
             "detectable": [{"effect": s.effect, "three_sigma": str(s)} for s in self.sizes],
         }
+
+
+@dataclass(frozen=True)
+class Disagreement:
+    """Flights that agree, and what these lack: others lack something else, and all together are not explained."""
+
+    flights: tuple[str, ...]
+    found: tuple[str, ...]
+
+    def as_json(self) -> dict[str, object]:
+        return {"flights": list(self.flights), "found": list(self.found)}
+
+
+def words(apart: Sequence[Disagreement]) -> str | None:
+    """How flights disagree, in a sentence; ``None`` if they do not."""
+    if not apart:
+        return None
+    names = "; ".join(", ".join(g.flights) for g in apart)
+    count = sum(len(g.flights) for g in apart)
+    if any(g.found for g in apart):
+        said = "; ".join(f"{' and '.join(g.found) or 'nothing'} in {', '.join(g.flights)}" for g in apart)
+        return (
+            f"each of the {count} flights alone is explained, all together are not: {said}. Was the instrument, its mounting,"
+            " an axis or a unit changed between them?"
+        )
+    return (
+        f"each of the {count} flights alone is explained to its noise, but they contradict each other, and no effect of"
+        f" the catalogue acts so between flights. Those that agree: {names}. Was the instrument, its mounting, an axis or a unit"
+        " changed between them? ragg calibrate of each shows what differs; diagnose those together that agree"
+    )
 
 
 @dataclass(frozen=True)

@@ -82,12 +82,29 @@ class Taken:
     instant: float | None
 
 
-def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
-    """The strong effects, the strongest first, and the stage at which none is left, or what is missing is not in the catalogue."""
+FITS = 16
+"""Nonlinear fits that a search may make: a flight with strong effects of the catalogue takes two to eight."""
+
+
+class Budget:
+    """How many fits a search may still make."""
+
+    def __init__(self, left: int = FITS) -> None:
+        self.left = left
+
+    @property
+    def spent(self) -> bool:
+        return self.left <= 0
+
+
+def taken(first: Stage, extend: Extend | None, budget: Budget) -> tuple[list[Taken], Stage]:
+    """The strong effects, the strongest first, and the stage at which none is left, or what is missing is not in the catalogue, or
+    the budget is spent.
+    """
     found: list[Taken] = []
     stage = first
-    while extend is not None and stage.strong and len(found) < selection.MOST:
-        one = _strongest(stage, extend)
+    while extend is not None and stage.strong and len(found) < selection.MOST and not budget.spent:
+        one = _strongest(stage, extend, budget)
         if one is None:
             return found, stage.without_choice()
         found.append(one)
@@ -100,7 +117,7 @@ def _unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
     return [c.label for n, c in field.candidates[effect] if n not in which]
 
 
-def _strongest(stage: Stage, extend: Extend) -> Taken | None:
+def _strongest(stage: Stage, extend: Extend, budget: Budget) -> Taken | None:
     """The effect that explains most once it is in the model, of those that are possible at the size that they then have.
 
     ``None`` where only an impossible one leaves but noise, or none of several comes to an optimum.
@@ -111,13 +128,18 @@ def _strongest(stage: Stage, extend: Extend) -> Taken | None:
         held = frozenset(_unneeded(stage.field, e, tests[e].which))
         return held, contenders.derived(f, [e], stage.instants, extend)
 
+    def left(ids: Sequence[str]) -> dict[str, float]:
+        budget.left -= len(ids)
+        return contest.left(ids)
+
     contest = Contest(f, entered)
     while True:
-        effect, rivals = _best(stage, tests, contest.left)
+        effect, rivals = _best(stage, tests, left)
         if not contest.arrived:
             return None
         found = _in_model(stage, effect, rivals, extend)
-        if len(tests) == 1 or not impossible(found.after, (effect,)):
+        budget.left -= 1
+        if len(tests) == 1 or budget.spent or not impossible(found.after, (effect,)):
             return found
         if found.after.calibration.excess <= QUIET and not rivals:
             return None

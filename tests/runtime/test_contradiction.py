@@ -34,3 +34,17 @@ def test_a_strong_effect_between_flights_is_no_contradiction() -> None:
     hidden = {"pressure-bias": {"dK0_dp": [1e-8, 0.0, 0.0, -2e-9]}}
     d = diagnosed(one, flown(one, "low", hidden), flown(other, "high", hidden))
     assert (d.verdict, d.found) == ("missing-effect", ("pressure-bias",))
+
+
+def test_what_each_flight_alone_lacks_is_said_where_all_together_are_not_explained() -> None:
+    one, other = (scenario(k, duration=150.0) for k in (57, 58))
+    other = dataclasses.replace(other, instrument=one.instrument)
+    hidden = {"thermal-scale": {"dK1_dT": [0.0, 0.0, 2e-6, 0.0]}}
+    d = diagnosed(one, flown(one, "monday", hidden), flown(other, "tuesday"))
+    assert (d.verdict, d.found) == ("unexplained", ())
+    said = d.as_json()["disagree"]
+    assert said == [
+        {"flights": ["monday"], "found": ["thermal-scale"]},
+        {"flights": ["tuesday"], "found": []},
+    ]
+    assert "thermal-scale in monday; nothing in tuesday" in str(d.as_json()["reason"])
