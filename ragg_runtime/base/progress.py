@@ -21,7 +21,7 @@ QUIET = 4.0
 """A command that takes no longer than this shows no progress, s."""
 
 BEYOND = 0.99
-"""Share of the passes foreseen from which nobody knows how many more there will be."""
+"""Share of the passes estimated from which nobody knows how many more there will be."""
 
 INTERVAL = 15.0
 """Least time between two lines where stderr is a file, s."""
@@ -53,52 +53,30 @@ def listening(tell: Callable[[float], None]) -> Iterator[None]:
 
 @contextlib.contextmanager
 def shown(command: str, samples: int) -> Iterator[None]:
-    """Show how far ``command`` is with flights of so many ``samples``: a bar on a terminal, else a line now and then."""
-    total = PASSES[command] * max(samples, 1)
-    with contextlib.ExitStack() as stack:
-        show = stack.enter_context(_bar()) if sys.stderr.isatty() else _lines()
-        done, start = 0.0, time.monotonic()
+    """Say on stderr how far ``command`` is with flights of so many ``samples``: one line that changes, or a line now and then."""
+    total, terminal = PASSES[command] * max(samples, 1), sys.stderr.isatty()
+    done, start = 0.0, time.monotonic()
+    due = first = start + (QUIET if terminal else INTERVAL)
 
-        def tell(amount: float) -> None:
-            nonlocal done
-            done += amount
-            if time.monotonic() - start > QUIET:
-                show(min(done / total, BEYOND))
+    def tell(amount: float) -> None:
+        nonlocal done, due
+        done += amount
+        now, share = time.monotonic(), min(done / total, BEYOND)
+        pause = 1.0 if terminal else max(INTERVAL, 0.02 * (now - start) / share)
+        if now >= due:
+            due = now + pause
+            text = f"... {100 * share:.0f} % done, {_left(share, now - start)}"
+            click.echo(f"\r{text:<60}" if terminal else text, err=True, nl=not terminal)
 
-        with listening(tell):
-            yield
-
-
-@contextlib.contextmanager
-def _bar() -> Iterator[Callable[[float], None]]:
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
-
-    start = time.monotonic()
-    columns = (BarColumn(), TaskProgressColumn(), TextColumn("{task.description}"))
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("", total=1.0, visible=False)
-        yield lambda share: bar.update(
-            task, completed=share, visible=True, description=_left(share, time.monotonic() - start)
-        )
-
-
-def _lines() -> Callable[[float], None]:
-    start = last = time.monotonic()
-
-    def show(share: float) -> None:
-        nonlocal last
-        now = time.monotonic()
-        if now - last >= max(INTERVAL, 0.02 * (now - start) / share):
-            last = now
-            click.echo(f"... {100 * share:.0f} % done, {_left(share, now - start)}", err=True)
-
-    return show
+    with listening(tell):
+        yield
+    if terminal and due > first:
+        click.echo(f"\r{'':<60}\r", err=True, nl=False)
 
 
 def _left(share: float, spent: float) -> str:
     if share >= BEYOND:
-        return f"takes longer than foreseen, {_duration(spent)} so far"
+        return f"takes longer than estimated, {_duration(spent)} so far"
     return f"about {_duration(spent * (1 / share - 1))} left"
 
 

@@ -284,11 +284,10 @@ def changes(
     count = len(t) // few
     found = np.empty((len(steps), 2, count))
     if e.library is not None and e.folded and e.layout.like_paper and few <= LONGEST:
-        weights = np.ascontiguousarray(weights)
+        weights, c = np.ascontiguousarray(weights), e._case(t, x, p, angle)
         for first in range(0, len(steps), TOGETHER):
             some = slice(first, first + TOGETHER)
             vectors = np.concatenate([p[None], p + steps[some]])
-            c = e._case(t, x, p, angle)
             arguments = Case(c.t, c.inputs, vectors, c.angle).pointers(_size(len(vectors) - 1))
             e.library.ragg_folded_changes(*arguments, _size(few), _at(weights), _at(found[some]))
         return found

@@ -41,5 +41,6 @@ def test_what_takes_longer_than_foretold_is_not_almost_done(
             now[0] += 300.0
             progress.step(progress.PASSES["diagnose"] * 1000)
     assert (
-        capsys.readouterr().err.splitlines()[-1] == "... 99 % done, takes longer than foreseen, 10 min so far"
+        capsys.readouterr().err.splitlines()[-1]
+        == "... 99 % done, takes longer than estimated, 10 min so far"
     )
