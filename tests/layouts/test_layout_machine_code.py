@@ -153,14 +153,3 @@ def test_round_off_against_fifty_digits(name: str, head: str) -> None:
                 [abs(float(fifty.real(float(g)) - v)) for g, v in zip(found, true[k], strict=True)]
             )
             assert np.all(gap / eotvos < limit), (gap / eotvos / limit).max()
-
-
-def test_discs_turn_as_the_sheet_says_where_no_angle_is_given() -> None:
-    i = instrument("odd")
-    model, _ = derive.derived((), (), i.form, i.layout)
-    p = vector(model, i)
-    t, x = np.arange(N) / 16.0, drawn(model.chain.INPUTS)
-    for e in (model.compiled("c"), model.compiled("numpy")):
-        given = e.output(t, x, p, 2 * np.pi * 0.3 * t, which=0)
-        assert e.output(t, x, p, which=0) == pytest.approx(given, rel=1e-9)
-        assert e.output(t, x, p, which=1) == pytest.approx(e.output(t, x, p, np.zeros(N), which=1), rel=1e-12)

@@ -50,8 +50,6 @@ def ragg(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, s
     ("table", "form"),
     [
         ("", PAPER),
-        ('[model]\nkinematics = "full"', Form(kinematics="full")),
-        ('[model]\norder = "exact"', replace(EXACT, kinematics="platform")),
         ('[model]\nkinematics = "full"\norder = "exact"', EXACT),
         ("[model]\norder = { mounting = 2 }", Form(mounting=2)),
         (
@@ -76,9 +74,7 @@ def test_forms_are_read_and_written(table: str, form: Form) -> None:
         ('[model]\norder = "papr"', ("order", "papr", '"paper" or "exact"')),
         ("[model]\norder = 2", ("order", "2", "mounting")),
         ("[model]\norder = { mounting = 3 }", ("mounting", "3", '1 or 2 or "exact"')),
-        ("[model]\norder = { misalignment = true }", ("misalignment", "True")),
         ("[model]\norder = { second_order_angles = 1 }", ("second_order_angles", "true or false")),
-        ("[model]\norder = { mount = 1 }", ("mount", "mounting")),
     ],
 )
 def test_what_is_no_form_is_refused_with_a_remedy(table: str, words: tuple[str, ...]) -> None:

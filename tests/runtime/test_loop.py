@@ -13,13 +13,11 @@ import numpy as np
 import pytest
 from commands import ragg
 
-from derive.expression import from_expression
 from ragg_runtime import api
 from ragg_runtime.identification.comparison import compare, nominal_residual
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.io import Flight, write_flight
-from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulate import demodulate
@@ -156,18 +154,6 @@ def test_demodulated_channels_alone_tell_as_much_as_they_can(hidden: bool) -> No
         assert (d.verdict, d.found) == ("adequate", ())
 
 
-def test_saturation_of_the_output_is_recognised() -> None:
-    s = scenario(47, duration=600.0, rate=RATE)
-    G = s.simulate({}).G_out
-    limit = float(np.quantile(np.abs(G), 0.98))
-    flight = s.simulate({"saturation": {"V_max": limit}}).flight()
-    d = diagnosed(s, flight)
-    assert d.found == ("saturation",)
-    first = json.loads(json.dumps(d.as_json(), allow_nan=False))["ranking"][0]  # certain: no infinity in JSON
-    assert (first["effect"], first["p_value"], first["log10_p"]) == ("saturation", 0.0, None)
-    assert "certain" in d._repr_html_()
-
-
 @pytest.fixture(scope="module")
 def flight_files(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     folder = tmp_path_factory.mktemp("loop")
@@ -262,9 +248,13 @@ def test_bad_input_is_one_message(
     assert "Traceback" not in done.stderr
 
 
-def test_an_expression_is_derived_like_any_effect() -> None:
-    e = from_expression("mine", "transducer", "K * f_i**2 * temperature", {"K": {"unit": "ug/g^2/K"}})
-    assert e.channels == ("temperature",)
-    model, files = derive.derived((e,), ())
-    assert [x.id for x in model.effects] == ["mine"]
-    assert "temperature" in files["chain.py"]
+def test_saturation_of_the_output_is_recognised() -> None:
+    s = scenario(47, duration=600.0, rate=RATE)
+    G = s.simulate({}).G_out
+    limit = float(np.quantile(np.abs(G), 0.98))
+    flight = s.simulate({"saturation": {"V_max": limit}}).flight()
+    d = diagnosed(s, flight)
+    assert d.found == ("saturation",)
+    first = json.loads(json.dumps(d.as_json(), allow_nan=False))["ranking"][0]  # certain: no infinity in JSON
+    assert (first["effect"], first["p_value"], first["log10_p"]) == ("saturation", 0.0, None)
+    assert "certain" in d._repr_html_()

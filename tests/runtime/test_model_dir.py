@@ -112,15 +112,6 @@ def test_a_change_that_was_cut_off_is_dropped_and_an_edit_by_hand_is_not(tmp_pat
     assert [s.effect for s in load_model_dir(first.path).history] == ["state-1", "state-4"]
 
 
-def test_a_calibration_that_was_cut_off_is_dropped(tmp_path: Path) -> None:
-    first = make(tmp_path, 1)
-    step = Step("calibrate", "2024-01-01T00:00:00Z")
-    made = replace_model_dir(first, first.text, generated=code_of(1), step=step, calibration=lambda _: "1")
-    assert [s.action for s in made.history] == ["add", "calibrate"]
-    (first.path / "calibration.json").unlink()
-    assert [s.action for s in load_model_dir(first.path).history] == ["add"]
-
-
 def test_a_calibration_saved_meanwhile_hinders_nobody_and_stays(tmp_path: Path) -> None:
     """As in a notebook: calibrate(m, flights, save=True), then add(m, effect, flights) with the same m."""
     first = make(tmp_path, 1)
@@ -217,23 +208,6 @@ def test_the_lock_holds_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     with locked(current.path, 0.0), pytest.raises(UserError, match="another command"):
         change(current, 2)
     assert state_number(change(current, 2)) == 2
-
-
-def test_the_lock_ends_with_its_process(tmp_path: Path) -> None:
-    code = (
-        "import sys, pathlib, ragg_runtime.base.files as l\n"
-        "with l.locked(pathlib.Path(sys.argv[1]), 0): print(1, flush=True); input()"
-    )
-    with subprocess.Popen(
-        [sys.executable, "-c", code, tmp_path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=ROOT
-    ) as holder:
-        assert holder.stdout is not None
-        assert holder.stdout.readline() == b"1\n"
-        with pytest.raises(TimeoutError), locked(tmp_path, 0.02):
-            pass
-        holder.kill()
-    with locked(tmp_path, 0.0):
-        assert entries(tmp_path) == []
 
 
 def test_messages(tmp_path: Path) -> None:

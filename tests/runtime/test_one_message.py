@@ -71,16 +71,6 @@ def test_histories_of_odd_shapes(
         assert "the history is damaged" in capsys.readouterr().err
 
 
-def test_names_in_a_history(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    step = {"action": "add", "effect": FORGED, "time": "now\r", "after": {"rms_V": 1.0}}
-    (model / "history.json").write_text(json.dumps({"steps": [step]}))
-    main(["history", str(model)])
-    said = capsys.readouterr().out
-    assert WRITTEN_OUT in said
-    assert len(said.splitlines()) == 2
-    api.load(model)._repr_html_()
-
-
 def test_every_refusal_of_the_system_names_its_place(
     model: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -80,19 +80,6 @@ def test_a_change_names_the_state_before_and_after(
     assert digests[0] == digests[2] != digests[1]
 
 
-def test_a_report_names_what_made_it(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(place)
-    monkeypatch.setattr(sys, "argv", ["ragg", "compare", "model", "flight.parquet", "--report", "r.html"])
-    main(sys.argv[1:])
-    page = (place / "r.html").read_text("utf-8")
-    assert "ragg compare model flight.parquet --report r.html" in page
-    for path in ("model/model.toml", "flight.parquet"):
-        assert hashlib.sha256((place / path).read_bytes()).hexdigest() in page
-    for library in ("numpy", "scipy", "sympy"):
-        assert f"{library} {version(library)}" in page
-    assert api.load(place / "model").model.digest in page
-
-
 def test_the_same_result_on_any_number_of_threads(place: Path) -> None:
     """BLAS splits sums by the number of its threads; the verdict and the figures must not notice."""
     results = []
@@ -120,3 +107,16 @@ def _environment() -> dict[str, str]:
 
     root = str(Path(api.__file__).parents[1])
     return {**os.environ, "PYTHONPATH": root}
+
+
+def test_a_report_names_what_made_it(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(place)
+    monkeypatch.setattr(sys, "argv", ["ragg", "compare", "model", "flight.parquet", "--report", "r.html"])
+    main(sys.argv[1:])
+    page = (place / "r.html").read_text("utf-8")
+    assert "ragg compare model flight.parquet --report r.html" in page
+    for path in ("model/model.toml", "flight.parquet"):
+        assert hashlib.sha256((place / path).read_bytes()).hexdigest() in page
+    for library in ("numpy", "scipy", "sympy"):
+        assert f"{library} {version(library)}" in page
+    assert api.load(place / "model").model.digest in page

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -51,19 +49,6 @@ def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: 
         file.unlink()
     assert m.model.digest == derive.model_of(m.instrument).digest
     assert count == [1], "what is not kept is derived"
-
-
-def test_sympy_is_not_even_imported_then(model: Path, tmp_path: Path) -> None:
-    code = (
-        "import sys; from pathlib import Path; from ragg_runtime.model import derive; "
-        "from ragg_runtime import api\n"
-        f"derive._folder = lambda: Path({str(tmp_path / 'cache' / 'derived')!r})\n"
-        "m = api.load(sys.argv[1]); print([e.id for e in m.model.effects], 'sympy' in sys.modules)"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code, model], cwd=ROOT, capture_output=True, text=True, check=True
-    )
-    assert done.stdout.strip() == "['gain-drift'] False"
 
 
 @pytest.mark.parametrize("name", ["chain.py", "digest"])
