@@ -24,6 +24,7 @@ from ragg_runtime.compensation import calibrated as _calibrated
 from ragg_runtime.compensation import frozen as _frozen
 from ragg_runtime.compensation.calibrated import Calibrated
 from ragg_runtime.compensation.compensate import Kind
+from ragg_runtime.compensation.drift import Drift, smooth_drift
 from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.compensation.export.forms import FORMS, write_export
 from ragg_runtime.compensation.frozen import Held
@@ -362,11 +363,12 @@ def of_survey(m: Loaded, s: Survey, command: str) -> tuple[dict[str, object], di
 
 @dataclass(frozen=True)
 class Kept:
-    """The result of ``calibrate``: the calibration, and the model directory as it is afterwards."""
+    """The result of ``calibrate``: the calibration, the model directory as it is afterwards, and the ``drift`` if it was asked for."""
 
     loaded: Loaded
     calibrated: Calibrated
     saved: bool
+    drift: Drift | None = None
 
     def __repr__(self) -> str:
         seen, of = self.calibrated.directions
@@ -381,16 +383,28 @@ class Kept:
 
     def as_json(self) -> dict[str, Any]:
         """As ``ragg calibrate --json`` writes it."""
-        return self.calibrated.as_json() | {"saved": self.saved}
+        drift = {} if self.drift is None else {"drifting": self.drift.as_json()}
+        return self.calibrated.as_json() | {"saved": self.saved} | drift
 
 
-def calibrate(m: Loaded, flights: Flights, save: bool = False, mapping: Path | str | None = None) -> Kept:
-    """Fit the parameters to flights; ``save`` keeps them (and ``mapping``) in the model directory, older ones as history."""
+def calibrate(
+    m: Loaded,
+    flights: Flights,
+    save: bool = False,
+    mapping: Path | str | None = None,
+    *,
+    drift: bool = False,
+) -> Kept:
+    """Fit the parameters to flights; ``save`` keeps them (and ``mapping``) in the model directory, older ones as history.
+
+    With ``drift`` those that drift are followed through the flights as well; what is kept are the constant ones.
+    """
     flights = read_flights(m, flights, mapping)
     distinct(flights)
     text = None if mapping is None else mapping_text(Path(mapping))
     c = _calibrated.calibrated(m.model, m.instrument, flights)
-    return Kept(loaded=_saved(m, c, flights, text) if save else m, calibrated=c, saved=save)
+    walked = smooth_drift(c.fitted, flights) if drift else None
+    return Kept(_saved(m, c, flights, text) if save else m, c, save, walked)
 
 
 def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | None) -> Loaded:
@@ -445,8 +459,9 @@ def compensate(
     ----------
     calibration
         ``self``: the parameters are fitted to these flights; ``crossed``: every block of time has those fitted to all
-        others; ``frozen``: as ``calibrate(..., save=True)`` kept them; ``online``: followed sample by sample by the recursive
-        filter, as a computer on board would, from the calibration that is kept, else from the sheet. It needs no demodulator.
+        others; ``smoothed``: they drift from block to block, as far as the flights show it; ``frozen``: as
+        ``calibrate(..., save=True)`` kept them; ``online``: followed sample by sample by the recursive filter, as a computer on
+        board would, from the calibration that is kept, else from the sheet. It needs no demodulator.
     demodulator
         ``fir``, ``butterworth`` or ``causal``.
     output

@@ -265,9 +265,15 @@ def next_motion(
               help="Keep the calibration (and a mapping that is given) in the model directory, for --frozen.")  # fmt: skip
 @click.option("--plan", type=PLACE, metavar="PLAN.json",
               help="Certify each parameter against a plan of next-motion --for calibration.")  # fmt: skip
+@click.option("--drift", is_flag=True, help="Follow the parameters that drift through the flights.")
 @mapping_option
 def calibrate(
-    model_dir: Path, flights: Sequence[Path], save: bool, plan: Path | None, mapping: Path | None
+    model_dir: Path,
+    flights: Sequence[Path],
+    save: bool,
+    plan: Path | None,
+    drift: bool,
+    mapping: Path | None,
 ) -> None:
     """Fit the parameters, with their uncertainty."""
     from ragg_runtime import api
@@ -279,7 +285,7 @@ def calibrate(
     records = read(m, flights, mapping)
     under_way("calibrating")
     with progress.shown("compare", sum(map(len, records))):
-        kept = api.calibrate(m, records, save, mapping)
+        kept = api.calibrate(m, records, save, mapping, drift=drift)
     use = f"{next_command('compensate', m.directory.path, records)} -o compensated.csv --calibration frozen"
     found = kept.as_json()
     if planned is not None:
@@ -300,11 +306,11 @@ def calibrate(
 @series_option
 @click.option(
     "--calibration",
-    type=click.Choice(["frozen", "self", "crossed", "online"]),
+    type=click.Choice(["frozen", "self", "crossed", "smoothed", "online"]),
     default="self",
     show_default=True,
-    help="As `ragg calibrate --save` kept it; fitted to these flights; each block of time fitted to all others; sample by "
-    "sample, as on board (`export --c` is the same filter in C).",
+    help="As `ragg calibrate --save` kept it; fitted to these flights; each block of time fitted to all others; drifting "
+    "from block to block; sample by sample, as on board (`export --c` is the same filter in C).",
 )
 @click.option("--frozen", is_flag=True, help="The same as --calibration frozen.")
 @click.option(
@@ -325,7 +331,7 @@ def compensate(
     model_dir: Path,
     flights: Sequence[Path],
     output: str,
-    calibration: Literal["frozen", "self", "crossed", "online"],
+    calibration: Literal["frozen", "self", "crossed", "smoothed", "online"],
     frozen: bool,
     demodulator: str,
     noise: float | None,
@@ -435,9 +441,15 @@ def survey(
     m = load(model_dir)
     if table_file is not None:
         check_place(Path(table_file))
-    with run.results_file(resume) as file, run.shown() as show:
+    with run.results_file(resume) as file:
         s = api.survey(
-            m, flights, jobs=jobs, scheduler=scheduler, resume=file, progress=show, mapping=mapping
+            m,
+            flights,
+            jobs=jobs,
+            scheduler=scheduler,
+            resume=file,
+            progress=run.show_progress(),
+            mapping=mapping,
         )
     origin, about = of_survey(m, s, command_line())
 

@@ -15,6 +15,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation import frozen
 from ragg_runtime.compensation.calibrated import information, inverse
+from ragg_runtime.compensation.drift import smooth_drift
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.compensation.series import (
     MEANING,
@@ -97,8 +98,8 @@ class Density:
         return {"inline_Eo_per_rtHz": float(inline), "cross_Eo_per_rtHz": float(cross)}
 
 
-Kind = Literal["frozen", "self", "crossed"]
-KINDS: tuple[Kind, ...] = ("self", "crossed", "frozen")
+Kind = Literal["frozen", "self", "crossed", "smoothed"]
+KINDS: tuple[Kind, ...] = ("self", "crossed", "smoothed", "frozen")
 
 NEGLECTED = 0.01
 """Share of the noise's variance that directions of the parameters may add which are left out of the uncertainty."""
@@ -140,7 +141,7 @@ class Prepared:
 def prepared(
     model: Model, instrument: Instrument, flights: Sequence[Flight], kind: Kind, saved: Saved | None = None
 ) -> Prepared:
-    """Calibrate on the flights (``self``, ``crossed``), or take what was saved (``frozen``)."""
+    """Calibrate on the flights (``self``, ``crossed``, ``smoothed``), or take what was saved (``frozen``)."""
     if kind not in KINDS:
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
     flights = tuple(without_gradients(x) for x in flights)
@@ -160,9 +161,12 @@ def prepared(
         f = fit(model, instrument, observations)
         c, settled = f.calibration, f.calibration.converged
         root = inverse(information(f))
-        stretches = (
-            crossed(f) if kind == "crossed" else [whole(c, root, len(o.record.time)) for o in observations]
-        )
+        if kind == "crossed":
+            stretches = crossed(f)
+        elif kind == "smoothed":
+            stretches = smooth_drift(f, flights).stretches()
+        else:
+            stretches = [whole(c, root, len(o.record.time)) for o in observations]
     return Prepared(
         kind=kind,
         model=model,

@@ -54,7 +54,8 @@ class Stretch:
         return replace(self, directions=basis.T @ self.directions)
 
 
-def _stretch(c: Calibration, first: int, last: int, p: Array, root: Array) -> Stretch:
+def stretch_of(c: Calibration, first: int, last: int, p: Array, root: Array) -> Stretch:
+    """Samples ``first`` to ``last`` with parameters ``p``; ``root`` (n, k) of their covariance, in scales."""
     scale = np.array([q.scale for q in c.columns])
     directions = np.zeros((root.shape[1], len(p)))
     directions[:, c.index] = root.T * scale
@@ -63,7 +64,7 @@ def _stretch(c: Calibration, first: int, last: int, p: Array, root: Array) -> St
 
 def whole(c: Calibration, root: Array, samples: int) -> tuple[Stretch, ...]:
     """One calibration for all samples; ``root`` (n, k) of its covariance, in scales."""
-    return (_stretch(c, 0, samples, c.p, root),)
+    return (stretch_of(c, 0, samples, c.p, root),)
 
 
 def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
@@ -86,7 +87,7 @@ def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
             normal = with_sheet(join(others), f.to_nominal)
             p = c.p.copy()
             p[c.index] += normal.step * scale
-            stretches.append(_stretch(c, int(edges[b]), int(edges[b + 1]), p, inverse(normal.R)))
+            stretches.append(stretch_of(c, int(edges[b]), int(edges[b + 1]), p, inverse(normal.R)))
         found.append(tuple(stretches))
     return found
 

@@ -79,24 +79,21 @@ def counted(counts: Mapping[str, int]) -> str:
 def recommended(s: Survey, model_dir: Path | str) -> list[str]:
     """What to do next, in sentences."""
     x = s.summary
-    lines = []
-    for a in x.advice:
-        if a.firm:
-            lines.append(f"recommended: {advised(a, len(s.done))}")
-    chance = [a for a in x.advice if not a.firm]
+    firm, chance = ([a for a in x.advice if a.firm is sure] for sure in (True, False))
+    lines = [f"recommended: {advised(a, len(s.done))}" for a in firm]
     if chance:
         names = ", ".join(f"{a.effect} ({len(a.flights)})" for a in chance)
         lines.append(f"in so few flights that it may be chance: {names}")
-    firm = [a for a in x.advice if a.firm]
+    open_flights = x.counts["unexplained"] + x.counts["partly-explained"]
     if firm:
         files = [_place(r) for r in s.done if r["flight"] in firm[0].flights]
         more = " ..." if len(files) > 3 else ""
         lines.append(f"next: ragg add {model_dir} {firm[0].effect} {' '.join(files[:3])}{more}")
-    elif not x.advice and s.done and not x.counts["unexplained"]:
+    elif not x.advice and s.done and not open_flights:
         lines.append("The model is adequate for every flight that was diagnosed.")
-    if x.counts["unexplained"]:
+    if open_flights:
         lines.append(
-            f"{x.counts['unexplained']} flight(s) show something that no known effect explains: ragg diagnose them"
+            f"{open_flights} flight(s) show something that no known effect explains: ragg diagnose them"
         )
     if not s.done:
         lines.append("No flight could be diagnosed.")
@@ -341,35 +338,22 @@ TOGETHER = 512
 ERRORS = ("nominal", "calibrated", "holdout", "after", "after_holdout")
 """Of these a row has the rms, ``nominal_Eo`` and so on; None where a record does not tell."""
 
-_NAMES = pa.list_(pa.string())
+
+def _lists_of(**fields: pa.DataType) -> pa.DataType:
+    return pa.list_(pa.struct(fields))
+
+
+_TEXT, _NUMBER, _COUNT = pa.string(), pa.float64(), pa.int64()
 _SCHEMA = pa.schema(
-    [
-        *((n, pa.string()) for n in ("flight", "file", "sha256", "verdict", "error")),
-        ("samples", pa.int64()),
-        *((n, pa.float64()) for n in ("duration_s", "rate_Hz")),
-        ("found", _NAMES),
-        *((f"{n}_Eo", pa.float64()) for n in (*ERRORS, "noise_floor")),
-        (
-            "ranking",
-            pa.list_(pa.struct({"effect": pa.string(), "log10_p": pa.float64(), "delta_bic": pa.float64()})),
-        ),
-        (
-            "parameters",
-            pa.list_(
-                pa.struct(
-                    {
-                        "name": pa.string(),
-                        "accelerometer": pa.int64(),
-                        "unit": pa.string(),
-                        "value": pa.float64(),
-                        "std": pa.float64(),
-                    }
-                )
-            ),
-        ),
-        ("terms", pa.list_(pa.struct({"harmonic": pa.string(), "term": pa.string()}))),
-        ("notes", _NAMES),
-    ]
+    dict.fromkeys(("flight", "file", "sha256", "verdict", "error"), _TEXT)
+    | {"samples": _COUNT, "duration_s": _NUMBER, "rate_Hz": _NUMBER, "found": pa.list_(_TEXT)}
+    | dict.fromkeys((f"{n}_Eo" for n in (*ERRORS, "noise_floor")), _NUMBER)
+    | {
+        "ranking": _lists_of(effect=_TEXT, log10_p=_NUMBER, delta_bic=_NUMBER),
+        "parameters": _lists_of(name=_TEXT, accelerometer=_COUNT, unit=_TEXT, value=_NUMBER, std=_NUMBER),
+        "terms": _lists_of(harmonic=_TEXT, term=_TEXT),
+        "notes": pa.list_(_TEXT),
+    }
 )
 
 

@@ -1,23 +1,27 @@
-"""A survey: every flight diagnosed by itself, on this machine or on a cluster, and what they say together."""
+"""A survey: every flight diagnosed by itself, on this machine or on a Dask cluster, and what they say together."""
 
 from __future__ import annotations
 
 import contextlib
-import errno
 import hashlib
 import importlib
 import json
 import logging
+import multiprocessing
 import os
+import signal
 import sys
 import tempfile
+import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import click
 
@@ -25,8 +29,6 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import file_digest
 from ragg_runtime.base.progress import INTERVAL
 from ragg_runtime.io.record import same_record
-from ragg_runtime.survey import local
-from ragg_runtime.survey.local import ATTEMPTS, lost
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.task import (
     BETWEEN,
@@ -36,12 +38,14 @@ from ragg_runtime.survey.task import (
     divided,
     examine,
     expanded,
-    fingerprint,
     job,
 )
 
 Progress = Callable[[int, int, Record | None], None]
 """Called with the number of flights done, of all, and the record just made (``None`` at the beginning)."""
+
+ATTEMPTS = 3
+"""How often a flight is tried whose worker dies or runs out of memory."""
 
 
 def survey(
@@ -60,7 +64,7 @@ def survey(
     Parameters
     ----------
     text, path
-        model.toml and where it stands.
+        model.toml and where it is.
     flights
         Files; the order does not matter, a file named twice counts once.
     jobs
@@ -69,9 +73,14 @@ def survey(
         Address of a dask.distributed scheduler, ``tcp://host:port``: its workers do it instead. What answers there
         can run code in this process: name addresses that you trust. Certificates are Dask's own configuration.
     resume
-        Results file: what stands in it is not done again (flights in error are), what is done is added.
+        Results file: what it holds is not done again (flights in error are), what is done is added.
     mapping
         Text and place of the mapping by which flights are read, and whether it is the model's own.
+
+    Returns
+    -------
+    Survey
+        A record per flight, in the order of their names, and their summary.
 
     Raises
     ------
@@ -83,18 +92,23 @@ def survey(
     files = expanded(given, ordered(flights))
     names = distinct_names(files)
     records: dict[str, Record] = {}
-    with contextlib.nullcontext() if resume is None else journal(resume) as kept:
-        if kept is not None:
-            records |= kept.read(given, files)
+    with contextlib.nullcontext() if resume is None else open_journal(resume) as journal:
+        if journal is not None:
+            records |= journal.read(given, files)
         if progress is not None:
             progress(len(records), len(files), None)
         left = [f for f in files if f not in records]
         if left:
-            with contextlib.closing(_examined(given, left, jobs, scheduler)) as found:
+            found = (
+                examine_here(given, left, jobs or processors())
+                if scheduler is None
+                else examine_on_cluster(given, left, scheduler)
+            )
+            with contextlib.closing(found):
                 for file, record in found:
                     records[file] = record = record | {"flight": names[file]}
-                    if kept is not None:
-                        kept.append(record)
+                    if journal is not None:
+                        journal.append(record)
                     if progress is not None:
                         progress(len(records), len(files), record)
     # what was kept may have been named among other files
@@ -111,7 +125,7 @@ def _check(flights: Sequence[Path | str], jobs: int | None, scheduler: str | Non
 
 
 def once(records: Sequence[Record]) -> Iterator[Record]:
-    """The records; of those that are of one and the same record of an instrument the first, the others in error."""
+    """The records; of those of one and the same record of an instrument the first, the others in error."""
     first: dict[str, str] = {}
     for r in records:
         same = r["file"] if CONTENT not in r else first.setdefault(r[CONTENT], r["file"])
@@ -123,7 +137,7 @@ def once(records: Sequence[Record]) -> Iterator[Record]:
 
 
 def distinct_names(files: Sequence[str]) -> dict[str, str]:
-    """File -> the flight's name: that of the file, with as many folders before it as tell it from all others."""
+    """File -> the flight's name: that of the file, with as many folders before it as distinguish it from all others."""
     split = {f: divided(f) for f in files}
     left, depth = {path for path, _ in split.values()}, 0
     known: dict[Path, str] = {}
@@ -143,13 +157,125 @@ def ordered(flights: Sequence[Path | str]) -> list[str]:
     return sorted(names, key=lambda f: (names[f], f))
 
 
-def _examined(
-    given: Job, files: Sequence[str], jobs: int | None, scheduler: str | None
-) -> Generator[tuple[str, Record]]:
-    if scheduler is not None:
-        return examined_on_cluster(given, files, scheduler)
-    return local.examined(given, files, jobs or local.processors())
+def sha256(path: Path) -> str | None:
+    """Digest of a file, as a flight's (also of ``file::line``); ``None`` if it cannot be read."""
+    try:
+        return file_digest(divided(str(path))[0])
+    except (OSError, UserError):
+        return None
 
+
+def lost(file: str, error: BaseException) -> Record:
+    """The record of a flight on which every attempt failed."""
+    what = f"{type(error).__name__}: {error}"
+    if isinstance(error, BrokenProcessPool) or type(error).__name__ == "KilledWorker":
+        what = "the worker process died (out of memory, or killed)"
+    message = f"{file}: {what}, {ATTEMPTS} times"
+    return {"flight": os.path.basename(file), "file": file, "error": {"kind": "lost", "message": message}}
+
+
+# --- on this machine
+
+
+def processors() -> int:
+    """Processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def examine_here(given: Job, files: Sequence[str], jobs: int) -> Generator[tuple[str, Record]]:
+    """(file, record) of every flight as it is done, on a pool of processes; closing the iterator ends them.
+
+    Flights at which a worker died are tried again at the end, each alone: so it is plain which of them it was.
+    """
+    again: dict[str, BaseException] = {}
+    yield from _pooled(given, files, min(jobs, len(files)), again)
+    for file in list(again):
+        for _ in range(ATTEMPTS - 1):
+            failed: dict[str, BaseException] = {}
+            yield from _pooled(given, [file], 1, failed)
+            if not failed:
+                break
+        else:
+            yield file, lost(file, failed[file])
+
+
+def _pooled(
+    given: Job, files: Sequence[str], jobs: int, failed: dict[str, BaseException]
+) -> Generator[tuple[str, Record]]:
+    """The flights that a pool gets done; ``failed`` takes the others."""
+    waiting, pool = iter(files), _new_pool(jobs)
+    try:
+        _try(pool)
+        at: dict[Future[Record], str] = {}
+        while True:
+            # no more than there are workers: what is in the air when one dies is what it may have died of
+            at |= {pool.submit(examine, given, f): f for f in islice(waiting, jobs - len(at))}
+            if not at:
+                return
+            done = wait(at, return_when=FIRST_COMPLETED).done
+            broken = any(isinstance(f.exception(), BrokenProcessPool) for f in done)
+            for future in wait(at).done if broken else done:
+                file, error = at.pop(future), future.exception()
+                if error is None:
+                    yield file, future.result()
+                else:
+                    failed[file] = error
+            if broken:
+                _end(pool)
+                pool = _new_pool(jobs)
+    finally:
+        _end(pool)
+
+
+def _new_pool(jobs: int) -> ProcessPoolExecutor:
+    """A pool of processes that are there already, and have inherited no Ctrl-C: that is the parent's."""
+    context = multiprocessing.get_context("spawn")  # the same on every system; no locks are inherited
+    masks = hasattr(signal, "pthread_sigmask")
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]) if masks else None
+    try:
+        pool = ProcessPoolExecutor(jobs, context, initializer=_begin)
+        for _ in range(jobs):
+            pool.submit(os.getpid)
+        return pool
+    finally:
+        if mask is not None:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+def _try(pool: ProcessPoolExecutor) -> None:
+    """UserError if no process comes as far as to work."""
+    try:
+        pool.submit(os.getpid).result()
+    except BrokenProcessPool:
+        raise UserError(
+            "no worker process can be started",
+            expected="a program that can be imported: workers begin by importing it",
+            remedy="in a script of your own, call survey below `if __name__ == '__main__':`",
+        ) from None
+
+
+def _end(pool: ProcessPoolExecutor) -> None:
+    """End the processes, whatever they are at: what they have done is here."""
+    for p in list((getattr(pool, "_processes", None) or {}).values()):
+        with contextlib.suppress(ValueError, OSError):
+            p.kill()
+    pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _begin() -> None:
+    """First call in a worker: Ctrl-C is the parent's; a worker does not outlive its parent."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+
+        def follow() -> None:
+            parent.join()
+            os._exit(1)
+
+        threading.Thread(target=follow, daemon=True).start()
+
+
+# --- on a cluster
 
 PATIENCE = 5.0
 """How long the scheduler, and then its first worker, is waited for, s."""
@@ -158,40 +284,35 @@ AHEAD = 4
 """Flights that the scheduler knows for each thread of its workers: its memory does not grow with their number."""
 
 
-def examined_on_cluster(job: Job, files: Sequence[str], address: str) -> Generator[tuple[str, Record]]:
+def examine_on_cluster(given: Job, files: Sequence[str], address: str) -> Generator[tuple[str, Record]]:
     """(file, record) of every flight as it is done. Raises UserError if the cluster cannot be used, or is lost."""
     with _client(address) as (distributed, client):
-        _check_workers(client, address)
-        ask = partial(client.submit, partial(examine, job), pure=False, retries=ATTEMPTS - 1)
-        waiting = iter(files)
+        with contextlib.suppress(Exception):
+            client.wait_for_workers(1, timeout=PATIENCE)
         ahead = AHEAD * sum(client.nthreads().values())
-        asked = {ask(file): file for file in islice(waiting, ahead)}
+        if not ahead:
+            raise UserError(
+                "the cluster has no workers", where=address, remedy="start some: dask worker ADDRESS"
+            )
+        ask = partial(client.submit, partial(examine, given), pure=False, retries=ATTEMPTS - 1)
+        waiting = iter(files)
+        asked = {ask(f): f for f in islice(waiting, ahead)}
         done = distributed.as_completed(list(asked), loop=client.loop)
         for future in done:
             file = asked.pop(future)
-            yield file, _record(address, file, future)
+            if future.cancelled():
+                raise UserError(
+                    "the connection to the scheduler is lost",
+                    where=address,
+                    remedy="survey again with the same --resume file: what is done is kept",
+                )
+            error = future.exception()
+            yield file, future.result() if error is None else lost(file, error)
             future.release()
             for following in islice(waiting, 1):
                 new = ask(following)
                 asked[new] = following
                 done.add(new)
-
-
-def _record(address: str, file: str, future: Any) -> Record:
-    if future.cancelled():
-        raise UserError(
-            "the connection to the scheduler is lost",
-            where=address,
-            remedy="survey again with the same --resume file: what is done is kept",
-        )
-    try:
-        record: Record = future.result()
-    except Exception as error:
-        if type(error).__name__ != "KilledWorker":
-            return lost(file, error)
-        died = "every worker that was given the flight died (out of memory, or killed)"
-        return lost(file, RuntimeError(died))
-    return record
 
 
 @contextlib.contextmanager
@@ -210,211 +331,83 @@ def _client(address: str) -> Iterator[tuple[Any, Any]]:
     level = log.level
     log.setLevel(logging.CRITICAL)
     try:
-        try:
-            client = distributed.Client(address, timeout=PATIENCE, set_as_default=False, name="ragg-survey")
-        except Exception as error:
-            raise UserError(
-                "the scheduler cannot be reached",
-                where=address,
-                found=f"{type(error).__name__}: {error}"[:300],
-                expected="a dask.distributed scheduler, tcp://host:port or tls://host:port, as it prints its address",
-                remedy="check the address and that the scheduler runs; Dask must be of the same version there",
-            ) from None
-        try:
-            yield distributed, client
-        finally:
-            with contextlib.suppress(Exception):
-                client.close(timeout=PATIENCE)
+        client = distributed.Client(address, timeout=PATIENCE, set_as_default=False, name="ragg-survey")
+    except Exception as error:
+        log.setLevel(level)
+        raise UserError(
+            "the scheduler cannot be reached",
+            where=address,
+            found=f"{type(error).__name__}: {error}"[:300],
+            expected="a dask.distributed scheduler, tcp://host:port or tls://host:port, as it prints its address",
+            remedy="check the address and that the scheduler runs; Dask must be of the same version there",
+        ) from None
+    try:
+        yield distributed, client
     finally:
+        with contextlib.suppress(Exception):
+            client.close(timeout=PATIENCE)
         log.setLevel(level)
 
 
-def _check_workers(client: Any, address: str) -> None:
-    """UserError unless every worker runs this very program: the figures would not be the same."""
-    with contextlib.suppress(Exception):
-        client.wait_for_workers(1, timeout=PATIENCE)
-    answers: dict[str, Any] = client.run(fingerprint, on_error="return")
-    if not answers:
-        raise UserError("the cluster has no workers", where=address, remedy="start some: dask worker ADDRESS")
-    own = fingerprint()
-    for worker, answer in sorted(answers.items()):
-        if answer != own:
-            raise UserError(
-                "a worker of the cluster does not run this version of the program",
-                where=worker,
-                found=f"{answer!r}"[:300] if isinstance(answer, Exception) else _listed(answer),
-                expected=_listed(own),
-                remedy="install the same versions of ragg, NumPy, SciPy and SymPy on all workers",
-            )
-
-
-def _listed(versions: Sequence[tuple[str, str]]) -> str:
-    return ", ".join(f"{n} {v}" for n, v in versions)
-
-
-@contextlib.contextmanager
-def results_file(resume: Path | None) -> Iterator[Path]:
-    """The results file: the one asked for, else one that is kept only if the survey is cut short."""
-    if resume is not None:
-        path, temporary = resume, False
-    else:
-        handle, name = tempfile.mkstemp(prefix="ragg-survey-", suffix=".jsonl")
-        os.close(handle)
-        path, temporary = Path(name), True
-        # A survey that is killed outright cannot say it any more.
-        click.echo(f"... if it is cut short, continue with --resume {path}", err=True)
-    before = path.stat().st_size if path.is_file() else 0
-    try:
-        yield path
-    except BaseException:
-        # Nothing that was there before is read: it may be anything, and a refusal says so.
-        if path.is_file() and path.stat().st_size > before and path.read_bytes().count(b"\n") > 1:
-            click.echo(f"ragg: what is done is kept; continue with --resume {path}", err=True)
-        elif temporary:
-            path.unlink(missing_ok=True)
-        raise
-    if temporary:
-        path.unlink(missing_ok=True)
-
-
-@contextlib.contextmanager
-def shown() -> Iterator[Progress]:
-    """A bar with the time left where stderr is a terminal, else a line now and then."""
-    if sys.stderr.isatty():
-        with _bar() as show:
-            yield show
-    else:
-        yield _lines()
-
-
-@contextlib.contextmanager
-def _bar() -> Iterator[Progress]:
-    from rich import progress as rich_progress
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
-
-    columns = (
-        TextColumn("flights"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("time left"),
-        TimeRemainingColumn(),
-        TextColumn("{task.fields[failed]}"),
-    )
-    with rich_progress.Progress(*columns, console=Console(stderr=True), speed_estimate_period=600.0) as bar:
-        task = bar.add_task("", total=None, failed="")
-        failed = 0
-
-        def show(done: int, total: int, record: Record | None) -> None:
-            nonlocal failed
-            failed += record is not None and "error" in record and "verdict" not in record
-            bar.update(task, completed=done, total=total, failed=f"[red]{failed} in error" if failed else "")
-
-        yield show
-
-
-def _lines() -> Progress:
-    start = last = time.monotonic()
-    before = 0
-
-    def show(done: int, total: int, record: Record | None) -> None:
-        nonlocal last, before
-        now = time.monotonic()
-        if record is None:
-            before = done
-            kept = f", {done} of them done before" if done else ""
-            click.echo(f"... {total} flights{kept}", err=True)
-        elif now - last >= INTERVAL or done == total:
-            last = now
-            left = (now - start) / max(done - before, 1) * (total - done)
-            click.echo(f"... {done} of {total}, {left:.0f} s left", err=True)
-
-    return show
-
+# --- results files
 
 KIND = "ragg survey"
-_LONGEST_HEAD = 1 << 16  # bytes
 
 
-def head(job: Job) -> Record:
-    """The first line: figures under the same head may stand in one table."""
-    text = hashlib.sha256(job.text.encode()).hexdigest()
-    found: Record = {"kind": KIND, "model": text, "program": dict(job.program)}
-    if job.mapping is not None:
-        found["mapping"] = hashlib.sha256(job.mapping[0].encode()).hexdigest()
+def head(given: Job) -> Record:
+    """The first line of a results file: figures under the same head may be in one table."""
+    found: Record = {
+        "kind": KIND,
+        "model": hashlib.sha256(given.text.encode()).hexdigest(),
+        "program": dict(given.program),
+    }
+    if given.mapping is not None:
+        found["mapping"] = hashlib.sha256(given.mapping[0].encode()).hexdigest()
     return found
 
 
-def sha256(path: Path) -> str | None:
-    """Digest of a file, as a flight's (also of ``file::line``); ``None`` if it cannot be read."""
-    path, _ = divided(str(path))
-    try:
-        return file_digest(path)
-    except (OSError, UserError):
-        return None
-
-
 class Journal:
-    """Records of flights in a file, appended one by one; use :func:`journal`."""
+    """Records of flights in a file, a line of JSON each, appended one by one; use :func:`open_journal`."""
 
-    def __init__(self, path: Path, handle: int) -> None:
-        self.path = path
-        self._handle = handle
+    def __init__(self, path: Path, stream: IO[bytes]) -> None:
+        self.path, self._stream = path, stream
 
     def append(self, record: Record) -> None:
         """Add a record; on return it is on the disc."""
         self._write({"digest": _digest(record), "record": record})
 
     def _write(self, content: Record) -> None:
-        line = (_text(content) + "\n").encode()
+        end = self._stream.seek(0, os.SEEK_END)
         try:
-            end = os.lseek(self._handle, 0, os.SEEK_END)
             try:
-                written = os.write(self._handle, line)
-                if written < len(line):  # a full disc
-                    raise OSError(28, "No space left on device")
-                os.fsync(self._handle)
+                self._stream.write((_text(content) + "\n").encode())
+                self._stream.flush()
+                os.fsync(self._stream.fileno())
             except OSError:
-                os.ftruncate(self._handle, end)
+                os.ftruncate(self._stream.fileno(), end)
                 raise
         except OSError as error:
             raise UserError(
                 "the results file cannot be written", where=self.path, found=error.strerror
             ) from None
 
-    def read(self, job: Job, files: Sequence[str]) -> dict[str, Record]:
+    def read(self, given: Job, files: Sequence[str]) -> dict[str, Record]:
         """Records that still hold, by file: same model, program and content, no error. UserError for another survey's."""
-        lines = self._lines()
+        self._stream.seek(0)
+        text = self._stream.read()
+        whole = text[: text.rfind(b"\n") + 1]  # a line that was cut off is done again
+        lines = [self._parsed(line, n) for n, line in enumerate(whole.splitlines(), 1)]
+        if (lines and lines[0].get("kind") != KIND) or (text and not lines):
+            raise self._foreign(text[:80].decode(errors="replace"))
         if lines:
-            self._compare(lines[0], job)
-        found: dict[str, Record] = {}
-        for number, line in enumerate(lines[1:], 2):
-            kept = self._parsed(line, number)
-            record = kept.get("record")
-            if isinstance(record, dict) and kept.get("digest") == _digest(record):  # else it is done again
-                found[record["file"]] = record
-        # Only now is it certain that the file is a survey's, and what follows its last line one that was cut off.
-        os.ftruncate(self._handle, sum(map(len, lines)))
+            self._compare(lines[0], head(given))
+        self._stream.truncate(len(whole))
         if not lines:
-            self._write(head(job))
-        return {
-            file: found[file]
-            for file in files
-            if "verdict" in found.get(file, {}) and found[file]["sha256"] == sha256(Path(file))
-        }
+            self._write(head(given))
+        found = {x["record"]["file"]: x["record"] for x in lines[1:] if _holds(x)}
+        return {f: found[f] for f in files if f in found and found[f]["sha256"] == sha256(Path(f))}
 
-    def _lines(self) -> list[bytes]:
-        """The whole lines of the file, with their ends. UserError if it does not begin as a survey's does."""
-        with open(self._handle, "rb", closefd=False) as stream:
-            stream.seek(0)
-            first = stream.readline(_LONGEST_HEAD)
-            if first and self._parsed(first, 1).get("kind") != KIND:
-                raise self._foreign(first[:80].decode(errors="replace"))
-            text = first + stream.read()
-        return text[: text.rfind(b"\n") + 1].splitlines(keepends=True)
-
-    def _compare(self, line: bytes, job: Job) -> None:
-        found, asked = self._parsed(line, 1), head(job)
+    def _compare(self, found: Record, asked: Record) -> None:
         for key, what in (
             ("model", "model.toml"),
             ("program", "version of the program"),
@@ -448,12 +441,17 @@ class Journal:
         )
 
 
+def _holds(line: Record) -> bool:
+    """Whether a line is a diagnosed flight's, as it was written."""
+    record = line.get("record")
+    return isinstance(record, dict) and line.get("digest") == _digest(record) and "verdict" in record
+
+
 def _text(content: Record) -> str:
     return json.dumps(content, allow_nan=False, separators=(",", ":"))
 
 
 def _digest(record: Record) -> str:
-    """Of a record as it is written: a line that was changed does not count."""
     return hashlib.sha256(_text(record).encode()).hexdigest()[:16]
 
 
@@ -462,13 +460,12 @@ def _refused(name: str) -> None:
 
 
 @contextlib.contextmanager
-def journal(path: Path) -> Iterator[Journal]:
+def open_journal(path: Path) -> Iterator[Journal]:
     """Open or make a results file; UserError if that cannot be done or another survey is writing to it."""
-    flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0)
     try:
         if path.exists() and not path.is_file():
-            raise OSError(errno.EINVAL, "it is not a regular file")
-        handle = os.open(path, flags, 0o666)
+            raise OSError(22, "it is not a regular file")
+        stream = path.open("a+b")
     except OSError as error:
         raise UserError(
             "the results file cannot be written",
@@ -476,25 +473,69 @@ def journal(path: Path) -> Iterator[Journal]:
             found=error.strerror,
             remedy="name a file in a folder that exists and that you may write to",
         ) from None
+    with stream:
+        _lock(stream, path)
+        yield Journal(path, stream)
+
+
+def _lock(stream: IO[bytes], path: Path) -> None:
+    """UserError if another survey is writing; a file system without locks is noted, and goes without."""
     try:
-        _claim(handle, path)
-        yield Journal(path, handle)
-    finally:
-        os.close(handle)
+        import fcntl
 
-
-def _claim(handle: int, path: Path) -> None:
-    if sys.platform == "win32":
-        return
-    import fcntl
-
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         raise UserError(
             "another survey is writing to this results file",
             where=path,
             remedy="wait until it has ended, or name another file",
         ) from None
-    except OSError:
-        return  # a file system without locks
+    except (ImportError, OSError):
+        click.echo(f"note: {path} cannot be locked here: let one survey at a time write to it", err=True)
+
+
+@contextlib.contextmanager
+def results_file(resume: Path | None) -> Iterator[Path]:
+    """The results file: the one asked for, else one that is kept only if the survey is cut short."""
+    path = resume
+    if path is None:
+        handle, name = tempfile.mkstemp(prefix="ragg-survey-", suffix=".jsonl")
+        os.close(handle)
+        path = Path(name)
+        # a survey that is killed outright cannot say it any more
+        click.echo(f"... if it is cut short, continue with --resume {path}", err=True)
+    before = path.stat().st_size if path.is_file() else 0
+    try:
+        yield path
+    except BaseException:
+        # nothing that was there before is read: it may be anything, and a refusal says so
+        if path.is_file() and path.stat().st_size > before and path.read_bytes().count(b"\n") > 1:
+            click.echo(f"ragg: what is done is kept; continue with --resume {path}", err=True)
+        elif resume is None:
+            path.unlink(missing_ok=True)
+        raise
+    if resume is None:
+        path.unlink(missing_ok=True)
+
+
+def show_progress() -> Progress:
+    """Lines on stderr, now and then: flights done, in error, and the time left; on a terminal one line, again and again."""
+    start = last = time.monotonic()
+    before = failed = 0
+    terminal = sys.stderr.isatty()
+
+    def show(done: int, total: int, record: Record | None) -> None:
+        nonlocal last, before, failed
+        now = time.monotonic()
+        if record is None:
+            before = done
+            click.echo(f"... {total} flights{f', {done} of them done before' if done else ''}", err=True)
+            return
+        failed += "verdict" not in record
+        if terminal or now - last >= INTERVAL or done == total:
+            last = now
+            left = (now - start) / max(done - before, 1) * (total - done)
+            text = f"... {done} of {total}{f', {failed} in error' if failed else ''}, {left:.0f} s left"
+            click.echo(f"\r{text}\033[K" if terminal else text, err=True, nl=not terminal or done == total)
+
+    return show

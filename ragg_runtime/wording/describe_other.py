@@ -77,9 +77,31 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
         found.append(
             Section(title="Each flight alone", table=Table(("flight", "parameter", "value"), drift, words=3))
         )
+    if "drifting" in c:
+        found.append(_drifting(c["drifting"]))
     if "certificate" in c:
         found.append(_certificate(c["certificate"]))
     return (*found, *next_section(then))
+
+
+def _drifting(d: Json) -> Section:
+    """Which parameters drift, how fast, and where they begin and end."""
+    if not d["rates"]:
+        text = "No parameter drifts by as much as these flights could show."
+        return Section(title="Drift", sentences=(text,))
+    rates = {
+        r["name"]: numbers.with_unit(number(r["per_root_hour"], 2), f"{r['unit']}/√h") for r in d["rates"]
+    }
+    rows = []
+    for key in dict.fromkeys((q["name"], q["accelerometer"]) for q in d["states"]):
+        own = [q for q in d["states"] if (q["name"], q["accelerometer"]) == key]
+        ends = (with_uncertainty(own[0]), with_uncertainty(own[-1]))
+        rows.append((parameter_label(own[0]), rates[key[0]], *ends))
+    return Section(
+        title="Drift",
+        sentences=(f"Random walks, smoothed: {numbers.listed(list(rates))}.",),
+        table=Table(("parameter", "walk", "at the beginning", "at the end"), tuple(rows), words=2),
+    )
 
 
 def _certificate(rows: Sequence[Json]) -> Section:

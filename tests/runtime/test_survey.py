@@ -29,8 +29,7 @@ from ragg_runtime.io.tables import Column, Table
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.pages import survey_page
 from ragg_runtime.simulate import simulated
-from ragg_runtime.survey import local, run
-from ragg_runtime.survey import run as survey_run
+from ragg_runtime.survey import run
 from ragg_runtime.survey.result import Survey, parquet
 from ragg_runtime.survey.run import distinct_names, ordered
 from ragg_runtime.survey.task import Record, divided, examine, expanded, job
@@ -119,7 +118,7 @@ def test_provenance_names_every_flight(
 ) -> None:
     """The damaged one too, with its digest; one that is not there, without."""
     damaged = flights[1][-1]
-    monkeypatch.setattr(survey_run, "_examined", lambda given, files, *_: (
+    monkeypatch.setattr(run, "examine_here", lambda given, files, _: (
         (file, examine(given, file)) for file in files))  # fmt: skip
     main(
         [
@@ -166,10 +165,10 @@ def test_a_killed_worker_is_replaced_and_its_flight_done_again(flights: Flights,
 def test_a_flight_that_kills_every_worker_is_given_up(
     flights: Flights, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(local, "examine", dying.deadly)
+    monkeypatch.setattr(run, "examine", dying.deadly)
     files = [str(p) for p in flights[1]]
     toml = flights[0] / "model.toml"
-    found = dict(local.examined(job(toml.read_text(), toml), files, 2))
+    found = dict(run.examine_here(job(toml.read_text(), toml), files, 2))
     assert sorted(found) == sorted(files)
     failed = {Path(f).name: r["error"] for f, r in found.items() if "error" in r}
     assert sorted(failed) == ["flight-1.parquet", "flight-2.parquet"]

@@ -7,6 +7,10 @@
 
 #include "online_values.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum {
     RAGG_ONLINE_STATES = (FITTED_PARAMETERS + 3) / 2 * 2, /* an even number: the last may be one that nothing depends on */
     RAGG_ONLINE_WIDTH = (RAGG_ONLINE_STATES + 4) / 4 * 4  /* and the right-hand side; zeros up to a multiple of four, for vectors */
@@ -39,5 +43,9 @@ ragg_gradient ragg_online_gradient(const ragg_online *o);
 
 /* All parameters of the model, SI, as they are known by now. */
 void ragg_online_parameters(const ragg_online *o, double p[ONLINE_PARAMETERS]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

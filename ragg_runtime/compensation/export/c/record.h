@@ -11,9 +11,13 @@
 
 #include "values.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* How the programs end at what they cannot do: one message on stderr, and exit status 2. */
 extern const char *const ragg_program;
-_Noreturn void ragg_fail(const char *what, const char *where, const char *expected);
+void ragg_fail(const char *what, const char *where, const char *expected);
 
 /* realloc of count things of a size, or the end. */
 void *ragg_bigger(void *old, size_t count, size_t size);
@@ -33,5 +37,9 @@ void ragg_free(ragg_record *r);
 
 /* The inputs of an output from sample at on; returns the angles of its disc. */
 const double *ragg_inputs(const ragg_record *r, size_t output, size_t at, const double *in[INPUTS]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif
