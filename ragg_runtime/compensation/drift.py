@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import optimize
 
 from ragg_runtime.compensation.calibrated import base, inverse
 from ragg_runtime.compensation.series import Stretch, stretch_of
@@ -24,16 +25,13 @@ from ragg_runtime.io import Flight
 
 Array = NDArray[np.float64]
 
-RATES = np.logspace(-4.0, 2.0, 7)
-"""Standard deviations after an hour that are tried, over the sheet's error."""
+SLOWEST, FASTEST = -6.0, 1.0
+"""Decades of the standard deviation after an hour, over the sheet's error, within which a walk is sought."""
 
 WORTH = 4.5
 """Log evidence that a kind of parameter must gain by walking: as much as distinguishes two explanations elsewhere."""
 
 HOUR = 3600.0
-
-TOGETHER = 3
-"""Blocks that are one while rates are sought: a third of the work, and a walk shows as well."""
 
 
 @dataclass(frozen=True)
@@ -133,9 +131,7 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
     hours = np.maximum(np.diff(elapsed), 0.0) / HOUR
     prior = np.column_stack([np.eye(f.n_base), f.to_nominal])
     names = [q.name for q in f.calibration.columns]
-    coarse = [join(measured[k : k + TOGETHER]) for k in range(0, len(measured), TOGETHER)]
-    between = np.maximum(np.diff(elapsed[::TOGETHER]), 0.0) / HOUR
-    rates = _find_rates(prior, coarse, between, names)
+    rates = _find_rates(prior, measured, hours, names)
     walk = np.array([rates.get(n, 0.0) for n in names])
     forward, _ = _filter(prior, measured, hours, walk)
     nothing = np.zeros((0, f.n_base + 1))
@@ -163,24 +159,34 @@ def _timeline(flights: Sequence[Flight]) -> tuple[list[int], dict[int, float]]:
 def _find_rates(
     prior: Array, measured: Sequence[Array], hours: Array, names: Sequence[str]
 ) -> dict[str, float]:
-    """The kinds of parameter that walk, and how fast: forward selection by the evidence."""
-    walk = np.zeros(len(names))
-    best = _filter(prior, measured, hours, walk)[1]
+    """The kinds of parameter that walk, and how fast: forward selection by the evidence, each choice fitted anew beside the next."""
+
+    def evidence(rates: Mapping[str, float]) -> float:
+        return _filter(prior, measured, hours, np.array([rates.get(n, 0.0) for n in names]))[1]
+
+    def fitted(name: str, others: Mapping[str, float]) -> tuple[float, float]:
+        best = optimize.minimize_scalar(
+            lambda x: -evidence({**others, name: 10.0**x}),
+            bounds=(SLOWEST, FASTEST),
+            method="bounded",
+            options={"xatol": 0.1},
+        )
+        return -float(best.fun), float(10.0**best.x)
+
     found: dict[str, float] = {}
+    known = evidence(found)
     while True:
-        tried = []
-        for name in dict.fromkeys(names):
-            if name in found:
-                continue
-            own = np.array([n == name for n in names])
-            for rate in RATES:
-                tried.append((_filter(prior, measured, hours, np.where(own, rate, walk))[1], name, rate))
-        top = max(tried, default=None)
-        if top is None or top[0] < best + WORTH:
+        tried = {n: fitted(n, found) for n in dict.fromkeys(names) if n not in found}
+        name = max(tried, key=lambda n: tried[n][0], default=None)
+        if name is None or tried[name][0] < known + WORTH:
             return found
-        best, name, rate = top
-        found[name] = float(rate)
-        walk = np.where(np.array(names) == name, rate, walk)
+        found[name] = tried[name][1]
+        for n in [*found]:
+            others = {k: r for k, r in found.items() if k != n}
+            known, found[n] = fitted(n, others)
+            without = evidence(others)
+            if known < without + WORTH:
+                known, found = without, others
 
 
 def _filter(

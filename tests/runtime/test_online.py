@@ -134,7 +134,7 @@ def samples(o: Observation, G: Array) -> str:
     return table({f"{n} [{SI_UNITS[n]}]": x for n, x in columns.items()})
 
 
-@pytest.mark.parametrize(("walk", "gap"), [(0.0, 0.0), (1.0, 0.0), (1.0, 1e6)])
+@pytest.mark.parametrize(("walk", "gap"), [(0.0, 0.0), (1.0, 1e6)])
 def test_the_c_is_the_same_filter(walk: float, gap: float, exported: tuple[Path, Path, Path]) -> None:
     """Also beyond a gap so long that nothing of what the flight said is left."""
     model, folder, two = exported

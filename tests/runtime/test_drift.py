@@ -1,0 +1,56 @@
+"""Parameters that drift, smoothed over the blocks of a flight."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ragg_runtime.compensation import drift
+from ragg_runtime.compensation.compensate import Compensated, prepared
+from ragg_runtime.estimation.fitted import fit
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.model.model import packaged
+from ragg_runtime.reference.scenario import scenario
+from tests.rate import RATE
+from tests.runtime.flown_twice import truth
+
+
+def test_the_walk_is_the_sum_of_its_steps() -> None:
+    """Against dense least squares of two states of three parameters, one of which walks."""
+    rng = np.random.default_rng(1)
+    prior, first, second = (np.linalg.qr(rng.standard_normal((6, 4)), mode="r") for _ in range(3))
+    walk = np.array([0.0, 0.5, 0.0])
+    forward, _ = drift._filter(prior, [first, second], np.array([1.0]), walk)
+    A = np.zeros((3 + 4 + 4 + 1, 5))  # x0, x1, x2 and x1 after its step at the end
+    b = np.zeros(12)
+    A[:3, :3], b[:3] = prior[:3, :3], prior[:3, 3]
+    A[3:7, :3], b[3:7] = first[:, :3], first[:, 3]
+    A[7:11, [0, 3, 2]], b[7:11] = second[:, :3], second[:, 3]
+    A[11, [1, 3]] = -1 / 0.5, 1 / 0.5
+    x = np.linalg.lstsq(A, b, rcond=None)[0]
+    R = forward[-1]
+    assert np.linalg.solve(R[:, :3], R[:, 3]) == pytest.approx(x[[0, 3, 2]])
+    C = np.linalg.inv(A[:, :4].T @ A[:, :4])
+    assert np.linalg.inv(R[:, :3].T @ R[:, :3])[1, 1] == pytest.approx(C[3, 3])
+
+
+def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
+    """What is compensated with them is as sure as it says; with constant parameters it is not."""
+    s = scenario(3, duration=1200.0, rate=RATE, gradient_rms=50e-9)
+    gain = [4e-11, -5e-11, 1e-11, -1e-11]  # 1/s: 5e-8 over the flight
+    for effects in ({}, {"gain-drift": {"dK1_dt": gain}}):
+        x = s.simulate(effects).flight()
+        rms = {}
+        for kind in ("self", "smoothed"):
+            p = prepared(packaged(), s.sheet, [x], kind)  # type: ignore[arg-type]
+            c = Compensated(p, 0, "fir")
+            parts = [(part.gradient, part.std[0]) for part in c.segments()]
+            g, std = (np.concatenate(y) for y in zip(*parts, strict=True))
+            z = ((g - truth(x, c.demodulator)).real / std)[:: int(2 * RATE)]
+            rms[kind] = np.sqrt(np.nanmean(z**2))
+        assert 0.85 < rms["smoothed"] < 1.2
+        assert (rms["self"] > 2.0) if effects else (rms["self"] == pytest.approx(rms["smoothed"]))
+    f = fit(packaged(), s.sheet, observations_of([x], s.sheet))
+    d = drift.smooth_drift(f, [x]).as_json()
+    assert d["rates"]
+    assert {q["flight"] for q in d["states"]} == {f.observations[0].flight_name}
