@@ -138,7 +138,7 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
     backward, _ = _filter(nothing, measured[::-1], hours[::-1], walk, before=True)
     steps, roots = [], []
     for ahead, back in zip(forward, backward[::-1], strict=True):
-        R = np.linalg.qr(np.vstack([ahead, back]), mode="r")[: f.n_base]
+        R = np.asarray(np.linalg.qr(np.vstack([ahead, back]), mode="r"))[: f.n_base]
         roots.append(inverse(R[:, :-1]))
         steps.append(np.linalg.solve(R[:, :-1], R[:, -1]))
     return Drift(f, rates, tuple(flight), tuple(block), np.array(time), np.array(steps), np.array(roots))
@@ -197,7 +197,7 @@ def _filter(
     R, found, evidence = prior, [], 0.0
     for k, T in enumerate(measured):
         known = R
-        whole = np.linalg.qr(np.vstack([R, T]), mode="r")
+        whole = np.asarray(np.linalg.qr(np.vstack([R, T]), mode="r"))
         R = whole[:n]
         if len(known) == n:
             evidence += float(np.sum(np.log(np.abs(np.diag(known)))) - np.sum(np.log(np.abs(np.diag(R)))))

@@ -37,7 +37,7 @@ def test_the_walk_is_the_sum_of_its_steps() -> None:
 def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
     """What is compensated with them is as sure as it says; with constant parameters it is not."""
     s = scenario(3, duration=1200.0, rate=RATE, gradient_rms=50e-9)
-    gain = [4e-11, -5e-11, 1e-11, -1e-11]  # 1/s: 5e-8 over the flight
+    gain = [8e-11, -1e-10, 2e-11, -2e-11]  # 1/s: 1e-7 over the flight
     for effects in ({}, {"gain-drift": {"dK1_dt": gain}}):
         x = s.simulate(effects).flight()
         rms = {}
@@ -49,7 +49,7 @@ def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
             z = ((g - truth(x, c.demodulator)).real / std)[:: int(2 * RATE)]
             rms[kind] = np.sqrt(np.nanmean(z**2))
         assert 0.85 < rms["smoothed"] < 1.2
-        assert (rms["self"] > 2.0) if effects else (rms["self"] == pytest.approx(rms["smoothed"]))
+        assert (rms["self"] > 2.0) if effects else (rms["self"] == pytest.approx(rms["smoothed"], rel=1e-3))
     f = fit(packaged(), s.sheet, observations_of([x], s.sheet))
     d = drift.smooth_drift(f, [x]).as_json()
     assert d["rates"]
