@@ -20,7 +20,6 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.io.memory import require_memory
 from ragg_runtime.io.tables import (
     WIDEST,
     Column,
@@ -31,6 +30,7 @@ from ragg_runtime.io.tables import (
     read_attributes,
     read_frame_units,
     read_heading,
+    require_memory,
     write_cell,
 )
 

@@ -20,9 +20,10 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.names import LONGEST, is_column
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.files import read_tables, write_instant
-from ragg_runtime.io.instants import GPS_EPOCH, is_instant, read_stamps
+from ragg_runtime.io.instants import GPS_EPOCH, find_order, parts_of
 from ragg_runtime.io.mapping import UNKNOWN
 from ragg_runtime.io.record import DEMODULATED, SI_UNITS, is_demodulated
+from ragg_runtime.io.recording import find_spoiled, parse_numbers
 from ragg_runtime.io.tables import Column, Table, is_unit, split_lines
 
 NEAR_G = 0.1
@@ -31,6 +32,7 @@ NEAR_G = 0.1
 _LOOKED_AT = 20_000  # rows whose numbers are looked at for remarks
 _DATED = (datetime(1995, 1, 1, tzinfo=UTC), datetime(2045, 1, 1, tzinfo=UTC))
 _EPOCHS = ((GPS_EPOCH, "GPS time"), (datetime(1970, 1, 1, tzinfo=UTC), "Unix time"))
+_FEW = 5  # different cells that are no numbers, in a column of numbers
 _RANKS = ("certain", "likely", "guess")
 _TIMES = ("time", "line", "week", "second_of_week", "date", "clock")
 
@@ -49,9 +51,10 @@ class Draft:
 
 @dataclass
 class _Page:
-    """What has been written so far."""
+    """What has been written so far; ``odd``: columns of numbers -> their few cells that are none."""
 
-    lines: list[str] = field(default_factory=list)
+    lines: list[str]
+    odd: Mapping[str, Sequence[str]]
     questions: list[str] = field(default_factory=list)
     used: set[str] = field(default_factory=set)
     sure: dict[str, str] = field(default_factory=dict)
@@ -59,26 +62,21 @@ class _Page:
 
 def draft_mapping(path: Path) -> Draft:
     """Look at the table of a file that has most of what a flight has, and write a mapping for it."""
-    tables, table = _pick(read_tables(path))
-    page = _Page(
-        [
-            f"# How ragg reads {_quoted(path.name)}: written by `ragg map`, to be looked over.",
-            '# certain: the name is ragg\'s own; likely: usual for it; guess: look twice. "?" waits for an answer.',
-            *(f"# {_quoted(n)}" for n in table.notes),
-            "",
-        ]
-    )
+    tables, table = _pick(read_tables(path), path)
+    table, odd = _read_numbers(table)
+    head = [
+        f"# How ragg reads {_quoted(path.name)}: written by `ragg map`, to be looked over.",
+        '# certain: the name is ragg\'s own; likely: usual for it; guess: look twice. "?" waits for an answer.',
+    ]
+    page = _Page([*head, *(f"# {_quoted(n)}" for n in table.notes), ""], odd)
     _write_file(table, tables, page)
     _write_time(table, page)
     _write_columns(table, page)
     unused = [c for c in table.columns if c.name not in page.used]
     if unused:
-        page.lines += [
-            "",
-            "# Not used (any column can be kept as an auxiliary channel under a name of its own):",
-        ]
-        numbers = [c for c in unused if c.is_number]
-        page.lines += [f"# {_key(c.name)} = {_entry(c.name, c.unit or UNKNOWN)}" for c in numbers]
+        about = "# Not used (any column can be kept as an auxiliary channel under a name of its own):"
+        kept = [f"# {_key(c.name)} = {_entry(c.name, c.unit or UNKNOWN)}" for c in unused if c.is_number]
+        page.lines += ["", about, *kept]
         page.lines += [f"# no numbers: {_quoted(c.name)} ({_example(c)})" for c in unused if not c.is_number]
     if any(is_demodulated(r.name) for n in table.names if (r := role_of(n)) is not None):
         page.lines += ["", "# How inline and cross were made, if it is known:", "# [demodulator]"]
@@ -93,25 +91,36 @@ def draft_mapping(path: Path) -> Draft:
 
 def sample_table(path: Path) -> Table:
     """The first rows of the table that a mapping would be drafted for."""
-    table = _pick(read_tables(path))[1]
+    table = _pick(read_tables(path), path)[1]
     return table.rows(np.arange(min(len(table), _LOOKED_AT)))
 
 
-def _pick(tables: Sequence[Table]) -> tuple[list[Table], Table]:
+def _pick(tables: Sequence[Table], path: Path) -> tuple[list[Table], Table]:
     """The tables that are alike to the one with most columns of known roles, and that one."""
-    if not any(t.columns for t in tables):
+    tables = [t for t in tables if t.columns]
+    if not tables:
         raise UserError(
             "the file holds no table",
+            where=path,
             expected="vectors of numbers of one length, or a header of names and rows of numbers below it",
         )
     best = max(tables, key=lambda t: (len({r.name for n in t.names if (r := role_of(n))}), len(t)))
     alike = [t for t in tables if {*t.names} == {*best.names}]
-    parts = len({t.part for t in tables if t.columns}) > 1 and len(alike) < sum(
-        bool(t.columns) for t in tables
-    )
-    return alike, replace(
-        alike[0], part=best.part if parts else "", line=best.line if len(alike) > 1 else None
-    )
+    return alike, replace(alike[0], part=best.part if len(alike) < len(tables) else "")
+
+
+def _read_numbers(table: Table) -> tuple[Table, dict[str, list[str]]]:
+    """The table with columns of text that are mostly numbers as numbers, and the few cells of them that are none."""
+    columns, odd = [], {}
+    for c in table.columns:
+        if c.is_text:
+            numbers = parse_numbers(c.values)
+            spoiled = sorted({*c.values[find_spoiled(c.values, numbers)]})
+            if 0 < len(spoiled) <= _FEW and np.mean(np.isfinite(numbers)) > 0.5:
+                odd[c.name] = spoiled
+                c = replace(c, values=numbers)
+        columns.append(c)
+    return replace(table, columns=tuple(columns)), odd
 
 
 def _write_file(table: Table, tables: Sequence[Table], page: _Page) -> None:
@@ -121,101 +130,76 @@ def _write_file(table: Table, tables: Sequence[Table], page: _Page) -> None:
     if len(tables) > 1:
         names = [f'"{_quoted(str(t.line))}"' for t in tables]
         shown = ", ".join(names[:6]) + (", ..." if len(names) > 6 else "")
-        page.lines += [
-            f"# {len(tables)} lines, told apart by the file itself; [file] lines = [...] picks some: {shown}",
-            "",
-        ]
-    else:
-        name = next((n for n in table.names if ROLES["line"].fits(n)), None)
-        if name is not None:
-            page.used.add(name)
-            lines.append(
-                f'line = "{_quoted(name)}"  # likely: tells flight lines apart; take it out if it does not'
-            )
-            try:
-                split_lines([table], name, None)
-            except UserError:
-                lines[-1] = "# " + lines[-1]
+        told = (
+            f"# {len(tables)} lines, told apart by the file itself; [file] lines = [...] picks some: {shown}"
+        )
+        page.lines += [told, ""]
+    elif (name := next((n for n in table.names if ROLES["line"].fits(n)), None)) is not None:
+        page.used.add(name)
+        line = f'line = "{_quoted(name)}"  # likely: tells flight lines apart; take it out if it does not'
+        try:
+            split_lines([table], name, None)
+        except UserError:
+            line = f"# {line}"
+        lines.append(line)
     page.lines += ["[file]", *lines, ""] if lines else []
 
 
 def _write_time(table: Table, page: _Page) -> None:
+    page.lines.append("[time]")
     found = _find_instants(table)
+    fits = [c for c in table.columns if c.is_number and ROLES["time"].fits(c.name)]
     if found is not None:
         names, form, sure = found
         page.used.update(names)
         shown = ", ".join(f'"{_quoted(n)}"' for n in names)
-        page.lines += ["[time]", f"column = {shown if len(names) == 1 else f'[{shown}]'}  # {sure}"]
+        page.lines.append(f"column = {shown if len(names) == 1 else f'[{shown}]'}  # {sure}")
+        asked = ""
         if form == UNKNOWN:
-            cell = _example(table.column(names[0]))
-            page.questions.append(f'[time] format: is {cell} "d/m/y" or "m/d/y"?')
-            form, sure = UNKNOWN, f'"d/m/y" or "m/d/y"? the file says {cell}'
-            page.lines += [f'format = "{form}"  # {sure}', ""]
-        else:
-            page.lines += [f'format = "{form}"', ""]
-        return
-    fits = [c for c in table.columns if c.is_number and ROLES["time"].fits(c.name)]
-    if not fits:
+            asked = f'is {_example(table.column(names[0]))} "d/m/y" or "m/d/y"?'
+            page.questions.append(f"[time] format: {asked}")
+        page.lines += [f'format = "{form}"' + (f"  # {asked}" if asked else ""), ""]
+    elif fits:
+        c = min(fits, key=lambda c: (c.name != "time", not c.unit))
+        page.used.add(c.name)
+        page.lines.append(f'column = "{_quoted(c.name)}"  # {"certain" if c.name == "time" else "likely"}')
+        unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", page, "[time]")
+        page.lines += [f'unit = "{unit}"{remark}', *_remark_origin(c)]
+        page.lines += [_null(c, page), ""] if c.name in page.odd else [""]
+    else:
         page.questions.append("[time] column: which column is time?")
-        page.lines += [
-            "[time]",
-            f'column = "{UNKNOWN}"  # no column has a name that is usual for time',
-            f'unit = "{UNKNOWN}"',
-            "",
-        ]
-        return
-    c = min(fits, key=lambda c: (c.name != "time", not c.unit))
-    page.used.add(c.name)
-    page.lines += ["[time]", f'column = "{_quoted(c.name)}"  # {"certain" if c.name == "time" else "likely"}']
-    unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", page, "[time]")
-    page.lines += [f'unit = "{unit}"{remark}', *_remark_origin(c), ""]
+        page.lines.append(f'column = "{UNKNOWN}"  # no column has a name that is usual for time')
+        page.lines += [f'unit = "{UNKNOWN}"', ""]
 
 
 def _find_instants(table: Table) -> tuple[tuple[str, ...], str, str] | None:
     """Columns that hold instants as such, their format (``?``: one of two), and how sure that is."""
-    by_role = {
-        r: c
-        for c in reversed(table.columns)
-        for r in ("week", "second_of_week", "date", "clock")
-        if ROLES[r].fits(c.name)
-    }
+    if any(c.name == "time" and c.is_number and c.unit for c in table.columns):
+        return None
+    by_role = {r: c for c in reversed(table.columns) for r in _TIMES[2:] if ROLES[r].fits(c.name)}
     if "week" in by_role and "second_of_week" in by_role:
         names = (by_role["week"].name, by_role["second_of_week"].name)
         return names, "gps", "likely: GPS week and seconds in it"
-    date, clock = by_role.get("date"), by_role.get("clock")
-    texts = sorted(
-        (c for c in table.columns if not c.is_number), key=lambda c: not ROLES["time"].fits(c.name)
-    )
+    texts = [c for c in table.columns if not c.is_number]
+    texts.sort(key=lambda c: not ROLES["time"].fits(c.name))
     for c in texts:
-        if not c.is_text or is_instant(_cell(c)):
-            dated = not c.is_text or re.match(r"\d+[-/. ]\w+[-/. ]\d", _cell(c)) is not None
-            whole = not c.is_text or ":" in _cell(c)
-            if dated and whole:
-                return (c.name,), _find_form([c]), "certain: a date and a time in every row"
+        if c.values.dtype.kind == "M" or all(parts_of(_cell(c))):
+            return (c.name,), _find_form(c), "certain: a date and a time in every row"
+    date, clock = by_role.get("date"), by_role.get("clock")
     if date is not None and clock is not None and date is not clock:
-        form = "date clock" if date.is_number else _find_form([date, clock])
-        form = "date clock" if form == "iso" else form
+        form = _find_form(date).replace("iso", "date clock")
         return (date.name, clock.name), form, "likely: a date and a time of the day"
     for c in texts:
-        if ":" in _cell(c) and is_instant(_cell(c)):
-            return (c.name,), "clock", "certain: a time of the day in every row"
+        if c.values.dtype.kind == "m" or parts_of(_cell(c))[1]:
+            return (c.name,), "clock", "certain: a time of the day, or an elapsed time, in every row"
     return None
 
 
-def _find_form(columns: Sequence[Column]) -> str:
-    """The format of dates in text: ``iso``, ``d/m/y``, ``m/d/y``, or ``?`` where both are possible."""
-    for form in ("iso", "d/m/y", "m/d/y"):
-        if form == "iso" and columns[0].is_text and re.match(r"\d{4}", _cell(columns[0])) is None:
-            continue
-        try:
-            read_stamps([c.values for c in columns], form, "")
-            read_stamps([c.values for c in columns], None if len(columns) == 1 else form, "")
-        except UserError as error:
-            if "could be" in error.what:
-                return UNKNOWN
-            continue
-        return form
-    return "iso"
+def _find_form(c: Column) -> str:
+    """The format of dates: ``iso``, ``d/m/y``, ``m/d/y``, or ``?`` where both are possible."""
+    if not c.is_text:
+        return "iso"
+    return {"ymd": "iso", "dmy": "d/m/y", "mdy": "m/d/y"}.get(find_order(c.values) or "", UNKNOWN)
 
 
 def _cell(c: Column) -> str:
@@ -229,26 +213,27 @@ def _example(c: Column) -> str:
 
 def _write_columns(table: Table, page: _Page) -> None:
     page.lines.append("[columns]")
-    taken: dict[str, Column] = {}
-    candidates = [
-        (c, r) for c in table.columns if c.is_number and c.name not in page.used and (r := role_of(c.name))
-    ]
+    taken: dict[str, tuple[Column, Role]] = {}
+    numbers = [c for c in table.columns if c.is_number and c.name not in page.used]
+    candidates = [(c, r) for c in numbers if (r := role_of(c.name)) and r.name not in _TIMES]
     # The surest name wins a channel: certain before likely before guess, then the order of the file.
     for c, role in sorted(candidates, key=lambda x: x[1].rank):
-        if role.name not in taken and role.name not in _TIMES:
-            taken[role.name] = c
-            page.used.add(c.name)
-    for name in dict.fromkeys([*SI_UNITS, *(r.name for _, r in candidates)]):
-        if name not in taken:
-            continue
-        c, role = taken[name], role_of(taken[name].name) or ROLES[name]
+        taken.setdefault(role.name, (c, role))
+    page.used.update(c.name for c, _ in taken.values())
+    for name in [n for n in dict.fromkeys([*SI_UNITS, *(r.name for _, r in candidates)]) if n in taken]:
+        c, role = taken[name]
         unit, remark = (role.unit, "") if role.unit else _find_unit(c, name, page, f"[columns] {name}")
         page.sure[name] = role.sure
         scale = f", scale = {role.scale:g}" if role.scale != 1.0 else ""
+        null = f", {_null(c, page)}" if c.name in page.odd else ""
         comment = f"  # {role.sure}" + (f": {role.why}" if role.why else "") + remark.replace("  # ", "; ", 1)
-        page.lines.append(
-            f'{_key(name)} = {{ column = "{_quoted(c.name)}", unit = "{unit}"{scale} }}{comment}'
-        )
+        entry = f'{{ column = "{_quoted(c.name)}", unit = "{unit}"{scale}{null} }}'
+        page.lines.append(f"{_key(name)} = {entry}{comment}")
+
+
+def _null(c: Column, page: _Page) -> str:
+    """What stands for missing values in a column: its cells that are no numbers."""
+    return "null = [" + ", ".join(f'"{_quoted(t)}"' for t in page.odd[c.name]) + "]"
 
 
 def _find_unit(c: Column, name: str, page: _Page, where: str) -> tuple[str, str]:

@@ -39,6 +39,7 @@ WAYS: Mapping[str, tuple[int, str]] = MappingProxyType(
 _SECOND = 10**9
 _DAY = 86400 * _SECOND
 _NONE = np.iinfo(np.int64).min
+_NOTHING = ("", "NaT", "nan", "NaN", "None", "null", "-", "--")
 _MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 _ISO = re.compile(r"\d{4}-\d{2}-\d{2}(?:[T ]\d.*)?")
 _INSTANT = re.compile(
@@ -63,10 +64,22 @@ class Seconds:
     notes: tuple[str, ...] = ()
 
 
+def _spread(text: str) -> str:
+    """A stamp without blanks at its ends; 20260301T132850.4 as 2026-03-01T13:28:50.4."""
+    return re.sub(r"^(\d{4})(\d\d)(\d\d)[T ](\d\d)(\d\d)(\d\d)", r"\1-\2-\3T\4:\5:\6", text.strip())
+
+
 def is_instant(text: str) -> bool:
     """Whether a text is a date, with or without a time, a time of the day, or an elapsed time."""
-    match = _INSTANT.fullmatch(text.strip())
-    return match is not None and any(match[g] is not None for g in ("days", "a", "h"))
+    return any(parts_of(text))
+
+
+def parts_of(text: str) -> tuple[bool, bool]:
+    """Whether there is a date in a stamp, and whether a time."""
+    match = _INSTANT.fullmatch(_spread(text))
+    if match is None:
+        return False, False
+    return match["a"] is not None, match["h"] is not None or match["days"] is not None
 
 
 def order_of(format_: str) -> str | None:
@@ -191,7 +204,8 @@ class _Texts:
 
 def _read_texts(values: NDArray[Any], order: str | None, where: str, row: Any) -> _Texts:
     """Dates and times as people write them."""
-    matches = [_INSTANT.fullmatch(str(t).strip()) if t else None for t in values]
+    values = np.array(["" if str(t).strip() in _NOTHING else _spread(str(t)) for t in values], dtype=object)
+    matches = [_INSTANT.fullmatch(t) if t else None for t in values]
     for k, (t, m) in enumerate(zip(values, matches, strict=True)):
         if t and (m is None or (m["days"], m["a"], m["h"]) == (None, None, None)):
             raise _unreadable(where, t, row(k))
@@ -239,6 +253,16 @@ def _clock(m: re.Match[str]) -> int | None:
         offset = int(zone[1:3]) * 60 + int(zone[-2:])
         total -= (offset if zone[0] == "+" else -offset) * 60 * _SECOND
     return total + int(m["days"] or 0) * _DAY
+
+
+def find_order(values: NDArray[Any]) -> str | None:
+    """``ymd``, ``dmy`` or ``mdy`` of dates (n,) as text; ``None`` where two are possible."""
+    matches = (_INSTANT.fullmatch(_spread(str(t))) for t in dict.fromkeys(values))
+    written = dict.fromkeys((m["a"], m["sep"], m["b"], m["c"]) for m in matches if m and m["a"])
+    try:
+        return _find_order(list(written), "")
+    except UserError:
+        return None
 
 
 def _find_order(dates: Sequence[tuple[str, str, str, str]], where: str) -> str:

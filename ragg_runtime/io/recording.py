@@ -46,7 +46,7 @@ _TENSOR = ("xx", "xy", "xz", "yy", "yz", "zz")
 _NINES = re.compile(r"-?9{3,}(?:\.(?:0|25|9+))?")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Recording:
     """A flight: columns of numbers under the names of the contract, each with a unit.
 
@@ -66,7 +66,7 @@ class Recording:
     passed: tuple[str, ...] = field(default=())
 
     def __len__(self) -> int:
-        return len(self.columns[0].values)
+        return len(self.columns[0].values) if self.columns else 0
 
 
 def make_recordings(
@@ -167,7 +167,7 @@ def _read_plain(table: Table, place: str, lenient: bool, leave: frozenset[str]) 
     if read is not None:
         unit = "s" if isinstance(read, Seconds) else read.unit
         kept.insert(0, Column("time", unit, read.values))
-    _require_distinct(kept, place)
+    kept = _keep_first(kept, place, notes)
     if not lenient:
         require_units(kept, place)
     if passed:
@@ -193,7 +193,7 @@ def _find_time(table: Table) -> tuple[Column | None, list[Column]]:
 def _read_time(c: Column, table: Table, place: str) -> Column | Seconds:
     """Time as the numbers that it is, or seconds of the instants that it is."""
     where = at(place, f"column {c.name!r}")
-    if c.is_text and np.mean(np.isfinite(_parse_numbers(c.values))) > 0.5:
+    if c.is_text and np.mean(np.isfinite(parse_numbers(c.values))) > 0.5:
         c = read_numbers(c, table, place)
     if not c.is_number:
         return read_stamps([c.values], None, where, table.row)
@@ -226,14 +226,18 @@ def _lacks_unit(c: Column) -> bool:
     return not c.unit and c.name.partition("(")[0].strip() in SI_UNITS
 
 
-def _require_distinct(columns: Iterable[Column], place: str) -> None:
-    seen: set[str] = set()
+def _keep_first(columns: Iterable[Column], place: str, notes: list[str]) -> list[Column]:
+    """The first column of every name; UserError if a second one has a name of the contract."""
+    found: dict[str, Column] = {}
     for c in columns:
-        if c.name in seen:
+        if c.name in found and c.name in SI_UNITS:
             raise UserError(
                 f"the column {c.name!r} appears twice", where=place, remedy="remove or rename one"
             )
-        seen.add(c.name)
+        if c.name in found:
+            notes.append(f"{c.name}: a second column of this name is left out")
+        found.setdefault(c.name, c)
+    return list(found.values())
 
 
 def pass_over(names: Sequence[str]) -> str:
@@ -281,8 +285,8 @@ def read_numbers(c: Column, table: Table, place: str, null: Null = ()) -> Column
     if not c.is_text:
         raise UserError("the column does not hold numbers", where=where, found="dates", expected="numbers")
     texts = np.array(["" if t in null else t for t in c.values], dtype=object) if null else c.values
-    numbers = _parse_numbers(texts)
-    wrong = np.flatnonzero(_spoiled(texts, numbers))
+    numbers = parse_numbers(texts)
+    wrong = np.flatnonzero(find_spoiled(texts, numbers))
     if len(wrong):
         raise UserError(
             "not a number" if np.isfinite(numbers).any() else "the column does not hold numbers",
@@ -294,7 +298,7 @@ def read_numbers(c: Column, table: Table, place: str, null: Null = ()) -> Column
     return replace(c, values=numbers)
 
 
-def _parse_numbers(texts: NDArray[np.object_]) -> Array:
+def parse_numbers(texts: NDArray[np.object_]) -> Array:
     def parse(text: str) -> float:
         try:
             return float(text)
@@ -304,7 +308,7 @@ def _parse_numbers(texts: NDArray[np.object_]) -> Array:
     return np.array([parse(t) for t in texts], dtype=np.float64)
 
 
-def _spoiled(texts: NDArray[np.object_], numbers: Array) -> NDArray[np.bool_]:
+def find_spoiled(texts: NDArray[np.object_], numbers: Array) -> NDArray[np.bool_]:
     """Where a text is neither a number nor one of those that stand for nothing."""
     return np.isnan(numbers) & np.array([t not in MISSING for t in texts], dtype=np.bool_)
 
@@ -352,6 +356,8 @@ def find_codes(values: Array, *, known_only: bool = False) -> list[float]:
     ):
         usual.append(code)
         rest = rest[rest != code]
+    if not len(rest):  # a sensor that was not there
+        return [c for c in usual if c < 0 or c >= 1e20]
     found = [c for c in usual if _is_isolated(x[(x == c) | ~np.isin(x, usual)], c, rest, QUIET)]
     x = x[~np.isin(x, found)] if found else x
     while not known_only and len(x) > 2:
@@ -387,7 +393,8 @@ def _is_usual(value: float) -> bool:
     size = abs(value)
     if size >= 1e20 or size in (32767.0, 32768.0, 2147483647.0, 2147483648.0):
         return True
-    return 999 <= size < 1e12 and _NINES.fullmatch(f"{value:.10g}") is not None
+    digits = (f"{value:.10g}", f"{value:.7g}")  # in single precision, too
+    return 999 <= size < 1e12 and any(map(_NINES.fullmatch, digits))
 
 
 # --- mapping -------------------------------------------------------------------------------------------
@@ -401,7 +408,7 @@ def _read_mapped(table: Table, place: str, mapping: Mapped) -> Recording:
     where = at(place, f"column {time.columns[0]!r}")
     if time.format != "seconds":
         read: Column | Seconds = read_stamps([c.values for c in columns], time.format, where, table.row)
-    elif columns[0].is_text and not np.isfinite(_parse_numbers(columns[0].values)).any():
+    elif columns[0].is_text and not np.isfinite(parse_numbers(columns[0].values)).any():
         raise UserError(
             "time is text, not seconds",
             where=where,
@@ -417,7 +424,7 @@ def _read_mapped(table: Table, place: str, mapping: Mapped) -> Recording:
     found = [Column("time", unit, read.values)]
     for name, e in mapping.channels.items():
         c = table.column(e.column)
-        if c.is_text and not np.isfinite(_parse_numbers(c.values)).any():
+        if c.is_text and not np.isfinite(parse_numbers(c.values)).any():
             raise UserError(
                 "the column does not hold numbers", where=at(place, f"column {e.column!r}"), found="text"
             )

@@ -7,6 +7,7 @@ file, a structure of MATLAB or a dict of arrays holds becomes one by :func:`make
 from __future__ import annotations
 
 import hashlib
+import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -32,6 +33,9 @@ WIDEST = 16
 INDEX = "index"
 """Name of a column that labels the rows and has none."""
 
+SHARE = 0.5
+"""Of the free memory that a table may take: reading and fitting it take as much again."""
+
 _HEADER = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\]\s*)?")
 _PAREN = re.compile(r"\s*(?P<name>.*?\S)\s*\((?P<unit>[^()]+)\)\s*")
 _UNIT_KEYS = ("units", "Units", "UNITS", "unit", "Unit")
@@ -39,7 +43,7 @@ _DEFAULT_FILL = {"f4": 2.0**123 * 0.9375, "f8": 2.0**123 * 0.9375, "i4": -214748
 """What NetCDF writes where nothing was written, by type (netcdf.h: NC_FILL_FLOAT ...)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Column:
     """Values (n,) of a column under the file's own name, and their unit (``""``: none given).
 
@@ -59,7 +63,7 @@ class Column:
         return self.values.dtype.kind == "f"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Table:
     """Columns of one length.
 
@@ -165,18 +169,16 @@ def make_table(
             other.append(f"{name!r} ({' x '.join(map(str, x.shape)) or 'a single value'})")
             continue
         attributes = read_attributes(x)
-        for own, values in _spread(name, x, length):
-            values = decode_values(values, attributes)
-            if values is None:
-                other.append(f"{own!r} (neither numbers nor text)")
-                continue
-            title, unit = read_heading(names.get(own) or _text(attributes.get("name")) or own)
-            said = (
-                given.get(own)
-                or given.get(name)
-                or next(filter(None, map(_text, map(attributes.get, _UNIT_KEYS))), "")
-            )
-            columns.append(Column(title, said.strip() or unit, values))
+        values = decode_values(np.asarray(x), attributes)
+        if values is None:
+            other.append(f"{name!r} (neither numbers nor text)")
+            continue
+        title, unit = read_heading(names.get(name) or _text(attributes.get("name")) or name)
+        said = next(filter(None, (_text(attributes.get(k)) for k in _UNIT_KEYS)), "").strip()
+        for own, part in _spread(title, values, length):
+            own = names.get(own, own)
+            unit_of = given.get(own) or given.get(name) or given.get(title) or said or unit
+            columns.append(Column(own, unit_of.strip(), part))
     notes = list(about.pop("notes", ()))
     if other:
         shown = ", ".join(other[:6]) + (" ..." if len(other) > 6 else "")
@@ -198,10 +200,10 @@ def _common_length(arrays: Sequence[tuple[str, Any]]) -> int:
     return common[0][0] if common else max(sizes.values(), default=0)
 
 
-def _spread(name: str, x: Any, length: int) -> list[tuple[str, Any]]:
-    if len(x.shape) == 1:
-        return [(name, np.asarray(x))]
-    values = np.asarray(x)
+def _spread(name: str, values: NDArray[Any], length: int) -> list[tuple[str, NDArray[Any]]]:
+    """The columns of an array: itself, or ``name_1`` ... of one of two dimensions."""
+    if values.ndim == 1:
+        return [(name, values)]
     values = values if values.shape[0] == length else values.T
     width = values.shape[1]
     return [(name if width == 1 else f"{name}_{k + 1}", values[:, k]) for k in range(width)]
@@ -233,11 +235,11 @@ def decode_values(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArra
     if kind not in "biuf":
         return None
     meanings = _text(attributes.get("flag_meanings")).split()
-    if meanings and kind in "iu":
+    if meanings and kind in "iu" and values.ndim == 1:
         flags = np.atleast_1d(attributes.get("flag_values", np.arange(len(meanings)))).tolist()
         known = dict(zip(flags, meanings, strict=False))
         return np.array([known.get(int(v), str(v)) for v in values], dtype=object)
-    missing = np.zeros(len(values), dtype=np.bool_)
+    missing = np.zeros(values.shape, dtype=np.bool_)
     for name in ("_FillValue", "missing_value"):
         for nothing in _numbers(attributes.get(name)):
             missing |= values == np.asarray(nothing).astype(values.dtype)
@@ -306,7 +308,7 @@ def tabulate(data: Any) -> list[Table]:
     if hasattr(data, "iloc") and hasattr(data, "columns"):
         return [_of_frame(data)]
     if hasattr(data, "data_vars") and hasattr(data, "coords"):
-        return [make_table([(str(n), v) for n, v in data.variables.items()])]
+        return [make_table([(str(n), _of_variable(v)) for n, v in data.variables.items()])]
     if isinstance(data, Mapping):
         attributes = data.get("attrs") if isinstance(data.get("attrs"), Mapping) else {}
         named = data.get("units") if isinstance(data.get("units"), Mapping) else attributes
@@ -321,6 +323,13 @@ def tabulate(data: Any) -> list[Table]:
         found=type(data).__name__,
         expected="a path, a pandas DataFrame, an xarray Dataset, a dict of arrays, or a list of these",
     )
+
+
+def _of_variable(v: Any) -> Any:
+    """A variable of xarray, which unpacks values but not the range in which they are valid."""
+    scale, offset = v.encoding.get("scale_factor", 1.0), v.encoding.get("add_offset", 0.0)
+    packed = {n: np.asarray(x) * scale + offset for n, x in v.attrs.items() if n.startswith("valid_")}
+    return label(v.values, {**v.attrs, **packed})
 
 
 def _of_frame(frame: Any) -> Table:
@@ -460,3 +469,32 @@ def line_name(value: object) -> str:
     except ValueError:
         return write_cell(value)
     return write_cell(number) if np.isfinite(number) else ""
+
+
+# --- memory --------------------------------------------------------------------------------------------
+
+
+def require_memory(path: Path, size: float) -> None:
+    """UserError if a table of so many bytes is more than ``SHARE`` of the memory that is free."""
+    free = find_free_memory()
+    if free is not None and size > SHARE * free:
+        raise UserError(
+            "the table is too large for the memory of this computer",
+            where=path,
+            found=f"about {size / 1e9:.3g} GB once it is read",
+            expected=f"at most {SHARE * free / 1e9:.3g} GB, half of what is free",
+            remedy="divide the file, or leave out columns and lines that are not needed",
+        )
+
+
+def find_free_memory() -> float | None:
+    """Bytes that can be had without swapping; ``None`` where the system does not say."""
+    try:
+        with open("/proc/meminfo", encoding="ascii") as lines:
+            free = next(float(x.split()[1]) * 1024 for x in lines if x.startswith("MemAvailable:"))
+    except (OSError, StopIteration, ValueError):
+        try:
+            return float(os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
+        except (AttributeError, ValueError, OSError):
+            return None
+    return free

@@ -27,7 +27,6 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.io.instants import is_instant
-from ragg_runtime.io.memory import require_memory
 from ragg_runtime.io.tables import (
     INDEX,
     MOST_COLUMNS,
@@ -36,13 +35,14 @@ from ragg_runtime.io.tables import (
     is_line,
     read_heading,
     read_units,
+    require_memory,
     write_cell,
 )
 
 LONGEST_LINE = 1 << 20
 """Characters of a line from which a file is no table."""
 
-MISSING = ("", "nan", "NaN", "NAN", "NA", "N/A", "#N/A", "null", "NULL", "None", "-", "--", "*")
+MISSING = ("", "nan", "NaN", "NAN", "NaT", "NA", "N/A", "#N/A", "null", "NULL", "None", "-", "--", "*")
 """Cells that hold nothing."""
 
 _EXCEL_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
@@ -83,9 +83,7 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
     ]
     data = [k for k, row in enumerate(alike) if _is_data(rows[row])]
     whole = (alike[k] for k in data if all(n in data for n in range(k, min(k + 3, len(alike)))))
-    begins = next(
-        whole, len(rows)
-    )  # a line of numbers among those before the header is followed by other text
+    begins = next(whole, len(rows))  # numbers that stand before the header are followed by other text
     above = [k for k in alike if k < begins and any(map(_filled, rows[k]))]
     if not above:
         return None
@@ -93,9 +91,11 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
     size = max(width, *(len(r) for r in rows[begins : begins + 1])) if begins < len(rows) else width
     parts = [(p + [""] * size)[:size] for p in parts]
     units = None
-    if len(parts) > 1 and not any(read_heading(c)[1] for p in parts[:-1] for c in p):
-        units = read_units(parts[-1])
-        parts = parts[:-1] if units is not None else parts
+    if not any(read_heading(c)[1] for p in parts for c in p):
+        for k in range(len(parts) - 1, 0, -1):  # below the units there may be a row of remarks
+            if (units := read_units(parts[k])) is not None:
+                parts = parts[:k]
+                break
     names = parts[-1]
     if len(parts) > 1 and sum(map(bool, parts[-2])) > 1 and _needs_a_row_above(names):
         names = _joined(parts[-2], names)
@@ -228,7 +228,7 @@ def _look(path: Path, compressed: bool, encoding: str) -> _Dialect:
     _, delimiter, header, rows, ends = best
     sample = rows[header.begins :]
     texts = [k for k in range(len(header.names)) if is_line(header.names[k]) or _holds_text(sample, k)]
-    commas = delimiter != "," and any(_COMMA.fullmatch(c) for r in sample for c in r)
+    commas = any(_COMMA.fullmatch(c) for r in sample for c in r)
     count = _text_length(path, compressed) * len(lines) / (sum(map(len, lines)) or 1)
     require_memory(path, count * len(header.names) * 8)
     skip = ends[header.begins - 1] if header.begins else 0
@@ -261,13 +261,13 @@ def _lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
 
 
 def _rows(lines: Sequence[str], delimiter: str) -> tuple[list[list[str]], list[int]]:
-    """Rows of cells that are neither empty nor a remark before the header, and the number of each one's last line."""
+    """Rows of cells that are not empty, and the number of each one's last line; the header may be a remark (NumPy's is)."""
     reader = csv.reader(lines, delimiter=delimiter)
     rows, ends = [], []
     for row in reader:
-        if not any(c.strip() for c in row) or row[0].startswith("#"):
+        if not any(c.strip() for c in row):
             continue
-        rows.append(row)
+        rows.append([row[0].lstrip("#").strip(), *row[1:]] if row[0].startswith("#") else row)
         ends.append(reader.line_num)
     return rows, ends
 

@@ -214,9 +214,7 @@ _LIKELY = "likely mistake"
 _OMEGA = {f"omega_{k}": "deg/h" for k in "xyz"}
 
 MODEL = {
-    "an unknown key": Row(toml(r"^radius", "raduis"), ("[disc]", "'raduis'", "did you mean 'radius'?")),
     "an unknown effect": Row(toml(_EFFECTS, 'effects = ["thermal-scal"]'), ("did you mean", "thermal-scale")),
-    "broken TOML": Row(toml(_RADIUS, 'radius = "0.1 m'), ("not a TOML file", "line")),
     "an effect whose channel the flight lacks": Row(
         both(
             toml(_EFFECTS, 'effects = ["thermal-scale"]'),
@@ -228,20 +226,14 @@ MODEL = {
 
 FILE = {
     "a pipe": Row(lambda: os.mkfifo("p.csv"), ("p.csv", "regular file"), ("compare", "model", "p.csv")),
-    "an unknown ending": Row(
-        text(TEXT, "x.xls"), ("x.xls", ".parquet", ".csv"), ("compare", "model", "x.xls")
-    ),
     "decimal commas": Row(edited(_line(7), _line(7).replace(".", ",")), ("flight.csv", "line 9")),
-    "a truncated Parquet file": Row(cut("x.parquet"), ("damaged",), ("compare", "model", "x.parquet")),
     "a truncated NetCDF file": Row(cut("x.nc"), ("x.nc", "damaged"), ("compare", "model", "x.nc")),
-    "no unit of a column": Row(edited("a_y [g]", "a_y"), ("'a_y'", "no unit", "a_y [g]", "none is guessed")),
 }
 
 TIME = {
     "jittering stamps": Row(
         flown(timed(jittered(0.1)), hidden=True, derived=True), ("jitters", "sampled evenly"), status=0
     ),
-    "a time that starts anywhere": Row(flown(timed(lambda t: t + 1.7e9)), ("4800 samples",), status=0),
     "cut out, its time set to zero": Row(
         flown(lambda x: timed(lambda t: t - t[0])(kept(lambda k: k[37:])(x))),
         (_LIKELY, "cut out", "spin_angle"),
@@ -261,14 +253,8 @@ VALUES = {
 
 MISTAKES = {
     "g, called m/s^2": Row(flown(scaled("a", 1 / G0)), (_LIKELY, "a_x, a_y, a_z are in g, not in m/s^2")),
-    "deg/s, called deg/h": Row(
-        flown(scaled("omega", 1 / 3600), derived=True, units=_OMEGA), (_LIKELY, "in deg/s, not in deg/h")
-    ),
     "output in mV, called V": Row(flown(outputs(lambda v: 1e3 * v)), (_LIKELY, "G_out is in mV, not in V")),
     "a_x and a_z exchanged": Row(flown(exchanged("a_x", "a_z")), (_LIKELY, "a_x and a_z are exchanged")),
-    "a_y with the wrong sign": Row(
-        flown(channels(lambda c: {"a_y": -c["a_y"]})), (_LIKELY, "a_y has the wrong sign")
-    ),
     "the sign of G_out reversed": Row(
         flown(outputs(lambda v: -v)), (_LIKELY, "the sign of G_out is reversed", "-1")
     ),
@@ -289,12 +275,6 @@ MISTAKES = {
 COMMANDS = {
     "an unknown effect on the command line": Row(
         flown(same), ("lagg", "did you mean"), ("add", "model", "lagg", "flight.csv")
-    ),
-    "a format that is read alone": Row(flown(same), (".csv",), ("convert", "flight.csv", "flight.xlsx")),
-    "a mapping with a question left": Row(
-        text('[time]\ncolumn = "time"\n[columns]\na_x = { column = "a_x", unit = "?" }\n', "m.toml"),
-        ("m.toml", "a_x", "not answered"),
-        (*COMPARE, "--map", "m.toml"),
     ),
 }
 

@@ -196,15 +196,6 @@ def test_empty_cells_are_marked(load: Load) -> None:
     assert any(note.startswith("temperature") and "interpolated" in note for note in found.notes)
 
 
-def test_an_empty_column_is_left_out(load: Load) -> None:
-    found = load(columns() | {"temperature": np.full(N, np.nan)}, {"temperature": "K"})
-    assert "temperature" not in found.channels
-    assert found.valid.all()
-    assert any("temperature" in note for note in found.notes)
-    with pytest.raises(UserError, match="a_x"):
-        load(columns() | {"a_x": np.full(N, np.nan)})
-
-
 def test_jitter(load: Load) -> None:
     table = columns()
     exact = load(table).notes
@@ -259,12 +250,10 @@ T = np.arange(N) / RATE
         (edited(omegadot_x=T), ("omegadot_y, omegadot_z",)),
         (TEXT.replace("a_x [g]", "ax [g]"), ("a_x is missing", "'ax' meant for a_x")),
         (TEXT.replace("a_x [g]", "a_x"), ("'a_x'", "no unit", "a_x [g]")),
-        (TEXT.replace("a_x [g]", "a_x []"), ("'a_x'", "no unit")),
         (TEXT.replace("a_x [g]", "[g]"), ("a_x is missing", "'[g]'", "letter")),
         (TEXT.replace("a_x [g]", "a_x [gg]"), ("'a_x'", "not a unit", "gg")),
         (TEXT.replace("a_x [g]", "a_x [V]"), ("'a_x'", "dimension", "m/s^2")),
         (TEXT.replace("omega_y [rad/s]", "omega_y [Hz]"), ("'omega_y'", "frequency", "rad/s")),
-        (TEXT.replace("time [s]", "time [V]"), ("'time'", "dimension")),
         (TEXT.replace("a_y [mg]", "a_x [mg]"), ("'a_x'", "twice")),
         (TEXT.replace("\n0.125,", "\nhigh noon,"), ("line 4", "'time'", "'high noon'")),
         (TEXT.replace("\n0.125,", "\n0.125,0,"), ("line 4", "9", "8")),
@@ -299,13 +288,8 @@ def test_dialects(load: Load, old: str, new: str) -> None:
     other = load(TEXT.replace(old, new))
     assert np.array_equal(other.channels["omega_z"], plain.channels["omega_z"])
     assert other.units == plain.units
-    commented = load("# by the recorder\n\n" + TEXT)
-    assert np.array_equal(commented.outputs["G_out"], plain.outputs["G_out"])
-
-
-def test_a_mark_of_windows_and_a_micro_sign(load: Load) -> None:
-    found = load("\ufeff" + TEXT.replace("a_y [mg]", "a_y [µg]"))
-    assert found.channels["a_y"] == pytest.approx(columns(5)["a_y"] * 9.8e-6)
+    marked = load("\ufeff# by the recorder\n\n" + TEXT)
+    assert np.array_equal(marked.outputs["G_out"], plain.outputs["G_out"])
 
 
 def test_files_that_are_something_else(tmp_path: Path) -> None:
@@ -334,14 +318,6 @@ def test_files_that_are_something_else(tmp_path: Path) -> None:
     (tmp_path / "folder.csv").mkdir()
     with pytest.raises(UserError, match="directory"):
         read_flight(tmp_path / "folder.csv", G0)
-
-
-def test_compressed_by_content_not_by_name(tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_bytes(gzip.compress(TEXT.encode()))
-    (tmp_path / "b.csv.gz").write_text(TEXT)
-    first, second = (read_flight(tmp_path / n, G0) for n in ("a.csv", "b.csv.gz"))
-    assert np.array_equal(first.time, second.time)
-    assert (first.name, second.name) == ("a", "b")
 
 
 def test_flights_in_memory() -> None:

@@ -19,7 +19,7 @@ import xarray
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io import memory, read_flight, read_flights
+from ragg_runtime.io import read_flight, read_flights, tables
 from ragg_runtime.io.draft import draft_mapping
 from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.info import describe_flight
@@ -174,7 +174,17 @@ def test_excel_as_people_write_it(tmp_path: Path) -> None:
 
 NOISE = 290 + np.random.default_rng(3).normal(size=500)
 EVERY = np.arange(500) % 97 == 5
-CODES = (-9999.0, -999.25, 99999.9, -1e32, float(np.float32(-1e32)), 9.969209968386869e36, 0.0, -1.0)
+CODES = (
+    -9999.0,
+    -999.25,
+    99999.9,
+    float(np.float32(-9999.9)),
+    -1e32,
+    float(np.float32(-1e32)),
+    9.969209968386869e36,
+    0.0,
+    -1.0,
+)
 SMOOTH = np.sin(np.arange(500) / 30)
 
 
@@ -236,6 +246,8 @@ def test_flights_in_memory() -> None:
     )
     seconds = attributes.assign_coords(time=("time", VALUES["time"], {"units": "s"}))
     seconds["wide"] = ("band", np.arange(3.0))
+    seconds["a_y"].attrs["valid_range"] = [-20.0, 20.0]
+    seconds["a_y"].encoding["scale_factor"] = 10.0
     for data, instants in (
         (plain, False),
         (pd.DataFrame(plain), False),
@@ -309,7 +321,7 @@ def test_a_table_larger_than_memory_is_refused(tmp_path: Path, monkeypatch: pyte
     (tmp_path / "x.csv.gz").write_bytes(
         gzip.compress(PLAIN.encode() + b"\n" + b"0,0,0,0,0,0,0,0\n" * 200_000)
     )
-    monkeypatch.setattr(memory, "find_free_memory", lambda: 2e7)
+    monkeypatch.setattr(tables, "find_free_memory", lambda: 2e7)
     for ending in (".h5", ".csv.gz"):
         with pytest.raises(UserError, match="too large for the memory"):
             read_flight(tmp_path / f"x{ending}", G0)
@@ -346,5 +358,10 @@ def test_what_a_file_holds(tmp_path: Path) -> None:
     [("Volt", "V"), ("DEG/S", "deg/s"), ("mdps", "mdeg/s"), ("\u2103", "degC"), ("m/s²", "m/s^2"), ("Deg/Hr", "deg/h"), ("volts", "V")],
 )  # fmt: skip
 def test_spellings(spelling: str, unit: str) -> None:
-    known = units(G0)
-    assert known.to_si(1.0, spelling, unit) == pytest.approx(1.0)
+    assert units(G0).to_si(1.0, spelling, unit) == pytest.approx(1.0)
+
+
+def test_a_decimal_comma_in_a_quantity() -> None:
+    assert units(G0).quantity("0,1 m").value == 0.1
+    with pytest.raises(UserError, match="not a unit"):  # a thousand, or one?
+        units(G0).quantity("1,234 m")
