@@ -161,7 +161,7 @@ def _text_table(t: Table, indent: str, verbose: bool) -> list[str]:
         lines = lines[1:]
     if len(rows) < len(t.rows):
         lines.append(f"{indent}and {len(t.rows) - len(rows)} more (-v)")
-    return [*lines, *([f"{indent}{_terminal(t.note)}"] if t.note and (verbose or t.brief is None) else [])]
+    return [*lines, *([f"{indent}{_terminal(t.note)}"] if t.note else [])]
 
 
 def escape(text: object) -> str:
