@@ -104,7 +104,7 @@ Plot = Curves | Bars
 
 @dataclass(frozen=True)
 class Section:
-    """A part of what a result says. The first of a result has no title: it is the verdict, and ``state`` gives its colour.
+    """A part of what a result says. One with a ``state`` and without a title is the verdict, in the colour of that state.
 
     ``detail``: a terminal shows it on request alone, and a page folds it; ``summary`` then replaces it, in one line.
     """
@@ -176,6 +176,8 @@ def render_html(sections: Sequence[Section], draw: Callable[[Plot], str] = lambd
 
 def _html_section(s: Section, draw: Callable[[Plot], str]) -> str:
     parts = [f"<p>{escape(text)}</p>" for text in s.sentences]
+    if not s.title and not s.state:
+        return "".join(parts) + _html_body(s, draw)
     if not s.title:
         first, *rest = parts or [""]
         headline = first.replace("<p>", '<p class="headline">', 1)
