@@ -257,7 +257,7 @@ def essence(d: Mapping[str, Any]) -> dict[str, Any]:
             if r["probability"] is not None and r["probability"] > 1e-3
         },
         "credible_set": [list(s) for s in d["credible_set"][:50]],
-        "tested": len(d["ranking"]),
+        "tested": d["tests"],
         "terms_log10_p": d["unexplained"]["log10_p"],
         "terms": [[t["harmonic"], t["term"], round(t["z"], 1)] for t in d["unexplained"]["terms"][:3]],
         "before": d["error"]["before"]["rms_Eo"],

@@ -53,6 +53,7 @@ from ragg_runtime.identification.ranking import (
     with_probability,
 )
 from ragg_runtime.identification.result import Diagnosis, Disagreement, groups, words
+from ragg_runtime.identification.selection import Field
 from ragg_runtime.identification.strong import Stage, Taken
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
@@ -130,6 +131,7 @@ def diagnose_fitted(
         remark=found.remark(words(apart), budget.spent),
         reason=found.reason(words(apart), budget.spent),
         disagree=apart,
+        tests=round(first.field.effective_count, 3),
         explained=outcome.explained,
         groups=groups(found.claims, ranking, found.steady),
         credible_set=credence.credible,
@@ -247,12 +249,12 @@ class Conclusion:
         line, steady = line_rival(steps, last)
         if line is not None and not line.better(outcome.remainder):
             line = None
-        count = sum(t.rank > 0 for t in first.choice.tests.values()) + len(outcome.random)
+        count = first.field.count + len(outcome.random)
         log_p = _p_values(last)
         base = omnibus.remainders(first.fitted) if outcome.effects else None
         share = 1.0 if base is None else float(expit(_ahead(first, steps, outcome, count, base)))
         weak: list[str] = []
-        while not (line or apart) and (e := _weakest(outcome, log_p, count)):
+        while not (line or apart) and (e := _weakest(outcome, log_p, first.field)):
             weak.append(e)
             outcome = _without(first, steps, last, outcome, e, extend)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
@@ -351,13 +353,15 @@ def _p_values(last: Stage) -> dict[str, float]:
     return {e: last.field.tests([o for o in chosen if o != e])[e].log_p for e in chosen}
 
 
-def _weakest(o: Outcome, log_p: Mapping[str, float], count: int) -> str | None:
+def _weakest(o: Outcome, log_p: Mapping[str, float], field: Field) -> str | None:
     """The effect that is not significant with a variance that its own scores tell, the least significant of several."""
     doubted = o.remainder.significant
-    level = np.log((selection.FAMILY if len(o.effects) == 1 else selection.FURTHER) / max(count, 1))
+    level = selection.FAMILY if len(o.effects) == 1 else selection.FURTHER
     p = {e: o.significance(e, log_p.get(e), doubted=doubted) for e in o.effects}
     weakest = max(p, key=lambda e: (p[e], e), default=None)
-    return weakest if weakest is not None and p[weakest] > level else None
+    if weakest is None or field.significant(Test(0.0, 1, p[weakest], ()), level):
+        return None
+    return weakest
 
 
 def _claims(

@@ -135,6 +135,49 @@ def test(
     return replace(best, log_b=float(log_bayes(best.chi2, best.rank)) - charge - penalty)
 
 
+DRAWS = 1000
+"""Records of noise that tell how many independent tests the catalogue is: at a level of 0.03 thirty of them err, a fifth either way."""
+
+
+@dataclass(frozen=True)
+class Way:
+    """A way in which an effect may be present: orthonormal directions (rows, k), and the number of its kind."""
+
+    Q: Array
+    count: int
+
+
+def directions(P: Array, blocks: Sequence[tuple[tuple[int, ...], int]], floor: Array) -> list[Way]:
+    """The ways that can be tested of an effect's :func:`sub_blocks`."""
+    norms, found = np.linalg.norm(P, axis=0), []
+    for block, count in blocks:
+        own = [k for k in block if norms[k] > floor[k]]
+        if own:
+            U, s, _ = np.linalg.svd(P[:, own], full_matrices=False)
+            found.append(Way(U[:, s > max(np.max(floor[own]) * 0.3, s[0] * 1e-7)], count))
+    return found
+
+
+def effective_number(effects: Sequence[Sequence[Way]], level: float) -> float:
+    """Number of independent tests whose least p-value is below a level as often as that of these effects.
+
+    Columns are alike, and so are the p-values of effects: the least of them, of records of noise with these columns, tells how many
+    they are (J. Cheverud, Heredity 87, 2001, by simulation).
+    """
+    if not effects:
+        return 1.0
+    noise = np.random.default_rng(0).standard_normal((len(effects[0][0].Q), DRAWS))
+    least = np.ones(DRAWS)
+    for ways in effects:
+        along = np.concatenate([w.Q for w in ways], axis=1).T @ noise
+        ranks = np.array([w.Q.shape[1] for w in ways])
+        chi2 = np.add.reduceat(along**2, np.cumsum(ranks) - ranks, axis=0)
+        p = special.chdtrc(ranks[:, None], chi2) * np.array([w.count for w in ways])[:, None]
+        least = np.minimum(least, np.min(p, axis=0))
+    x = float(np.quantile(least, level))
+    return max(1.0, float(np.log1p(-level) / np.log1p(-min(x, level))))
+
+
 @dataclass(frozen=True)
 class Variance:
     """Sums over samples for a score test of a random effect: is the residual larger where it would show, and nowhere else?

@@ -53,6 +53,8 @@ class Diagnosis:
     explained: Explained | None = None
     groups: tuple[Group, ...] = ()
     disagree: tuple[Disagreement, ...] = ()
+    tests: float = 1.0
+    """Number of independent tests that the catalogue is on these flights: times the least p-value it is the family's."""
     staged: bool = False
     """Whether what was found was derived into the model one after the other."""
 
@@ -135,6 +137,7 @@ class Diagnosis:
             "remark": self.complaint or self.remark,
             "off_sheet": [x.as_json() for x in self.off_sheet],
             "ranking": [{"place": n, **r.as_json()} for n, r in enumerate(self.ranking, 1)],
+            "tests": self.tests,
             "found": list(self.found),
             "groups": [g.as_json() for g in self.groups],
             "disagree": [x.as_json() for x in self.disagree],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -120,6 +121,25 @@ class Field:
         tested = [self.n_base + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
         return uneven.tempered(t, uneven.inflation(beside, tested), self.freedom, len(self.blocks))
 
+    @cached_property
+    def count(self) -> int:
+        """Number of effects that can be tested."""
+        return sum(t.rank > 0 for t in self.tests().values())
+
+    @cached_property
+    def effective_count(self) -> float:
+        """Number of independent tests that err as often as these, which are alike (:func:`likelihood_ratio.effective_number`)."""
+        every = [likelihood_ratio.sub_blocks(c) for c in self.candidates.values()]
+        ways = [likelihood_ratio.directions(self.P, own, self.floor) for own in every]
+        return likelihood_ratio.effective_number([w for w in ways if w], FAMILY)
+
+    def significant(self, t: Test, family: float = FAMILY) -> bool:
+        """Whether the test of an effect is significant over the family."""
+        log_p = t.log_p if t.rank else 0.0
+        if not np.log(family) - np.log(max(self.count, 1)) <= log_p < np.log(family):
+            return bool(log_p < np.log(family))
+        return significant(t, self.effective_count, family)
+
     def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
         """(chi-square, rank) of the union of column blocks."""
         return likelihood_ratio.explained(self.P, [n for b in blocks for n in b], self.floor)
@@ -138,9 +158,9 @@ class Choice:
     chi2: float
 
 
-def significant(t: Test, count: int, family: float = FAMILY) -> bool:
+def significant(t: Test, count: float, family: float = FAMILY) -> bool:
     """Whether a test of one of ``count`` effects is significant over the family."""
-    return t.rank > 0 and t.log_p + np.log(max(count, 1)) < np.log(family)
+    return bool(t.rank > 0 and t.log_p + np.log(max(count, 1.0)) < np.log(family))
 
 
 def choose(f: Field, *, beside: bool = False) -> Choice:
@@ -148,7 +168,6 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
     model.
     """
     first = f.tests()
-    count = sum(t.rank > 0 for t in first.values())
     chosen: list[str] = []
     blocks: dict[str, tuple[int, ...]] = {}
     remaining = first
@@ -156,14 +175,14 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
     while len(chosen) < MOST and frozenset(chosen) not in seen:
         seen.add(frozenset(chosen))
         level = FURTHER if chosen or beside else FAMILY
-        best = _best({e: t for e, t in remaining.items() if significant(t, count, level)})
+        best = _best({e: t for e, t in remaining.items() if f.significant(t, level)})
         if best is None:
             break
         chosen.append(best)
         blocks[best] = remaining[best].which
         if len(chosen) > 1:
-            chosen, blocks = _swap(f, chosen, blocks, count)
-        chosen, blocks = _drop(f, chosen, blocks, count)
+            chosen, blocks = _swap(f, chosen, blocks)
+        chosen, blocks = _drop(f, chosen, blocks)
         remaining = f.tests(chosen)
     chi2 = f.joint([blocks[e] for e in chosen])[0] if chosen else 0.0
     return Choice(chosen=tuple(chosen), blocks=blocks, tests=first, conditional=remaining, chi2=chi2)
@@ -175,12 +194,12 @@ def _best(tests: Mapping[str, Test]) -> str | None:
 
 
 def _swap(
-    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]], count: int
+    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]]
 ) -> tuple[list[str], dict[str, tuple[int, ...]]]:
     for old in tuple(chosen):
         others = [e for e in chosen if e != old]
         conditional = f.tests(others)
-        best = _best({e: t for e, t in conditional.items() if significant(t, count)})
+        best = _best({e: t for e, t in conditional.items() if f.significant(t)})
         if best is not None and conditional[best].log_b > conditional[old].log_b + SWAPPED:
             chosen = [*others, best]
             blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
@@ -188,11 +207,11 @@ def _swap(
 
 
 def _drop(
-    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]], count: int
+    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]]
 ) -> tuple[list[str], dict[str, tuple[int, ...]]]:
     for e in tuple(chosen):
         others = [o for o in chosen if o != e]
-        if others and not significant(f.tests(others)[e], count):
+        if others and not f.significant(f.tests(others)[e]):
             chosen, blocks = others, {o: blocks[o] for o in others}
     return chosen, blocks
 
