@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.compensate import Compensated, Kind, prepared
+from ragg_runtime.compensation.compensate import Compensated, Kind, Prepared, prepared
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -27,9 +27,14 @@ SIZE = 20.0
 """Of each wave, Eo."""
 
 
-def series(s: Scenario, x: Flight, kind: Kind, name: str) -> tuple[Complex, NDArray[np.float64], Compensated]:
+def ready(s: Scenario, x: Flight, kind: Kind) -> Prepared:
+    """The flight, calibrated."""
+    return prepared(packaged(), s.sheet, [x], kind)
+
+
+def series(p: Prepared, name: str) -> tuple[Complex, NDArray[np.float64], Compensated]:
     """The compensated gradient, Eo, and its uncertainties."""
-    c = Compensated(prepared(packaged(), s.sheet, [x], kind), 0, name)
+    c = Compensated(p, 0, name)
     parts = list(c.segments())
     return np.concatenate([p.gradient for p in parts]), np.concatenate([p.std for p in parts], axis=1), c
 
@@ -44,9 +49,9 @@ def transfer(kind: Kind = "self", duration: float = 7200.0) -> dict[str, tuple[C
     phi = 2 * np.pi * s.sheet.spin_frequency * t
     waves = 1e-9 * s.instrument.scale_factor * (g.real / 2 * np.sin(2 * phi) - g.imag * np.cos(2 * phi))
     more = dataclasses.replace(x, outputs={"G_out": x.outputs["G_out"] + waves})
-    found = {}
+    found, both = {}, [ready(s, y, kind) for y in (more, x)]
     for name in DEMODULATORS:
-        (with_waves, _, c), (without, _, _) = (series(s, y, kind, name) for y in (more, x))
+        (with_waves, _, c), (without, _, _) = (series(p, name) for p in both)
         difference = with_waves - without
         ok = np.isfinite(difference.real)
         gains = np.linalg.lstsq(basis[ok], difference[ok] / SIZE, rcond=None)[0]
@@ -60,7 +65,7 @@ def coverage(kind: Kind, seeds: int) -> tuple[float, float, int]:
     for seed in range(100, 100 + seeds):
         s = scenario(seed, duration=900.0, gradient_rms=50e-9)
         x = s.simulate({}).flight()
-        g, std, c = series(s, x, kind, "fir")
+        g, std, c = series(ready(s, x, kind), "fir")
         channels = x.channels
         true = (channels["Gamma_xx"] - channels["Gamma_yy"] + 1j * channels["Gamma_xy"]) / 1e-9
         error = g - c.demodulator.low_passed(true)

@@ -13,7 +13,6 @@ from derive import ir
 from derive.effects import catalogue
 from derive.pipeline import STARRED, starred
 from derive.propagation import MOTION_NUMBERS, collect, ideal
-from derive.stages import Kinematics
 from derive.tape import About, Tape, partials
 from tests.derive.evaluated import evaluated, neutral_values
 
@@ -84,30 +83,21 @@ def test_a_name_holds_one_value() -> None:
 
 
 # those that differentiate by time, and some whose parameters stand under their derivatives
-NESTED = (
-    "encoder-harmonic",
-    "spin-phase-offset",
-    "gyro-delay",
-    "time-offset",
-    "arm-stretch",
-    "lag",
-    "output-filter",
-)
+NESTED = ("encoder-harmonic", "gyro-delay", "time-offset", "lag")
 
 
-@pytest.mark.parametrize("kinematics", ["platform", "full"])
-def test_signatures_are_the_derivatives_of_the_whole_model_at_neutral_values(kinematics: Kinematics) -> None:
+def test_signatures_are_the_derivatives_of_the_whole_model_at_neutral_values() -> None:
     effects = [e for e in catalogue() if e.id in NESTED]
     assert len(effects) == len(NESTED)
-    short = ir.chain((), "s", "", candidates=effects, kinematics=kinematics).derivatives
-    whole = ir.chain(effects, "w", "", kinematics=kinematics).derivatives
+    short = ir.chain((), "s", "", candidates=effects, kinematics="full").derivatives
+    whole = ir.chain(effects, "w", "", kinematics="full").derivatives
     rng = np.random.default_rng(1)
     names = sorted({s.name for program in (short, whole) for s in program.inputs})
     values = {n: rng.normal(size=5) for n in names}
     values |= {s.name: np.full(5, float(v)) for s, v in neutral_values(effects).items()}
     found, expected = evaluated(short)(values), evaluated(whole)(values)
     rows = [n for n in found if n in expected]
-    assert len(rows) == len(found) >= 12
+    assert len(rows) == len(found) >= 8
     for n in rows:
         np.testing.assert_allclose(
             found[n], expected[n], rtol=1e-12, atol=1e-12 * np.max(np.abs(expected[n])), err_msg=n

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy import signal
 
 import derive.effects
 from derive import pipeline
@@ -108,3 +109,11 @@ def test_a_panel_is_a_function_that_returns_a_section() -> None:
     section = panel(x, 3.0 * x, "temperature")
     assert "changes by 5.7 Eo" in section.sentences[0]
     assert "<svg" in render_html([section], draw_plot)
+
+
+def test_a_noise_model_is_a_function_from_residuals_to_a_density() -> None:
+    estimate_white = module_of("ragg_runtime/estimation/white.py").estimate_white
+    x = 3.0 * np.random.default_rng(1).standard_normal(20_000)
+    model = estimate_white([x[:5000], x[5000:]], 16.0)
+    assert model.rms == pytest.approx(3.0, rel=0.02)
+    assert np.std(signal.lfilter(model.whitening_filter(64), [1.0], x)) == pytest.approx(1.0, rel=0.02)
