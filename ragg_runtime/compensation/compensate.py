@@ -31,10 +31,11 @@ from ragg_runtime.compensation.series import (
 )
 from ragg_runtime.estimation.calibrate import Calibration
 from ragg_runtime.estimation.fitted import fit
-from ragg_runtime.estimation.noise_spectrum import Noise, periodogram
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation, observations_of
 from ragg_runtime.estimation.score import Tally, finite
 from ragg_runtime.estimation.segments import ROWS, Segment, spread
+from ragg_runtime.estimation.spectrum import periodogram
 from ragg_runtime.estimation.unknown_gradient import spin_frequency
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import sees
@@ -58,7 +59,7 @@ GRID = 4001
 """Frequencies at which the noise is integrated."""
 
 
-def of_noise(o: Observation, noise: Noise, d: Demodulator, k_ggi: float) -> tuple[float, float]:
+def of_noise(o: Observation, noise: NoiseModel, d: Demodulator, k_ggi: float) -> tuple[float, float]:
     """Standard deviations of inline and cross, Eo, that stationary noise of G_out causes; ``k_ggi`` in V/Eo."""
     f = np.linspace(-0.5, 0.5, GRID)
     carrier = 2 * spin_frequency(o)

@@ -20,8 +20,7 @@ from ragg_runtime.estimation.calibrate import Calibration
 from ragg_runtime.estimation.columns import base_columns
 from ragg_runtime.estimation.fitted import Fitted, about
 from ragg_runtime.estimation.linearise import Point
-from ragg_runtime.estimation.noise import estimate_noise
-from ragg_runtime.estimation.noise_spectrum import Noise
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation, observations_of
 from ragg_runtime.estimation.score import Error, finite
 from ragg_runtime.estimation.segments import segments, spread
@@ -149,7 +148,9 @@ def calibration(
     columns = base_columns(model, instrument)
     half = root(saved, model, instrument)
     at = Point(model, instrument, saved.p, with_candidates=True)
-    noise: list[Noise] = [estimate_noise(at, o, HEARD, samples=LISTENED, slow=False) for o in observations]
+    noise: list[NoiseModel] = [
+        NoiseModel.fit(at, o, most=HEARD, samples=LISTENED, slow=False) for o in observations
+    ]
     return Calibration(
         p=saved.p,
         columns=tuple(c for c, _ in columns),

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import columns as design
 from ragg_runtime.estimation.columns import Column
 from ragg_runtime.estimation.linearise import Point
-from ragg_runtime.estimation.noise import estimate_noise, swell
-from ragg_runtime.estimation.noise_spectrum import Noise, white_noise
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.passes import Piece, excerpt, heard, passed
 from ragg_runtime.estimation.square_root import join, with_prior
@@ -52,7 +51,7 @@ class Calibration:
     columns: tuple[Column, ...]
     index: NDArray[np.intp]
     covariance: Array
-    noise: tuple[Noise, ...]
+    noise: tuple[NoiseModel, ...]
     rows: int
     chi2: float
     excess: float
@@ -136,7 +135,7 @@ class _Task:
             return self
         return replace(self, observations=shorter)
 
-    def at(self, x: Array, noise: Sequence[Noise]) -> _Fall:
+    def at(self, x: Array, noise: Sequence[NoiseModel]) -> _Fall:
         """Linearised about x."""
         p = self.vector(x)
         places = {o.place for o in self.observations}
@@ -156,16 +155,15 @@ class _Task:
         fall = _linear(data, -x)
         return _Fall(R=fall.R, y=fall.y, rest=fall.rest, data=data, to_nominal=-x, sums=sums, rows=rows)
 
-    def noise(self, x: Array) -> list[Noise]:
-        """Noise of every flight from what nothing explains about x."""
+    def noise(self, x: Array) -> list[NoiseModel]:
+        """NoiseModel of every flight from what nothing explains about x."""
         everything = Point(self.model, self.instrument, self.vector(x), with_candidates=True)
-        return [estimate_noise(everything, o) for o in self.observations]
+        return [NoiseModel.fit(everything, o) for o in self.observations]
 
-    def size(self, noise: Sequence[Noise]) -> float:
+    def size(self, noise: Sequence[NoiseModel]) -> float:
         """Root of the mean power of what no column explains, V, lines included."""
-        floors = [float(np.mean([m.rms**2 for m in n.models])) for n in noise]
         records = [o.record for o in self.observations]
-        powers = [f * swell(n, r) + n.line_power for f, n, r in zip(floors, noise, records, strict=True)]
+        powers = [n.power * n.swell(r) + n.line_power for n, r in zip(noise, records, strict=True)]
         return float(np.sqrt(np.mean(powers)))
 
     def _nowhere(self, x: Array) -> _Fall:
@@ -195,7 +193,7 @@ class _Unweighted:
         if key not in self._tried:
             while len(self._tried) > 1:
                 self._tried.pop(next(iter(self._tried)))
-            unit = [white_noise(o.record.rate, len(o.series)) for o in self.task.observations]
+            unit = [NoiseModel.white(o.record.rate, len(o.series)) for o in self.task.observations]
             self._tried[key] = self.task.at(x, unit)
         return self._tried[key]
 
@@ -220,7 +218,7 @@ def fit(
     observations: Sequence[Observation],
     *,
     start: Array | None = None,
-    noise: Sequence[Noise] | None = None,
+    noise: Sequence[NoiseModel] | None = None,
     unweighted: bool = False,
 ) -> Calibration:
     """Least squares on all flights at once, from the nominal values or from ``start``.
@@ -244,7 +242,7 @@ def fit(
     return _loud(whole, x, noise, fixed=unweighted)
 
 
-def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Calibration:
+def _loud(p: _Unweighted, x: Array, noise: Sequence[NoiseModel], fixed: bool) -> Calibration:
     """The unwhitened fit from x of what leaves more than ``noise``, which is estimated anew at its end unless it is ``fixed``."""
     for _ in range(ROUNDS):
         left = p.left(x)
@@ -257,12 +255,12 @@ def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Cali
     return _calibration(p.task, found, noise)
 
 
-def loudness(noise: Sequence[Noise]) -> float:
+def loudness(noise: Sequence[NoiseModel]) -> float:
     """Root of the mean power of the outputs' noise over all flights, V."""
-    return float(np.sqrt(np.mean([m.rms**2 for n in noise for m in n.models])))
+    return float(np.sqrt(np.mean([n.power for n in noise])))
 
 
-def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> Calibration:
+def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[NoiseModel]) -> Calibration:
     """The end of a fit as parameters, levelled."""
     at = found.at
     step = found.last

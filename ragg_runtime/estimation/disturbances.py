@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.noise_spectrum import LOWEST, periodogram, without_lines
+from ragg_runtime.estimation.spectrum import LOWEST, periodogram, without_lines
 
 Array = NDArray[np.float64]
 

@@ -12,10 +12,10 @@ from scipy import linalg
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.estimation import calibrate, columns, noise, prepared_flight
+from ragg_runtime.estimation import calibrate, columns, prepared_flight
 from ragg_runtime.estimation.calibrate import Calibration
 from ragg_runtime.estimation.columns import Column
-from ragg_runtime.estimation.noise_spectrum import Noise
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.off_sheet import QUIET, widened
 from ragg_runtime.estimation.passes import Piece
@@ -148,7 +148,7 @@ class Fitted:
     @property
     def uneven(self) -> bool:
         """Whether the noise changes its level in any observation."""
-        return any(n.level.parts for n in self.calibration.noise)
+        return any(n.uneven for n in self.calibration.noise)
 
     @property
     def beyond(self) -> tuple[float, ...]:
@@ -271,7 +271,7 @@ def calibrated(
     instrument: Instrument,
     observations: Sequence[Observation],
     *,
-    noise: Sequence[Noise] | None = None,
+    noise: Sequence[NoiseModel] | None = None,
     start: Array | None = None,
     unweighted: bool = False,
 ) -> tuple[Instrument, Calibration]:
@@ -294,7 +294,7 @@ def fit(
     model: Model,
     instrument: Instrument,
     observations: Sequence[Observation],
-    noise: Sequence[Noise] | None = None,
+    noise: Sequence[NoiseModel] | None = None,
     start: Array | None = None,
     *,
     unweighted: bool = False,
@@ -346,15 +346,14 @@ def about(
 
 def swell(f: Fitted) -> float:
     """rms of all the noise over that of the floor."""
-    return float(np.sqrt(np.mean([noise.swell(x.noise, x.observation.record) for x in f.prepared])))
+    return float(np.sqrt(np.mean([x.noise.swell(x.observation.record) for x in f.prepared])))
 
 
 def lines(f: Fitted) -> float:
     """rms of the lines that are taken for noise, Eo."""
     power = [
-        sum(w[q.output] ** 2 * q.amplitude**2 / 2 for q in x.noise.lines) / k_ggi**2
+        x.noise.line_power_of(x.observation.signs) / k_ggi**2
         for x, k_ggi in zip(f.prepared, f.scales, strict=True)
-        for w in [x.noise.weights(x.observation.signs)]
     ]
     return float(np.sqrt(np.mean(power)))
 

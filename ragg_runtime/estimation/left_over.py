@@ -12,7 +12,7 @@ from scipy import fft, linalg
 
 from ragg_runtime.base.threads import stretches
 from ragg_runtime.estimation.disturbances import Disturbance, disturbances
-from ragg_runtime.estimation.noise_spectrum import NoiseModel, estimate, hann
+from ragg_runtime.estimation.spectrum import Spectrum, estimate, hann
 from ragg_runtime.estimation.square_root import triangle
 from ragg_runtime.signals.fir import GROUP, SPARSE, filtered, not_zero
 
@@ -40,7 +40,7 @@ class Left:
     directions: Array = field(repr=False)
     valid: NDArray[np.bool_] = field(repr=False)
 
-    def kept_of(self, noise: NoiseModel) -> Array:
+    def kept_of(self, noise: Spectrum) -> Array:
         """As ``kept``, of noise that is not white: power at each frequency of the periodogram over its density.
 
         Columns that follow slow noise take what is slowest of it, and in return leave as much of it at frequencies beside: of white

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,21 +15,11 @@ from ragg_runtime.estimation.disturbances import Disturbance, in_words
 from ragg_runtime.estimation.left_over import Left, left_over, placed
 from ragg_runtime.estimation.linearise import Point
 from ragg_runtime.estimation.noise_level import Level
-from ragg_runtime.estimation.noise_spectrum import (
-    LOWEST,
-    Averages,
-    Line,
-    Noise,
-    NoiseModel,
-    estimate,
-    periodogram,
-    white_noise,
-    without_lines,
-)
 from ragg_runtime.estimation.observation import Observation, telling
 from ragg_runtime.estimation.passes import Piece, flight_segments, passed
 from ragg_runtime.estimation.segments import ROWS, THINNER, Segment, beginnings, spread
 from ragg_runtime.estimation.slow_noise import averages
+from ragg_runtime.estimation.spectrum import LOWEST, Averages, Spectrum, estimate, periodogram, without_lines
 from ragg_runtime.io.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
@@ -64,6 +54,223 @@ MOTION = frozenset((*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION, *GRAD
 
 
 @dataclass(frozen=True)
+class Line:
+    """A sinusoid in one of the whitened series: Hz, and its amplitude, V; 0 where that is counted with another one beside it."""
+
+    output: int
+    frequency: float
+    amplitude: float
+
+
+@dataclass(frozen=True)
+class NoiseModel:
+    """The noise of an observation of m series, estimated by :meth:`fit`; :meth:`whiten` makes it white, of unit variance.
+
+    It is stationary noise of a spectrum for every whitened series, times a level that may follow what is known from sample to sample
+    (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965), and lines. The filters are causal and finite: linear, hence
+    exact on columns however much larger than the noise they are, and a long record can be streamed through them. Samples that are not
+    valid are put to zero, in data and columns alike, before they are filtered, and the filters start from rest: what the model
+    explains it explains before and after; only the noise next to a gap or to the start is not perfectly white.
+
+    Attributes
+    ----------
+    spectra, filters
+        Of every whitened series; taps of the filters, 1/V.
+    level
+        How loud the noise is from sample to sample.
+    lines
+        Those that are neither of the motion nor beside a multiple of the spin rate; what they span is taken out of data and columns.
+    combinations
+        (m, m), orthonormal rows: the whitened series are these combinations of the observed ones
+        (:mod:`ragg_runtime.signals.combinations`); ``None``: they are these themselves.
+    disturbed
+        Which lines and jumps are no part of it, and how its level changes, in words.
+    freedom
+        Degrees of freedom from which it is known.
+    """
+
+    spectra: tuple[Spectrum, ...]
+    filters: tuple[Array, ...]
+    level: Level = field(default_factory=Level)
+    lines: tuple[Line, ...] = ()
+    combinations: Array | None = field(default=None, compare=False)
+    disturbed: str | None = None
+    freedom: float = np.inf
+
+    @staticmethod
+    @lru_cache(maxsize=64)
+    def white(rate: float, outputs: int) -> NoiseModel:
+        """White noise of 1 V in every series: one object, by which it is known again."""
+        flat = Spectrum(rate, np.array([0.0, 1.0]), np.zeros(2), np.zeros(2))
+        return NoiseModel(spectra=(flat,) * outputs, filters=(np.ones(1),) * outputs)
+
+    @property
+    def outputs(self) -> int:
+        """Number of whitened series."""
+        return len(self.filters)
+
+    @property
+    def memory(self) -> int:
+        """Samples before one that its whitened value depends on."""
+        return max(len(t) for t in self.filters) - 1
+
+    @property
+    def uneven(self) -> bool:
+        """Whether its level changes."""
+        return bool(self.level.parts)
+
+    @property
+    def power(self) -> float:
+        """V^2, mean over the whitened series, without lines."""
+        return float(np.mean([s.rms**2 for s in self.spectra]))
+
+    @property
+    def line_power(self) -> float:
+        """V^2, of the lines, mean over the series."""
+        return sum(x.amplitude**2 / 2 for x in self.lines) / self.outputs
+
+    def line_power_of(self, signs: Array) -> float:
+        """V^2, of the lines, of the output in which the series count so (m,)."""
+        weights = self.weights(signs)
+        return float(sum(weights[x.output] ** 2 * x.amplitude**2 / 2 for x in self.lines))
+
+    def psd(self, f: Array, signs: Array) -> Array:
+        """One-sided density at frequencies f, V^2/Hz, of the output in which the series count so (m,)."""
+        weights = self.weights(signs) ** 2
+        return np.asarray(sum(w * s.psd(f) for w, s in zip(weights, self.spectra, strict=True)))
+
+    def variance(self, signs: Array) -> float:
+        """V^2, of that output."""
+        weights = self.weights(signs) ** 2
+        return float(sum(w * s.rms**2 for w, s in zip(weights, self.spectra, strict=True)))
+
+    def swell(self, r: Record) -> float:
+        """Power of all noise of a record over that of the segments that it was estimated from."""
+        return float(np.mean(np.square(np.broadcast_to(self.level_of(r.quantity), r.valid.shape)[r.valid])))
+
+    def level_of(self, quantity: Callable[[str], Array]) -> Array | float:
+        """(N,), or one number if it is even: how loud it is where quantities, by name, are (N,)."""
+        return self.level.of(quantity)
+
+    def weights(self, w: Array) -> Array:
+        """(outputs,): how what counts so in the series (m,) counts in the whitened ones."""
+        return w if self.combinations is None else self.combinations @ w
+
+    def taps(self, most: int) -> list[Array]:
+        """The beginnings of the filters, for terms that are searched through shorter ones."""
+        return [t[:most] for t in self.filters]
+
+    def whiten(
+        self,
+        columns: Array,
+        valid: NDArray[np.bool_] | None = None,
+        level: Array | float = 1.0,
+        *,
+        tail: Array | None = None,
+        lead: int = 0,
+    ) -> Array:
+        """Columns through the filters, over the level.
+
+        Parameters
+        ----------
+        columns
+            (n, m, N) V, zero where a sample is not valid.
+        valid
+            (N - lead,): which samples are wanted; ``None``: all.
+        level
+            (N - lead,) or one number: :meth:`level_of` these samples.
+        tail
+            (n, m, T): the samples before them; ``None``: the filters start from rest.
+        lead
+            First samples that are not wanted.
+
+        Returns
+        -------
+        (n, rows): one output after the other.
+        """
+
+        def through(k: int) -> Array:
+            past = None if tail is None else self._series(tail, k)
+            y = filtered(self._series(columns, k), self.filters[k], past, lead)
+            y = y / level if self.uneven else y
+            return y if valid is None or valid.all() else y[:, valid]
+
+        if self.outputs == 1:
+            return through(0)
+        parts = [through(k) for k in range(self.outputs)]
+        return np.concatenate(parts, axis=1)
+
+    def line_columns(self, time: Array, series: int) -> Array:
+        """(k, m, n): what the lines span at some times, s, each in its own of the m ``series``."""
+        shown = np.eye(series) if self.combinations is None else self.combinations
+        found = [
+            Disturbance("line", x.frequency, 1.0).columns(time)[:, None] * shown[x.output][:, None]
+            for x in self.lines
+        ]
+        return np.concatenate(found) if found else np.empty((0, series, len(time)))
+
+    def variance_shapes(self, r: Record) -> Array:
+        """(k, rows): what the variance of whitened samples may follow (:func:`noise_level.shapes`), one output after the other."""
+        found = noise_level.shapes(r.quantity, level_quantities(r), self.level)[:, r.valid]
+        return np.tile(found, self.outputs)
+
+    def _series(self, x: Array, k: int) -> Array:
+        """What the filter k takes of series (n, m, N): (n, N)."""
+        return x[:, k] if self.combinations is None else np.tensordot(self.combinations[k], x, (0, 1))
+
+    @staticmethod
+    def fit(
+        at: Point,
+        o: Observation,
+        *,
+        most: int = NOISE_SEGMENTS,
+        samples: int = NOISE_SEGMENTS * ROWS,
+        slow: bool = True,
+    ) -> NoiseModel:
+        """The noise of an observation, from what no column and no unknown gradient explains about a point.
+
+        Parameters
+        ----------
+        at
+            Parameters, and the columns that are fitted: base and candidates.
+        most, samples
+            Most samples of which it is estimated, in all: of ``most`` segments the beginnings.
+        slow
+            Whether means over all of a flight that is longer than one segment are looked at, too.
+
+        Raises
+        ------
+        UserError
+            If the record is too short.
+        """
+        if np.sum(o.record.valid) < SHORTEST:
+            raise UserError(
+                "the record is too short to estimate its noise",
+                where=o.name,
+                found=f"{int(np.sum(o.record.valid))} valid samples",
+                expected=f"at least {SHORTEST}",
+                remedy="give a longer or cleaner recording",
+            )
+        chosen = _chosen(o, most, samples)
+        parts = _parts(at, o, None, chosen)
+        if o.recorded.demodulated:
+            return _of_channels(parts, o)
+        rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
+        apart = combinations.telling(rests, o.signs)
+        if apart is not None:
+            parts = _parts(at, o, apart, chosen)
+        means = averages(at, o, _unwhitened(o, apart)) if slow else None
+        noise = _of_level(parts, o, Level(), means)
+        level = _level(parts, o, noise)
+        if level.parts:
+            noise = _of_level(parts, o, level, means)
+        said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
+        words = "; ".join(w for w in said if w is not None) or None
+        free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
+        return replace(noise, disturbed=words, freedom=free, combinations=apart, lines=_lines(parts, o))
+
+
+@dataclass(frozen=True)
 class _Part:
     """What is left of a segment: of every output, at its ``rows``; ``taken`` are degrees of freedom of an unknown gradient.
 
@@ -79,52 +286,6 @@ class _Part:
     def rest(self, m: int) -> Array:
         """(N,): of an output, zero where a sample is not valid."""
         return placed(self.outputs[m].rest, self.valid)
-
-
-def estimate_noise(
-    at: Point,
-    o: Observation,
-    most: int = NOISE_SEGMENTS,
-    *,
-    samples: int = NOISE_SEGMENTS * ROWS,
-    slow: bool = True,
-) -> Noise:
-    """Noise of each output from what no column and no unknown gradient explains.
-
-    It is estimated in at ``most`` so many segments, of each the beginning where together they have more than so many ``samples``;
-    ``slow``: and from means over all of a flight that is longer than one.
-    """
-    if np.sum(o.record.valid) < SHORTEST:
-        raise UserError(
-            "the record is too short to estimate its noise",
-            where=o.name,
-            found=f"{int(np.sum(o.record.valid))} valid samples",
-            expected=f"at least {SHORTEST}",
-            remedy="give a longer or cleaner recording",
-        )
-    chosen = _chosen(o, most, samples)
-    parts = _parts(at, o, None, chosen)
-    if o.recorded.demodulated:
-        return _of_channels(parts, o)
-    rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
-    apart = combinations.telling(rests, o.signs)
-    if apart is not None:
-        parts = _parts(at, o, apart, chosen)
-    means = averages(at, o, _unwhitened(o, apart)) if slow else None
-    noise = _of_level(parts, o, Level(), means)
-    level = _level(parts, o, noise)
-    if level.parts:
-        noise = _of_level(parts, o, level, means)
-    said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
-    words = "; ".join(w for w in said if w is not None) or None
-    free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
-    return replace(noise, disturbed=words, freedom=free, combinations=apart, lines=_lines(parts, o))
-
-
-def swell(n: Noise, r: Record) -> float:
-    """Power of all noise of a record over that of the stretches that it was estimated from."""
-    level = n.level.of(r.quantity)
-    return float(np.mean(np.square(np.broadcast_to(level, r.valid.shape)[r.valid])))
 
 
 RESOLVED = 4.0
@@ -179,7 +340,7 @@ def _has_lines(o: Observation, p: _Part) -> bool:
 
 def _of_level(
     parts: Sequence[_Part], o: Observation, level: Level, means: Sequence[Averages] | None
-) -> Noise:
+) -> NoiseModel:
     """The noise's spectra, given how its level changes."""
     rate, band = o.record.rate, unknown_gradient.band(o)
     spin = unknown_gradient.spin_frequency(o) if o.record.turning else None
@@ -198,7 +359,7 @@ def _of_level(
         models.append(model)
         taps = TAPS if o.thin is None else TAPS // THINNER
         filters.append(model.whitening_filter(int(min(taps, len(o.record.time)))))
-    return Noise(models=tuple(models), filters=tuple(filters), level=level)
+    return NoiseModel(spectra=tuple(models), filters=tuple(filters), level=level)
 
 
 def _chosen(o: Observation, most: int, samples: int) -> list[Segment]:
@@ -239,9 +400,9 @@ def _parts(at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segm
     return list(passed(at, o, _unwhitened(o, apart), part, chosen=chosen))
 
 
-def _unwhitened(o: Observation, apart: Array | None) -> Noise:
+def _unwhitened(o: Observation, apart: Array | None) -> NoiseModel:
     """What leaves the series as they are, or in combinations."""
-    plain = white_noise(o.record.rate, len(o.series))
+    plain = NoiseModel.white(o.record.rate, len(o.series))
     return plain if apart is None else replace(plain, combinations=apart)
 
 
@@ -256,7 +417,7 @@ def _through(piece: Piece, m: int, outputs: int, columns: Array) -> Array:
     return np.asarray(flat.reshape(wide.shape)[:, m])
 
 
-def _of_channels(parts: Sequence[_Part], o: Observation) -> Noise:
+def _of_channels(parts: Sequence[_Part], o: Observation) -> NoiseModel:
     """Within the demodulator's band the noise of G_out is taken as white; a sample of a seldom recorded channel counts for more."""
     gain, more = o.recorded.noise_share(o.record), telling(o.record)
     squares = free = 0.0
@@ -267,9 +428,9 @@ def _of_channels(parts: Sequence[_Part], o: Observation) -> Noise:
         free += len(x.rest) * max(0.1, 1 - (x.rank + p.taken) / (gain * more * len(x.rest)))
     sigma = float(np.sqrt(squares / free))
     density = np.full(2, np.log(2 * sigma**2 / o.record.rate))
-    model = NoiseModel(o.record.rate, np.array([-20.0, 20.0]), density, np.zeros(2))
+    model = Spectrum(o.record.rate, np.array([-20.0, 20.0]), density, np.zeros(2))
     freedom = max(1.0, gain * more * free)
-    return Noise(models=(model,), filters=(np.array([np.sqrt(more) / sigma]),), freedom=freedom)
+    return NoiseModel(spectra=(model,), filters=(np.array([np.sqrt(more) / sigma]),), freedom=freedom)
 
 
 def _disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:
@@ -295,13 +456,7 @@ def level_quantities(r: Record) -> list[str]:
     return names
 
 
-def variance_shapes(noise: Noise, r: Record) -> Array:
-    """(k, rows): what the variance of whitened samples may follow, one output after the other (:func:`noise_level.shapes`)."""
-    found = noise_level.shapes(r.quantity, level_quantities(r), noise.level)[:, r.valid]
-    return np.tile(found, len(noise.filters))
-
-
-def _level(parts: Sequence[_Part], o: Observation, noise: Noise) -> Level:
+def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
     """How loud the noise is from sample to sample."""
     names = level_quantities(o.record)
     white: list[Array] = []

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Container, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from generated.output_effects import imu_saturation, saturation
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.estimation.noise_spectrum import Noise
 from ragg_runtime.estimation.segments import ROWS
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
@@ -20,6 +19,9 @@ from ragg_runtime.io import Flight
 from ragg_runtime.model.record import Record, record
 from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.fir import thinned
+
+if TYPE_CHECKING:
+    from ragg_runtime.estimation.noise import NoiseModel
 
 Array = NDArray[np.float64]
 
@@ -93,7 +95,7 @@ class Observation:
     flight: int = 0
     gains: Array = field(default_factory=lambda: np.ones(1))
     thin: Thin | None = None
-    memo: list[tuple[Noise, list[Any]]] = field(default_factory=list, compare=False, repr=False)
+    memo: list[tuple[NoiseModel, list[Any]]] = field(default_factory=list, compare=False, repr=False)
     """What :mod:`ragg_runtime.estimation.unknown_gradient` has found for some noise."""
 
     @cached_property

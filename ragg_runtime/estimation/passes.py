@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,13 +13,14 @@ from ragg_runtime.base import progress
 from ragg_runtime.estimation import columns as design
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.linearise import Point, linearised
-from ragg_runtime.estimation.noise_spectrum import Noise
 from ragg_runtime.estimation.observation import Observation, as_output
 from ragg_runtime.estimation.segments import ROWS, THINNER, Segment, segments, spread
 from ragg_runtime.estimation.square_root import triangle
 from ragg_runtime.estimation.unknown_gradient import Window
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.fir import filtered
+
+if TYPE_CHECKING:
+    from ragg_runtime.estimation.noise import NoiseModel
 
 Array = NDArray[np.float64]
 R = TypeVar("R")
@@ -42,7 +43,7 @@ class Piece:
     sample: NDArray[np.intp]
     windows: Sequence[Window]
     heard: slice | NDArray[np.intp]
-    noise: Noise
+    noise: NoiseModel
 
     def triangle(self, first: int = 0, stop: int | None = None) -> Array:
         """Triangular factor (n + 1, n + 1) of the whitened columns: of the flight's samples from ``first`` on, before ``stop``."""
@@ -114,7 +115,7 @@ def excerpt(o: Observation) -> Observation:
 def passed(
     at: Point,
     o: Observation,
-    noise: Noise,
+    noise: NoiseModel,
     work: Callable[[Piece], R],
     *,
     chosen: Sequence[Segment] | None = None,
@@ -128,7 +129,7 @@ def passed(
     n_base = len(at.base)
     heard = design.heard([*at.base, *at.candidates], at.instrument, o.place)
     found = flight_segments(o) if chosen is None else chosen
-    memory = max(len(t) for t in noise.filters) - 1 if whitened else 0
+    memory = noise.memory if whitened else 0
     tail: Array | None = None
     before = 0
     share = (1.0 if at.with_candidates else 0.4) * (1.0 if whitened else 0.5) * (1.0 + effort)
@@ -141,7 +142,7 @@ def passed(
             tail = _past(tail, s.rows.start - before, memory)
             flat = _white(columns, heard, noise, tail, part.record, windows)
             tail, before = _carried(tail, columns, memory), s.rows.stop
-            sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
+            sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, noise.outputs)
         piece = Piece(
             segment=s,
             observation=part,
@@ -161,7 +162,7 @@ def passed(
 def _white(
     columns: Array,
     heard: slice | NDArray[np.intp],
-    noise: Noise,
+    noise: NoiseModel,
     tail: Array | None,
     record: Record,
     windows: Sequence[Window],
@@ -178,24 +179,9 @@ def _white(
     return flat
 
 
-def whitened_columns(columns: Array, noise: Noise, tail: Array | None, record: Record) -> Array:
-    """(n + 1, rows): columns (n + 1, m, N) through the filters, over the noise's level, one output after the other."""
-    valid, level = record.valid, noise.level.of(record.quantity)
-
-    def through(m: int) -> Array:
-        y = filtered(
-            noise.series(columns, m), noise.filters[m], None if tail is None else noise.series(tail, m)
-        )
-        y = y / level if noise.level.parts else y
-        return y if valid.all() else y[:, valid]
-
-    if len(noise.filters) == 1:
-        return through(0)
-    width = int(np.count_nonzero(valid))
-    flat = np.empty((len(columns), len(noise.filters) * width))
-    for m in range(len(noise.filters)):
-        flat[:, m * width : (m + 1) * width] = through(m)
-    return flat
+def whitened_columns(columns: Array, noise: NoiseModel, tail: Array | None, record: Record) -> Array:
+    """(n + 1, rows): columns (n + 1, m, N) of a record's samples, whitened."""
+    return noise.whiten(columns, record.valid, noise.level_of(record.quantity), tail=tail)
 
 
 def _past(tail: Array | None, gap: int, memory: int) -> Array | None:

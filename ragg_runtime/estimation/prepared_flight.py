@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.calibrate import Calibration
 from ragg_runtime.estimation.linearise import Point
-from ragg_runtime.estimation.noise_spectrum import Noise
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.passes import Piece, passed, whitened_columns
 from ragg_runtime.estimation.segments import BLOCKS, ROWS, block_edges
@@ -33,7 +33,7 @@ class PreparedFlight:
     """
 
     observation: Observation
-    noise: Noise
+    noise: NoiseModel
     at: Point
     _kept: list[Piece] = field(default_factory=list, repr=False)
 

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.left_over import left_over, placed
 from ragg_runtime.estimation.linearise import Point
-from ragg_runtime.estimation.noise_spectrum import Averages, Noise
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.passes import Piece, flight_segments, longer, passed
+from ragg_runtime.estimation.spectrum import Averages
+
+if TYPE_CHECKING:
+    from ragg_runtime.estimation.noise import NoiseModel
 
 Array = NDArray[np.float64]
 
@@ -29,7 +34,7 @@ ENOUGH = 2
 """Means for every column, at least."""
 
 
-def averages(at: Point, o: Observation, unwhitened: Noise) -> list[Averages] | None:
+def averages(at: Point, o: Observation, unwhitened: NoiseModel) -> list[Averages] | None:
     """What all columns leave of each output's means; ``None`` of a flight seen in one piece, or in too few means.
 
     ``unwhitened``: the noise that makes the columns as they are, or in combinations.

@@ -8,18 +8,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import interpolate
 
 from ragg_runtime.base.threads import stretches
-from ragg_runtime.estimation.disturbances import Disturbance
-from ragg_runtime.estimation.noise_spectrum import Noise
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.square_root import orthonormal
 from ragg_runtime.model.record import GRADIENTS, quantities_of
-from ragg_runtime.signals.fir import Floats, filtered
+from ragg_runtime.signals.fir import Floats
+
+if TYPE_CHECKING:
+    from ragg_runtime.estimation.noise import NoiseModel
 
 Array = NDArray[np.float64]
 
@@ -95,7 +97,7 @@ def splines(time: Array, cosine: Array, sine: Array) -> Array:
     return np.asarray((basis[:, None, :] * double[None]).reshape(-1, len(time)))
 
 
-def windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
+def windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
     """The windows of one segment of a flight, whitened; none if the gradient is known and the output has no lines."""
     if not unknown(o) and not noise.lines:
         return []
@@ -110,9 +112,9 @@ def windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
     return found
 
 
-def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
-    r, filters = o.record, noise.filters
-    level = np.ones(rows.stop - rows.start) * noise.level.of(quantities_of(r, rows))
+def _windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
+    r = o.record
+    level = np.ones(rows.stop - rows.start) * noise.level_of(quantities_of(r, rows))
     valid = np.array(r.valid[rows])
     rank = np.concatenate([[0], np.cumsum(valid)])
     count = max(1, round((rows.stop - rows.start) / (WINDOW_SECONDS * r.rate)))
@@ -120,7 +122,7 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
 
     def window(ends: tuple[int, int]) -> Window | None:
         a, b = ends
-        lead = int(min(a, LEAD_SECONDS * r.rate, max(len(t) for t in filters) - 1))
+        lead = int(min(a, LEAD_SECONDS * r.rate, noise.memory))
         here = np.array(r.valid[a - lead : b])
         if np.sum(here[lead:]) < 2:
             return None
@@ -129,28 +131,16 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
         if unknown(o):
             shares = _shares(o, splines(*r.carried(slice(a - lead, b))) * here)
         plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
-        loud = level[a - rows.start : b - rows.start][inside]
-        together = np.concatenate([np.stack(shares, axis=1), _lines(o, noise, slice(a - lead, b)) * here])
-        parts = [
-            filtered(noise.series(together, m), taps, lead=lead)[:, inside] / loud
-            for m, taps in enumerate(filters)
-        ]
+        loud = level[a - rows.start : b - rows.start]
+        lines = noise.line_columns(r.time[a - lead : b], len(o.series))
+        together = np.concatenate([np.stack(shares, axis=1), lines * here])
+        white = noise.whiten(together, inside, loud, lead=lead)
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
-        places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(len(filters))])
+        places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(noise.outputs)])
         samples = slice(a - rows.start, b - rows.start)
-        return Window(samples, plain, places, orthonormal(np.concatenate(parts, axis=1)))
+        return Window(samples, plain, places, orthonormal(white))
 
     return [w for w in map(window, pairwise(edges)) if w is not None]
-
-
-def _lines(o: Observation, noise: Noise, rows: slice) -> Array:
-    """(k, m, n): what the lines of an observation's noise span in some of its samples, each in its own series."""
-    found, seen = [], noise.combinations
-    for line in noise.lines:
-        own = Disturbance("line", line.frequency, 1.0).columns(o.record.time[rows])
-        shown = (np.eye(len(o.series)) if seen is None else seen)[line.output]
-        found.append(own[:, None] * shown[:, None])
-    return np.concatenate(found) if found else np.empty((0, len(o.series), rows.stop - rows.start))
 
 
 def _shares(o: Observation, X: Array) -> list[Array]:

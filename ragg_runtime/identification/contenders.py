@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.fitted import Fitted, calibrated
-from ragg_runtime.estimation.noise_spectrum import Noise
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.off_sheet import as_said, room_taken
 from ragg_runtime.estimation.passes import excerpt
 from ragg_runtime.estimation.prepared_flight import to_nominal
@@ -59,7 +59,7 @@ class Left:
 
 def left(
     f: Fitted,
-    noise: Sequence[Noise],
+    noise: Sequence[NoiseModel],
     held: frozenset[str],
     extended: tuple[Model, Instrument],
 ) -> Left:

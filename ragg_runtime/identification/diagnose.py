@@ -492,7 +492,7 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
     first = [(w, b) for w, b in zip(f.prepared, f.beyond, strict=True) if w.observation.place == place]
     for x, (w, fast) in zip(flights, first, strict=True):
         columns = {**x.channels, **x.outputs}
-        noise = float(np.sqrt(np.mean([m.rms**2 for m in w.noise.models]) + fast))
+        noise = float(np.sqrt(w.noise.power + fast))
         outputs = [n for n in x.outputs if n in f.instrument.layout.columns]
         for effect, r in f.model.recognisers.items():
             looked_at = (columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns)

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from scipy import special
 
 from ragg_runtime.estimation.columns import Column
-from ragg_runtime.estimation.noise import variance_shapes
 from ragg_runtime.estimation.noise_level import excess
 from ragg_runtime.estimation.passes import Piece
 from ragg_runtime.estimation.significance import log_sf
@@ -192,7 +191,7 @@ class Variance:
     def of(piece: Piece, place: int, residual: Array) -> Variance:
         """Of a segment; ``place`` is the effect's column, ``residual`` (rows,) is whitened and projected."""
         X = np.vstack(
-            [variance_shapes(piece.noise, piece.observation.record), piece.white[place] ** 2, residual**2]
+            [piece.noise.variance_shapes(piece.observation.record), piece.white[place] ** 2, residual**2]
         )
         return Variance(X @ X.T)
 

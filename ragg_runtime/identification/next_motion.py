@@ -20,7 +20,6 @@ from ragg_runtime.estimation.linearise import Point, linearised
 from ragg_runtime.estimation.square_root import orthonormal, triangle
 from ragg_runtime.identification.selection import Field
 from ragg_runtime.io.record import is_disc_angle
-from ragg_runtime.signals.fir import filtered
 
 Array = NDArray[np.float64]
 Sinusoid = tuple[str, float, float, float]
@@ -282,16 +281,12 @@ def whitened_motion(f: Fitted, at: Point, motion: Sequence[Sinusoid], simulated:
     series = (np.zeros(n),) * len(o.series)
     made = replace(o, record=r, series=series, name="motion", thin=None, memo=[])
 
-    def whitened(X: Array) -> Array:
-        parts = [filtered(noise.series(X, m), taps[:n]) for m, taps in enumerate(noise.filters)]
-        return np.concatenate(parts, axis=1)
-
-    white = whitened(linearised(at, made)[:-1])
+    white = noise.whiten(linearised(at, made)[:-1])
     if not unknown_gradient.unknown(o):
         return white
     cosine, sine = r.carriers
     gradient = unknown_gradient.splines(time, cosine, sine)[:, None] * o.signs[:, None]
-    Q = orthonormal(whitened(gradient))
+    Q = orthonormal(noise.whiten(gradient))
     return white - (white @ Q) @ Q.T
 
 

@@ -333,7 +333,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         return nothing
     places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, tried)]
     sober = np.ones(len(places))
-    if s.prepared.noise.level.parts:
+    if s.prepared.noise.uneven:
         sober = np.sqrt(s.inflation([int(k) for k in places]))
         freedom = min(freedom, BLOCKS - 1.0)
         first = _log_p(z[places] / sober, tried, freedom)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import prepared_flight
 from ragg_runtime.estimation.columns import Column
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.noise import estimate_noise
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.off_sheet import QUIET
 from ragg_runtime.estimation.segments import BLOCKS
 from ragg_runtime.estimation.significance import INDISTINGUISHABLE
@@ -270,7 +270,7 @@ def with_steps(
             root = _root(f, edges, samples, places)
     if found and not known:
         instants = {e: float(time[x.sample]) for e, x in found.items()}
-        noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
+        noise = [NoiseModel.fit(replace(x.at, instants=instants), x.observation) for x in f.prepared]
         calmer = fit(f.model, f.instrument, f.observations, noise, f.calibration.p)
         return with_steps(calmer, found)
     if found:  # the columns themselves, to the sample, and through the filter

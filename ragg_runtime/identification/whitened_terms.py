@@ -97,15 +97,15 @@ class Directions:
     ) -> None:
         self.piece, self.dictionary, self.whole = piece, dictionary, prepared.observation
         r = piece.observation.record
-        self.filters = [taps[:MEMORY] for taps in prepared.noise.filters]
+        self.filters = prepared.noise.taps(MEMORY)
         o = piece.observation
         self.weights = prepared.noise.weights(
             o.weights if only is None else np.where(np.arange(len(o.signs)) == only, o.signs, 0.0)
         )
         self.samples = len(r.time)
         self.size = _quick(self.samples)
-        self.level = prepared.noise.level.of(r.quantity)
-        steady = not prepared.noise.level.parts
+        self.level = prepared.noise.level_of(r.quantity)
+        steady = not prepared.noise.uneven
         self.may_be_periodic = steady and bool(r.valid.all()) and not self.whole.recorded.demodulated
         """Whether terms may be filtered periodically: not past gaps, through the demodulator, nor where the noise's level changes."""
         if self.may_be_periodic:

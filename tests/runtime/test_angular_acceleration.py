@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ragg_runtime.estimation.fitted import noise_floor
-from ragg_runtime.estimation.noise_spectrum import estimate
+from ragg_runtime.estimation.spectrum import estimate
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.io.angular_acceleration import REACH, Derivative, planned

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from ragg_runtime.estimation.disturbances import disturbances, in_words
-from ragg_runtime.estimation.noise_spectrum import LOWEST, estimate, without_lines
+from ragg_runtime.estimation.spectrum import LOWEST, estimate, without_lines
 
 RATE = 16.0
 N = 10240

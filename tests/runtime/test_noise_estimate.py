@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import calibrate, observation
 from ragg_runtime.estimation.left_over import left_over
 from ragg_runtime.estimation.noise_level import estimated, in_words
-from ragg_runtime.estimation.noise_spectrum import estimate
 from ragg_runtime.estimation.significance import log_sf, log_sf_f, log_sf_t
+from ragg_runtime.estimation.spectrum import estimate
 from ragg_runtime.estimation.unknown_gradient import splines
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
@@ -93,7 +93,7 @@ def test_where_all_samples_weigh_the_same_lines_are_noise() -> None:
     c = calibrate.fit(model.packaged(), s.sheet, [o], unweighted=True)
     (noise,) = c.noise
     assert noise.lines
-    assert noise.models[0].rms < 0.6 * rms
+    assert noise.spectra[0].rms < 0.6 * rms
     assert c.excess == pytest.approx(1.0, abs=0.15)
 
 

@@ -351,7 +351,7 @@ def test_noise_in_the_channels_is_what_demodulated_noise_has(clean: Case) -> Non
     rng = np.random.default_rng(5)
     n = 1 << 17
     frequency = np.fft.rfftfreq(n, 1 / RATE)
-    psd = sum(m.psd(np.maximum(frequency, frequency[1])) for m in w.noise.models)
+    psd = sum(m.psd(np.maximum(frequency, frequency[1])) for m in w.noise.spectra)
     spectrum = np.sqrt(psd * RATE * n / 2) * np.exp(2j * np.pi * rng.random(len(frequency)))
     noise = np.fft.irfft(spectrum, n)
     phi = 2 * np.pi * 0.25 * np.arange(n) / RATE

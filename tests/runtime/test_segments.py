@@ -10,7 +10,6 @@ import pytest
 from ragg_runtime.estimation import (
     calibrate,
     fitted,
-    noise,
     observation,
     passes,
     prepared_flight,
@@ -19,7 +18,7 @@ from ragg_runtime.estimation import (
 )
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.linearise import Point
-from ragg_runtime.estimation.noise_spectrum import white_noise
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.segments import BLOCKS, beginnings, segments, spread
 from ragg_runtime.identification import comparison, contenders, omnibus, selection, steps
 from ragg_runtime.identification.contenders import Left
@@ -148,11 +147,11 @@ def test_a_long_flight_with_gaps_everywhere_has_no_means(
         x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
         o = observation.observe(x, s.sheet)
         at = Point(model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=True)
-        found = slow_noise.averages(at, o, white_noise(o.record.rate, len(o.series)))
+        found = slow_noise.averages(at, o, NoiseModel.white(o.record.rate, len(o.series)))
         assert (found is not None) == there
         if found is not None:
             assert np.array_equal(found[0].rest != 0.0, valid.reshape(-1, 4).all(axis=1))
-        assert noise.estimate_noise(at, o).models[0].rms > 0.0
+        assert NoiseModel.fit(at, o).spectra[0].rms > 0.0
 
 
 def test_contenders_of_a_long_flight_are_told_apart_on_an_excerpt(

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ragg_runtime.estimation.noise_spectrum import white_noise
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.switching import certain
 from ragg_runtime.estimation.unknown_gradient import windows
@@ -53,7 +53,7 @@ def test_what_was_found_for_all_samples_does_not_serve_those_that_are_kept(
 ) -> None:
     s, model = world
     o = observe(s.simulate(record_gradient=False).flight(), s.sheet)
-    noise, every = white_noise(o.record.rate, 1), slice(0, len(o.record.time))
+    noise, every = NoiseModel.white(o.record.rate, 1), slice(0, len(o.record.time))
     assert len(windows(o, every, noise)[0].places) == np.sum(o.record.valid)
     (kept,) = certain(model, s.sheet, [o])
     assert len(windows(kept, every, noise)[0].places) == np.sum(kept.record.valid)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ragg_runtime.estimation.linearise import Point, linearised
-from ragg_runtime.estimation.noise_spectrum import white_noise
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.unknown_gradient import windows, without
 from ragg_runtime.model import model as load
@@ -21,6 +21,6 @@ def test_an_unknown_gradient_is_taken_out_of_each_voltage_by_its_scale_factor() 
     true = s.sheet.replace(**s.instrument.accelerometers)
     e = linearised(Point(model, s.sheet, vector(model, true), with_candidates=False), o)[-1:]
     n = len(o.record.time)
-    left = without(e, windows(o, slice(0, n), white_noise(o.record.rate, 4)), o.record.valid)
+    left = without(e, windows(o, slice(0, n), NoiseModel.white(o.record.rate, 4)), o.record.valid)
     assert np.std(e) > 1e-3
     assert np.std(left) < 0.01 * np.std(e)

@@ -12,14 +12,11 @@ perfectly white.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from functools import lru_cache
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, interpolate, linalg, optimize
-
-from ragg_runtime.estimation.noise_level import Level
 
 Array = NDArray[np.float64]
 
@@ -45,7 +42,7 @@ that a line does not bend it."""
 
 
 @dataclass(frozen=True)
-class NoiseModel:
+class Spectrum:
     """A smooth one-sided power spectral density: a cubic spline of its logarithm over log frequency.
 
     Attributes
@@ -132,7 +129,7 @@ def estimate(
     kept: Sequence[Array] | None = None,
     slow: Averages | None = None,
     spin: float | None = None,
-) -> NoiseModel:
+) -> Spectrum:
     """Spectrum of the noise from contiguous stretches of residual, by Whittle fits.
 
     Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise. ``kept``: for
@@ -160,10 +157,10 @@ def estimate(
     near[hump] = np.abs(np.exp(grid[hump])[:, None] - f[None, :]) < APART
     spread = 1 / np.sqrt(np.maximum(near @ count, 1.0))
     log_psd = np.asarray(np.log(chosen.base(np.exp(grid))) + chosen.at(np.exp(np.clip(grid, x[0], x[-1]))))
-    model = NoiseModel(rate, grid, log_psd, spread)
+    model = Spectrum(rate, grid, log_psd, spread)
     # the level once more by itself: the penalties must not bias it
     level = float(np.sum(count * p / model.psd(f)) / np.sum(count))
-    return NoiseModel(rate, grid, model.log_psd + np.log(level), spread)
+    return Spectrum(rate, grid, model.log_psd + np.log(level), spread)
 
 
 @dataclass(frozen=True)
@@ -389,66 +386,6 @@ def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]
         return found
 
     return density
-
-
-@lru_cache(maxsize=64)
-def white_noise(rate: float, outputs: int) -> Noise:
-    """White noise of 1 V in every output: one object, by which it is known again."""
-    flat = NoiseModel(rate, np.array([0.0, 1.0]), np.zeros(2), np.zeros(2))
-    return Noise(models=(flat,) * outputs, filters=(np.ones(1),) * outputs)
-
-
-@dataclass(frozen=True)
-class Line:
-    """A sinusoid in what the filter ``output`` takes of an observation's series: Hz, and its amplitude, V; 0 where that is counted with
-    another one beside it.
-    """
-
-    output: int
-    frequency: float
-    amplitude: float
-
-
-@dataclass(frozen=True)
-class Noise:
-    """Noise of each output of an observation and its whitening filters. ``disturbed`` says which lines and jumps are no part of
-    it; ``level`` how loud the noise is from sample to sample; ``freedom`` the degrees of freedom from which it is known.
-
-    ``lines``: those that are neither of the motion nor beside a multiple of the spin rate; what they span is taken out of data and
-    columns alike. ``combinations`` (m, m), if there are any: models and filters are of these combinations of the m series, orthonormal rows
-    (:mod:`ragg_runtime.signals.combinations`).
-    """
-
-    models: tuple[NoiseModel, ...]
-    filters: tuple[Array, ...]
-    disturbed: str | None = None
-    level: Level = field(default_factory=Level)
-    freedom: float = np.inf
-    combinations: Array | None = field(default=None, compare=False)
-    lines: tuple[Line, ...] = ()
-
-    @property
-    def line_power(self) -> float:
-        """V^2, of the lines, mean over the series."""
-        return sum(x.amplitude**2 / 2 for x in self.lines) / len(self.models)
-
-    def series(self, x: Array, m: int) -> Array:
-        """What the filter m takes of series (n, m, N): (n, N)."""
-        return x[:, m] if self.combinations is None else np.tensordot(self.combinations[m], x, (0, 1))
-
-    def weights(self, w: Array) -> Array:
-        """(m,): how what counts so in the series (m,) counts in what the filters take."""
-        return w if self.combinations is None else self.combinations @ w
-
-    def psd(self, f: Array, signs: Array) -> Array:
-        """One-sided density at frequencies f, V^2/Hz, of the output in which the series count so (m,)."""
-        weights = self.weights(signs) ** 2
-        return np.asarray(sum(w * m.psd(f) for w, m in zip(weights, self.models, strict=True)))
-
-    def variance(self, signs: Array) -> float:
-        """V^2, of that output."""
-        weights = self.weights(signs) ** 2
-        return float(sum(w * m.rms**2 for w, m in zip(weights, self.models, strict=True)))
 
 
 def hann(n: int) -> Array:
