@@ -35,6 +35,7 @@ from ragg_runtime.identification import diagnose as _diagnose
 from ragg_runtime.identification.comparison import Comparison, climb
 from ragg_runtime.identification.next_motion import LIMITS
 from ragg_runtime.identification.parameters import ParameterValue, calibrated
+from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.series import noise_floor_json
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect
@@ -111,8 +112,8 @@ def diagnose(
     distinct(flights)
     extended = partial(derive.with_effects, m.instrument)
     if compared is not None:
-        return _diagnose.diagnose_fitted(compared.fitted, flights, extended, limits)
-    return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
+        return heed_flags(_diagnose.diagnose_fitted(compared.fitted, flights, extended, limits), flights)
+    return heed_flags(_diagnose.diagnose(m.model, m.instrument, flights, extended, limits), flights)
 
 
 LIMIT_UNITS = {"a": "m/s^2", "omega": "rad/s", "jerk": "m/s^3", "alpha": "rad/s^2"}

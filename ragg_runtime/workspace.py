@@ -31,7 +31,7 @@ from ragg_runtime.model.directory import (
 )
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import GRADIENTS
-from ragg_runtime.screening import check_settings, examined
+from ragg_runtime.screening import check_settings, screen
 from ragg_runtime.wording import describe
 from ragg_runtime.wording.sections import render_notebook
 
@@ -177,7 +177,7 @@ def read_flights(
             leave=leave,
             name="flight" if len(given) == 1 else f"flight {n}",
         )
-        found += [examined(m.model, m.instrument, x) for x in read]
+        found += [screen(m.model, m.instrument, x) for x in read]
     return found
 
 

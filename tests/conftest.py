@@ -31,7 +31,7 @@ DEAREST = (
     "test_survey.py",
     "test_loop.py",
     "test_survey_cluster.py",
-    "test_plausibility_mistakes.py",
+    "test_screening_mistakes.py",
     "test_segments.py",
     "test_compensate.py",
     "test_real_measurements.py",

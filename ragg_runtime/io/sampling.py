@@ -32,6 +32,28 @@ STEADY_FROM = 512
 """Instants from which a line through them is a better clock than the mean step of a record without gaps."""
 
 
+ROUNDED = tuple(10.0**-k for k in range(10))
+"""Units, s, to which stamps may have been rounded."""
+
+BESIDE = 16
+"""Stamps on either side of a place that tell whether a clock was set there, and not one stamp delayed."""
+
+SET = 5e-3
+"""Part of a step by which a clock must have been set for it to be said: an angle of 0.5 mrad at 0.25 Hz and 16 Hz."""
+
+MOST_SET = 20
+"""Places at which a clock may have been set in a record; more of them are jitter."""
+
+
+@dataclass(frozen=True)
+class ClockStep:
+    """A place where the stamps move on by ``size``, s, more than the samples: before ``row``, at ``time``, s."""
+
+    row: int
+    time: float
+    size: float
+
+
 @dataclass(frozen=True)
 class Grid:
     """Where the file's samples stand on the uniform grid.
@@ -71,6 +93,15 @@ def uniform(time: Array, path: Path | str | None) -> Grid:
             jumps, deviation = np.diff(tracked[0]), tracked[1]
     if np.any(jumps < 1) or (np.any(deviation[jumps == 1] > JITTER_REFUSED) and tracked is None):
         row = int(np.argmax(np.where(jumps <= 1, deviation, 0.0)))
+        if find_clock_steps(time, np.ones(len(time), dtype=np.bool_)):
+            raise UserError(
+                f"the stamps step by {steps[row] - step:.4g} s at t = {time[row + 1]:.10g} s: was the clock set?",
+                where=where,
+                found=f"a step of {steps[row]:.6g} s after row {row + 1}",
+                expected=f"steps of {step:.6g} s",
+                remedy=f"if sampling went on, give the times by the sample count: time = row / {1 / step:.6g} Hz; if it"
+                " paused, split the record there",
+            )
         raise UserError(
             "the record is not uniformly sampled",
             where=where,
@@ -87,6 +118,21 @@ def uniform(time: Array, path: Path | str | None) -> Grid:
             found=f"{len(time)} samples in {time[-1] - time[0]:.6g} s, with steps of {step:.6g} s",
             remedy="split the record at its gaps into one file each",
         )
+    rounded = unround(time, index)
+    if rounded is not None:
+        unit, first, step = rounded
+        notes = _notes(time, np.diff(index) * step, jumps, np.zeros(len(jumps)), step)
+        if unit > JITTER_NOTED * step:
+            rate = f"{1 / step:.6g} Hz"
+            notes.append(
+                f"the stamps are rounded to {unit:g} s: they are put on the even grid of {rate} that they follow"
+            )
+        return Grid(
+            index=index,
+            time=np.asarray(first + step * np.arange(count), dtype=np.float64),
+            step=step,
+            notes=tuple(notes),
+        )
     whole = time if count == len(time) else np.interp(np.arange(count), index, time)
     jitters = bool(np.max(deviation) > JITTER_FOLLOWED)
     return Grid(
@@ -96,6 +142,113 @@ def uniform(time: Array, path: Path | str | None) -> Grid:
         notes=tuple(_notes(time, steps, jumps, deviation, step)),
         jitters=jitters,
     )
+
+
+def unround(time: Array, index: NDArray[np.int64]) -> tuple[float, float, float] | None:
+    """The even clock, of which some stamps are roundings.
+
+    Parameters
+    ----------
+    time : (n,) array
+        Stamps, s.
+    index : (n,) array
+        Their places on the grid, from 0.
+
+    Returns
+    -------
+    tuple or None
+        Unit to which the stamps were rounded (or cut off), first instant and step, s; ``None`` if they are not the roundings of
+        an even clock. Where the stamps cannot tell, a round rate is taken, and a tick at time 0.
+    """
+    unit = _unit_of(time)
+    if unit is None or len(time) < 2:
+        return None
+    step, first = (float(c) for c in np.polyfit(index, time, 1))
+    for digits in range(1, 10):
+        rate = float(f"{1 / step:.{digits}g}")
+        if rate > 0.0 and abs(1 / rate - step) * float(index[-1]) <= unit / 2:
+            step = 1 / rate
+            first = float(np.mean(time - step * index))
+            break
+    exact = [x for x in (np.rint(first / step) * step, time[0]) if abs(x - first) <= unit]
+    first = float(exact[0]) if exact else first
+    slack = 1e-6 * unit + 4 * float(np.spacing(np.max(np.abs(time))))
+    off = time - first - step * index
+    even = np.max(np.abs(off)) <= slack
+    if even or unit > step / 2 or np.max(np.abs(off)) > unit + slack or np.ptp(off) > unit + 2 * slack:
+        return None
+    return unit, first, step
+
+
+def _unit_of(time: Array) -> float | None:
+    """The largest decimal unit, s, of which all stamps are multiples, or that of single precision; ``None``: there is none."""
+    most = float(np.max(np.abs(time)))
+    for unit in ROUNDED:
+        slack = max(1e-6, 4 * float(np.spacing(most)) / unit)
+        if slack < 0.1 and np.all(np.abs(time / unit - np.rint(time / unit)) < slack):
+            return unit
+    single = time.astype(np.float32)
+    return float(np.spacing(np.abs(single).max())) if np.array_equal(single, time) else None
+
+
+def find_clock_steps(time: Array, valid: NDArray[np.bool_]) -> list[ClockStep]:
+    """Places where a clock was set while sampling went on, or sampling paused: the stamps move on by another time than the samples.
+
+    Parameters
+    ----------
+    time : (N,) array
+        Instants on the grid of a flight, s.
+    valid : (N,) array
+        Samples that the file has; a gap is a place where the stamps moved on.
+
+    Returns
+    -------
+    list of ClockStep
+        In order; more than a few are jitter, and none is said.
+    """
+    rows = np.flatnonzero(valid)
+    if len(rows) < 4 * BESIDE:
+        return []
+    steps = np.diff(time[rows])
+    median = float(np.median(steps))
+    apart = np.abs(steps - median)
+    step = float(np.mean(steps[apart <= 8 * np.median(apart) + 0.02 * median]))  # of rounded stamps, too
+    over = steps / step - 1.0
+    off = np.where(np.abs(over) > 0.5, over - np.rint(over), over)  # whole steps are samples that lack
+    scatter = float(np.median(np.abs(off)))
+    phase = np.r_[0.0, np.cumsum(off)]
+    found = []
+    for k in np.flatnonzero((np.abs(off) > max(SET, 8 * scatter)) | (np.diff(rows) > 1)):
+        before, after = phase[max(0, k + 1 - BESIDE) : k + 1], phase[k + 1 : k + 1 + BESIDE]
+        moved = float(np.median(after) - np.median(before))
+        clear = max(SET, 4 * float(np.median(np.abs(before - np.median(before)))), 4 * scatter)
+        lacking = float(np.rint(over[k])) if abs(over[k]) > 0.5 else 0.0
+        if abs(moved) > clear or lacking:
+            at = int(rows[k + 1])
+            found.append(ClockStep(at, float(time[at]), (moved + lacking) * step))
+    return found if len(found) <= MOST_SET else []
+
+
+def even_clock(time: Array, valid: NDArray[np.bool_]) -> tuple[float, float]:
+    """First instant and interval, s, of the steady clock by which the samples were taken, whatever their stamps say.
+
+    ``time``, ``valid`` (N,) as in :func:`find_clock_steps`; what a clock was set by is not counted.
+    """
+    k = np.flatnonzero(valid)
+    places = [k.astype(np.float64), np.ones(len(k))]
+    places += [(k >= c.row).astype(np.float64) for c in find_clock_steps(time, valid)]
+    X, t = np.stack(places, axis=1), time[k] - time[0]
+    fitted = np.linalg.lstsq(X, t, rcond=None)[0]
+    step, set_by = float(fitted[0]), X[:, 2:] @ fitted[2:]
+    scatter = float(np.std(t - X @ fitted))
+    # A clock is set to a round rate: take it where the instants cannot tell it from the fitted one.
+    error = 4 * scatter * np.sqrt(12 / len(k)) / (k[-1] - k[0])
+    for digits in range(1, 10):
+        rounded = 1 / float(f"{1 / step:.{digits}g}")
+        if abs(rounded - step) < error:
+            step = rounded
+            break
+    return float(time[0] + np.mean(t - set_by - step * k)), step
 
 
 def _steps(time: Array, path: Path | str | None, where: str) -> Array:
@@ -181,14 +334,6 @@ def _notes(time: Array, steps: Array, jumps: NDArray[np.int64], deviation: Array
 
 
 def _not_increasing(time: Array, steps: Array, where: str) -> UserError:
-    if np.all(steps == 0):
-        return UserError(
-            "the time stands still",
-            where=where,
-            found=f"{time[0]:.10g} s in every row",
-            expected="increasing time",
-            remedy="check the clock or the format in which the time was written",
-        )
     if np.all(steps < 0):
         return UserError(
             "the time runs backwards",
@@ -197,13 +342,62 @@ def _not_increasing(time: Array, steps: Array, where: str) -> UserError:
             expected="increasing time",
             remedy="sort the rows by time",
         )
-    row = int(np.flatnonzero(steps <= 0)[0])
-    count = int(np.sum(steps <= 0))
+    if np.all(steps == 0) and np.spacing(np.float32(time[0])) < 1e-3:
+        return UserError(
+            "the time stands still",
+            where=where,
+            found=f"{time[0]:.10g} s in every row",
+            expected="increasing time",
+            remedy="check the clock or the format in which the time was written",
+        )
+    if np.mean(steps == 0) > SHARED:
+        return _too_coarse(time, steps, where)
+    row, count = int(np.flatnonzero(steps <= 0)[0]), int(np.sum(steps <= 0))
+    step = _step(steps[steps > 0])
+    found = f"row {row + 1}: {time[row]:.10g} s, row {row + 2}: {time[row + 1]:.10g} s"
+    found += f" (and {count - 1} more such places)" if count > 1 else ""
+    if steps[row] < 0 and count <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)):
+        back = step - float(steps[row])
+        return UserError(
+            f"the stamps step back by {back:.4g} s at t = {time[row]:.10g} s: was the clock set?",
+            where=where,
+            found=found,
+            expected="increasing time",
+            remedy=f"if sampling went on, give the times by the sample count: time = row / {1 / step:.6g} Hz; else remove"
+            " doubled rows, or give two records as two files",
+        )
     return UserError(
         "an instant appears twice" if steps[row] == 0 else "the time runs back",
         where=where,
-        found=f"row {row + 1}: {time[row]:.10g} s, row {row + 2}: {time[row + 1]:.10g} s"
-        + (f" (and {count - 1} more such places)" if count > 1 else ""),
+        found=found,
         expected="increasing time",
         remedy="remove doubled rows or sort the rows by time; two records need two files",
+    )
+
+
+SHARED = 0.2
+"""Share of rows with the stamp of the row before from which the stamps are too coarse, and not rows doubled."""
+
+
+def _too_coarse(time: Array, steps: Array, where: str) -> UserError:
+    """Several rows share each stamp: whole seconds, or single precision."""
+    edges = np.flatnonzero(steps != 0) + 1
+    rows = len(time) / (len(edges) + 1)
+    single = (
+        np.array_equal(time.astype(np.float32), time) and np.spacing(np.float32(np.max(np.abs(time)))) > 1e-3
+    )
+    how = ""
+    if single:
+        spacing = float(np.spacing(np.float32(np.max(np.abs(time)))))
+        how = f"; single precision knows {np.max(np.abs(time)):.10g} s to {spacing:.3g} s only"
+    elif np.array_equal(np.rint(time), time):
+        how = "; they are whole seconds"
+    rate = rows / float(np.median(steps[edges - 1])) if len(edges) else 0.0
+    by = f"time = row / {rate:.6g} Hz" if rate > 0.0 and not single else "time = row / rate"
+    return UserError(
+        "the stamps are too coarse for the rate",
+        where=where,
+        found=f"{len(edges) + 1} different stamps in {len(time)} rows, each of some {rows:.4g} rows{how}",
+        expected="a stamp of its own for every row",
+        remedy=f"give the times by the rate and the number of the row: {by}; no row is doubled",
     )

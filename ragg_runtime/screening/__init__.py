@@ -1,8 +1,6 @@
-"""Does a record look as it should? Likely mistakes by their physics, spikes, and what was done about them."""
+"""Does a record look as it should? What is no measurement is left out, what is odd is flagged, likely mistakes are named."""
 
 from ragg_runtime.model.evaluate import check_settings
-from ragg_runtime.screening.examine import examined
-from ragg_runtime.screening.identify import LikelyMistake, likely_mistake
-from ragg_runtime.screening.spikes import spikes
+from ragg_runtime.screening.screen import screen
 
-__all__ = ["LikelyMistake", "check_settings", "examined", "likely_mistake", "spikes"]
+__all__ = ["check_settings", "screen"]

@@ -1,4 +1,4 @@
-"""What can be told from a record by itself: too short, too slow, stuck, or columns that contradict each other."""
+"""What a record shows by itself: too short, too slow, still, or columns that contradict each other."""
 
 from __future__ import annotations
 
@@ -9,17 +9,16 @@ from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.io import Flight
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE, Flag
 from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import start_of
 from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
 
-LIKE = 0.9
-"""Correlation from which two series are taken for the same thing."""
-
-UNLIKE = 0.5
-"""Correlation with its own rate below which an angular acceleration that follows another one has its axis exchanged."""
+UNLIKE = 0.44
+"""Share of an angular acceleration that the derivatives of the rates may leave for it to be compared with them (a correlation of
+0.9)."""
 
 SAME_SIZE = 2.0
 """Factor within which an angular acceleration has the size of its rate's derivative: smoothing and noise stay below it."""
@@ -49,7 +48,7 @@ _FACTORS = (
 
 
 def require(model: Model, instrument: Instrument, flight: Flight) -> None:
-    """UserError if the flight cannot be held against this model at all."""
+    """UserError if the flight cannot be compared with this model at all."""
     where = flight.path or flight.name
     for e in model.effects:
         missing = e.missing(flight.channels)
@@ -84,7 +83,7 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
         usable = flight.valid & np.isfinite(values)
         if name not in DEMODULATED:
             _fast_enough(name, flight, usable, f)
-        still = _still(values, usable)
+        still = _one_value(values[usable])
         if still is not None:
             raise UserError(
                 "the output does not change",
@@ -113,71 +112,77 @@ def _fast_enough(name: str, flight: Flight, usable: NDArray[np.bool_], f: float)
         )
 
 
-def remarks(instrument: Instrument, flight: Flight) -> list[str]:
-    """Columns that stand still or contradict each other, in sentences that name the likely mistake."""
+def remarks(instrument: Instrument, flight: Flight) -> list[Flag]:
+    """Columns that stand still or contradict each other, with the likely mistake."""
     encoders = (x for d in instrument.layout.discs for x in _encoder(d, flight))
-    return [*_stuck(flight), *_rates(flight), *encoders]
+    noted = (*_rates(flight), *encoders, *_angle_origin(instrument, flight))
+    return [*_still(flight), *(Flag((), text) for text in noted)]
 
 
-def _stuck(flight: Flight) -> list[str]:
-    still = [
-        n
-        for n in (*SPECIFIC_FORCE, *ANGULAR_RATE)
-        if n in flight.channels and _still(flight.channels[n], flight.valid) is not None
-    ]
+def _still(flight: Flight) -> list[Flag]:
+    """Motion columns that hold one value throughout: nothing is claimed of an output whose motion is not known."""
+    names = [n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE) if n in flight.channels]
+    still = [n for n in names if _one_value(flight.channels[n][flight.valid]) is not None]
     if not still:
         return []
-    if len(still) == 6:
-        return ["the motion does not change at all: a record at rest tells little about an instrument"]
-    verb = "does" if len(still) == 1 else "do"
-    return [f"{', '.join(still)} {verb} not change at all: a stuck sensor?"]
+    text = "the motion does not change at all: a record at rest tells little about an instrument"
+    if len(still) < len(names):
+        text = f"{', '.join(still)} {'does' if len(still) == 1 else 'do'} not change at all: a stuck sensor?"
+    return [Flag(tuple(still), text, len(flight), open=True)]
 
 
-def _still(values: Array, there: NDArray[np.bool_]) -> float | None:
-    """The one value that a column holds wherever there is one; ``None`` if it changes, or holds none."""
-    first: float | None = None
-    for start in range(0, len(values), _LONGEST):
-        part = np.asarray(values[start : start + _LONGEST])[there[start : start + _LONGEST]]
-        first = float(part[0]) if first is None and len(part) else first
-        if np.any(part != first):
-            first = None
-            break
-    return first
+def _one_value(x: Array) -> float | None:
+    """The one value that a column holds; ``None`` if it changes, or holds none."""
+    return float(x[0]) if len(x) and not np.any(x != x[0]) else None
+
+
+def _angle_origin(instrument: Instrument, flight: Flight) -> list[str]:
+    """From where the angle of a disc without an encoder counts, where that is not the first sample of a file that begins at 0."""
+    turning = [d for d in instrument.layout.discs if d.spin_frequency != 0.0]
+    if all(d.angle_column in flight.channels for d in turning):
+        return []
+    first, start = float(flight.time[0]), start_of(flight, instrument)
+    if instrument.angle_origin is None and flight.instants:
+        return [
+            "the stamps are instants: the disc angle counts from the first sample (a column spin_angle, or angle_origin"
+            " under [model] of model.toml, says otherwise)"
+        ]
+    if start != 0.0:
+        side = "before" if start > 0 else "after"
+        return [f"the disc angle counts from t = 0, {abs(start):.6g} s {side} the first sample"]
+    return [] if first == 0.0 else [f"the disc angle counts from the first sample (t = {first:.6g} s)"]
 
 
 def _rates(flight: Flight) -> list[str]:
     """The recorded angular acceleration against the derivative of the recorded rate."""
     part = slice(0, min(len(flight), _LONGEST))
     valid = flight.valid[part]
-    given, wanted = [], []
-    for rate, change in zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True):
-        if change not in flight.channels:
-            return []
-        given.append(np.where(valid, flight.channels[change][part], np.nan))
-        wanted.append(differentiate(flight.channels[rate][part], flight.rate, valid))
-    there = np.isfinite(given).all(axis=0) & np.isfinite(wanted).all(axis=0)
+    if not all(n in flight.channels for n in ANGULAR_ACCELERATION):
+        return []
+    G = np.array([flight.channels[n][part] for n in ANGULAR_ACCELERATION])
+    W = np.array([differentiate(flight.channels[n][part], flight.rate, valid) for n in ANGULAR_RATE])
+    there = valid & np.isfinite(G).all(axis=0) & np.isfinite(W).all(axis=0)
     if np.sum(there) < FEWEST:
         return []
-    G, W = np.array(given)[:, there], np.array(wanted)[:, there]
-    sizes = np.outer(np.std(G, axis=1), np.std(W, axis=1))
-    if np.any(sizes == 0):
-        return []
-    like = (G - G.mean(axis=1, keepdims=True)) @ (W - W.mean(axis=1, keepdims=True)).T / G.shape[1] / sizes
-    said = []
+    G, W = (x[:, there] - np.mean(x[:, there], axis=1, keepdims=True) for x in (G, W))
+    B = np.linalg.lstsq(W.T, G.T, rcond=None)[0].T
+    found = []
     for k, (rate, change) in enumerate(zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True)):
-        best = int(np.argmax(np.abs(like[k])))
-        factor = float(np.std(G[k]) / np.std(W[k]))
-        if abs(like[k, best]) < LIKE:
+        best = int(np.argmax(np.abs(B[k]) * np.std(W, axis=1)))
+        factor = float(B[k, best])
+        if np.std(G[k] - B[k] @ W) > UNLIKE * np.std(G[k]) or factor == 0.0:
             continue
-        if best != k and abs(like[k, k]) < UNLIKE:
-            said.append(f"{change} is the derivative of {ANGULAR_RATE[best]}, not of {rate}: axes exchanged?")
-        elif best == k and like[k, k] < 0:
-            said.append(f"{change} is minus the derivative of {rate}: the sign of one of them is reversed")
-        elif best == k and not 1 / SAME_SIZE < factor < SAME_SIZE:
+        if best != k:
+            found.append(
+                f"{change} is the derivative of {ANGULAR_RATE[best]}, not of {rate}: axes exchanged?"
+            )
+        elif 1 / SAME_SIZE < -factor < SAME_SIZE:
+            found.append(f"{change} is minus the derivative of {rate}: the sign of one of them is reversed")
+        elif not 1 / SAME_SIZE < factor < SAME_SIZE:
             near = [text for x, text in _FACTORS if 1 / NEAR < factor / x < NEAR]
             meant = f": {near[0]}?" if near else ": check the units of both"
-            said.append(f"{change} is {factor:.4g} times the derivative of {rate}{meant}")
-    return said
+            found.append(f"{change} is {factor:.4g} times the derivative of {rate}{meant}")
+    return found
 
 
 def _encoder(disc: Disc, flight: Flight) -> list[str]:

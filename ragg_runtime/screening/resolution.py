@@ -1,65 +1,27 @@
-"""The step in which a column is recorded: of a converter, of a format of single precision, of the digits that were written."""
+"""The steps in which motion sensors are recorded, and what they make of the output."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.instrument.units import Units
 from ragg_runtime.io import Flight
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
+from ragg_runtime.io.angular_acceleration import wide_weights
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag
+from ragg_runtime.model.evaluate import scale_factor
+from ragg_runtime.model.model import Model
+from ragg_runtime.screening.linear_fit import Explained
+from ragg_runtime.screening.sampler import Rows, Sampler
+from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
 
-LOOKED_AT = 1 << 15
-"""Samples of a column from which its step is found: sorted, they are closer together than most of the others."""
-
-FEWEST = 8
-"""Different values from which a step can be told: that so many lie on a grid to ``OFF`` by chance has a probability of 2e-7."""
-
-REPEATED = 20
-"""Times that every value occurs on average from which fewer tell it as well: no continuous column repeats itself."""
-
-OFF = 0.1
-"""Part of a step by which values may lie off its multiples: what writing them in decimal digits makes of them."""
-
-FINEST = 1e-12
-"""Step over the range of a column below which it is the rounding of floating-point numbers."""
-
-
-def find_step(x: Array) -> float | None:
-    """The step of which all values of a column are multiples, but for an offset.
-
-    Parameters
-    ----------
-    x : (N,) array
-        A column, in any unit; values that are not finite do not count.
-
-    Returns
-    -------
-    float or None
-        The step in the column's unit; ``None`` if the values lie on no grid, or are too few.
-    """
-    there = x[np.isfinite(x)][:LOOKED_AT]
-    values = np.unique(there)
-    if len(values) < 2 or (len(values) < FEWEST and len(there) < REPEATED * len(values)):
-        return None
-    span = float(values[-1] - values[0])
-    apart = np.sort(np.diff(values))
-    apart = apart[apart > FINEST * span]
-    step, reach = float(apart[0]), 1.5
-    # The closest two know the step to the rounding of two values; wider distances, in whole steps, know it better.
-    while True:
-        some = apart[apart <= reach * step]
-        step = float(np.sum(some) / np.sum(np.rint(some / step)))
-        if len(some) == len(apart):
-            break
-        reach *= 4.0
-    places = (values - values[0]) / step
-    slope, first = np.polyfit(np.rint(places), values, 1)
-    off = np.abs(values - first - slope * np.rint(places)) / slope
-    return float(slope) if np.max(off) < OFF and np.max(places) < 1 / FINEST else None
+TOLD = 0.5
+"""Share of what a model leaves that the steps must make for a note."""
 
 
 def resolution_of(flight: Flight) -> Mapping[str, float]:
@@ -68,3 +30,41 @@ def resolution_of(flight: Flight) -> Mapping[str, float]:
     names += [n for n in ANGULAR_ACCELERATION if n in flight.written]
     found = {n: find_step(flight.channels[n][flight.valid]) for n in names if n in flight.channels}
     return {n: step for n, step in found.items() if step is not None}
+
+
+def coarse_sensors(model: Model, known: Units, s: Sampler, fitted: Explained) -> list[Flag]:
+    """Flags of motion sensors whose steps make a good part of what the fitted model leaves of the output."""
+    x, rows = s.flight, s.take(s.rows())
+    groups: dict[tuple[str, float], list[str]] = {}
+    for name, step in x.resolution.items():
+        groups.setdefault((name.rsplit("_", 1)[0], float(f"{step:.3g}")), []).append(name)
+    found = []
+    for (stem, step), names in groups.items():
+        errors = {n: step / np.sqrt(12.0) for n in names}
+        if (
+            stem == "omega" and ANGULAR_ACCELERATION[0] not in x.written
+        ):  # derived from the rate, with its steps
+            gain = float(np.linalg.norm(wide_weights())) * x.rate
+            errors |= {n.replace("omega", "omegadot"): gain * e for n, e in errors.items()}
+        made = _made_of(model, s, rows, errors, fitted)
+        if s.recorded.demodulated or made < TOLD * fitted.rms:
+            continue
+        unit = x.written.get(names[0], x.units[names[0]])
+        size = step / float(known.to_si(1.0, unit, x.units[names[0]]))
+        size, unit = (1e3 * size, f"m{unit}") if unit == "g" else (size, unit)
+        verb = "stands" if len(names) == 1 else "stand"
+        text = f"{', '.join(names)} {verb} in steps of {size:.3g} {unit}, which make about {made:.2g} Eo of the output"
+        found.append(Flag(tuple(names), text, len(x)))
+    return found
+
+
+def _made_of(model: Model, s: Sampler, rows: Rows, errors: Mapping[str, float], fitted: Explained) -> float:
+    """Eo rms: what random errors of this size, SI, of some channels make of the output."""
+    rng = np.random.default_rng(0)
+    moved = {n: rows.channels[n] + e * rng.standard_normal(len(rows.time)) for n, e in errors.items()}
+    evaluate = model.compiled("numpy").output
+    both = [
+        evaluate(r.time, r.inputs(model.chain), fitted.p, r.phi, which=s.place)
+        for r in (rows, replace(rows, channels={**rows.channels, **moved}))
+    ]
+    return float(np.std(both[1] - both[0])) / abs(scale_factor(model, fitted.p, s.place))

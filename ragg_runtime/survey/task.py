@@ -33,6 +33,7 @@ from ragg_runtime.identification.parameters import (
     parameter_values,
     visible_combinations,
 )
+from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
@@ -41,7 +42,7 @@ from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import Mapped, parse_mapping
 from ragg_runtime.io.record import content
 from ragg_runtime.model import derive
-from ragg_runtime.screening import examined
+from ragg_runtime.screening import screen
 
 Array = NDArray[np.float64]
 
@@ -130,7 +131,7 @@ def _diagnosed(given: Job, path: Path, line: str | None) -> Record:
     read = read_flight(
         path, instrument.g0, accelerometers=instrument.layout, mapping=given.mapped(), line=line
     )
-    flight = examined(model, instrument, read)
+    flight = screen(model, instrument, read)
     return _figures(fit(model, instrument, observations_of([flight], instrument)), flight)
 
 
@@ -180,7 +181,7 @@ def _parsed(text: str, path: str) -> Instrument:
 
 def _figures(f: Fitted, flight: Flight) -> Record:
     held_out, nominal = f.score([_held_out(f)], lambda x: comparison.nominal_residual(f, f.sheet, x)[None], 1)
-    d = diagnose_fitted(f, [flight], partial(derive.with_effects, f.instrument))
+    d = heed_flags(diagnose_fitted(f, [flight], partial(derive.with_effects, f.instrument)), [flight])
     held = held_out.held_out.as_json()
     record: Record = {
         "sha256": flight.digest,

@@ -18,7 +18,7 @@ from ragg_runtime.model.model import packaged
 from ragg_runtime.model.record import record
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.screening import examined
+from ragg_runtime.screening import screen
 from ragg_runtime.simulate import simulated
 from tests.rate import RATE
 
@@ -43,7 +43,7 @@ def test_seconds_count_from_zero_whatever_the_first_sample_is(start: float) -> N
     assert r.time[0] == 0.0
     later = record(x.part(slice(100, None)), S.sheet)
     assert later.phi[0] == pytest.approx(np.angle(np.exp(1j * expected[100])), abs=1e-11)
-    assert not [n for n in examined(packaged(), S.sheet, x).notes if "mistake" in n]
+    assert not [n for n in screen(packaged(), S.sheet, x).notes if "mistake" in n]
 
 
 def test_instants_count_from_the_first_sample_and_the_sheet_may_say_otherwise() -> None:
@@ -63,9 +63,9 @@ def test_where_the_sheet_speaks_against_it_the_user_is_asked() -> None:
     x = flown(0.0)
     x = replace(x, time=x.time + 10.0, began=None)  # half a turn
     with pytest.raises(UserError, match="angle_origin") as told:
-        examined(packaged(), S.sheet, x)
+        screen(packaged(), S.sheet, x)
     assert "at the first sample (t = 10 s), not at t = 0" in str(told.value)
-    examined(packaged(), replace(S.sheet, angle_origin="first-sample"), x)
+    screen(packaged(), replace(S.sheet, angle_origin="first-sample"), x)
 
 
 @pytest.mark.parametrize("stamp", ["2026-03-01T12:00:{:05.2f}Z", "12:00:{:05.2f}"])

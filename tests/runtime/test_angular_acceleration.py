@@ -15,7 +15,7 @@ from ragg_runtime.io.angular_acceleration import REACH, Derivative, planned
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.screening import examined
+from ragg_runtime.screening import screen
 from ragg_runtime.signals.derivative import differentiate
 
 RATE = 16.0
@@ -80,7 +80,7 @@ def derived(seed: int, rate: float, trim: str, noise: float = 0.0):  # type: ign
         channels[n], sure = found.of(channels[r], rate)
         valid &= sure
     flight = dataclasses.replace(flight, channels=channels, valid=valid)
-    return s.sheet, examined(packaged(), s.sheet, flight)
+    return s.sheet, screen(packaged(), s.sheet, flight)
 
 
 def test_an_unmatched_instrument_sampled_slowly_is_not_accused() -> None:

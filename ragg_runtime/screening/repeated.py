@@ -1,0 +1,221 @@
+"""Values that a column repeats though its sensor does not: held or joined by lines at a lower rate, stuck, zero in a drop-out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from ragg_runtime.io import Flight
+from ragg_runtime.io.angular_acceleration import planned
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag
+from ragg_runtime.signals.derivative import WINDOW
+from ragg_runtime.signals.resolution import find_step
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+Mask = NDArray[np.bool_]
+
+MOTION = (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION)
+
+HELD = 1 / 3
+"""Share of equal neighbours from which a column is held at a lower rate, if its values are not just coarse."""
+
+COARSE = 8.0
+"""Steps of its resolution by which a column moves, in the median, from which repetition is not the resolution's doing."""
+
+FEWEST = 8
+"""Recorded values that are needed to see how they come."""
+
+REGULAR = 0.99
+"""Share of the values of a column joined by lines that must follow each other at the same number of samples."""
+
+STRAIGHT = 1e-3
+"""Second difference, over the root mean square of all, below which three samples lie on one line: digits that were written make
+less, and of recorded values one in a thousand bends so little."""
+
+BESIDE = 32
+"""Pairs of neighbours on either side, at least, that tell how often a column repeats a value there."""
+
+RARE, RARE_ZEROS = 1e-3, 0.1
+"""Number of such runs to be expected in the whole record below which one is no chance; of zeros, which recorders write."""
+
+
+def leave_out_repeated(flight: Flight) -> Flight:
+    """The flight without repeated values: outputs as if not recorded, samples of motion not valid, both flagged.
+
+    Parameters
+    ----------
+    flight
+        As it was read.
+
+    Returns
+    -------
+    Flight
+        Motion is interpolated between what was recorded, and an angular acceleration that was derived is derived anew.
+    """
+    outputs, channels = dict(flight.outputs), dict(flight.channels)
+    valid, found = np.array(flight.valid), []
+    for name in (*flight.outputs, *(n for n in MOTION if n in flight.written or _is_given(n, flight))):
+        x = flight.outputs.get(name, flight.channels.get(name))
+        if x is None:
+            continue
+        there = np.isfinite(x) & flight.valid
+        r = _repeated(np.array(x), there)
+        if r is None:
+            continue
+        found.append((name, r))
+        if name in outputs:
+            outputs[name] = np.where(r.left_out, np.nan, x)
+        else:
+            channels[name] = _interpolated(np.array(x), there & ~r.left_out, smooth=r.how != "stuck")
+            valid &= ~r.left_out
+    if not found:
+        return flight
+    changed = replace(flight, outputs=outputs, channels=channels, valid=valid)
+    if any(name in ANGULAR_RATE for name, _ in found):
+        changed = with_derived_acceleration(changed)
+        stuck = [r.left_out for name, r in found if name in ANGULAR_RATE and r.how == "stuck"]
+        for mask in stuck:
+            wide = np.convolve(mask, np.ones(WINDOW), "same") > 0.5
+            changed = replace(changed, valid=changed.valid & ~wide)
+    return changed.flagged(_flags(found, flight))
+
+
+def with_derived_acceleration(x: Flight) -> Flight:
+    """The flight with its angular acceleration derived anew, unless it was recorded."""
+    if ANGULAR_ACCELERATION[0] in x.written or not all(n in x.channels for n in ANGULAR_ACCELERATION):
+        return x
+    if not x.written:
+        return x
+    derivative = planned([x.channels[n] for n in ANGULAR_RATE], x.rate)
+    made = {
+        change: derivative.of(x.channels[rate], x.rate)[0]
+        for rate, change in zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True)
+    }
+    return replace(x, channels={**x.channels, **made})
+
+
+def _is_given(name: str, flight: Flight) -> bool:
+    """Whether a flight that was not read from a file holds a column of its own."""
+    return not flight.written and name in flight.channels
+
+
+@dataclass(frozen=True)
+class _Repeated:
+    """Samples (N,) that repeat others: ``repeated``, ``joined by straight lines`` (every so many samples) or ``stuck``."""
+
+    how: str
+    left_out: Mask
+    every: float
+
+
+def _repeated(x: Array, there: Mask) -> _Repeated | None:
+    """What a column (N,) repeats; ``None``: nothing but what its resolution and its noise make."""
+    pairs = there[1:] & there[:-1]
+    if np.sum(there) < FEWEST or not pairs.any():
+        return None
+    x = np.where(there, x, 0.0)
+    equal = pairs & (x[1:] == x[:-1])
+    moves = np.abs(np.diff(x))[pairs & ~equal]
+    if len(moves) < FEWEST - 1:
+        return None  # it does not change at all
+    step = find_step(x[there]) if equal.any() else None
+    if np.sum(equal) >= HELD * np.sum(pairs) and (step is None or np.median(moves) >= COARSE * step):
+        runs = _runs(equal)
+        if np.max(runs[:, 1] - runs[:, 0]) < HELD * len(x):
+            kept = there & ~np.r_[False, equal]
+            return _Repeated("repeated", there & ~kept, float(np.median(np.diff(np.flatnonzero(kept)))))
+    joined = _joined(x, there)
+    if joined is not None:
+        return joined
+    stuck = _stuck(x, there, equal, 0.0 if step is None else step)
+    return _Repeated("stuck", stuck, 0.0) if stuck.any() else None
+
+
+def _joined(x: Array, there: Mask) -> _Repeated | None:
+    """Values recorded every so many samples, and joined by straight lines."""
+    pairs = there[1:] & there[:-1]
+    threes = pairs[1:] & pairs[:-1]
+    bend = np.where(threes, np.abs(np.diff(x, 2)), 0.0)
+    sharp = bend > STRAIGHT * float(np.sqrt(np.mean(bend**2)))
+    if not 0 < 3 * np.sum(sharp) <= 2 * np.sum(threes):
+        return None
+    recorded = np.flatnonzero(sharp) + 1
+    every = int(np.median(np.diff(recorded))) if len(recorded) >= FEWEST else 1
+    first = recorded[len(recorded) // 2]
+    if every < 2 or np.mean(recorded % every == first % every) < REGULAR:
+        return None
+    kept = np.arange(len(x)) % every == first % every
+    return _Repeated("joined by straight lines", there & ~kept, float(every))
+
+
+def _runs(equal: Mask) -> Index:
+    """(n, 2): first sample and the one after the last of every run of equal values, by its pairs (N - 1,)."""
+    edges = np.flatnonzero(np.diff(np.r_[False, equal, False].astype(np.int8)))
+    return np.stack([edges[::2], edges[1::2] + 1], axis=1)
+
+
+def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
+    """(N,): samples in runs of equal values that are too long for how often the column repeats a value beside them.
+
+    The chance that two neighbours are equal is counted in the pairs before and after a run, as many as it has. Runs that a column
+    enters and leaves by a ``step`` or two of its resolution are where it turns; those at an end of its range are saturation, an effect
+    of its own.
+    """
+    found = np.zeros(len(x), dtype=np.bool_)
+    runs = _runs(equal)
+    low, high = np.min(x[there]), np.max(x[there])
+    runs = runs[(runs[:, 1] - runs[:, 0] >= 4) & (x[runs[:, 0]] != low) & (x[runs[:, 0]] != high)]
+    if not len(runs):
+        return found
+    long = np.zeros(len(equal), dtype=np.bool_)
+    for first, last in runs[runs[:, 1] - runs[:, 0] >= BESIDE]:
+        long[first : last - 1] = True  # a run beside another says nothing of the column
+    before = np.r_[0, np.cumsum(equal & ~long)]
+    first, last = runs[:, 0], runs[:, 1] - 1
+    reach = np.maximum(BESIDE, last - first)
+    left, right = np.maximum(first - reach, 0), np.minimum(last + reach, len(equal))
+    same = before[first] - before[left] + before[right] - before[last]
+    chance = (same + 1) / (first - left + right - last + 2)
+    expected = len(x) * chance ** (last - first)
+    moves = np.abs(np.diff(x, prepend=x[:1], append=x[-1:]))
+    expected[np.maximum(moves[first], moves[last + 1]) <= 2.5 * step] = np.inf
+    for k in np.flatnonzero(expected < np.where(x[first] == 0.0, RARE_ZEROS, RARE)):
+        found[first[k] : last[k] + 1] = True
+    return found
+
+
+def _interpolated(x: Array, there: Mask, *, smooth: bool) -> Array:
+    """A series (N,) between the samples that are there: by a spline, or straight over a stretch that is missing."""
+    at = np.flatnonzero(there)
+    k = np.arange(len(x))
+    made = CubicSpline(at, x[at])(np.clip(k, at[0], at[-1])) if smooth else np.interp(k, at, x[at])
+    return np.where(there, x, made)
+
+
+def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
+    """One flag of each kind, about all columns of which the same is said."""
+    groups: dict[str, list[tuple[str, _Repeated]]] = {}
+    for name, r in found:
+        places = np.flatnonzero(r.left_out)
+        key = f"{r.how} {r.every} {'' if r.how != 'stuck' else (places[0], len(places))}"
+        groups.setdefault(key, []).append((name, r))
+    return [_flag([n for n, _ in group], group[0][1], flight) for group in groups.values()]
+
+
+def _flag(names: Sequence[str], r: _Repeated, flight: Flight) -> Flag:
+    at = np.flatnonzero(r.left_out)
+    what = f"{', '.join(names)}: recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only what was recorded is used"
+    if r.how == "stuck":
+        edges = np.flatnonzero(np.diff(at) > 1)
+        begins, ends = at[np.r_[0, edges + 1]], at[np.r_[edges, len(at) - 1]]
+        some = ", ".join(
+            f"{b - a + 1} from {flight.time[a]:.5g} s" for a, b in zip(begins[:3], ends[:3], strict=True)
+        )
+        more = f" and {len(begins) - 3} times more" if len(begins) > 3 else ""
+        what = f"{', '.join(names)}: the value stands still for {some}{more}, which noise does not make; {len(at)} samples not used"
+    return Flag(tuple(names), what, len(at), (float(flight.time[at[0]]), float(flight.time[at[-1]])))

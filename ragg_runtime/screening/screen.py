@@ -1,0 +1,244 @@
+"""A flight before it is compared with a model: refuse what cannot be, leave out what is no measurement, flag what is odd."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io import Flight
+from ragg_runtime.io.record import Flag
+from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, even_clock, find_clock_steps
+from ragg_runtime.model.evaluate import scale_factor
+from ragg_runtime.model.model import MANY, Model
+from ragg_runtime.model.recorded import recorded
+from ragg_runtime.screening import checks
+from ragg_runtime.screening.linear_fit import Explained, explain
+from ragg_runtime.screening.mistakes import Finding, find_mistake
+from ragg_runtime.screening.repeated import leave_out_repeated, with_derived_acceleration
+from ragg_runtime.screening.resolution import coarse_sensors, resolution_of
+from ragg_runtime.screening.sampler import Sampler, sampler_of
+from ragg_runtime.screening.spikes import find_spikes, leave_out_glitches, words_of
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+SENSELESS = 20.0
+"""Factor by which the residual falls once a mistake is undone, from which going on is senseless."""
+
+HALVED = 2.0
+"""Factor from which what the model leaves is told as smaller; below, the parameters' nearness to the sheet spoke for the mistake."""
+
+BETTER = 1.1
+"""Factor by which the model's residual must fall for instants to be taken otherwise than they stand."""
+
+PLAINLY = 5.0
+"""The same for a clock that was set: the rows that seem to lack are none, and the rest is earlier."""
+
+LEAST = 64
+"""Samples of a record from which its clock is looked at: with fewer the model fits any."""
+
+CHUNK = 1 << 16
+"""Rows of a whole flight that are looked at at a time."""
+
+
+@one_thread
+def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
+    """The flight with what is no measurement left out, its resolution, and flags of what is odd.
+
+    Parameters
+    ----------
+    model, instrument
+        What it will be compared with.
+    flight
+        As it was read.
+
+    Raises
+    ------
+    UserError
+        If the flight cannot be compared with the model: it is too short, too slow, lacks a channel, or holds
+        a mistake of units, signs, axes, order or clock, which the message names.
+    """
+    flight = leave_out_repeated(replace(flight, resolution=resolution_of(flight)))
+    checks.require(model, instrument, flight)
+    flight = leave_out_glitches(flight).flagged(checks.remarks(instrument, flight))
+    layout, inputs = instrument.layout, tuple(model.chain.INPUTS)
+    places = [k for k in range(len(layout.outputs)) if recorded(flight, layout, k)]
+    s = sampler_of(flight, instrument, inputs, places[0])
+    if not s.usable.any():
+        return flight
+    flight = _with_right_clock(model, instrument, s)
+    s = sampler_of(flight, instrument, inputs, places[0])
+    finding = find_mistake(model, instrument, s)
+    if finding is not None:
+        if _is_senseless(finding, instrument):
+            raise _refuse(flight, finding)
+        flight = flight.flagged([_remark(finding)])
+    fitted = explain(model, instrument, s.take(s.rows()))
+    flight = flight.flagged(coarse_sensors(model, instrument.units, s, fitted))
+    for place in places:
+        s = sampler_of(flight, instrument, inputs, place)
+        flight = flight.flagged(_saturated(s))
+        flight = _without_output_spikes(model, instrument, s, flight)
+    return flight
+
+
+def _is_senseless(f: Finding, instrument: Instrument) -> bool:
+    """Whether going on with a record makes no sense: a mistake explains it, and no sheet that is less sure than it says."""
+    if f.best.kind == "origin" and instrument.angle_origin is None:
+        return True  # nobody has answered yet
+    if f.best.kind in ("sheet", "shift", "origin"):
+        return False
+    return f.factor > SENSELESS and f.rival is None
+
+
+def _refuse(flight: Flight, f: Finding) -> UserError:
+    odd = "".join(f"; {x.reason}" for x in flight.flags)
+    return UserError(
+        f"the record does not fit the instrument; the likely mistake: {f.best.what}{_others(f)}",
+        where=flight.path or flight.name,
+        found=f"{_left(f.before)}, {f.factor:.3g} times more than with the mistake undone{odd}",
+        expected="units, signs, axes and spin rate as the header and model.toml say",
+        remedy=f.best.remedy,
+    )
+
+
+def _others(f: Finding) -> str:
+    others = [*f.others, *([f.rival.what] if f.rival is not None else [])]
+    return f" (or: {'; or: '.join(others)})" if others else ""
+
+
+def _left(e: Explained) -> str:
+    if e.share < 1:
+        return f"the model leaves {100 * e.share:.2g} % of the output unexplained"
+    return f"the model misses the output by {e.share:.2g} times its size"
+
+
+def _remark(f: Finding) -> Flag:
+    gain = "the parameters stay closer to the test sheet"
+    if f.factor > HALVED:
+        gain = f"the model leaves {f.factor:.3g} times less of the output"
+    if f.best.kind == "sheet":
+        return Flag((), f"{f.best.what}; with a wider sheet {gain}; {f.best.remedy}")
+    reason = f"likely mistake: {f.best.what}{_others(f)}; undone, {gain}; {f.best.remedy}"
+    return Flag((), reason, open=True, effects=f.best.effects)
+
+
+def _saturated(s: Sampler) -> list[Flag]:
+    """A flag of the samples of an output that stand at the end of its range."""
+    name = s.output.name
+    if name not in s.flight.outputs or s.recorded.separate:
+        return []
+    G = s.flight.outputs[name]
+    there = s.flight.valid & np.isfinite(G)
+    clipped = int(np.count_nonzero(there & ~s.usable))
+    if not clipped:
+        return []
+    top = float(np.max(np.abs(G[there])))
+    text = f"{name}: {clipped} samples stand at the extreme value of {top:.6g} V: saturated, not used"
+    return [Flag((name,), text, clipped)]
+
+
+# --- the clock -----------------------------------------------------------------------------------------
+
+
+def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Flight:
+    """The flight by the clock that explains it best: its own, or an even one where the stamps jitter, or were set on the way."""
+    x = s.flight
+    if s.recorded.demodulated or len(x) < LEAST:
+        return x
+    first, step = even_clock(x.time, x.valid)
+    worst = float(np.max(np.abs(x.time - first - step * np.arange(len(x)))[x.valid])) / step
+    steps = find_clock_steps(x.time, x.valid)
+    broken = [c for c in steps if abs(c.size / step - np.rint(c.size / step)) > 1e-3]
+    tried: list[tuple[float, Sequence[ClockStep], Flight]] = []
+    if worst > JITTER_NOTED:
+        tried.append((BETTER, [], _evenly(x, [])))
+    if steps:
+        tried += [
+            (PLAINLY, some, _evenly(x, some)) for some in (steps, *([c] for c in steps if len(steps) > 1))
+        ]
+    if not tried:
+        return x
+
+    def left(flight: Flight) -> float:
+        t = sampler_of(flight, instrument, tuple(model.chain.INPUTS), s.place)
+        return explain(model, instrument, t.take(t.rows())).rms
+
+    own = left(x)
+    gain, _, k = max((own / left(flight) / factor, -k, k) for k, (factor, _, flight) in enumerate(tried))
+    if gain < 1.0:
+        return x.flagged([_paused(c) for c in broken])
+    factor, some, flight = tried[k]
+    better = f"({gain * factor:.3g} times less is left unexplained)"
+    where = ", ".join(f"by {c.size:.4g} s at t = {c.time:.6g} s" for c in list(some or broken)[:3])
+    text = f"the stamps step {where} (was the clock set?), but sampling went on: the times are those of the sample count {better}"
+    if not where:
+        text = (
+            f"the instants in the file scatter by up to {worst:.2g} of a step, but the output was sampled"
+            f" evenly: the times are replaced by even ones {better}"
+        )
+    return with_derived_acceleration(flight).flagged([Flag(("time",), text, len(x))])
+
+
+def _evenly(x: Flight, steps: Sequence[ClockStep]) -> Flight:
+    """The flight with even times; rows that lack where the clock was set are no rows."""
+    first, step = even_clock(x.time, x.valid)
+    kept = np.ones(len(x), dtype=np.bool_)
+    for c in steps:
+        before = np.flatnonzero(x.valid[: c.row])
+        kept[before[-1] + 1 : c.row] = False
+    return replace(
+        x,
+        time=np.asarray(first + step * np.arange(np.sum(kept))),
+        valid=x.valid[kept],
+        channels={n: v[kept] for n, v in x.channels.items()},
+        outputs={n: v[kept] for n, v in x.outputs.items()},
+        # a first sample that came late does not delay the disc
+        began=(x.began or 0.0) + first - float(x.time[0]),
+    )
+
+
+def _paused(c: ClockStep) -> Flag:
+    text = f"the stamps step by {c.size:.4g} s at t = {c.time:.6g} s, by no whole number of samples: taken as a pause"
+    return Flag(("time",), text, 1, (c.time, c.time))
+
+
+# --- spikes of the output ------------------------------------------------------------------------------
+
+
+def _without_output_spikes(model: Model, instrument: Instrument, s: Sampler, flight: Flight) -> Flight:
+    """The flight without the spikes of an output, found in what the fitted model leaves."""
+    if s.recorded.demodulated or not s.usable.any():
+        return flight  # a demodulator has smeared them
+    fitted = explain(model, instrument, s.take(s.rows())).p
+    found = np.array([find_spikes(e, s.usable) for e in _residual(model, s, fitted)])
+    flags = [
+        Flag((name,), words_of(name, mask, flight.time), int(np.sum(mask)))
+        for name, mask in zip(s.columns, found, strict=True)
+        if mask.any()
+    ]
+    valid = np.array(flight.valid)
+    valid[found.any(axis=0)] = False
+    return replace(flight, valid=valid).flagged(flags)
+
+
+def _residual(model: Model, s: Sampler, fitted: Array) -> Array:
+    """(columns, N) Eo: what a model with these parameters leaves of the output."""
+    n = len(s.flight)
+    evaluator = model.compiled("auto" if n >= MANY else "numpy")
+    left = np.empty((len(s.columns), n))
+    for start in range(0, n, CHUNK):
+        some = s.take(np.arange(start, min(n, start + CHUNK)))
+        x = some.inputs(model.chain)
+        if s.recorded.separate:
+            predicted = evaluator.voltages(some.time, x, fitted, some.phi, s.output.members)
+        else:
+            predicted = evaluator.output(some.time, x, fitted, some.phi, which=s.place)[None]
+        left[:, start : start + CHUNK] = some.data - predicted
+    return left / scale_factor(model, fitted, s.place)

@@ -1,0 +1,184 @@
+"""What is no measurement: repeated values, spikes, glitches; the resolution of a column; stamps and their clock."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.io import Flight
+from ragg_runtime.io.sampling import even_clock, find_clock_steps, uniform
+from ragg_runtime.screening.repeated import leave_out_repeated
+from ragg_runtime.screening.spikes import find_glitches, find_spikes
+from ragg_runtime.signals.resolution import find_step
+
+N = 9600
+RNG = np.random.default_rng(3)
+NOISE = RNG.standard_normal(N)
+ALL = np.ones(N, dtype=bool)
+TIME = np.arange(N) / 16
+PLACES = np.sort(RNG.choice(np.arange(20, N - 20, 3), 96, replace=False))
+SMOOTH = np.sin(TIME) + 0.3 * np.sin(3.3 * TIME) + 0.05 * np.sin(2 * np.pi * 2.1 * TIME)
+
+
+# --- repeated values -----------------------------------------------------------------------------------
+
+
+def screened(x: np.ndarray, name: str = "G_out") -> Flight:
+    given = {"outputs" if name == "G_out" else "channels": {name: x}}
+    return leave_out_repeated(Flight(time=TIME[: len(x)], **{"channels": {}, "outputs": {}, **given}))
+
+
+@pytest.mark.parametrize(("every", "first"), [(2, 0), (4, 1), (160, 1)])
+@pytest.mark.parametrize("how", ["repeated", "joined by straight lines"])
+def test_values_between_the_recorded_ones_are_not_used(every: int, first: int, how: str) -> None:
+    k = np.arange(first, N, every)
+    x = SMOOTH[np.maximum((np.arange(N) - first) // every * every + first, 0)]
+    if how != "repeated":
+        x = np.round(np.interp(np.arange(N), k, SMOOTH[k]), 7)
+    found = screened(x)
+    there = np.flatnonzero(np.isfinite(found.outputs["G_out"]))
+    assert set(there[1:-1]) <= set(k) and len(there) >= len(k) - 1
+    assert found.notes == (
+        f"G_out: recorded every {every / 16:.4g} s and {how} in between; only what was recorded is used",
+    )
+
+
+def test_motion_that_is_held_at_another_rate_is_interpolated() -> None:
+    """Three and a fifth samples at a time: the motion is used where it is new, and smooth between."""
+    k = np.rint(np.floor(np.arange(N) / 3.2) * 3.2).astype(int)
+    found = screened(SMOOTH[k], "a_x")
+    assert np.mean(found.valid) == pytest.approx(1 / 3.2, abs=0.01)
+    assert found.flags[0].columns == ("a_x",) and not found.flags[0].open
+
+
+@pytest.mark.parametrize("name", ["G_out", "a_x"])
+@pytest.mark.parametrize("x", [SMOOTH, np.round(SMOOTH, 2), NOISE], ids=["smooth", "coarse", "noise"])
+def test_what_stands_still_is_left_out(name: str, x: np.ndarray) -> None:
+    stuck = x.copy()
+    stuck[1000:1032] = stuck[1000]
+    stuck[5000:5006] = 0.0
+    found = screened(stuck, name)
+    left_out = ~found.valid if name == "a_x" else np.isnan(found.outputs["G_out"])
+    expected = {*range(1000, 1032), *range(5000, 5006)}
+    assert set(np.flatnonzero(left_out)) == expected
+    assert "stands still for 32 from 62.5 s, 6 from 312.5 s" in found.notes[0]
+
+
+@pytest.mark.parametrize(
+    "x",
+    [
+        SMOOTH,
+        np.round(SMOOTH, 1),
+        np.round(np.sin(0.02 * TIME), 2),
+        np.round(NOISE),
+        np.clip(SMOOTH, -0.9, 0.9),
+        np.where(RNG.random(N) < 0.4, np.nan, SMOOTH),
+        np.zeros(N),
+        np.arange(N) * 1.0,
+    ],
+    ids=["smooth", "coarse", "coarse and slow", "coarse noise", "saturated", "gaps", "still", "a ramp"],
+)
+def test_other_series_are_left_alone(x: np.ndarray) -> None:
+    assert screened(x).flags == () and screened(x, "a_x").flags == ()
+
+
+@pytest.mark.parametrize("step", [0.488e-3 * 9.80665, 1e-3, 3.3e-5])
+def test_the_resolution_of_a_column_is_found_whatever_it_is(step: float) -> None:
+    x = np.round(SMOOTH / step) * step + 0.013
+    written = np.array([float(f"{v:.8g}") for v in x])
+    for column in (x, written, np.where(ALL, x, np.nan)):
+        assert find_step(column) == pytest.approx(step, rel=1e-4)
+    for column in (SMOOTH, np.zeros(N), np.full(3, 1.0)):
+        assert find_step(column) is None
+
+
+# --- spikes --------------------------------------------------------------------------------------------
+
+
+def test_spikes_of_any_size_are_found_and_nothing_else() -> None:
+    for size in (20.0, 1e9):
+        e = NOISE.copy()
+        e[PLACES] += size * RNG.choice([-1.0, 1.0], len(PLACES))
+        assert np.flatnonzero(find_spikes(e, ALL)).tolist() == PLACES.tolist()
+
+
+@pytest.mark.parametrize(
+    "residual",
+    [
+        NOISE,
+        NOISE * (1 + 30 * (np.abs(TIME - 300) < 5)),
+        NOISE + 50 * np.sin(np.pi * TIME / 2) * (TIME > 200),
+        np.cumsum(NOISE),
+        np.clip(10 * np.sin(TIME), -9, 9) + 1e-3 * NOISE,
+        np.where(RNG.random(N) < 0.1, 100.0, NOISE),
+        np.zeros(N),
+    ],
+    ids=["noise", "burst", "gain-step", "red", "saturated", "often", "nothing"],
+)
+def test_what_is_no_spike(residual: np.ndarray) -> None:
+    assert not find_spikes(residual, ALL).any()
+
+
+def test_missing_samples_are_no_spikes_and_hide_none() -> None:
+    valid = ALL.copy()
+    valid[1000:1500] = False
+    e = np.where(valid, NOISE, np.nan)
+    e[[PLACES[60], 1600]] = 30.0, -50.0
+    assert np.flatnonzero(find_spikes(e, valid)).tolist() == sorted([PLACES[60], 1600])
+
+
+def test_glitches_of_smooth_motion_are_interpolated() -> None:
+    x = SMOOTH.copy()
+    x[PLACES] += 50 * RNG.choice([-1.0, 1.0], len(PLACES))
+    mask, mended = find_glitches(x, ALL)
+    assert np.flatnonzero(mask).tolist() == PLACES.tolist()
+    assert np.max(np.abs(mended - SMOOTH)) < 0.1
+    assert find_glitches(SMOOTH, ALL)[1] is SMOOTH
+
+
+# --- the clock -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("rate", "start"), [(16, 0.0), (16, 12.0625), (30, 0.0), (128, 1.7e9)])
+def test_rounded_stamps_are_put_on_their_grid(rate: float, start: float) -> None:
+    true = start + np.arange(N) / rate
+    for stamps in (np.round(true, 3), np.floor(np.round(1000 * true, 6)) / 1000):
+        g = uniform(stamps, None)
+        assert np.max(np.abs(g.time - true)) < 1e-6 and not g.jitters
+        assert "rounded to 0.001 s" in g.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("stamps", "words"),
+    [
+        (np.floor(TIME), "whole seconds"),
+        ((1.77e9 + TIME).astype(np.float32).astype(float), "single precision"),
+    ],
+)
+def test_stamps_that_are_too_coarse_are_no_doubled_rows(stamps: np.ndarray, words: str) -> None:
+    with pytest.raises(UserError, match="too coarse for the rate") as caught:
+        uniform(stamps, None)
+    said = str(caught.value)
+    assert words in said and "time = row / " in said and "remove" not in said
+
+
+@pytest.mark.parametrize("size", [0.025, 0.7, 3.013, -0.025])
+@pytest.mark.parametrize("digits", [3, 9])
+def test_a_step_of_the_clock_is_found_with_its_time(size: float, digits: int) -> None:
+    g = uniform(np.round(TIME + size * (TIME > 125), digits), None)
+    valid = np.isin(np.arange(len(g.time)), g.index)
+    (step,) = find_clock_steps(g.time, valid)
+    assert step.size == pytest.approx(size, abs=1e-3) and abs(step.time - 125 - size) < 0.1
+    assert even_clock(g.time, valid)[1] == pytest.approx(1 / 16, rel=1e-7)
+    with pytest.raises(UserError, match=r"step back by 10 s at t = 125 s: was the clock set"):
+        uniform(TIME - 10.0 * (TIME > 125), None)
+
+
+def test_jitter_and_pauses_are_no_steps() -> None:
+    jitter = TIME + 0.005 * RNG.uniform(-1, 1, N)
+    assert find_clock_steps(jitter, ALL) == []
+    one_late = replace(Flight(time=TIME + 0.02 * (np.arange(N) == 777), channels={}, outputs={}))
+    assert find_clock_steps(one_late.time, ALL) == []

@@ -1,0 +1,253 @@
+"""Likely mistakes: named where they are, never where the record is right, whatever effect is hidden in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy import signal
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.io import Flight
+from ragg_runtime.model import model
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.screening import mistakes, other_demodulator, screen, timing
+from ragg_runtime.screening.linear_fit import shrunken
+from ragg_runtime.screening.mistakes import Finding, find_mistake
+from ragg_runtime.screening.sampler import sampler_of
+from ragg_runtime.signals.demodulate import demodulate
+
+G0 = 9.8
+MODEL = model.packaged()
+
+
+@cache
+def drawn(seed: int, trim: Any = "matched") -> Scenario:
+    return scenario(seed, duration=300.0, trim=trim)
+
+
+def flown(seed: int, effects: dict[str, Any] | None = None, trim: Any = "matched", **options: Any) -> Flight:
+    voltages = options.pop("voltages", False)
+    return drawn(seed, trim).simulate(effects or {}, **options).flight(voltages=voltages)
+
+
+def found_in(x: Flight, sheet: Any) -> Finding | None:
+    return find_mistake(MODEL, sheet, sampler_of(x, sheet, tuple(MODEL.chain.INPUTS)))
+
+
+def changed(x: Flight, change: Callable[[str, np.ndarray], np.ndarray]) -> Flight:
+    return replace(x, channels={n: change(n, v) for n, v in x.channels.items()})
+
+
+HIDDEN: dict[str, dict[str, Any]] = {
+    "thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]},
+    "gain-step": {"dK1": [0, 2e-6, 0, 0], "t_step": 150.0},
+    "imu-lever-arm": {"l_x": 3e-2, "l_y": -2e-2},
+    "imu-misalignment": {"e_x": 3e-3, "e_y": -3e-3, "e_z": 3e-3},
+    "time-offset": {"delta_t": 1e-2},
+    "spin-phase-offset": {"phi_0": 1e-2},
+    "encoder-harmonic": {"c_1": 1e-3},
+    "quantisation": {"q": 5e-3},
+}
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_good_flight_is_left_alone(seed: int) -> None:
+    trim = ("matched", "table-v")[seed % 2]
+    for x in (flown(seed, trim=trim), flown(seed, trim=trim, voltages=True, record_gradient=False)):
+        found = screen(MODEL, drawn(seed, trim).sheet, x)
+        assert found.flags == () and found.valid.all()
+
+
+@pytest.mark.parametrize("effect", sorted(HIDDEN))
+def test_a_hidden_effect_is_no_mistake(effect: str) -> None:
+    found = screen(MODEL, drawn(7).sheet, flown(7, {effect: HIDDEN[effect]}))
+    assert found.flags == () and found.valid.all()
+
+
+@pytest.mark.parametrize("trim", ["matched", "table-v"])
+def test_the_mistake_is_named_on_any_instrument(trim: str) -> None:
+    x = flown(9, trim=trim, record_gradient=False)
+    c = x.channels
+    for wrong, words in (
+        (changed(x, lambda n, v: v / G0 if n[:2] == "a_" else v), "a_x, a_y, a_z are in g, not in m/s^2"),
+        (replace(x, outputs={n: 1e3 * v for n, v in x.outputs.items()}), "in mV, not in V"),
+        (replace(x, channels={**c, "a_x": c["a_z"], "a_z": c["a_x"]}), "a_x and a_z are exchanged"),
+    ):
+        with pytest.raises(UserError, match="likely mistake") as caught:
+            screen(MODEL, drawn(9, trim).sheet, wrong)
+        assert words in str(caught.value)
+
+
+@pytest.mark.parametrize("trim", ["matched", "table-v"])
+def test_a_scale_factor_off_its_sheet_is_no_wrong_unit(trim: str) -> None:
+    """1 to 5 % off sheets that are sure to 1e-4, alike or each by itself; and the sheet of another instrument."""
+    sheet, x = drawn(9, trim).sheet, flown(9, trim=trim)
+    K1 = sheet.accelerometers["K1"]
+    for off in (np.array([1.03, 0.98, 1.01, 0.99]), np.full(4, 1.05)):
+        wrong = replace(sheet.replace(K1=off * K1), sigmas={"K1": 1e-4 * K1})
+        (flag,) = screen(MODEL, wrong, x).flags
+        assert "the sheet is less sure than it says: K1 of A" in flag.reason and not flag.open
+        assert f"where it says {10 * off[0]:.6g}" in flag.reason
+    other = drawn(9, "matched" if trim == "table-v" else "table-v").sheet
+    assert "K1 of A4" in screen(MODEL, other, x).flags[0].reason
+
+
+def test_nothing_is_named_where_nothing_follows_the_motion() -> None:
+    x, sheet = flown(9), drawn(9).sheet
+    noise = np.std(x.outputs["G_out"]) * np.random.default_rng(1).standard_normal(len(x))
+    for output in (noise, x.channels["a_x"]):
+        assert found_in(replace(x, outputs={"G_out": output}), sheet) is None
+
+
+@pytest.mark.parametrize("error", [-0.03, 0.004])
+def test_the_spin_rate_is_measured(error: float) -> None:
+    found = found_in(flown(10), replace(drawn(10).sheet, spin_frequency=0.25 * (1 + error)))
+    assert found is not None
+    assert float(found.best.what.split()[4]) == pytest.approx(0.25, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("measured", "shown"), [(0.2500000158, "0.250000016"), (0.250012503, "0.2500125"), (0.25, "0.25")]
+)
+def test_a_spin_rate_that_differs_is_never_told_as_the_models_own(measured: float, shown: str) -> None:
+    assert timing.in_digits(measured, 0.25, 300.0) == shown
+
+
+@pytest.mark.parametrize(("samples", "of"), [(1, ("a_", "om")), (-200, ("a_", "om")), (32, ("a_",))])
+def test_what_is_late_is_measured_and_flagged(samples: int, of: tuple[str, ...]) -> None:
+    x = changed(flown(11), lambda n, v: np.roll(v, samples) if n[:2] in of else v)
+    (flag,) = (f for f in screen(MODEL, drawn(11).sheet, x).flags if f.open)
+    assert f"({abs(samples)} sample" in flag.reason
+    assert ("late" if samples > 0 else "early") in flag.reason
+    assert flag.effects == (("time-offset",) if len(of) == 2 else ())
+    assert ("the motion record" if len(of) == 2 else "a_x, a_y, a_z are 2 s") in flag.reason
+
+
+def test_lost_rows_are_said_before_the_disc_is_blamed() -> None:
+    x = flown(12)
+    kept = np.r_[0:1088, 1109 : len(x)]
+    lost = replace(
+        x,
+        time=x.time[: len(kept)],
+        valid=x.valid[kept],
+        channels={n: v[kept] for n, v in x.channels.items()},
+        outputs={n: v[kept] for n, v in x.outputs.items()},
+    )
+    with pytest.raises(UserError, match=r"rows were lost at t = 68(\.\d+)? s: 21 rows") as caught:
+        screen(MODEL, drawn(12).sheet, lost)
+    assert "write spin_frequency" not in str(caught.value)
+
+
+@pytest.mark.parametrize("size", [0.025, 1.0])
+def test_a_clock_that_was_set_is_said_with_its_time(size: float) -> None:
+    """Where rows seem to lack, as after a step of a second, none does."""
+    x = flown(12)
+    late = np.arange(len(x)) >= 2400
+    gap = int(16 * size)
+    wide = len(x) + gap
+
+    def spread(v: np.ndarray, fill: float) -> np.ndarray:
+        return np.concatenate([v[:2400], np.full(gap, fill), v[2400:]])
+
+    wrong = replace(
+        x,
+        time=np.arange(wide) / 16 if gap else x.time + size * late,
+        valid=spread(np.ones(len(x)), 0.0) > 0,
+        channels={n: spread(v, v[2400]) for n, v in x.channels.items()},
+        outputs={n: spread(v, np.nan) for n, v in x.outputs.items()},
+    )
+    found = screen(MODEL, drawn(12).sheet, wrong)
+    (flag,) = found.flags
+    assert f"the stamps step by {size:g} s at t = 15" in flag.reason and "the sample count" in flag.reason
+    np.testing.assert_allclose(found.time, x.time, atol=1e-9)
+
+
+def test_columns_that_contradict_each_other_are_remarked() -> None:
+    x = flown(12)
+    c = x.channels
+    swapped = {**c, "omegadot_x": c["omegadot_y"], "omegadot_y": c["omegadot_x"]}
+    for wrong, words in (
+        (changed(x, lambda n, v: -v if "dot" in n else v), "minus the derivative of omega_x"),
+        (changed(x, lambda n, v: 180 / np.pi * v if "dot" in n else v), "degrees for radians"),
+        (replace(x, channels=swapped), "omegadot_x is the derivative of omega_y, not of omega_x"),
+    ):
+        try:
+            said = "\n".join(screen(MODEL, drawn(12).sheet, wrong).notes)
+        except UserError as error:
+            said = str(error)
+        assert words in said
+
+
+def demodulated(s: Scenario, x: Flight, low_pass: Any = None) -> Flight:
+    """Inline and cross alone; through our low-pass, or another one."""
+    phi, k = 2 * np.pi * 0.25 * x.time, scale_factor(MODEL, vector(MODEL, s.sheet)) * 1e9
+    channels = {n: np.full(len(x), np.nan) for n in ("inline", "cross")}
+    if low_pass is None:
+        d = demodulate(x.outputs["G_out"], phi, x.rate, k)
+        channels["inline"][d.valid], channels["cross"][d.valid] = d.inline, d.cross
+    else:
+        channels["inline"] = low_pass(4 * x.outputs["G_out"] * np.sin(2 * phi)) / k
+        channels["cross"] = low_pass(-2 * x.outputs["G_out"] * np.cos(2 * phi)) / k
+    return replace(x, outputs=channels)
+
+
+@pytest.fixture
+def channels_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of all mistakes those of channels alone, and none of time: each is tried on 3,000 rows."""
+    monkeypatch.setattr(mistakes, "mistakes", lambda rows, *_, **__: mistakes._demodulated(rows))
+    monkeypatch.setattr(timing, "hypotheses", lambda *_: [])
+
+
+@pytest.mark.usefixtures("channels_alone")
+def test_channels_that_are_defined_otherwise_are_named() -> None:
+    s = scenario(13, duration=300.0, gradient_rms=20e-9)
+    good = demodulated(s, s.simulate().flight())
+    assert found_in(good, s.sheet) is None
+    for (inline, cross), words in {
+        (1.0, -1.0): "the sign of cross is reversed",
+        (-1.0, 2.0): "the sign of inline is reversed; cross is twice Gamma_xy",
+    }.items():
+        o = {"inline": inline * good.outputs["inline"], "cross": cross * good.outputs["cross"]}
+        found = found_in(replace(good, outputs=o), s.sheet)
+        assert found is not None and (found.best.what, found.others) == (words, ())
+
+
+@pytest.mark.usefixtures("channels_alone")
+def test_another_demodulator_is_named_with_its_order_and_corner(monkeypatch: pytest.MonkeyPatch) -> None:
+    own = [m for m in other_demodulator.families() if m(0.1).order == 3]
+    monkeypatch.setattr(other_demodulator, "families", lambda: iter(own))
+    s, x = drawn(14), flown(14)
+    sections = signal.butter(3, 0.15, fs=x.rate, output="sos")
+    found = found_in(demodulated(s, x, lambda z: signal.sosfilt(sections, z)), s.sheet)
+    assert found is not None
+    assert found.best.what.endswith("such as a causal Butterworth low-pass of order 3 at 0.15 Hz")
+    assert 'kind = "causal", cutoff = "0.15 Hz", order = 3;' in found.best.remedy
+
+
+def test_outputs_that_are_recorded_more_seldom_than_the_motion() -> None:
+    """Channels may be; an output before demodulation must keep up with the disc."""
+    s, x = drawn(15), flown(15)
+    good = demodulated(s, x)
+    seldom = {n: np.where(np.arange(len(x)) % 16 == 0, v, np.nan) for n, v in good.outputs.items()}
+    assert screen(MODEL, s.sheet, replace(good, outputs=seldom)).flags == ()
+    G = x.outputs["G_out"]
+    screen(MODEL, s.sheet, replace(x, outputs={"G_out": np.where(np.arange(len(x)) % 8 == 0, G, np.nan)}))
+    with pytest.raises(UserError, match="the output is sampled too slowly for the disc"):
+        screen(MODEL, s.sheet, replace(x, outputs={"G_out": G[np.arange(len(x)) // 16 * 16]}))
+
+
+def test_the_fit_finds_parameters_and_noise_by_itself() -> None:
+    rng = np.random.default_rng(0)
+    X = rng.normal(size=(10, 1000)) * 10.0 ** np.arange(-4, 6)[:, None]
+    theta = rng.normal(size=10)
+    y = theta @ X + 0.01 * rng.normal(size=1000)
+    found, _ = shrunken(X, y)
+    assert np.std(y - found @ X) == pytest.approx(0.01, rel=0.05)
+    assert found[4:] == pytest.approx(theta[4:], abs=2e-3)
+    assert abs(found[0]) < 1.0  # hardly observable: the prior holds it
