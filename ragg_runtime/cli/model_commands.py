@@ -276,6 +276,8 @@ def map_command(flight: Path, output: str | None) -> None:
             )
         shared.running().write(output, made.text)
         click.echo(printable(f"{output}: written; check it, then use it: --map {output}"), err=True)
+    for note in made.notes:
+        click.echo(one_line(f"note: {note}"), err=True)
     if made.questions:
         count = len(made.questions)
         click.echo(f'{count} question{"s are" if count > 1 else " is"} open, marked with "?":', err=True)

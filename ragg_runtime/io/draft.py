@@ -39,14 +39,15 @@ _TIMES = ("time", "line", "week", "second_of_week", "date", "clock")
 
 @dataclass(frozen=True)
 class Draft:
-    """A mapping to begin with: its ``text``, the ``questions`` to be answered, the columns that are ``unused``, and
-    channel -> ``certain``, ``likely`` or ``guess``.
+    """A mapping to begin with: its ``text``, the ``questions`` to be answered, the columns that are ``unused``, channel ->
+    ``certain``, ``likely`` or ``guess``, and in ``notes`` what could not be taken.
     """
 
     text: str
     questions: tuple[str, ...]
     unused: tuple[str, ...]
     sure: Mapping[str, str]
+    notes: tuple[str, ...] = ()
 
 
 @dataclass
@@ -86,6 +87,10 @@ def draft_mapping(path: Path) -> Draft:
         questions=tuple(page.questions),
         unused=tuple(c.name for c in unused),
         sure=MappingProxyType(page.sure),
+        notes=(
+            *table.notes,
+            *(f"{c.name}: no numbers ({_example(c)}), not used" for c in unused if not c.is_number),
+        ),
     )
 
 

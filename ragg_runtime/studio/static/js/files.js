@@ -81,7 +81,7 @@ export function filesView(main) {
 
 // What the columns of a foreign file are: only what the file leaves open is asked; the rest can be looked over.
 
-const FORMATS = [["seconds", "seconds"], ["iso", "date and time"], ["clock", "time of the day"], ["date clock", "date, time of the day"], ["gps", "GPS week, second"]];
+const FORMATS = [["seconds", "seconds"], ["iso", "date and time"], ["d/m/y", "day/month/year"], ["m/d/y", "month/day/year"], ["clock", "time of the day"], ["date clock", "date, time of the day"], ["gps", "GPS week, second"]];
 const AXES = ["x", "y", "z", "-x", "-y", "-z"];
 const OPEN = "?";
 
