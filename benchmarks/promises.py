@@ -23,10 +23,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.columns import EFFECT_PRIOR, grouped
 from ragg_runtime.estimation.fitted import Fitted, about, fit
-from ragg_runtime.estimation.linearise import Point, left
 from ragg_runtime.estimation.observation import Observation, observations_of
+from ragg_runtime.estimation.regressors import EFFECT_PRIOR, Point, grouped, left
 from ragg_runtime.identification import motion_design, next_motion
 from ragg_runtime.identification.selection import Field, field_of, testable_effects
 from ragg_runtime.io import Flight

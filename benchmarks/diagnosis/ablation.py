@@ -154,7 +154,7 @@ def _level(*args: Any) -> Any:
 
 def _scipy(linearise: Callable[[Array], Any], start: Array, most: int = 150, ceiling: float = np.inf) -> Any:
     """``scipy.optimize.least_squares`` on the triangles: residual [y, sqrt(rest)], Jacobian -R."""
-    from ragg_runtime.estimation.trust_region import Minimum, settled
+    from ragg_runtime.estimation.least_squares import Minimum, settled
 
     known: dict[bytes, Any] = {}
 
@@ -186,18 +186,18 @@ def _scipy(linearise: Callable[[Array], Any], start: Array, most: int = 150, cei
 # fmt: off
 RULES: tuple[Rule, ...] = (
     Rule("trust-region", "own trust region instead of scipy.optimize.least_squares",
-         (*OFF, ("strong", "white"), ("pair", "red")), ("estimation/trust_region.py",),
-         (Patch("estimation.calibrate:minimise", _scipy, constant=True),)),
+         (*OFF, ("strong", "white"), ("pair", "red")), ("estimation/least_squares.py",),
+         (Patch("estimation.calibration:minimise", _scipy, constant=True),)),
     Rule("line-rival", "a line beside a multiple of the spin rate in the place of an effect",
          (*quiet("near-line"), ("ten", "white"), ("quiet", "spin-off")), ("identification/line_rival.py",),
          (Patch("identification.diagnose:line_rival", lambda *a: (None, ()), acts=lambda r: r[0] is not None or bool(r[1])),)),
     Rule("jumps", "jumps of the output are fitted beside the columns before the noise is estimated",
          (*quiet("jump"), ("ten", "red"), ("five", "white")),
-         ("estimation/disturbances.py:_jumps", "estimation/left_over.py"),
-         (Patch("estimation.disturbances:_jumps", _empty), Patch("estimation.left_over:_jump", _nothing))),
+         ("estimation/residual.py:_jumps", "estimation/residual.py"),
+         (Patch("estimation.residual:_jumps", _empty), Patch("estimation.residual:_jump", _nothing))),
     Rule("lines", "lines of the output are fitted beside the columns before the noise is estimated",
-         (*quiet("line", "mains"), ("outside", "white")), ("estimation/disturbances.py:_lines",),
-         (Patch("estimation.disturbances:_lines", _empty),)),
+         (*quiet("line", "mains"), ("outside", "white")), ("estimation/residual.py:_lines",),
+         (Patch("estimation.residual:_lines", _empty),)),
     Rule("noise-level", "the noise's level follows time, motion, angle or gaps",
          (*quiet("ramp", "along-axes", "with-ax", "with-size", "cyclic"), ("ten", "along-axes"), ("ten", "ramp")),
          ("estimation/noise_level.py", "estimation/noise.py:_level"),
@@ -208,7 +208,7 @@ RULES: tuple[Rule, ...] = (
          (Patch("identification.selection:uneven.telling", lambda blocks: (), acts=lambda r: bool(r)),
           Patch("identification.omnibus:Scores.inflation", lambda self, places: np.ones(len(places))),)),
     Rule("off-sheet", "a sheet is taken to be less sure than it says where the record says so",
-         (*OFF, ("ten", "elsewhere")), ("estimation/off_sheet.py:widened", "estimation/off_sheet.py:_widths"),
+         (*OFF, ("ten", "elsewhere")), ("estimation/calibration.py:widened", "estimation/calibration.py:_widths"),
          (Patch("estimation.fitted:widened", _nothing),)),
     Rule("time-varying", "generic terms that come and go",
          (*OUTSIDE, ("quiet", "ramp")), ("identification/time_varying.py", "identification/omnibus.py:_varying"),
@@ -235,11 +235,11 @@ RULES: tuple[Rule, ...] = (
          (("ten", "elsewhere"), *OFF), ("identification/sheet.py",),
          (Patch("identification.sheet:doubtful", _nothing),)),
     Rule("switching", "samples at which a switch's side is open, and the ends of late motion, are left out",
-         (("strong", "white"), ("ten", "white"), ("pair", "elsewhere")), ("estimation/switching.py",),
+         (("strong", "white"), ("ten", "white"), ("pair", "elsewhere")), ("estimation/thinning.py",),
          (Patch("estimation.fitted:certain", lambda m, i, o: o), Patch("identification.contenders:certain", lambda m, i, o: o))),
     Rule("loud-fit", "where more is left than noise all samples weigh the same",
-         (*OUTSIDE, ("strong", "red"), ("off-sheet", "red")), ("estimation/calibrate.py:_loud", "estimation/calibrate.py:_Unweighted"),
-         (Patch("estimation.calibrate:MISFIT", np.inf, constant=True),)),
+         (*OUTSIDE, ("strong", "red"), ("off-sheet", "red")), ("estimation/calibration.py:_loud", "estimation/calibration.py:_Unweighted"),
+         (Patch("estimation.calibration:MISFIT", np.inf, constant=True),)),
     Rule("step-instant", "the instant of a step is refined to the sample, through the filter",
          (("ten", "white"), ("strong", "red"), *quiet("jump")), ("identification/steps.py:refined", "identification/steps.py:sharpened"),
          (Patch("identification.steps:refined", lambda prepared, step, *a: step),

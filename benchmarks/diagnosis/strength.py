@@ -20,10 +20,9 @@ from scipy.interpolate import BSpline
 
 from benchmarks.diagnosis.plan import World
 from benchmarks.diagnosis.records import Loudness
-from ragg_runtime.estimation import columns as design
-from ragg_runtime.estimation.columns import Column
-from ragg_runtime.estimation.linearise import Point, linearised
+from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.observation import observe
+from ragg_runtime.estimation.regressors import Column, Point, linearised
 from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import packaged

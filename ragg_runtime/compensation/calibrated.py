@@ -12,13 +12,11 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.estimation.columns import Column
 from ragg_runtime.estimation.fitted import Fitted, fit, noise_floor
-from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.estimation.score import Error
-from ragg_runtime.estimation.segments import ROWS
-from ragg_runtime.estimation.square_root import join, with_prior
-from ragg_runtime.estimation.trust_region import Linear
+from ragg_runtime.estimation.least_squares import Linear, join, with_prior
+from ragg_runtime.estimation.observation import ROWS, observations_of
+from ragg_runtime.estimation.regressors import Column
+from ragg_runtime.estimation.scores import Error
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.parameters import (
     SEEN,

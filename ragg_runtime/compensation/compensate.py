@@ -29,12 +29,11 @@ from ragg_runtime.compensation.series import (
     series,
     whole,
 )
-from ragg_runtime.estimation.calibrate import Calibration
+from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.observation import Observation, observations_of
-from ragg_runtime.estimation.score import Tally, finite
-from ragg_runtime.estimation.segments import ROWS, Segment, spread
+from ragg_runtime.estimation.observation import ROWS, Observation, Segment, observations_of, spread
+from ragg_runtime.estimation.scores import Tally, finite
 from ragg_runtime.estimation.spectrum import periodogram
 from ragg_runtime.estimation.unknown_gradient import spin_frequency
 from ragg_runtime.instrument.instrument import Instrument

@@ -19,8 +19,8 @@ from scipy import optimize
 from ragg_runtime.compensation.calibrated import base, inverse
 from ragg_runtime.compensation.series import Stretch, stretch_of
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.segments import BLOCKS, block_edges
-from ragg_runtime.estimation.square_root import join
+from ragg_runtime.estimation.least_squares import join
+from ragg_runtime.estimation.observation import BLOCKS, block_edges
 from ragg_runtime.io import Flight
 
 Array = NDArray[np.float64]

@@ -16,16 +16,13 @@ from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation import calibrated
 from ragg_runtime.compensation.saved import Saved, read
-from ragg_runtime.estimation.calibrate import Calibration
-from ragg_runtime.estimation.columns import base_columns
+from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, about
-from ragg_runtime.estimation.linearise import Point
+from ragg_runtime.estimation.least_squares import join
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.observation import Observation, observations_of
-from ragg_runtime.estimation.score import Error, finite
-from ragg_runtime.estimation.segments import segments, spread
-from ragg_runtime.estimation.significance import log_sf
-from ragg_runtime.estimation.square_root import join
+from ragg_runtime.estimation.observation import Observation, observations_of, segments, spread
+from ragg_runtime.estimation.regressors import Point, base_columns
+from ragg_runtime.estimation.scores import Error, finite, log_sf
 from ragg_runtime.identification import comparison as compare
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.instrument.form import ANGLE_ORIGINS

@@ -20,11 +20,9 @@ from ragg_runtime.compensation.compensate import seeing, without_gradients
 from ragg_runtime.compensation.frozen import information
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.compensation.series import Quality
-from ragg_runtime.estimation.columns import Column, base_columns, own_columns, spelt
-from ragg_runtime.estimation.linearise import Point, linearised
-from ragg_runtime.estimation.observation import Observation, as_output, observations_of
-from ragg_runtime.estimation.segments import ROWS
-from ragg_runtime.estimation.square_root import of_some
+from ragg_runtime.estimation.least_squares import of_some
+from ragg_runtime.estimation.observation import ROWS, Observation, as_output, observations_of
+from ragg_runtime.estimation.regressors import Column, Point, base_columns, linearised, own_columns, spelt
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings
 from ragg_runtime.io import Flight

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.regressors import Column
 
 Array = NDArray[np.float64]
 

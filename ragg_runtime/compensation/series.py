@@ -15,12 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.compensation.calibrated import base, inverse, with_sheet
-from ragg_runtime.estimation.calibrate import Calibration
+from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.observation import Observation, as_output
-from ragg_runtime.estimation.score import Stretch as Stretched
-from ragg_runtime.estimation.segments import BLOCKS, block_edges
-from ragg_runtime.estimation.square_root import join
+from ragg_runtime.estimation.least_squares import join
+from ragg_runtime.estimation.observation import BLOCKS, Observation, as_output, block_edges
+from ragg_runtime.estimation.scores import Stretch as Stretched
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
 from ragg_runtime.instrument.parameters import PARAMETERS

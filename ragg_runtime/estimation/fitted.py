@@ -12,19 +12,15 @@ from scipy import linalg
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.estimation import calibrate, columns, prepared_flight
-from ragg_runtime.estimation.calibrate import Calibration
-from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation import calibration, regressors, whitening
+from ragg_runtime.estimation.calibration import QUIET, Calibration, widened
+from ragg_runtime.estimation.least_squares import fold, prior, with_prior
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.observation import Observation
-from ragg_runtime.estimation.off_sheet import QUIET, widened
-from ragg_runtime.estimation.passes import Piece
-from ragg_runtime.estimation.prepared_flight import PreparedFlight
-from ragg_runtime.estimation.score import Error, Stretch, Tally, pooled
-from ragg_runtime.estimation.segments import BLOCKS
-from ragg_runtime.estimation.square_root import fold, prior, with_prior
-from ragg_runtime.estimation.switching import certain
-from ragg_runtime.estimation.thinning import beyond
+from ragg_runtime.estimation.observation import BLOCKS, Observation
+from ragg_runtime.estimation.regressors import Column
+from ragg_runtime.estimation.scores import Error, Stretch, Tally, pooled
+from ragg_runtime.estimation.thinning import beyond, certain
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
@@ -142,7 +138,7 @@ class Fitted:
 
     @property
     def size(self) -> int:
-        """Number of columns, base and candidates."""
+        """Number of regressors, base and candidates."""
         return int(self.triangles[0][0].shape[1]) - 1
 
     @property
@@ -187,7 +183,7 @@ class Fitted:
         return np.asarray(np.linalg.qr(np.vstack([self.data[:, picked], sheet]), mode="r"))
 
     def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
-        """Fit of base and ``extra`` candidate columns, in scales, with its covariance, priors included.
+        """Fit of base and ``extra`` candidate regressors, in scales, with its covariance, priors included.
 
         With ``held_out`` only the blocks of :data:`FITTED_BLOCKS` are fitted. The null biases take the residual's mean.
         """
@@ -199,12 +195,12 @@ class Fitted:
         R = np.vstack([T[:n, picked], np.hstack([np.zeros((k - n, n)), below[: k - n, : k - n]])])
         inverse, _ = linalg.lapack.dtrtri(R)
         blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
-        biases = columns.null_biases(self.calibration.columns)
+        biases = regressors.null_biases(self.calibration.columns)
         coefficients = inverse @ np.concatenate([T[:n, -1], below[: k - n, -1]])
         for place in dict.fromkeys(o.place for o in self.observations):
             own = [x[blocks] for x, o in zip(self.sums, self.observations, strict=True) if o.place == place]
             sums = np.sum(own, axis=(0, 1))[[*picked, -1]]
-            coefficients = columns.levelled(coefficients, sums, biases)
+            coefficients = regressors.levelled(coefficients, sums, biases)
         return coefficients, inverse @ inverse.T
 
     def vector(self, coefficients: Array, extra: Sequence[int] = ()) -> Array:
@@ -219,7 +215,7 @@ class Fitted:
         return self.residuals_of(self.vector(coefficients, extra))
 
     def residuals_of(self, v: Array) -> list[Array]:
-        """The same with the coefficients of all columns, (size,)."""
+        """The same with the coefficients of all regressors, (size,)."""
         flights = [x.for_residuals(v[None]) for x in self.prepared]
         return [np.concatenate([*lean.each(partial(_left, w), whitened=False)]) for lean, w in flights]
 
@@ -278,14 +274,14 @@ def calibrated(
     """The parameters, and the instrument with a sheet as sure as the record says it is (``off_sheet.widened``), if that brings what
     is left down to noise.
     """
-    c = calibrate.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
+    c = calibration.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
     found = instrument, c
     for _ in range(WIDENED):
         wider = widened(model, instrument, c)
         if wider is None:
             break
         instrument = wider
-        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p, unweighted=unweighted)
+        c = calibration.fit(model, instrument, observations, noise=noise, start=c.p, unweighted=unweighted)
     return (instrument, c) if c.excess <= QUIET else found
 
 
@@ -329,8 +325,8 @@ def about(
     candidates: bool = True,
 ) -> Fitted:
     """The evidence about a calibration, however it was found; of its parameters alone without ``candidates``."""
-    prepared = prepared_flight.prepare(model, instrument, observations, c, candidates=candidates)
-    triangles, sums = zip(*(prepared_flight.blocks(x) for x in prepared), strict=True)
+    prepared = whitening.prepare(model, instrument, observations, c, candidates=candidates)
+    triangles, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
     return Fitted(
         model=model,
         instrument=instrument,
@@ -339,7 +335,7 @@ def about(
         prepared=prepared,
         triangles=triangles,
         sums=sums,
-        to_nominal=prepared_flight.to_nominal(model, instrument, c),
+        to_nominal=whitening.to_nominal(model, instrument, c),
         scales=tuple(scale_factor(model, c.p, o.place) for o in observations),
     )
 

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy import interpolate
 
 from ragg_runtime.base.threads import stretches
+from ragg_runtime.estimation.least_squares import orthonormal
 from ragg_runtime.estimation.observation import Observation
-from ragg_runtime.estimation.square_root import orthonormal
 from ragg_runtime.model.record import GRADIENTS, quantities_of
 from ragg_runtime.signals.fir import Floats
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.score import error
+from ragg_runtime.estimation.scores import error
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.evaluate import output, unit_factor
 from ragg_runtime.wording import numbers

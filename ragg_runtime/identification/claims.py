@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy.special import fdtri
 
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, HELD_OUT_BLOCKS, Fitted
-from ragg_runtime.estimation.significance import INDISTINGUISHABLE, log_sf, log_sf_f
+from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf, log_sf_f
 from ragg_runtime.identification.likelihood_ratio import TESTABLE, log_bayes
 from ragg_runtime.identification.omnibus import Found, Omnibus, Remainder
 

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.estimation import columns, fitted, unknown_gradient
+from ragg_runtime.estimation import fitted, regressors, unknown_gradient
+from ragg_runtime.estimation.calibration import OffSheet, off_sheet
 from ragg_runtime.estimation.fitted import Fitted, Scored, fit, noise_floor, swell
 from ragg_runtime.estimation.observation import as_output, observations_of
-from ragg_runtime.estimation.off_sheet import OffSheet, off_sheet
-from ragg_runtime.estimation.passes import Piece
-from ragg_runtime.estimation.score import Error, channels
+from ragg_runtime.estimation.scores import Error, channels
+from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import selection, series, several_outputs
 from ragg_runtime.identification.dictionary import carrier, harmonics
 from ragg_runtime.identification.omnibus import Remainder, remainder, terms_json
@@ -229,7 +229,7 @@ def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
 
 
 def errors(f: Fitted, coefficients: Sequence[Array]) -> list[Scored]:
-    """How large the residuals are with these coefficients of the base columns, and with the nominal values (last)."""
+    """How large the residuals are with these coefficients of the base regressors, and with the nominal values (last)."""
     p = f.sheet
     return f.score([f.vector(c) for c in coefficients], lambda x: nominal_residual(f, p, x)[None], 1)
 
@@ -294,7 +294,7 @@ def disturbed(f: Fitted) -> str | None:
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     """Residual of G_out, (N,) V, of a piece of a flight with these values; no unknown gradient."""
     o = piece.observation
-    predicted = columns.observed(o, voltages(f.model.chain, *about(f.model, o.record, p), o.output), None)
+    predicted = regressors.observed(o, voltages(f.model.chain, *about(f.model, o.record, p), o.output), None)
     (left,) = piece.observed(np.where(o.record.valid, o.data - predicted, 0.0)[None])
     return np.asarray(left)
 
@@ -367,11 +367,11 @@ def climb(
 def _rung(f: Fitted, p: Array, below: tuple[Model, Array] | None) -> Rung:
     def further(piece: Piece) -> Array:
         o = piece.observation
-        here = columns.observed(o, voltages(f.model.chain, o.record, p, o.output), None)
+        here = regressors.observed(o, voltages(f.model.chain, o.record, p, o.output), None)
         found = [o.data - here]
         if below is not None:
             found.append(
-                here - columns.observed(o, voltages(below[0].chain, o.record, below[1], o.output), None)
+                here - regressors.observed(o, voltages(below[0].chain, o.record, below[1], o.output), None)
             )
         return piece.observed(np.stack([np.where(o.record.valid, x, 0.0) for x in found]))
 

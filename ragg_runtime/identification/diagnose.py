@@ -15,15 +15,15 @@ from numpy.typing import NDArray
 from scipy.special import expit
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.estimation import columns as design
 from ragg_runtime.estimation import fitted as fitted_
-from ragg_runtime.estimation import prepared_flight
+from ragg_runtime.estimation import regressors as design
+from ragg_runtime.estimation import whitening
+from ragg_runtime.estimation.calibration import QUIET, off_sheet
 from ragg_runtime.estimation.fitted import Fitted, Scored, calibrated, fit
 from ragg_runtime.estimation.observation import Observation, observations_of
-from ragg_runtime.estimation.off_sheet import QUIET, off_sheet
-from ragg_runtime.estimation.passes import Piece
-from ragg_runtime.estimation.score import Error
+from ragg_runtime.estimation.scores import Error
 from ragg_runtime.estimation.thinning import thinned
+from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import (
     claims,
     comparison,
@@ -594,7 +594,7 @@ def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Va
     random = _random_columns(f)
     searches, counted = [], []
     for x, triangles in zip(f.prepared, f.triangles, strict=True):
-        taken = prepared_flight.projector(triangles, f.n_base, given)
+        taken = whitening.projector(triangles, f.n_base, given)
         lean, projector, places = taken.lean(x, list(random.values()))
 
         def variances(piece: Piece, y: Array, places: Sequence[int] = places) -> dict[str, Variance]:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import series_name
-from ragg_runtime.estimation.segments import segments
+from ragg_runtime.estimation.observation import segments
 from ragg_runtime.identification import features
 from ragg_runtime.identification.features import Relaxations
 from ragg_runtime.io.record import is_disc_angle

@@ -12,10 +12,9 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import HELD_OUT_BLOCKS, Fitted
-from ragg_runtime.estimation.observation import as_output
-from ragg_runtime.estimation.passes import Piece, flight_segments, passed
-from ragg_runtime.estimation.segments import BLOCKS, ROWS
-from ragg_runtime.estimation.square_root import join, triangle
+from ragg_runtime.estimation.least_squares import join, triangle
+from ragg_runtime.estimation.observation import BLOCKS, ROWS, as_output
+from ragg_runtime.estimation.whitening import Piece, flight_segments, passed
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import Field, field_of
 

@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from scipy import special
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.estimation import prepared_flight
-from ragg_runtime.estimation.passes import Piece
-from ragg_runtime.estimation.prepared_flight import PreparedFlight
+from ragg_runtime.estimation import whitening
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 from ragg_runtime.identification import omnibus
 from ragg_runtime.identification.dictionary import Term, harmonics
 from ragg_runtime.identification.omnibus import Scores, Sums
@@ -38,7 +37,7 @@ def heat(
     prepared: PreparedFlight, triangles: Sequence[Array], n_base: int, given: Sequence[int] = ()
 ) -> Heat:
     """The scores of all terms once base and ``given`` candidate columns are projected out, in one pass."""
-    prepared, projector, _ = prepared_flight.projector(triangles, n_base, given).lean(prepared)
+    prepared, projector, _ = whitening.projector(triangles, n_base, given).lean(prepared)
     scores = Scores(prepared, projector)
 
     def own(piece: Piece) -> Sums:

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from ragg_runtime.estimation.columns import Column
 from ragg_runtime.estimation.noise_level import excess
-from ragg_runtime.estimation.passes import Piece
-from ragg_runtime.estimation.significance import log_sf
+from ragg_runtime.estimation.regressors import Column
+from ragg_runtime.estimation.scores import log_sf
+from ragg_runtime.estimation.whitening import Piece
 
 Array = NDArray[np.float64]
 

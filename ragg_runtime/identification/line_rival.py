@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.estimation import prepared_flight, unknown_gradient
+from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.passes import Piece
-from ragg_runtime.estimation.prepared_flight import PreparedFlight, Projector
-from ragg_runtime.estimation.significance import INDISTINGUISHABLE
+from ragg_runtime.estimation.scores import INDISTINGUISHABLE
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector
 from ragg_runtime.identification import selection
 from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.omnibus import Found, Remainder
@@ -198,7 +197,7 @@ def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
     r = x.observation.record
     if not r.turning:
         return None
-    x, projector, _ = prepared_flight.projector(f.triangles[0], f.n_base, given).lean(x)
+    x, projector, _ = whitening.projector(f.triangles[0], f.n_base, given).lean(x)
     width = 1.0 / float(r.time[-1] - r.time[0])
     offsets = np.arange(-REACH, REACH + STEP / 2, STEP) * width
     found = np.concatenate([m * r.spin_frequency + offsets for m in MULTIPLES])

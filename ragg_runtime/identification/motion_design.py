@@ -18,10 +18,10 @@ from scipy import linalg, optimize
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.least_squares import triangle
 from ragg_runtime.estimation.observation import as_output
-from ragg_runtime.estimation.passes import Piece
-from ragg_runtime.estimation.score import channels
-from ragg_runtime.estimation.square_root import triangle
+from ragg_runtime.estimation.scores import channels
+from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification.next_motion import (
     AT_REST,
     AXES,

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.linearise import Point, linearised
-from ragg_runtime.estimation.square_root import orthonormal, triangle
+from ragg_runtime.estimation.least_squares import orthonormal, triangle
+from ragg_runtime.estimation.regressors import Point, linearised
 from ragg_runtime.identification.selection import Field
 from ragg_runtime.io.record import is_disc_angle
 

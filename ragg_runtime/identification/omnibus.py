@@ -16,13 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.estimation import prepared_flight, unknown_gradient
+from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise import line_width
-from ragg_runtime.estimation.passes import Piece, flight_segments
-from ragg_runtime.estimation.prepared_flight import PreparedFlight, Projector
-from ragg_runtime.estimation.segments import BLOCKS
-from ragg_runtime.estimation.significance import INDISTINGUISHABLE, log_sf_t
+from ragg_runtime.estimation.observation import BLOCKS
+from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, flight_segments
 from ragg_runtime.identification.dictionary import Dictionary, Term
 from ragg_runtime.identification.features import term_unit
 from ragg_runtime.identification.spectral_line import Periodogram
@@ -412,7 +411,7 @@ def remainder(f: Fitted, given: Sequence[int] = (), only: int | None = None) -> 
     """Search what is left once base and ``given`` candidate columns are projected out."""
     found = []
     for x, triangles in zip(f.prepared, f.triangles, strict=True):
-        lean, projector, _ = prepared_flight.projector(triangles, f.n_base, given).lean(x)
+        lean, projector, _ = whitening.projector(triangles, f.n_base, given).lean(x)
         found.append(search(lean, projector, lambda piece, y: None, only)[0])
     return Remainder(tuple(found))
 

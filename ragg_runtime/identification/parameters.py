@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.columns import Column, spelt
 from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.regressors import Column, spelt
 from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.model.evaluate import named
 from ragg_runtime.model.model import Model

@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ragg_runtime.estimation.columns import Column
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.score import Error, finite
-from ragg_runtime.estimation.significance import INDISTINGUISHABLE
+from ragg_runtime.estimation.regressors import Column
+from ragg_runtime.estimation.scores import INDISTINGUISHABLE, Error, finite
 from ragg_runtime.identification import likelihood_ratio, probability, selection, sheet
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.parameters import ParameterValue, parameter_values, visible_combinations

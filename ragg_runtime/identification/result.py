@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.estimation.calibration import OffSheet
 from ragg_runtime.estimation.fitted import Fitted, Scored
-from ragg_runtime.estimation.off_sheet import OffSheet
-from ragg_runtime.estimation.score import Error
+from ragg_runtime.estimation.scores import Error
 from ragg_runtime.identification import as_effect, series
 from ragg_runtime.identification.comparison import Explained
 from ragg_runtime.identification.features import channel_unit

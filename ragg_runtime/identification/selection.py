@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.estimation.columns import Column, grouped
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.significance import INDISTINGUISHABLE
+from ragg_runtime.estimation.regressors import Column, grouped
+from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.identification import likelihood_ratio, sheet, uneven
 from ragg_runtime.identification.likelihood_ratio import Test
 

@@ -18,7 +18,7 @@ from scipy.special import logsumexp
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.square_root import triangle, with_prior
+from ragg_runtime.estimation.least_squares import triangle, with_prior
 
 Array = NDArray[np.float64]
 

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import series_name
 from ragg_runtime.estimation.fitted import Fitted, estimated
-from ragg_runtime.estimation.prepared_flight import PreparedFlight
-from ragg_runtime.estimation.score import finite
-from ragg_runtime.estimation.segments import BLOCKS
+from ragg_runtime.estimation.observation import BLOCKS
+from ragg_runtime.estimation.scores import finite
+from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.signals.demodulate import CUTOFF, WIDTH, low_pass
 from ragg_runtime.signals.derivative import stretches
 

@@ -11,11 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.estimation import columns
+from ragg_runtime.estimation import regressors
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.observation import Observation, as_output
-from ragg_runtime.estimation.score import channels, error
-from ragg_runtime.estimation.segments import segments
+from ragg_runtime.estimation.observation import Observation, as_output, segments
+from ragg_runtime.estimation.scores import channels, error
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.model.evaluate import voltages
 from ragg_runtime.model.record import GRADIENTS
@@ -156,7 +155,7 @@ def _predicted(f: Fitted, o: Observation, gradient: Mapping[str, Array]) -> Arra
     wide = {name: x for name, x in o.record.wide.items() if name not in GRADIENTS} | dict(gradient)
     other = replace(o.record, wide=wide)
     volts = voltages(f.model.chain, other, f.calibration.p, o.output)
-    return columns.observed(replace(o, record=other), volts, None)
+    return regressors.observed(replace(o, record=other), volts, None)
 
 
 def errors(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:

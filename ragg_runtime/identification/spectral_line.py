@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ragg_runtime.estimation.passes import Piece
-from ragg_runtime.estimation.significance import log_sf_f
+from ragg_runtime.estimation.scores import log_sf_f
+from ragg_runtime.estimation.whitening import Piece
 
 Array = NDArray[np.float64]
 

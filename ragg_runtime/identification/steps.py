@@ -13,12 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.columns import Column
-from ragg_runtime.estimation.passes import Piece, whitened_columns
-from ragg_runtime.estimation.prepared_flight import PreparedFlight, Projector
-from ragg_runtime.estimation.segments import BLOCKS, ROWS
-from ragg_runtime.estimation.square_root import below, fold, join, triangle
-from ragg_runtime.estimation.square_root import prior as prior_rows
+from ragg_runtime.estimation.least_squares import below, fold, join, triangle
+from ragg_runtime.estimation.least_squares import prior as prior_rows
+from ragg_runtime.estimation.observation import BLOCKS, ROWS
+from ragg_runtime.estimation.regressors import Column
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, whitened_columns
 from ragg_runtime.identification import likelihood_ratio
 from ragg_runtime.identification.likelihood_ratio import Test
 

@@ -12,14 +12,14 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation import prepared_flight
-from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation import whitening
+from ragg_runtime.estimation.calibration import QUIET
 from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation.least_squares import below, fold, prior
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.off_sheet import QUIET
-from ragg_runtime.estimation.segments import BLOCKS
-from ragg_runtime.estimation.significance import INDISTINGUISHABLE
-from ragg_runtime.estimation.square_root import below, fold, prior
+from ragg_runtime.estimation.observation import BLOCKS
+from ragg_runtime.estimation.regressors import Column
+from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.identification import contenders, selection
 from ragg_runtime.identification import steps as special
 from ragg_runtime.identification.contenders import Contest, Extend
@@ -285,7 +285,7 @@ def with_steps(
 
 def _sharpened(f: Fitted, step: _Found, places: Sequence[int]) -> int:
     everything = [t for own in f.triangles for t in own]
-    projector = prepared_flight.projector(everything, f.n_base, step.given)
+    projector = whitening.projector(everything, f.n_base, step.given)
     return special.sharpened(f.prepared, step.sample, projector, places)
 
 
@@ -294,7 +294,7 @@ def _from(f: Fitted, exact: Mapping[str, int]) -> Fitted:
     time = f.observations[0].record.time
     instants = {e: float(time[k]) for e, k in exact.items()}
     prepared = [replace(x.released(), at=replace(x.at, instants=instants)) for x in f.prepared]
-    triangles, sums = zip(*(prepared_flight.blocks(x) for x in prepared), strict=True)
+    triangles, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
     return replace(f, prepared=tuple(prepared), triangles=triangles, sums=sums)
 
 

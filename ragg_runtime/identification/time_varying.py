@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from ragg_runtime.estimation.passes import Piece
-from ragg_runtime.estimation.segments import block_edges
-from ragg_runtime.estimation.significance import log_sf
+from ragg_runtime.estimation.observation import block_edges
+from ragg_runtime.estimation.scores import log_sf
+from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification.whitened_terms import products, squares
 
 Array = NDArray[np.float64]

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.significance import log_sf
+from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 
 Array = NDArray[np.float64]

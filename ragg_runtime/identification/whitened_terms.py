@@ -17,8 +17,7 @@ from scipy import fft
 
 from ragg_runtime.base.threads import stretches
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.passes import Piece
-from ragg_runtime.estimation.prepared_flight import PreparedFlight
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 from ragg_runtime.identification.dictionary import Dictionary, Term
 from ragg_runtime.signals.fir import GROUP, filtered
 

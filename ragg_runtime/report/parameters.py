@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.columns import Column
 from ragg_runtime.estimation.fitted import Fitted, posterior
+from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.identification import parameters as combinations
 from ragg_runtime.identification.parameters import SEEN, UNSEEN
 from ragg_runtime.wording import describe, numbers

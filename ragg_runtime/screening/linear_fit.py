@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from ragg_runtime.estimation import columns as design
-from ragg_runtime.estimation.square_root import triangle
+from ragg_runtime.estimation import regressors as design
+from ragg_runtime.estimation.least_squares import triangle
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.evaluate import scale_factor, vector

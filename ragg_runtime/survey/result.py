@@ -17,7 +17,7 @@ from scipy import special
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.false_alarms import PROMISED, SURVEY
-from ragg_runtime.estimation.significance import log_sf
+from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.survey.task import Record
 from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.numbers import clean

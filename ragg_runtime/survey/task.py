@@ -24,7 +24,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.estimation.score import finite
+from ragg_runtime.estimation.scores import finite
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.diagnose import diagnose_fitted
 from ragg_runtime.identification.parameters import (

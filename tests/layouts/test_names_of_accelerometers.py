@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ragg_runtime.estimation.columns import base_columns, spelt
+from ragg_runtime.estimation.regressors import base_columns, spelt
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model import derive

@@ -10,7 +10,7 @@ import pytest
 
 from examples.mimu import record, story
 from examples.mimu.sheet import sheet
-from ragg_runtime.estimation.calibrate import Calibration
+from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification.sheet import doubtful

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ragg_runtime.estimation import fitted, observation, prepared_flight
+from ragg_runtime.estimation import fitted, observation, whitening
 from ragg_runtime.identification.omnibus import Scores
 from ragg_runtime.identification.whitened_terms import Directions
 from ragg_runtime.model import model
@@ -27,7 +27,7 @@ def scores_of(gradient_known: bool, samples: int) -> Scores:
         flight, time=flight.time[:samples], channels=channels, outputs=outputs, valid=flight.valid[:samples]
     )
     f = fitted.fit(model.packaged(), s.sheet, [observation.observe(flight, s.sheet)])
-    return Scores(f.prepared[0], prepared_flight.projector(f.triangles[0], f.n_base, ()))
+    return Scores(f.prepared[0], whitening.projector(f.triangles[0], f.n_base, ()))
 
 
 @pytest.mark.parametrize("samples", [5000, 5001])

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import signal
 
-from ragg_runtime.estimation.disturbances import disturbances, in_words
+from ragg_runtime.estimation.residual import disturbances, in_words
 from ragg_runtime.estimation.spectrum import LOWEST, estimate, without_lines
 
 RATE = 16.0

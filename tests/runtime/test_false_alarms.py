@@ -6,7 +6,7 @@ import numpy as np
 from scipy import stats
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.identification import omnibus, selection
 from ragg_runtime.identification.selection import Field
 from ragg_runtime.model.model import packaged

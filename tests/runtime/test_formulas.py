@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.estimation.segments import ROWS
+from ragg_runtime.estimation.observation import ROWS
 from ragg_runtime.identification import likelihood_ratio, probability, sequential
 
 ROOT = Path(__file__).parents[2]

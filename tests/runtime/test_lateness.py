@@ -7,7 +7,7 @@ import pytest
 
 from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.observation import observe
-from ragg_runtime.estimation.switching import certain
+from ragg_runtime.estimation.thinning import certain
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector

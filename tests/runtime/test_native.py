@@ -15,7 +15,7 @@ from derive.effects import catalogue
 from derive.pipeline import derive_model
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import observation
-from ragg_runtime.estimation.linearise import Point, linearised
+from ragg_runtime.estimation.regressors import Point, linearised
 from ragg_runtime.model.compiler import BuildError, build, find_compiler, load
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.evaluator import Evaluator, NativeWarning, _warn_once, changes

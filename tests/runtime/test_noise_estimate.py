@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation import calibrate, observation
-from ragg_runtime.estimation.left_over import left_over
+from ragg_runtime.estimation import calibration, observation
 from ragg_runtime.estimation.noise_level import estimated, in_words
-from ragg_runtime.estimation.significance import log_sf, log_sf_f, log_sf_t
+from ragg_runtime.estimation.residual import left_over
+from ragg_runtime.estimation.scores import log_sf, log_sf_f, log_sf_t
 from ragg_runtime.estimation.spectrum import estimate
 from ragg_runtime.estimation.unknown_gradient import splines
 from ragg_runtime.model import model
@@ -90,7 +90,7 @@ def test_where_all_samples_weigh_the_same_lines_are_noise() -> None:
     further = np.sqrt(2.0) * rms * np.sin(2 * np.pi * 5.1 * time)
     flight = replace(flight, outputs={n: x + further for n, x in flight.outputs.items()})
     o = observation.observe(flight, s.sheet)
-    c = calibrate.fit(model.packaged(), s.sheet, [o], unweighted=True)
+    c = calibration.fit(model.packaged(), s.sheet, [o], unweighted=True)
     (noise,) = c.noise
     assert noise.lines
     assert noise.spectra[0].rms < 0.6 * rms
@@ -236,5 +236,5 @@ def test_a_walk_that_is_slower_than_the_record_is_noise() -> None:
     flight = s.simulate().flight()
     walk = np.cumsum(np.random.default_rng(1).normal(size=len(flight.time))) * 4.0 * 1.6e-3 * 0.04
     flight = replace(flight, outputs={n: x + walk for n, x in flight.outputs.items()})
-    c = calibrate.fit(model.packaged(), s.sheet, [observation.observe(flight, s.sheet)])
+    c = calibration.fit(model.packaged(), s.sheet, [observation.observe(flight, s.sheet)])
     assert c.excess == pytest.approx(1.0, abs=0.1)

@@ -7,8 +7,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy import stats
 
-from ragg_runtime.estimation.columns import Column
-from ragg_runtime.estimation.score import Error
+from ragg_runtime.estimation.regressors import Column
+from ragg_runtime.estimation.scores import Error
 from ragg_runtime.identification.likelihood_ratio import STRENGTHS
 from ragg_runtime.identification.probability import HELD, Probabilities, weighed
 from ragg_runtime.identification.ranking import Ranked, with_probability

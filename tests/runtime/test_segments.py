@@ -7,19 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ragg_runtime.estimation import (
-    calibrate,
-    fitted,
-    observation,
-    passes,
-    prepared_flight,
-    score,
-    slow_noise,
-)
+from ragg_runtime.estimation import calibration, fitted, noise, observation, scores, whitening
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.linearise import Point
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.segments import BLOCKS, beginnings, segments, spread
+from ragg_runtime.estimation.observation import BLOCKS, beginnings, segments, spread
+from ragg_runtime.estimation.regressors import Point
 from ragg_runtime.identification import comparison, contenders, omnibus, selection, steps
 from ragg_runtime.identification.contenders import Left
 from ragg_runtime.identification.selection import field_of
@@ -62,10 +54,10 @@ def test_the_division_leaves_no_trace(
     o = observation.observe(flight, s.sheet)
     noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
     whole = fitted.fit(model.packaged(), s.sheet, [o], noise)
-    for module in (passes, prepared_flight):
+    for module in (whitening,):
         monkeypatch.setattr(module, "ROWS", 1700)
-    monkeypatch.setattr(passes, "EXCERPT", 1000)
-    assert len(passes.flight_segments(o)) > 5
+    monkeypatch.setattr(whitening, "EXCERPT", 1000)
+    assert len(whitening.flight_segments(o)) > 5
     parts = fitted.fit(model.packaged(), s.sheet, [o], noise)
     scale = np.array([c.scale for c in whole.calibration.columns])
     moved = (parts.calibration.p - whole.calibration.p)[whole.calibration.index] / scale
@@ -103,7 +95,7 @@ def test_single_missing_samples_do_not_silence_the_demodulator(flown: tuple[Scen
         assert b.cross_Eo == pytest.approx(a.cross_Eo, rel=0.1)
     gap = np.ones(1000, dtype=bool)
     gap[500:560] = False
-    heard = score.supported(np.ones((1, 1000), dtype=bool), gap, 101)[0]
+    heard = scores.supported(np.ones((1, 1000), dtype=bool), gap, 101)[0]
     assert not heard[460:500].any()  # windows with more than half of the gap
     assert heard[:400].all() and heard[560:].all()
 
@@ -115,17 +107,17 @@ def test_an_excerpt_tells_of_its_samples_what_the_whole_pass_tells(
     s, flight = flown
     o = observation.observe(flight, s.sheet)
     noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
-    monkeypatch.setattr(passes, "ROWS", 1700)
-    monkeypatch.setattr(passes, "EXCERPT", 3)
-    some = passes.excerpt(o)
-    heard = passes.heard(some)
-    assert len(heard) == 3 < len(passes.flight_segments(o))
+    monkeypatch.setattr(whitening, "ROWS", 1700)
+    monkeypatch.setattr(whitening, "EXCERPT", 3)
+    some = whitening.excerpt(o)
+    heard = whitening.heard(some)
+    assert len(heard) == 3 < len(whitening.flight_segments(o))
     assert heard[0].rows.start == 0 and heard[-1].rows.stop == len(flight.time)
-    assert passes.excerpt(some) is some
-    task = calibrate._Task.of(model.packaged(), s.sheet, [some])
+    assert whitening.excerpt(some) is some
+    task = calibration._Task.of(model.packaged(), s.sheet, [some])
     x = np.full(len(task.index), 0.01)
     found = task.at(x, noise)
-    monkeypatch.setattr(calibrate, "heard", lambda o: None)
+    monkeypatch.setattr(calibration, "heard", lambda o: None)
     expected = task.at(x, noise)
     assert found.rows == expected.rows == sum(r.rows.stop - r.rows.start for r in heard)
     assert found.cost == pytest.approx(expected.cost, rel=1e-10)
@@ -139,15 +131,15 @@ def test_a_long_flight_with_gaps_everywhere_has_no_means(
 ) -> None:
     """One output sample of three, or a third of the flight: the density is that of the segments, or of the means that are left."""
     s, flight = flown
-    monkeypatch.setattr(passes, "ROWS", 1700)
-    monkeypatch.setattr(slow_noise, "MEANS", 2400)
+    monkeypatch.setattr(whitening, "ROWS", 1700)
+    monkeypatch.setattr(noise, "MEANS", 2400)
     every, third = np.zeros((2, len(flight.time)), dtype=bool)
     every[::3] = third[3000:6200] = True
     for valid, there in ((every, False), (third, True), (np.ones_like(third), True)):
         x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
         o = observation.observe(x, s.sheet)
         at = Point(model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=True)
-        found = slow_noise.averages(at, o, NoiseModel.white(o.record.rate, len(o.series)))
+        found = noise.averages(at, o, NoiseModel.white(o.record.rate, len(o.series)))
         assert (found is not None) == there
         if found is not None:
             assert np.array_equal(found[0].rest != 0.0, valid.reshape(-1, 4).all(axis=1))
@@ -160,9 +152,9 @@ def test_contenders_of_a_long_flight_are_told_apart_on_an_excerpt(
     """The right effect, and only those fitted to everything that the excerpt left in the contest."""
     s, flight = flown
     short = diagnosed(s, flight)
-    for module in (passes, prepared_flight):
+    for module in (whitening,):
         monkeypatch.setattr(module, "ROWS", 1700)
-    monkeypatch.setattr(passes, "EXCERPT", 3)
+    monkeypatch.setattr(whitening, "EXCERPT", 3)
     fitted_to: list[int] = []
 
     def left(f: Fitted, *given: Any) -> Left:
@@ -187,7 +179,7 @@ def test_noise_slower_than_a_segment_is_seen_and_passes_for_no_effect(
     """
     s = scenario(seed, duration=1700.0, red_corner=0.3)
     flight = s.simulate().flight()
-    for module in (passes, prepared_flight, steps):
+    for module in (whitening, steps):
         monkeypatch.setattr(module, "ROWS", 1700)
     d = diagnosed(s, flight)
     assert (d.verdict, d.found) == ("adequate", ())

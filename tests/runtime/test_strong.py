@@ -13,7 +13,7 @@ import pytest
 
 import ragg_runtime.api as ragg
 from ragg_runtime.cli.main import main
-from ragg_runtime.estimation import calibrate
+from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification import contenders, strong
@@ -68,8 +68,8 @@ def test_the_calibrated_error_of_a_model_that_lacks_much_is_an_optimum(name: str
     assert not c.adequate
     assert c.calibrated.rms_Eo < c.nominal.rms_Eo
     # however the fit is weighted, and wherever it begins, there is no lower point
-    task = calibrate._Task.of(c.fitted.model, c.fitted.instrument, c.fitted.observations)
-    plain = calibrate._Unweighted(task)
+    task = calibration._Task.of(c.fitted.model, c.fitted.instrument, c.fitted.observations)
+    plain = calibration._Unweighted(task)
     rng = np.random.default_rng(1)
     for start in (np.zeros(len(task.index)), rng.standard_normal(len(task.index))):
         for share in (0.3, 0.1):
@@ -158,12 +158,12 @@ def test_a_parameter_far_off_its_sheet_is_fitted_and_named() -> None:
 
 @pytest.fixture
 def never_arrives(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = calibrate.minimise
+    found = calibration.minimise
 
     def stopped(*arguments: Any, **options: Any) -> Any:
         return dataclasses.replace(found(*arguments, **options), converged=False, reason="it was stopped")
 
-    monkeypatch.setattr(calibrate, "minimise", stopped)
+    monkeypatch.setattr(calibration, "minimise", stopped)
 
 
 def test_what_has_not_converged_says_so_and_adds_nothing(

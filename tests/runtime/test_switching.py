@@ -9,7 +9,7 @@ import pytest
 
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe
-from ragg_runtime.estimation.switching import certain
+from ragg_runtime.estimation.thinning import certain
 from ragg_runtime.estimation.unknown_gradient import windows
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import derive

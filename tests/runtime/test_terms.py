@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from derive.expression import from_expression
-from ragg_runtime.estimation import fitted, observation, prepared_flight
+from ragg_runtime.estimation import fitted, observation, whitening
 from ragg_runtime.identification import as_effect, comparison, features, omnibus
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.dictionary import Dictionary, Term
@@ -131,7 +131,7 @@ def scored() -> tuple[Scores, Array, Array]:
     """An effect-free flight: its scores, its whitened terms (float32) and the basis of what is projected out."""
     s = scenario(71, duration=300.0)
     f = fitted.fit(load.packaged(), s.sheet, [observation.observe(s.simulate({}).flight(), s.sheet)])
-    projector = prepared_flight.projector(f.triangles[0], f.n_base, ())
+    projector = whitening.projector(f.triangles[0], f.n_base, ())
     scores = Scores(f.prepared[0], projector)
     (piece,) = f.prepared[0].each(lambda p: p)
     Q = projector.basis(piece)

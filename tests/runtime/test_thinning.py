@@ -7,8 +7,8 @@ import pytest
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation import fitted, observation, thinning
-from ragg_runtime.estimation.linearise import Point, linearised
 from ragg_runtime.estimation.observation import Observation
+from ragg_runtime.estimation.regressors import Point, linearised
 from ragg_runtime.identification import diagnose as diagnosis
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import Instrument

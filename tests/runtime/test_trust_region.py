@@ -9,8 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import optimize
 
-from ragg_runtime.estimation.square_root import with_prior
-from ragg_runtime.estimation.trust_region import SETTLED, VALLEY, Linear, minimise, settled
+from ragg_runtime.estimation.least_squares import SETTLED, VALLEY, Linear, minimise, settled, with_prior
 
 Array = NDArray[np.float64]
 Residual = Callable[[Array], Array]

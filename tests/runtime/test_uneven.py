@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import linalg
 
-from ragg_runtime.estimation.columns import Column
+from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.identification import likelihood_ratio, selection, uneven
 from ragg_runtime.identification.selection import Field
 from ragg_runtime.model.record import Record

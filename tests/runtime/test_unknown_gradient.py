@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ragg_runtime.estimation.linearise import Point, linearised
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe
+from ragg_runtime.estimation.regressors import Point, linearised
 from ragg_runtime.estimation.unknown_gradient import windows, without
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector

@@ -11,8 +11,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy import stats
 
-from ragg_runtime.estimation import significance
-from ragg_runtime.estimation.passes import Piece
+from ragg_runtime.estimation import scores
+from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification.time_varying import BlockScores
 
 Array = NDArray[np.float64]
@@ -108,4 +108,4 @@ def test_tails_beyond_all_floats_are_known(ratio: float, d1: float, d2: float) -
     with mpmath.workdps(60):
         x = mpmath.mpf(d2) / (d2 + d1 * mpmath.mpf(ratio))
         expected = mpmath.log(mpmath.betainc(mpmath.mpf(d2) / 2, mpmath.mpf(d1) / 2, 0, x, regularized=True))
-    assert significance.log_sf_f(ratio, d1, d2) == pytest.approx(float(expected), rel=1e-3)
+    assert scores.log_sf_f(ratio, d1, d2) == pytest.approx(float(expected), rel=1e-3)

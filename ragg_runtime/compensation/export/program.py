@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.compensation.export.contents import DISC, Contents, Out, is_gradient, unit_of
-from ragg_runtime.estimation.columns import base_columns, own_columns
-from ragg_runtime.estimation.square_root import of_some
+from ragg_runtime.estimation.least_squares import of_some
+from ragg_runtime.estimation.regressors import base_columns, own_columns
 from ragg_runtime.io.angular_acceleration import REACH, wide_weights
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS
 from ragg_runtime.model.evaluate import vector

@@ -1,8 +1,8 @@
-"""The model's derivatives at a point of its parameters, as columns of a fit."""
+"""The model's derivatives at a point of its parameters, as regressors of a fit: which there are, and their values over a flight."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -10,17 +10,162 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import stretches
-from ragg_runtime.estimation import columns as design
-from ragg_runtime.estimation.columns import Column
 from ragg_runtime.estimation.observation import Observation, Thin, bridged
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.model.chain import Chain
+from ragg_runtime.model.evaluate import unit_factor
 from ragg_runtime.model.evaluator import Evaluator
 from ragg_runtime.model.lateness import about
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Effect, Model
 from ragg_runtime.model.record import made_of
 
 Array = NDArray[np.float64]
+
+UNOBSERVABLE = ("k_VI", "vartheta_x")
+"""Parameters that no record can tell: k_VI enters only as k_VI K1, vartheta_x not at the paper's order."""
+
+EFFECT_PRIOR = 10.0
+"""Width of the prior of an effect's parameter, in plausible sizes: what is missing may well surprise."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """One scalar parameter as a column of a fit: the derivative times ``scale``, the width of its prior, SI.
+
+    ``accelerometer`` is 1 ... n, or ``None`` if shared; ``unit_factor`` the display unit's SI value; ``effect`` the id of the
+    effect that brings it, ``None`` for the paper's instrument. What a calibration file does not hold (``symbol`` in LaTeX,
+    ``meaning``, ``accelerometer_name``) is empty.
+    """
+
+    name: str
+    accelerometer: int | None
+    scale: float
+    unit: str
+    unit_factor: float
+    effect: str | None
+    symbol: str = ""
+    meaning: str = ""
+    accelerometer_name: str = ""
+
+    @property
+    def label(self) -> str:
+        return self.name if self.accelerometer is None else f"{self.name}[{self.accelerometer}]"
+
+
+def spelt(accelerometer: int | None, name: str) -> dict[str, str]:
+    """What JSON says beside an accelerometer's number: its name on the sheet, where that is not A and the number."""
+    return {} if name in ("", f"A{accelerometer}") else {"accelerometer_name": name}
+
+
+def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int]]:
+    """The calibratable parameters of the model, each with its index in the parameter vector."""
+    known = units(instrument.g0)
+    found: list[tuple[Column, int]] = []
+    start = {}
+    position = 0
+    places = instrument.layout.names
+    for name, size in model.chain.PARAMETERS:
+        start[name] = position
+        position += size
+    for q in PARAMETERS:
+        if q.name in UNOBSERVABLE:
+            continue
+        factor = unit_factor(q.display_unit, known)
+        scales = instrument.sigma(q.name)
+        for j in range(instrument.layout.size):
+            column = Column(
+                name=q.name,
+                accelerometer=j + 1,
+                scale=float(scales[j]),
+                unit=q.display_unit,
+                unit_factor=factor,
+                effect=None,
+                symbol=q.symbol,
+                meaning=q.description,
+                accelerometer_name=places[j],
+            )
+            found.append((column, start[q.name] + j))
+    for e in model.effects:
+        if e.kind in ("deterministic", "step"):
+            found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in _of_effect(e, known, instrument)]
+    return found
+
+
+def own_columns(columns: Sequence[Column], instrument: Instrument, place: int) -> list[int]:
+    """Which of the fitted parameters an output's accelerometers have, or share with others."""
+    members = instrument.layout.outputs[place].members
+    return [k for k, c in enumerate(columns) if c.accelerometer is None or c.accelerometer - 1 in members]
+
+
+def candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
+    """The parameters of the effects that are not in the model, in the order of the signatures' rows."""
+    known = units(instrument.g0)
+    return [c for e in model.candidates if e.kind != "output" for c, _ in _of_effect(e, known, instrument)]
+
+
+def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Column, str]]:
+    columns = []
+    places = instrument.layout.names
+    for q in e.parameters:
+        if not q.fitted:
+            continue
+        factor = unit_factor(q.unit, known)
+        scale = EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like)
+        for j in (None,) if q.shared else range(1, instrument.layout.size + 1):
+            column = Column(
+                name=f"{e.id}.{q.name}",
+                accelerometer=j,
+                scale=scale,
+                unit=q.unit,
+                unit_factor=factor,
+                effect=e.id,
+                symbol=q.latex,
+                meaning=q.meaning,
+                accelerometer_name="" if j is None else places[j - 1],
+            )
+            columns.append((column, q.symbol))
+    return columns
+
+
+def heard(columns: Sequence[Column], instrument: Instrument, place: int) -> slice | NDArray[np.intp]:
+    """Which of these columns, and of the residual after them, are not zero in an output; a slice if there is one output."""
+    if len(instrument.layout.outputs) == 1:
+        return slice(None)
+    return np.array([*own_columns(columns, instrument, place), len(columns)], dtype=np.intp)
+
+
+def observed(o: Observation, v: Array, accelerometer: int | None) -> Array:
+    """What an observation sees of its output's voltages: (members, N), or (N,) of one accelerometer -> (m, N)."""
+    return o.recorded.through(o.recorded.of_voltages(o.output, v, accelerometer), o.record)
+
+
+def null_biases(columns: Sequence[Column]) -> list[int]:
+    """Places of the instrument's K0 among columns."""
+    return [n for n, c in enumerate(columns) if c.name == "K0" and c.effect is None]
+
+
+def levelled(coefficients: Array, sums: Array, biases: Sequence[int]) -> Array:
+    """Coefficients (n,) with those at ``biases`` shifted until the residual of G_out has no mean.
+
+    ``sums`` (n + 1,) are those of the columns and of the data over all samples; zeros: nothing is shifted.
+    """
+    own = sums[list(biases)]
+    shifted = coefficients.copy()
+    if np.any(own):
+        left = sums[-1] - sums[:-1] @ coefficients
+        shifted[list(biases)] += own * left / (own @ own)
+    return shifted
+
+
+def grouped(columns: Iterable[Column], offset: int = 0) -> dict[str, list[tuple[int, Column]]]:
+    """Effect id -> its (position, column)s."""
+    groups: dict[str, list[tuple[int, Column]]] = {}
+    for n, c in enumerate(columns):
+        if c.effect is not None:
+            groups.setdefault(c.effect, []).append((n + offset, c))
+    return groups
 
 
 @dataclass(frozen=True)
@@ -41,12 +186,12 @@ class Point:
     @cached_property
     def base(self) -> list[Column]:
         """The parameters of the model."""
-        return [c for c, _ in design.base_columns(self.model, self.instrument)]
+        return [c for c, _ in base_columns(self.model, self.instrument)]
 
     @cached_property
     def candidates(self) -> list[Column]:
         """Those of the candidate effects whose columns are wanted."""
-        every = design.candidate_columns(self.model, self.instrument) if self.with_candidates else []
+        every = candidate_columns(self.model, self.instrument) if self.with_candidates else []
         return every if self.only is None else [every[n] for n in self.only]
 
     @cached_property

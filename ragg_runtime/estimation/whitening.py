@@ -1,0 +1,378 @@
+"""Passes over a flight: segment after segment, linearised about a point, whitened; flights prepared for tests by R factors of blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base import progress
+from ragg_runtime.estimation import regressors as design
+from ragg_runtime.estimation import unknown_gradient
+from ragg_runtime.estimation.least_squares import join, triangle
+from ragg_runtime.estimation.observation import (
+    BLOCKS,
+    ROWS,
+    THINNER,
+    Observation,
+    Segment,
+    as_output,
+    block_edges,
+    segments,
+    spread,
+)
+from ragg_runtime.estimation.regressors import Point, linearised
+from ragg_runtime.estimation.unknown_gradient import Window
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import Record
+
+if TYPE_CHECKING:
+    from ragg_runtime.estimation.calibration import Calibration
+    from ragg_runtime.estimation.noise import NoiseModel
+
+Array = NDArray[np.float64]
+R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A segment of a flight about one parameter vector: N samples, m outputs.
+
+    ``columns`` (n + 1, m, N), V, are base (``n_base``) and candidates, each times its parameter's scale, and the residual;
+    ``white`` (n + 1, rows) the same whitened, one output after the other, an unknown gradient (``windows``) projected out;
+    ``sample`` (rows,) the flight's sample of each whitened row; ``heard`` the columns that are not zero.
+    """
+
+    segment: Segment
+    observation: Observation
+    columns: Array
+    n_base: int
+    white: Array
+    sample: NDArray[np.intp]
+    windows: Sequence[Window]
+    heard: slice | NDArray[np.intp]
+    noise: NoiseModel
+
+    def triangle(self, first: int = 0, stop: int | None = None) -> Array:
+        """Triangular factor (n + 1, n + 1) of the whitened columns: of the flight's samples from ``first`` on, before ``stop``."""
+        valid = int(np.count_nonzero(self.observation.record.valid))
+        ends = (first, self.segment.rows.stop if stop is None else stop)
+        a, b = (int(k) for k in np.searchsorted(self.sample[:valid], ends))
+        begins = range(0, max(1, self.white.shape[1]), max(1, valid))  # of every output
+        return triangle(np.concatenate([self.white[:, k + a : k + b] for k in begins], axis=1))
+
+    @property
+    def residual(self) -> Array:
+        """(m, N), V."""
+        return np.asarray(self.columns[-1])
+
+    def sums(self, some: slice = slice(None)) -> Array:
+        """(n + 1,), V: sums of the columns of G_out over some samples; zero of channels, which have lost their mean."""
+        weights = self.observation.signs * (not self.observation.recorded.demodulated)
+        return np.asarray(np.sum(self.columns[:, :, some], axis=2) @ weights)
+
+    def left(self, coefficients: Array) -> Array:
+        """Residuals of G_out (k, N), V, once columns have these coefficients (k, n); no unknown gradient."""
+        base, further = coefficients[:, : self.n_base], coefficients[:, self.n_base :]
+        e = self.columns[-1] - np.tensordot(base, self.columns[: base.shape[1]], 1)
+        for left, own in zip(e, further, strict=True):  # of an effect's fit all but a few are zero
+            few = np.flatnonzero(own)
+            if len(few):
+                left -= np.tensordot(own[few], self.columns[self.n_base + few], 1)
+        return self.observed(e)
+
+    def observed(self, e: Array) -> Array:
+        """What residuals of the series (k, m, N), V, are of G_out (k, N); no unknown gradient."""
+        e = unknown_gradient.without(e, self.windows, self.observation.record.valid)
+        return as_output(self.observation, e)
+
+
+def flight_segments(o: Observation) -> list[Segment]:
+    """The segments of a flight. Demodulated channels are not divided: their columns pass a two-sided filter."""
+    n = len(o.record.time)
+    if o.recorded.demodulated:
+        return segments(n, max(n, ROWS))
+    return segments(n, ROWS // THINNER if o.thin is not None and n > ROWS else ROWS)
+
+
+def longer(o: Observation) -> bool:
+    """Whether a flight is longer than what its noise is seen in at a time: of noise that is slower nothing is known."""
+    return len(flight_segments(o)) > 1
+
+
+def heard(o: Observation) -> list[Segment]:
+    """The segments of a flight that hold valid samples."""
+    return [s for s in flight_segments(o) if np.any(o.record.valid[s.rows])]
+
+
+EXCERPT = 4
+"""Most segments of an excerpt."""
+
+
+def excerpt(o: Observation) -> Observation:
+    """The observation with but some segments of a long flight valid, evenly spread: what is loud they tell as well as all."""
+    found = heard(o)
+    if len(found) <= EXCERPT:
+        return o
+    valid = np.zeros(len(o.record.time), dtype=np.bool_)
+    for s in spread(found, EXCERPT):
+        valid[s.rows] = o.record.valid[s.rows]
+    return replace(o, record=replace(o.record, valid=valid, whole=o.record.whole or o.record), memo=[])
+
+
+def passed(
+    at: Point,
+    o: Observation,
+    noise: NoiseModel,
+    work: Callable[[Piece], R],
+    *,
+    chosen: Sequence[Segment] | None = None,
+    whitened: bool = True,
+    effort: float = 0.0,
+) -> Iterator[R]:
+    """What ``work`` makes of every segment of a flight (or of the ``chosen``, in order); it must not keep a piece of several.
+
+    ``effort``: how many times as long ``work`` takes as making the piece. Unless ``whitened``, the columns alone are made.
+    """
+    n_base = len(at.base)
+    heard = design.heard([*at.base, *at.candidates], at.instrument, o.place)
+    found = flight_segments(o) if chosen is None else chosen
+    memory = noise.memory if whitened else 0
+    tail: Array | None = None
+    before = 0
+    share = (1.0 if at.with_candidates else 0.4) * (1.0 if whitened else 0.5) * (1.0 + effort)
+    for s in found:
+        part = o.part(s.rows)
+        columns = linearised(at, part)
+        flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
+        windows = unknown_gradient.windows(o, s.rows, noise)
+        if whitened:
+            tail = _past(tail, s.rows.start - before, memory)
+            flat = _white(columns, heard, noise, tail, part.record, windows)
+            tail, before = _carried(tail, columns, memory), s.rows.stop
+            sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, noise.outputs)
+        piece = Piece(
+            segment=s,
+            observation=part,
+            columns=columns,
+            n_base=n_base,
+            white=flat,
+            sample=sample,
+            windows=windows,
+            heard=heard,
+            noise=noise,
+        )
+        made = work(piece)
+        progress.step(share * (s.rows.stop - s.rows.start))
+        yield made
+
+
+def _white(
+    columns: Array,
+    heard: slice | NDArray[np.intp],
+    noise: NoiseModel,
+    tail: Array | None,
+    record: Record,
+    windows: Sequence[Window],
+) -> Array:
+    """(n + 1, rows): columns (n + 1, m, N) whitened, without what an unknown gradient spans; zero where nothing is heard."""
+    some = whitened_columns(columns[heard], noise, None if tail is None else tail[heard], record)
+    if windows:
+        some = some.copy() if np.shares_memory(some, columns) else some
+        unknown_gradient.project(some, windows)
+    if isinstance(heard, slice):
+        return some
+    flat = np.zeros((len(columns), some.shape[1]))
+    flat[heard] = some
+    return flat
+
+
+def whitened_columns(columns: Array, noise: NoiseModel, tail: Array | None, record: Record) -> Array:
+    """(n + 1, rows): columns (n + 1, m, N) of a record's samples, whitened."""
+    return noise.whiten(columns, record.valid, noise.level_of(record.quantity), tail=tail)
+
+
+def _past(tail: Array | None, gap: int, memory: int) -> Array | None:
+    """What a filter still remembers after so many zeros."""
+    if tail is None or gap >= memory:
+        return None
+    return np.pad(tail, ((0, 0), (0, 0), (0, gap)))[:, :, -memory:] if gap else tail
+
+
+def _carried(tail: Array | None, columns: Array, memory: int) -> Array | None:
+    """What a filter remembers once it has seen ``columns``."""
+    if memory == 0:
+        return None
+    n = columns.shape[2]
+    if n >= memory:
+        return columns[:, :, n - memory :]
+    kept = columns if tail is None else np.concatenate([tail, columns], axis=2)
+    return kept[:, :, -memory:]
+
+
+@dataclass(frozen=True)
+class PreparedFlight:
+    """One flight about the calibrated parameters.
+
+    A short flight keeps its columns in memory; those of a longer one are computed anew in every pass.
+    """
+
+    observation: Observation
+    noise: NoiseModel
+    at: Point
+    _kept: list[Piece] = field(default_factory=list, repr=False)
+
+    @property
+    def edges(self) -> NDArray[np.intp]:
+        """(BLOCKS + 1,): samples at which the blocks of time begin and end."""
+        return block_edges(len(self.observation.record.time))
+
+    def noise_psd(self, f: Array) -> Array:
+        """One-sided density of the noise of the output before demodulation at frequencies f, V^2/Hz."""
+        return self.noise.psd(f, self.observation.signs)
+
+    def each(self, work: Callable[[Piece], R], *, whitened: bool = True, effort: float = 0.0) -> Iterator[R]:
+        """What ``work`` makes of every segment, in order: one pass over the flight. It must not keep a segment."""
+        if self._kept:
+            return map(work, self._kept)
+        if not whitened or len(self.observation.record.time) > ROWS:
+            return passed(self.at, self.observation, self.noise, work, whitened=whitened, effort=effort)
+        self._kept.extend(passed(self.at, self.observation, self.noise, lambda piece: piece))
+        return map(work, self._kept)
+
+    def lean(self, places: Sequence[int]) -> tuple[PreparedFlight, list[int]]:
+        """What makes the columns of the base and those at ``places`` at least cost, and where it puts the latter."""
+        if self._kept:
+            return self, list(places)
+        n = len(self.at.base)
+        further = sorted({k - n for k in places if k >= n})
+        known = range(len(self.at.candidates)) if self.at.only is None else self.at.only
+        at = replace(self.at, with_candidates=bool(further), only=tuple(known[k] for k in further))
+        return replace(self, at=at, _kept=[]), [k if k < n else n + further.index(k - n) for k in places]
+
+    def for_residuals(self, v: Array) -> tuple[PreparedFlight, Array]:
+        """What yields residuals for coefficients v (k, size) at least cost, and these coefficients of its columns."""
+        n = len(self.at.base)
+        places = [*range(n), *(n + np.flatnonzero(np.any(v[:, n:], axis=0)))]
+        lean, own = self.lean(places)
+        w = np.zeros((len(v), v.shape[1] if lean is self else len(places)))
+        w[:, own] = v[:, places]
+        return lean, w
+
+    def with_steps(
+        self, instants: Mapping[str, float], places: Mapping[str, Sequence[int]]
+    ) -> PreparedFlight:
+        """The same with steps (effect -> instant, s; effect -> places of its columns). Kept columns move to it."""
+        moved = [k for e in instants for k in places[e]]
+        kept = list(self._kept)
+        self._kept.clear()
+        for piece in kept:  # a flight that is kept is one segment: the filter starts from rest
+            record = piece.observation.record
+            for e, instant in instants.items():
+                piece.columns[places[e], :, : int(np.searchsorted(record.time, instant))] = 0.0
+            part = whitened_columns(piece.columns[moved], self.noise, None, record)
+            unknown_gradient.project(part, piece.windows)
+            piece.white[moved] = part
+        return replace(self, at=replace(self.at, instants=instants), _kept=kept)
+
+    def released(self) -> PreparedFlight:
+        """The same without the columns."""
+        return replace(self, _kept=[])
+
+    def release(self) -> None:
+        """Free the memory of kept columns; should this flight be asked again, it computes them anew."""
+        self._kept.clear()
+
+
+def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
+    """Of the columns [base | candidates | residual]: triangles (n + 1, n + 1) of the whitened ones, one a block of
+    time, and (BLOCKS, n + 1), V: sums of the plain ones of G_out.
+    """
+    size = 1
+
+    def own(piece: Piece) -> list[tuple[int, Array, Array]]:
+        first = piece.segment.rows.start
+        return [
+            (
+                b,
+                piece.triangle(rows.start, rows.stop),
+                piece.sums(slice(rows.start - first, rows.stop - first)),
+            )
+            for b, rows in piece.segment.blocks
+        ]
+
+    triangles: list[Array | None] = [None] * BLOCKS
+    totals: list[Array | float] = [0.0] * BLOCKS
+    for parts in prepared.each(own):
+        for b, T, sums in parts:
+            size = len(T)
+            before = triangles[b]
+            triangles[b] = T if before is None else join([before, T])
+            totals[b] = totals[b] + sums
+    empty = np.zeros((size, size))
+    return (
+        tuple(empty if t is None else t for t in triangles),
+        np.stack([np.broadcast_to(x, size) for x in totals]),
+    )
+
+
+def prepare(
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    c: Calibration,
+    *,
+    candidates: bool,
+) -> tuple[PreparedFlight, ...]:
+    """Every flight about the calibrated parameters."""
+    at = Point(model, instrument, c.p, with_candidates=candidates)
+    return tuple(PreparedFlight(o, noise, at) for o, noise in zip(observations, c.noise, strict=True))
+
+
+def to_nominal(model: Model, instrument: Instrument, c: Calibration) -> Array:
+    """(n_base,): how far the nominal values are from the calibrated ones, in scales: the prior's centre."""
+    scale = np.array([q.scale for q in c.columns])
+    return np.asarray((vector(model, instrument)[c.index] - c.p[c.index]) / scale)
+
+
+@dataclass(frozen=True)
+class Projector:
+    """Takes whatever base and given columns can explain out of whitened rows.
+
+    Whitened columns (rows, len(taken)) times ``to_basis`` (len(taken), k) are orthonormal over all rows, without the directions
+    that the data see worse than the prior; ``along`` (k,) are the residual's components.
+    """
+
+    taken: NDArray[np.intp]
+    to_basis: Array
+    along: Array
+
+    def basis(self, piece: Piece) -> Array:
+        """(rows, k): the piece's rows of the orthonormal basis."""
+        return np.asarray(piece.white[self.taken].T @ self.to_basis)
+
+    def left(self, piece: Piece, Q: Array) -> Array:
+        """(rows,): the whitened residual less its components along the basis."""
+        return np.asarray(piece.white[-1] - Q @ self.along)
+
+    def lean(
+        self, x: PreparedFlight, further: Sequence[int] = ()
+    ) -> tuple[PreparedFlight, Projector, list[int]]:
+        """What makes the columns that are taken, and ``further`` ones, at least cost, with the places of both in it."""
+        x, places = x.lean([*self.taken, *further])
+        k = len(self.taken)
+        return x, replace(self, taken=np.array(places[:k], dtype=np.intp)), places[k:]
+
+
+def projector(triangles: Sequence[Array], n_base: int, given: Sequence[int]) -> Projector:
+    """The projector onto base and ``given`` candidate columns, from the block triangles of a flight."""
+    taken = np.array([*range(n_base), *(n_base + n for n in given)], dtype=np.intp)
+    T = join([t[:, [*taken, t.shape[1] - 1]] for t in triangles])
+    U, s, Vt = np.linalg.svd(T[:, :-1], full_matrices=False)
+    seen = s > 1.0
+    return Projector(taken, np.asarray(Vt[seen].T / s[seen]), np.asarray(U[:, seen].T @ T[:, -1]))
