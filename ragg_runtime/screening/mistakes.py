@@ -10,7 +10,7 @@ from itertools import combinations, permutations, product
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.columns import base_columns
+from ragg_runtime.estimation.regressors import base_columns
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units
