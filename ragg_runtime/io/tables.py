@@ -435,9 +435,9 @@ def split_lines(tables: Sequence[Table], column: str | None, where: Path | str |
     name = column or next((n for n in table.names if is_line(n)), None)
     if name is None:
         return [table]
-    values, first, inverse = np.unique(table.column(name).values, return_index=True, return_inverse=True)
+    values, inverse = _number_labels(table.column(name).values)
     texts = [line_name(v) for v in values]
-    named = list(dict.fromkeys(texts[k] for k in np.argsort(first) if texts[k]))
+    named = list(dict.fromkeys(filter(None, texts)))
     number = {text: k for k, text in enumerate(named)}
     which = np.array([number.get(text, -1) for text in texts], dtype=np.int64)[inverse]
     rest = replace(table, columns=tuple(c for c in table.columns if c.name != name))
@@ -460,6 +460,16 @@ def split_lines(tables: Sequence[Table], column: str | None, where: Path | str |
     return [
         replace(rest.rows(order[a:b]), line=text) for text, a, b in zip(named, edges, edges[1:], strict=False)
     ]
+
+
+def _number_labels(values: NDArray[Any]) -> tuple[list[Any], NDArray[np.int64]]:
+    """The different values in the order in which they appear, and which of them stands in every row."""
+    if values.dtype.kind == "O":
+        known = {text: k for k, text in enumerate(dict.fromkeys(values))}
+        return list(known), np.array([known[text] for text in values], dtype=np.int64)
+    different, first, inverse = np.unique(values, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    return different[order].tolist(), np.argsort(order)[inverse]
 
 
 def line_name(value: object) -> str:
