@@ -454,7 +454,7 @@ def level_quantities(r: Record) -> list[str]:
     names = ["time", *(f"abs({c})" for c in SPECIFIC_FORCE if c in r.wide)]
     names += [f"abs({c[0][:-2]})" for c in (ANGULAR_RATE, ANGULAR_ACCELERATION) if set(c) <= set(r.wide)]
     if set(SPECIFIC_FORCE) <= set(r.wide):
-        names += ["abs(a)", "in-plane", *(("input",) if r.turning else ())]
+        names += ["abs(a)", "input-rms", *(("input",) if r.turning else ())]
     names += sorted(n for n in r.wide if n not in MOTION and not is_disc_angle(n))
     names += ["phi"] if r.turning else []
     names += [] if r.valid.all() else ["gap"]

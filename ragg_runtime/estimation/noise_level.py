@@ -98,7 +98,7 @@ def shapes(quantity: Callable[[str], Array], names: Iterable[str], level: Level)
     for n in dict.fromkeys(names):
         if n not in SHAPELESS:
             x = quantity(n)
-            found += [x, x**2] if n.startswith("abs(") or n in ("in-plane", "input") else [x]
+            found += [x, x**2] if n.startswith("abs(") or n in ("input-rms", "input") else [x]
     weight = np.broadcast_to(level.of(quantity), found[0].shape) ** -2.0
     return np.stack([np.ones_like(weight), *(f * weight for f in found)])
 
@@ -226,7 +226,7 @@ def in_words(level: Level) -> str | None:
         "time": "in the course of the record",
         "phi": "with the angle of the disc",
         "gap": "next to gaps",
-        "in-plane": "with the specific force in the plane of the disc",
+        "input-rms": "with the specific force along the input axes",
         "input": "with the specific force along the input axes",
     }
     said = [f"{names.get(p.name, f'with {p.name}')} ({p.ratio:.2g} times)" for p in level.parts]

@@ -60,6 +60,7 @@ class Record:
     measurement frame; ``None``: x and y. ``every``: samples from one recorded inline and cross to the next. ``whole``:
     what this is a part of. ``resolution``: column -> the step in which it was recorded, SI; columns that are not in it have
     none to speak of. ``instants`` (before + N + after,): times of all samples of a part.
+    ``input_axes``: cosine and sine of the angle of each of the output's accelerometers, and its share in the power of equal noises.
     """
 
     time: Array
@@ -78,6 +79,7 @@ class Record:
     instants: Array | None = None
     resolution: Mapping[str, float] = field(default_factory=dict)
     start: float = 0.0
+    input_axes: tuple[tuple[float, float, float], ...] = ((1.0, 0.0, 0.5), (0.0, 1.0, 0.5))
 
     @cached_property
     def low_pass(self) -> Demodulator:
@@ -159,8 +161,8 @@ class Record:
 
     def quantity(self, name: str) -> Array:
         """(N,): what a level of noise may follow: ``time``, ``phi`` (from 0 to 2 pi), ``gap`` (samples from the next that is
-        not valid), a channel, ``abs(CHANNEL)``, ``abs(VECTOR)``, its length, ``in-plane``, the length of the specific force in the
-        disc's plane, or ``input``, the sum of its sizes along the input axes of two accelerometers a quarter apart.
+        not valid), a channel, ``abs(CHANNEL)``, ``abs(VECTOR)``, its length, ``input`` and ``input-rms``, mean and quadratic mean
+        of the specific force along the input axes of the output's accelerometers, which weigh by the power that they add.
         """
         if name == "time":
             return self.time
@@ -168,11 +170,13 @@ class Record:
             return _from_gap(self.valid)
         if name == "phi":
             return np.asarray(np.mod(self.phi, 2 * np.pi))
-        if name == "in-plane":
-            return np.hypot(*self._in_plane)
-        if name == "input":
+        if name in ("input", "input-rms"):
             x, y = self._in_plane
-            return np.abs(y * self.cos_phi - x * self.sin_phi) + np.abs(x * self.cos_phi + y * self.sin_phi)
+            along, across = y * self.cos_phi - x * self.sin_phi, x * self.cos_phi + y * self.sin_phi
+            forces = [(w, np.abs(along * cosine - across * sine)) for cosine, sine, w in self.input_axes]
+            if name == "input":
+                return np.asarray(sum(w * f for w, f in forces))
+            return np.sqrt(sum((w * f**2 for w, f in forces), np.zeros(len(x))))
         if name in self.channels:
             return self.channels[name]
         inner = name[4:-1]
@@ -385,6 +389,7 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
     if disc.angle_column in flight.channels:
         turning = bool(np.ptp(flight.channels[disc.angle_column]) > STANDING)
     wide = {name: x for name, x in flight.channels.items() if name not in RATES}
+    power = np.square((k["k_VI"] * k["K1"])[list(o.members)])
     return Record(
         time=time,
         wide=wide,
@@ -398,6 +403,7 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         demodulation=flight.demodulation or instrument.demodulation or OURS,
         resolution=flight.resolution,
         start=start_of(flight, instrument),
+        input_axes=tuple((*cs, float(w)) for cs, w in zip(o.angles, power / np.sum(power), strict=True)),
     )
 
 

@@ -189,10 +189,10 @@ def test_noise_in_proportion_to_a_force_is_no_random_effect() -> None:
     across = np.abs(force[1] * np.cos(phi) - force[0] * np.sin(phi))
     along = np.abs(force[0] * np.cos(phi) + force[1] * np.sin(phi))
     loud = np.hypot(0.2 + across, 0.2 + along)
-    x = {**quantities(4800, rng), "in-plane": np.hypot(*force), "input": across + along}
+    x = {**quantities(4800, rng), "input-rms": np.hypot(*force), "input": across + along}
     jitter = (0.8 * along + 0.3 * across) ** 2
     level = estimated(loud * rng.normal(size=4800), x, {"jitter": jitter})
-    assert level.parts[0].name in ("in-plane", "input")
+    assert level.parts[0].name in ("input-rms", "input")
 
 
 def test_noise_about_the_carrier_is_resolved() -> None:
