@@ -433,7 +433,8 @@ def _remarks(d: Json) -> list[str]:
 def _reasons(d: Json) -> list[str]:
     """The parts of a verdict's reason that the headline does not say already."""
     parts = str(d["reason"] or "").split("; ")
-    return [x for x in parts if x and not x.startswith("what remains") and not x.endswith(" sure")]
+    said = (" sure", " is missing", " are missing")
+    return [x for x in parts if x and not x.startswith("what remains") and not x.endswith(said)]
 
 
 def _evidence(d: Json) -> Sections:

@@ -248,6 +248,15 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
     if rows:
         more = f"and {len(done) - LISTED} more" if len(done) > LISTED else ""
         found.append(Section(title="Flights", table=Table(heads, tuple(rows), words=2, note=more)))
+    about: dict[str, list[str]] = {}
+    for r in done:
+        for note in r["notes"]:
+            about.setdefault(str(note), []).append(str(r["flight"]))
+    if about:
+        noted = tuple((note, flights_text(names)) for note, names in about.items())
+        table = Table(("note", "flights"), noted, words=2)
+        summary = f"{counted(len(noted), 'note')} on the flights"
+        found.append(Section(title="Notes", table=table, detail=True, summary=summary))
     if s["effects"]:
         counts = tuple(
             (str(e["effect"]), str(e["found"]), str(e["perhaps"]), str(e["testable"])) for e in s["effects"]
