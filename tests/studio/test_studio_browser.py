@@ -55,6 +55,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
 def page(browser: Browser, server: Served) -> Iterator[Page]:
     context = browser.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
     made = context.new_page()
+    made.set_default_timeout(PATIENCE)
     troubles: list[str] = []
     made.on("pageerror", lambda e: troubles.append(str(e)))
     made.on(
