@@ -356,7 +356,9 @@ def _not_increasing(time: Array, steps: Array, where: str) -> UserError:
     step = _step(steps[steps > 0])
     found = f"row {row + 1}: {time[row]:.10g} s, row {row + 2}: {time[row + 1]:.10g} s"
     found += f" (and {count - 1} more such places)" if count > 1 else ""
-    if steps[row] < 0 and count <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)):
+    in_order = np.diff(np.sort(time))
+    swapped = np.min(in_order) > 0.5 * np.median(in_order)  # the rows stand in another order
+    if steps[row] < 0 and not swapped and count <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)):
         back = step - float(steps[row])
         return UserError(
             f"the stamps step back by {back:.4g} s at t = {time[row]:.10g} s: was the clock set?",
