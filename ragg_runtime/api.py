@@ -111,9 +111,15 @@ def diagnose(
     flights = read_flights(m, flights)
     distinct(flights)
     extended = partial(derive.with_effects, m.instrument)
-    if compared is not None:
-        return heed_flags(_diagnose.diagnose_fitted(compared.fitted, flights, extended, limits), flights)
-    return heed_flags(_diagnose.diagnose(m.model, m.instrument, flights, extended, limits), flights)
+
+    def again(others: Sequence[Flight]) -> Diagnosis:
+        return _diagnose.diagnose(m.model, m.instrument, others, extended, limits)
+
+    if compared is None:
+        d = again(flights)
+    else:
+        d = _diagnose.diagnose_fitted(compared.fitted, flights, extended, limits)
+    return heed_flags(d, flights, again)
 
 
 LIMIT_UNITS = {"a": "m/s^2", "omega": "rad/s", "jerk": "m/s^3", "alpha": "rad/s^2"}

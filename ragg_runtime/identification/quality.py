@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.identification.ranking import Ranked
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
+from ragg_runtime.screening.repeated import with_derived_acceleration
+
+ALIKE = 3.0
+"""Standard errors within which an effect is as large as what the sensors' steps feign."""
 
 
-def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
-    """The diagnosis with what is still wrong with the records as its reason.
+def heed_flags(
+    d: Diagnosis, flights: Sequence[Flight], again: Callable[[Sequence[Flight]], Diagnosis]
+) -> Diagnosis:
+    """The diagnosis with what is wrong with the records as its reason.
 
     Parameters
     ----------
@@ -18,12 +28,16 @@ def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
         What the records say, taken as they are.
     flights
         The same records, with their flags.
+    again
+        Diagnoses other flights.
 
     Returns
     -------
     Diagnosis
-        Nothing is claimed of a record that holds something odd, but effects that describe just that.
+        Nothing is claimed of a record that holds something odd, but effects that describe just that; nor what the
+        resolution of motion sensors feigns.
     """
+    d = _without_feigned(d, flights, again)
     flags = [(x, f) for x in flights for f in x.flags if f.open]
     if not flags or d.verdict == "adequate":
         return d
@@ -33,3 +47,46 @@ def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
     if d.found and all(set(d.found) <= set(f.effects) for _, f in flags):
         return replace(d, reason=said)
     return replace(d, verdict="unexplained", found=(), groups=(), reason=said)
+
+
+def _without_feigned(
+    d: Diagnosis, flights: Sequence[Flight], again: Callable[[Sequence[Flight]], Diagnosis]
+) -> Diagnosis:
+    """The diagnosis without effects that the steps of motion sensors feign.
+
+    A filter or a delay correlates with the rounding errors of the motion (errors in variables: W. Fuller, Measurement Error Models,
+    1987). What that feigns is found by doing it again (J. Cook, L. Stefanski, J. Am. Stat. Assoc. 89, 1994, 1314): flights whose output
+    is what the calibrated model makes of the recorded motion are diagnosed with motion that is off by as much once more. An
+    effect that comes out alike there is not claimed.
+    """
+    coarse = sorted({c for x in flights for f in x.flags if f.kind == "resolution" for c in f.columns})
+    if not coarse or not d.found or len(d.residual) != len(flights):
+        return d
+    feigned = again([_rounded_again(x, e) for x, e in zip(flights, d.residual, strict=True)])
+    made = {r.effect: r for r in feigned.ranking}
+    alike = [r.effect for r in d.ranking if r.effect in d.found and _is_alike(r, made.get(r.effect))]
+    kept = tuple(e for e in d.found if e not in alike)
+    if not alike:
+        return d
+    said = f"{', '.join(alike)}: no more than what the steps of {', '.join(coarse)} feign, and not claimed"
+    verdict = d.verdict if kept else "adequate" if d.verdict == "missing-effect" else "unexplained"
+    groups = tuple(g for g in d.groups if g.effects[0] in kept)
+    return replace(d, verdict=verdict, found=kept, groups=groups, reason=said)
+
+
+def _rounded_again(x: Flight, residual: NDArray[np.float64]) -> Flight:
+    """A flight whose output follows the recorded motion exactly, recorded with sensors of the same steps."""
+    rng = np.random.default_rng(0)
+    name, G = next(iter((n, v) for n, v in x.outputs.items() if not n.startswith("V_")))
+    moved = {n: x.channels[n] + q * rng.uniform(-0.5, 0.5, len(x)) for n, q in x.resolution.items()}
+    changed = replace(x, channels={**x.channels, **moved}, outputs={name: G - residual}, flags=())
+    return with_derived_acceleration(changed) if any(n.startswith("omega_") for n in moved) else changed
+
+
+def _is_alike(found: Ranked, made: Ranked | None) -> bool:
+    """Whether an effect has the size that was made without it."""
+    if made is None:
+        return False
+    other = {(p.name, p.accelerometer): p for p in made.parameters}
+    pairs = [(p, other[k]) for p in found.parameters if (k := (p.name, p.accelerometer)) in other]
+    return bool(pairs) and all(abs(p.value - q.value) < ALIKE * np.hypot(p.std, q.std) for p, q in pairs)

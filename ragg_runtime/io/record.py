@@ -84,6 +84,8 @@ class Flag:
         Whether it is still in the record: nothing is claimed of such a record but what ``effects`` says.
     effects
         Ids of effects that describe the same, and may be claimed beside it.
+    kind
+        ``resolution`` of motion sensors whose steps show in the output; else empty.
     """
 
     columns: tuple[str, ...]
@@ -92,6 +94,7 @@ class Flag:
     time: tuple[float, float] | None = None
     open: bool = False
     effects: tuple[str, ...] = ()
+    kind: str = ""
 
 
 @dataclass(frozen=True, eq=False)

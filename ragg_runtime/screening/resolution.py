@@ -35,11 +35,12 @@ def resolution_of(flight: Flight) -> Mapping[str, float]:
 def coarse_sensors(model: Model, known: Units, s: Sampler, fitted: Explained) -> list[Flag]:
     """Flags of motion sensors whose steps make a good part of what the fitted model leaves of the output."""
     x, rows = s.flight, s.take(s.rows())
-    groups: dict[tuple[str, float], list[str]] = {}
+    groups: dict[tuple[str, str], list[str]] = {}
     for name, step in x.resolution.items():
-        groups.setdefault((name.rsplit("_", 1)[0], float(f"{step:.3g}")), []).append(name)
+        groups.setdefault((name.rsplit("_", 1)[0], f"{step:.3g}"), []).append(name)
     found = []
-    for (stem, step), names in groups.items():
+    for (stem, _), names in groups.items():
+        step = x.resolution[names[0]]
         errors = {n: step / np.sqrt(12.0) for n in names}
         if (
             stem == "omega" and ANGULAR_ACCELERATION[0] not in x.written
@@ -54,7 +55,7 @@ def coarse_sensors(model: Model, known: Units, s: Sampler, fitted: Explained) ->
         size, unit = (1e3 * size, f"m{unit}") if unit == "g" else (size, unit)
         verb = "stands" if len(names) == 1 else "stand"
         text = f"{', '.join(names)} {verb} in steps of {size:.3g} {unit}, which make about {made:.2g} Eo of the output"
-        found.append(Flag(tuple(names), text, len(x)))
+        found.append(Flag(tuple(names), text, len(x), kind="resolution"))
     return found
 
 

@@ -26,7 +26,7 @@ from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.estimation.scores import finite
 from ragg_runtime.identification import comparison
-from ragg_runtime.identification.diagnose import diagnose_fitted
+from ragg_runtime.identification.diagnose import diagnose, diagnose_fitted
 from ragg_runtime.identification.parameters import (
     SEEN,
     ParameterValue,
@@ -181,7 +181,9 @@ def _parsed(text: str, path: str) -> Instrument:
 
 def _figures(f: Fitted, flight: Flight) -> Record:
     held_out, nominal = f.score([_held_out(f)], lambda x: comparison.nominal_residual(f, f.sheet, x)[None], 1)
-    d = heed_flags(diagnose_fitted(f, [flight], partial(derive.with_effects, f.instrument)), [flight])
+    extend = partial(derive.with_effects, f.instrument)
+    again = partial(diagnose, f.model, f.instrument, extend=extend)
+    d = heed_flags(diagnose_fitted(f, [flight], extend), [flight], again)
     held = held_out.held_out.as_json()
     record: Record = {
         "sha256": flight.digest,
