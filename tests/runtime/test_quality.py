@@ -1,0 +1,35 @@
+"""What screening found is part of the verdict: effects that coarse or stuck motion sensors feign are not claimed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ragg_runtime.identification.diagnose import diagnose
+from ragg_runtime.identification.quality import heed_flags
+from ragg_runtime.io import Flight
+from ragg_runtime.model.model import packaged
+from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.screening import screen
+
+STEP = 32 / 65536 * 9.8
+"""m/s^2: 16 bits over +-16 g."""
+
+
+def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect() -> None:
+    s, model = scenario(3, duration=150.0, trim="table-v"), packaged()
+    x = s.simulate().flight()
+    coarse = {n: np.round(x.channels[n] / STEP) * STEP for n in ("a_x", "a_y", "a_z")}
+    still = {"a_x": np.full(len(x), float(np.mean(x.channels["a_x"])))}
+
+    def judged(flights: list[Flight]) -> tuple[str, tuple[str, ...], str]:
+        d = heed_flags(diagnose(model, s.sheet, flights), flights, lambda f: diagnose(model, s.sheet, f))
+        return d.verdict, d.found, str(d.reason)
+
+    for channels, words in ((coarse, "in steps of"), (still, "a_x does not change at all")):
+        flown = screen(model, s.sheet, replace(x, channels={**x.channels, **channels}))
+        assert any(words in note for note in flown.notes)
+        verdict, found, reason = judged([flown])
+        assert found == ()
+        assert verdict == "adequate" or words in reason or "feign" in reason
