@@ -36,21 +36,20 @@ def test_the_walk_is_the_sum_of_its_steps() -> None:
 
 def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
     """What is compensated with them is as sure as it says; with constant parameters it is not."""
-    s = scenario(3, duration=1200.0, rate=RATE, gradient_rms=50e-9)
-    gain = [8e-11, -1e-10, 2e-11, -2e-11]  # 1/s: 1e-7 over the flight
-    for effects in ({}, {"gain-drift": {"dK1_dt": gain}}):
-        x = s.simulate(effects).flight()
-        rms = {}
-        for kind in ("self", "smoothed"):
-            p = prepared(packaged(), s.sheet, [x], kind)  # type: ignore[arg-type]
-            c = Compensated(p, 0, "fir")
-            parts = [(part.gradient, part.std[0]) for part in c.segments()]
-            g, std = (np.concatenate(y) for y in zip(*parts, strict=True))
-            z = ((g - truth(x, c.demodulator)).real / std)[:: int(2 * RATE)]
-            rms[kind] = np.sqrt(np.nanmean(z**2))
-        assert 0.85 < rms["smoothed"] < 1.2
-        assert (rms["self"] > 2.0) if effects else (rms["self"] == pytest.approx(rms["smoothed"], rel=1e-3))
-    f = fit(packaged(), s.sheet, observations_of([x], s.sheet))
-    d = drift.smooth_drift(f, [x]).as_json()
-    assert d["rates"]
-    assert {q["flight"] for q in d["states"]} == {f.observations[0].flight_name}
+    s = scenario(3, duration=600.0, rate=RATE, gradient_rms=50e-9)
+    still = s.simulate({}).flight()
+    f = fit(packaged(), s.sheet, observations_of([still], s.sheet), candidates=False)
+    assert drift.smooth_drift(f, [still]).rates == {}
+    x = s.simulate(
+        {"gain-drift": {"dK1_dt": [2e-10, -2e-10, 4e-11, -4e-11]}}
+    ).flight()  # 1/s: 1e-7 over the flight
+    rms = {}
+    for kind in ("self", "smoothed"):
+        p = prepared(packaged(), s.sheet, [x], kind)  # type: ignore[arg-type]
+        c = Compensated(p, 0, "fir")
+        parts = [(part.gradient, part.std[0]) for part in c.segments()]
+        g, std = (np.concatenate(y) for y in zip(*parts, strict=True))
+        z = ((g - truth(x, c.demodulator)).real / std)[:: int(2 * RATE)]
+        rms[kind] = np.sqrt(np.nanmean(z**2))
+    assert 0.7 < rms["smoothed"] < 1.4
+    assert rms["self"] > 2.0
