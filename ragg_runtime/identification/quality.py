@@ -38,13 +38,14 @@ def heed_flags(
         resolution of motion sensors feigns.
     """
     d = _without_feigned(d, flights, again)
-    flags = [(x, f) for x in flights for f in x.flags if f.open]
+    flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind == "resolution"]
     if not flags or d.verdict == "adequate":
         return d
     several = len(flights) > 1
     reasons = [f"{x.name}: {f.reason}" if several else f.reason for x, f in flags]
     said = "; ".join([*reasons, *([] if d.reason is None else [d.reason])])
-    if d.found and all(set(d.found) <= set(f.effects) for _, f in flags):
+    odd = [f for _, f in flags if f.open]
+    if not odd or (d.found and all(set(d.found) <= set(f.effects) for f in odd)):
         return replace(d, reason=said)
     return replace(d, verdict="unexplained", found=(), groups=(), reason=said)
 
