@@ -124,6 +124,14 @@ class Robust:
         S = root @ np.array(scores).T
         return Robust(x, value, root @ root.T, S @ S.T, len(scores))
 
+    @property
+    def stated(self) -> Array:
+        """(n, n): the covariance to state, with what the prior leaves open, and no variance below the model's own."""
+        V = self.sandwich + self.covariance @ self.covariance  # the prior's rows are those of unit
+        own = np.diag(self.covariance)
+        wider = np.sqrt(np.maximum(1.0, own / np.maximum(np.diag(V), 1e-300)))
+        return np.asarray(V * np.outer(wider, wider))
+
     def significance(self, effect: str) -> Significance:
         """Of an effect beside all others."""
         E = self.regression.columns(effect)

@@ -70,7 +70,7 @@ class NotTestable:
     why: str
 
 
-def _ranking(
+def rank_effects(
     f: Fitted,
     field: Field,
     choice: Choice,
@@ -121,7 +121,7 @@ def _ranking(
     return ranked, before
 
 
-def _ranked_random(random: Mapping[str, Test], before: Error) -> list[Ranked]:
+def rank_random(random: Mapping[str, Test], before: Error) -> list[Ranked]:
     return [_unfitted(e, t, 2.0 * float(log_bayes(t.chi2, 1)), before) for e, t in random.items()]
 
 
@@ -184,13 +184,13 @@ def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
     )
 
 
-def _place(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
+def placed(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
     """Order of the ranking: chosen effects as they were chosen, then by significance."""
     order = {e: n for n, e in enumerate(dict.fromkeys(chosen))}
     return lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect)
 
 
-def _not_testable(f: Fitted, field: Field) -> list[NotTestable]:
+def list_not_testable(f: Fitted, field: Field) -> list[NotTestable]:
     found = []
     for e in f.model.candidates:
         missing = sorted({c for o in f.observations for c in e.missing(o.record.wide)})
@@ -239,7 +239,7 @@ class Detectable:
         return f"{self.name} = {self.size:.3g} {self.unit}"
 
 
-def _sizes(f: Fitted, field: Field) -> list[Detectable]:
+def list_detectable(f: Fitted, field: Field) -> list[Detectable]:
     """For each parameter of each effect that is testable."""
     rows = []
     left = np.linalg.norm(field.P, axis=0)

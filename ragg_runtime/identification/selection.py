@@ -27,13 +27,13 @@ FURTHER = false_alarms.COMPANION
 MOST = 4
 """Most effects that are claimed at once."""
 
+DISTINGUISHABLE = INDISTINGUISHABLE / 2
+"""Difference of log evidence from which one explanation is distinguishable from another."""
+
 AS_SURE = 7.0
 """Log evidence (a factor of 1,100: 3 sigma beside 5) by which many coefficients may cost an effect that explains as much; with more it
 is no alternative.
 """
-
-SWAPPED = 2.0
-"""Log evidence by which another effect must be better to take the place of a chosen one; ties do not go to and fro."""
 
 
 @dataclass(frozen=True)
@@ -189,8 +189,10 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
 
 
 def _best(tests: Mapping[str, Test]) -> str | None:
-    """The effect of the greatest evidence."""
-    return min(tests, key=lambda e: (-tests[e].log_b, e), default=None)
+    """The effect of the greatest evidence, of several that are not distinguishable one of the fewest coefficients."""
+    top = max((t.log_b for t in tests.values()), default=0.0)
+    near = [e for e, t in tests.items() if t.log_b > top - DISTINGUISHABLE]
+    return min(near, key=lambda e: (tests[e].rank, -tests[e].log_b, e), default=None)
 
 
 def _swap(
@@ -200,7 +202,7 @@ def _swap(
         others = [e for e in chosen if e != old]
         conditional = f.tests(others)
         best = _best({e: t for e, t in conditional.items() if f.significant(t)})
-        if best is not None and conditional[best].log_b > conditional[old].log_b + SWAPPED:
+        if best is not None and conditional[best].log_b > conditional[old].log_b + DISTINGUISHABLE:
             chosen = [*others, best]
             blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
     return chosen, blocks
@@ -216,6 +218,12 @@ def _drop(
     return chosen, blocks
 
 
+def alike(a: Test, b: Test) -> bool:
+    """Whether the second explains as much as the first, or is not distinguishable by its evidence."""
+    as_much = a.chi2 - b.chi2 < INDISTINGUISHABLE and b.log_b > a.log_b - AS_SURE
+    return as_much or b.log_b > a.log_b - DISTINGUISHABLE
+
+
 def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
     """For every chosen effect those that would do as well in its place."""
     result = {}
@@ -223,16 +231,7 @@ def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
         others = [o for o in choice.chosen if o != e]
         conditional = f.tests(others)
         mine = conditional[e]
-        result[e] = tuple(
-            sorted(
-                o
-                for o, t in conditional.items()
-                if o != e
-                and t.rank
-                and mine.chi2 - t.chi2 < INDISTINGUISHABLE
-                and t.log_b > mine.log_b - AS_SURE
-            )
-        )
+        result[e] = tuple(sorted(o for o, t in conditional.items() if o != e and t.rank and alike(mine, t)))
     return result
 
 

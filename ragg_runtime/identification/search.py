@@ -1,0 +1,230 @@
+"""The search: which effects together explain what the model lacks, derived into it and fitted with all else."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.estimation import fitted as fitted_
+from ragg_runtime.estimation import regressors as design
+from ragg_runtime.estimation import whitening
+from ragg_runtime.estimation.fitted import Fitted, Scored, fit
+from ragg_runtime.estimation.whitening import Piece
+from ragg_runtime.identification import comparison, contenders, omnibus, selection, strong
+from ragg_runtime.identification.claims import Regression, Robust
+from ragg_runtime.identification.comparison import Explained, explained
+from ragg_runtime.identification.contenders import Extend
+from ragg_runtime.identification.likelihood_ratio import Test, Variance, pooled
+from ragg_runtime.identification.omnibus import Remainder
+from ragg_runtime.identification.strong import Stage, Taken
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """Flights with some ``effects`` in the model, and what they leave.
+
+    Effects that are not derived into the model of ``target`` are in its candidate columns ``given``.
+    """
+
+    effects: tuple[str, ...]
+    target: Fitted
+    given: tuple[int, ...]
+    coefficients: Array
+    scored: Scored
+    remainder: Remainder
+    random: Mapping[str, Test]
+
+    @staticmethod
+    def of(f: Fitted, effects: Sequence[str], given: Sequence[int]) -> Outcome:
+        v = f.vector(f.coefficients(given)[0], given) if given else np.zeros(f.size)
+        (scored,) = f.score([v])
+        rem, random = _remainder(f, given)
+        return Outcome(
+            effects=tuple(effects),
+            target=f,
+            given=tuple(given),
+            coefficients=v,
+            scored=scored,
+            remainder=rem,
+            random={e: x.test() for e, x in random.items()},
+        )
+
+    @cached_property
+    def robust(self) -> Robust:
+        return Robust.of(Regression.of(self.target, self.given))
+
+    @cached_property
+    def noise_floor(self) -> float:
+        return fitted_.noise_floor(self.target)
+
+    @cached_property
+    def explained(self) -> Explained:
+        return explained(self.target, self.scored)
+
+    @property
+    def complaint(self) -> str | None:
+        """What speaks against the fit, in words."""
+        return self.target.calibration.complaint
+
+    @property
+    def remains(self) -> bool:
+        """Whether the discrepancy is significant."""
+        return self.remainder.significant or self.loud
+
+    @cached_property
+    def loud(self) -> bool:
+        return comparison.loud(self.target, self.scored, self.noise_floor)
+
+    def significance(self, effect: str, log_p: float | None, *, doubted: bool) -> float:
+        """Logarithm of the p-value of an effect beside the others (see ``claims.Significance.log_p``)."""
+        return self.robust.significance(effect).log_p(log_p, doubted=doubted)
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What the search has found: strong effects in ``steps``, the ``last`` stage beside them, and the ``outcome`` of all chosen.
+
+    ``first`` is the stage without any effect; ``spent``: the budget of fits did not suffice.
+    """
+
+    first: Stage
+    steps: Sequence[Taken]
+    last: Stage
+    outcome: Outcome
+    extend: Extend | None
+    spent: bool
+
+    @property
+    def instants(self) -> list[tuple[str, float | None]]:
+        """Of the steps among the effects, s."""
+        return [(t.effect, t.instant) for t in self.steps] + [*self.last.instants.items()]
+
+    @property
+    def log_p(self) -> dict[str, float]:
+        """Of what the last stage has chosen, each beside the others: logarithms of p-values."""
+        chosen = self.last.choice.chosen
+        tests = {e: self.last.field.tests([o for o in chosen if o != e])[e] for e in chosen}
+        return {e: t.log_p for e, t in tests.items()}
+
+    def rank(self, o: Outcome) -> int:
+        """Number of coefficients that were tested of an outcome's effects."""
+        tests = dict(self.first.choice.tests) | {t.effect: t.test for t in self.steps}
+        return sum(max(1, tests[e].rank) if e in tests else 1 for e in o.effects)
+
+    def rivals(self) -> Mapping[str, tuple[str, ...]]:
+        """For every chosen effect those that would do as well in its place."""
+        if self.steps:
+            return {t.effect: t.rivals for t in self.steps}
+        return selection.rivals(self.first.field, self.first.choice)
+
+    def without(self, o: Outcome, effect: str) -> Outcome:
+        """An outcome without one of its effects, fitted again."""
+        first, last = self.first, self.last
+        kept = [e for e in o.effects if e != effect]
+        if not kept:
+            return Outcome.of(first.fitted, (), ())
+        if self.extend is None or not (self.steps or o.target is not last.fitted):
+            given = [n for e in kept for n, _ in last.field.candidates[e]]
+            return Outcome.of(last.fitted, kept, given)
+        instants = dict(last.instants) | {t.effect: t.instant for t in self.steps if t.instant is not None}
+        model, instrument = contenders.derived(first.fitted, kept, instants, self.extend)
+        return Outcome.of(fit(model, instrument, first.fitted.observations), kept, ())
+
+
+def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
+    """Search forward; nothing is sought of flights that stand ``apart``."""
+    budget = strong.Budget()
+    steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend, budget)
+    last, outcome = confirmed(steps, last, extend)
+    return Evidence(first, steps, last, outcome, extend, budget.spent)
+
+
+SECOND_ORDER = 0.05
+"""Share by which second orders may change what an effect explains: more is not its doing, but that of a base that has moved."""
+
+
+def explained_by(first: Stage, o: Outcome) -> float:
+    """Chi-square that an outcome's effects explain of what the model leaves without them."""
+    field = first.field
+    known = [e for e in o.effects if e in field.candidates]
+    linear = field.joint([[n for n, _ in field.candidates[e]] for e in known])[0] if known else 0.0
+    if o.given or len(known) < len(o.effects):
+        return linear
+    # second orders of strong effects: what is left once they are derived into the model, with a noise that is estimated anew
+    fitted = float(np.sum(field.P[:, -1] ** 2) - o.target.whole[-1, -1] ** 2)
+    return max(linear, min(fitted, (1.0 + SECOND_ORDER) * linear))
+
+
+def confirmed(steps: Sequence[Taken], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:
+    """The chosen effects fitted in the model; and the last stage without those that then have an impossible size."""
+    f = last.fitted
+    final = _derived(f, last.choice.chosen, extend)
+    while final is not None and (wrong := strong.impossible(final, last.choice.chosen)):
+        kept = {e: c for e, c in last.field.candidates.items() if e not in wrong}
+        field = replace(last.field, candidates=kept)
+        last = replace(last, field=field, choice=selection.choose(field))
+        final = _derived(f, last.choice.chosen, extend)
+    chosen = [*(t.effect for t in steps), *last.choice.chosen]
+    given = [n for e in last.choice.chosen for n, _ in last.field.candidates[e]]
+    return last, Outcome.of(f, chosen, given) if final is None else Outcome.of(final, chosen, ())
+
+
+def _derived(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:
+    """The chosen effects derived into the model and everything fitted again, if that can be done."""
+    steps = {e.id for e in f.model.candidates if e.kind == "step"}
+    if not chosen or extend is None or (steps & set(chosen)):
+        return None
+    extended = extend(f.model, chosen)
+    start = _linear(f, chosen, extended)
+    return fit(extended, f.instrument, f.observations, f.calibration.noise, start)
+
+
+def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:
+    """Parameter vector of the extended model as the linear fit has it, SI."""
+    own = [(n, c) for n, c in enumerate(f.candidates) if c.effect in chosen]
+    fitted, _ = f.coefficients([n for n, _ in own])
+    columns = (*f.calibration.columns, *(c for _, c in own))
+    before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
+    value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
+    p = vector(extended, f.instrument)
+    for c, place in design.base_columns(extended, f.instrument):
+        p[place] = value[c.label]
+    return p
+
+
+def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Variance]]:
+    """What is left once ``given`` columns are projected out, and the sums of random effects, in one pass."""
+    random = _random_columns(f)
+    searches, counted = [], []
+    for x, triangles in zip(f.prepared, f.triangles, strict=True):
+        taken = whitening.projector(triangles, f.n_base, given)
+        lean, projector, places = taken.lean(x, list(random.values()))
+
+        def variances(piece: Piece, y: Array, places: Sequence[int] = places) -> dict[str, Variance]:
+            return {e: Variance.of(piece, k, y) for e, k in zip(random, places, strict=True)}
+
+        found, more = omnibus.search(lean, projector, variances)
+        searches.append(found)
+        counted += more
+    return Remainder(tuple(searches)), {e: pooled([v[e] for v in counted]) for e in random}
+
+
+def _random_columns(f: Fitted) -> dict[str, int]:
+    """The place of every random effect's column."""
+    if any(o.recorded.demodulated for o in f.observations):
+        return {}  # neighbouring samples of a demodulated channel are not independent
+    columns = f.candidates
+    found = {}
+    for e in f.model.candidates:
+        own = [n for n, c in enumerate(columns) if c.effect == e.id]
+        if e.kind == "random" and own:
+            found[e.id] = f.n_base + own[0]
+    return found

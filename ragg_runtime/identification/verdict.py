@@ -1,0 +1,184 @@
+"""The verdict: what is claimed of what the search has found, what remains beside it, and why, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import expit
+
+from ragg_runtime.estimation.calibration import QUIET
+from ragg_runtime.identification import claims, comparison, omnibus, selection, strong
+from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification.line_rival import LineRival, Steady, line_rival
+from ragg_runtime.identification.omnibus import Remainder
+from ragg_runtime.identification.search import Evidence, Outcome, explained_by
+from ragg_runtime.identification.selection import Field
+
+
+@dataclass(frozen=True, eq=False)
+class Conclusion:
+    """The verdict, the effects that are claimed, and what is left beside them.
+
+    ``open``: effects that the record speaks for, but not surely enough; ``line``, ``steady``: see ``line_rival``; ``share``: probability
+    of what the search chose against generic terms; ``rival``: these do as well.
+    """
+
+    verdict: str
+    claims: tuple[str, ...]
+    outcome: Outcome
+    left: Remainder
+    line: LineRival | None
+    steady: tuple[Steady, ...]
+    open: tuple[str, ...]
+    share: float = 1.0
+    rival: bool = False
+
+    @property
+    def remains(self) -> bool:
+        return self.verdict in ("unexplained", "partly-explained")
+
+    @staticmethod
+    def of(found: Evidence, output: Sequence[str], *, apart: bool) -> Conclusion:
+        """Judge what the search has found; ``output``: what the recorder did."""
+        outcome, last, first = found.outcome, found.last, found.first
+        line, steady = line_rival(found.steps, last)
+        if line is not None and not line.better(outcome.remainder):
+            line = None
+        count = first.field.count + len(outcome.random)
+        base = omnibus.remainders(first.fitted) if outcome.effects else None
+        share = 1.0 if base is None else float(expit(_ahead(found, outcome, count, base)))
+        weak: list[str] = []
+        while not (line or apart) and (e := _weakest(outcome, found.log_p, first.field)):
+            weak.append(e)
+            outcome = found.without(outcome, e)
+        left = outcome.remainder if line is None else line.within(outcome.remainder)
+        level = selection.FURTHER if outcome.effects else selection.FAMILY
+        tests = outcome.random.items()
+        random = sorted((t.log_p, e) for e, t in tests if selection.significant(t, count, level))
+        # noise that follows the motion is louder where the motion is: a random effect says so itself
+        remains = line is not None or left.significant or outcome.complaint is not None
+        remains = remains or (outcome.loud and not random)
+        claimed: tuple[str, ...] = ()
+        doubted = apart or outcome.explained.complaint is not None
+        if not (line or doubted):
+            claimed = () if base is None else _claims(found, outcome, count, base)
+        rival = bool(outcome.effects) and not claimed and not remains
+        if rival and base is not None:  # generic terms do as well as what was chosen: they are what is left
+            _, left = claims.generic_evidence(base, np.inf, found.rank(outcome))
+        remains = remains or rival or doubted
+        if not remains:
+            claimed = (*claimed, *(e for _, e in random[:1]))
+        if not (line or doubted):  # what the recorder did stands in the record, whatever else does
+            claimed = (*claimed, *output)
+        verdict = ("partly-explained" if claimed else "unexplained") if remains else "missing-effect"
+        verdict = verdict if remains or claimed else "adequate"
+        beside = last.choice.conditional
+        unsure = sorted((t.log_p, e) for e, t in beside.items() if t.rank and t.log_p < np.log(OPEN))
+        return Conclusion(
+            verdict=verdict,
+            claims=claimed,
+            outcome=outcome,
+            left=left,
+            line=line,
+            steady=tuple(s for s in steady if s.effect in claimed),
+            open=tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in unsure)) if e not in claimed)),
+            share=share,
+            rival=rival,
+        )
+
+    @property
+    def contradictory(self) -> bool:
+        """Whether flights that contradict each other would explain the verdict."""
+        loud = self.outcome.target.calibration.excess > QUIET
+        return self.verdict == "unexplained" or (self.remains and loud)
+
+    def remark(self, apart: str | None, spent: bool) -> str | None:
+        """What is wrong with the record, or what else than the effects found would do, or how the record is disturbed."""
+        doubt = apart or self.outcome.explained.complaint
+        if doubt is not None:
+            return doubt
+        if self.line is not None:
+            return self.line.words
+        disturbed = comparison.disturbed(self.outcome.target)
+        said = [s.words for s in self.steady]
+        said += [f"the search was ended after {strong.FITS} fits"] if spent and self.remains else []
+        return "; ".join([*said, *([] if disturbed is None else [disturbed])]) or None
+
+    def reason(self, apart: str | None, spent: bool) -> str | None:
+        """In one sentence, why the verdict is not ``adequate``, and what is odd about the record."""
+        remark = self.remark(apart, spent)
+        if self.verdict == "adequate" or apart or self.line or self.outcome.explained.complaint:
+            return remark
+        sure = "is sure" if len(self.claims) == 1 else "are sure"
+        how = sure if self.remains else "is missing" if len(self.claims) == 1 else "are missing"
+        said = [f"{listed(self.claims)} {how}"] if self.claims else []
+        if self.remains:
+            said.append(self._left())
+        if self.open:
+            said.append(
+                f"the record does not suffice to say whether {listed(self.open[:3], 'or')} is there, too"
+            )
+        return "; ".join([*said, *([] if remark is None else [remark])])
+
+    def _left(self) -> str:
+        """What remains, in words."""
+        o = self.outcome
+        terms = [f"{t.term.harmonic} x {t.term.product}" for x in self.left.searches for t in x.terms]
+        if self.rival and terms:
+            return f"{listed(o.effects)} would do, but no better than a generic term, {terms[0]}"
+        rms = o.scored.whole.rms_Eo
+        found = [] if o.complaint is None else [o.complaint]
+        if terms:
+            found.append(f"what remains is more than noise, mostly {terms[0]}")
+        return "; ".join(found) or (
+            f"what remains, {rms:.3g} Eo, is more than the noise of {o.noise_floor:.3g} Eo"
+        )
+
+
+OPEN = 0.1
+"""p-value from which an effect is named as one for which the record does not suffice."""
+
+
+def listed(names: Sequence[str], word: str = "and") -> str:
+    return f" {word} ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+def _weakest(o: Outcome, log_p: Mapping[str, float], field: Field) -> str | None:
+    """The effect that is not significant with a variance that its own scores tell, the least significant of several."""
+    doubted = o.remainder.significant
+    level = selection.FAMILY if len(o.effects) == 1 else selection.FURTHER
+    p = {e: o.significance(e, log_p.get(e), doubted=doubted) for e in o.effects}
+    weakest = max(p, key=lambda e: (p[e], e), default=None)
+    if weakest is None or field.significant(Test(0.0, 1, p[weakest], ()), level):
+        return None
+    return weakest
+
+
+def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> tuple[str, ...]:
+    """What of an outcome's effects may be claimed (``claims``)."""
+    if not o.effects:
+        return ()
+    instants = {e.id for e in found.first.fitted.model.candidates if e.kind == "step"}
+    lasting = [e for e in o.effects if e not in instants]  # the instant of a step is from all of the record
+    if any(claims.held_out_gain(o.robust.regression, e) < -claims.WORSE for e in lasting):
+        return ()
+    chi2, single = explained_by(found.first, o) - found.rank(o), claims.best_single(base)
+    ahead = _ahead(found, o, count, base)
+    if o.remains:
+        return o.effects if chi2 > claims.MORE * single and ahead > claims.PLAINLY else ()
+    # of one effect that leaves but noise and generic terms that do as well, the one that is known to occur is taken
+    if len(o.effects) == 1:
+        return o.effects if ahead > -claims.PLAINLY else ()
+    feigned = single > claims.NEARLY * chi2
+    return o.effects if ahead > claims.PLAINLY * (2 * len(o.effects) - 1 if feigned else 1) else ()
+
+
+def _ahead(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> float:
+    """Log evidence by which an outcome's effects are ahead of the best generic terms of as many coefficients."""
+    chi2, rank = explained_by(found.first, o), found.rank(o)
+    spread = max(claims.spread_of(o.remainder), o.target.calibration.excess) if o.remains else 1.0
+    # with a cap, if nothing remains: no terms explain more than all
+    terms, _ = claims.generic_evidence(base, np.inf if o.remains else chi2, rank, spread)
+    return claims.evidence(chi2, rank, [count] * len(o.effects), spread) - terms
