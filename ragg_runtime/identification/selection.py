@@ -30,6 +30,9 @@ MOST = 4
 DISTINGUISHABLE = INDISTINGUISHABLE / 2
 """Difference of log evidence from which one explanation is distinguishable from another."""
 
+SWAPPED = 2.0
+"""Log evidence by which another effect must be better to take the place of a chosen one; ties do not go to and fro."""
+
 AS_SURE = 7.0
 """Log evidence (a factor of 1,100: 3 sigma beside 5) by which many coefficients may cost an effect that explains as much; with more it
 is no alternative.
@@ -189,10 +192,8 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
 
 
 def _best(tests: Mapping[str, Test]) -> str | None:
-    """The effect of the greatest evidence, of several that are not distinguishable one of the fewest coefficients."""
-    top = max((t.log_b for t in tests.values()), default=0.0)
-    near = [e for e, t in tests.items() if t.log_b > top - DISTINGUISHABLE]
-    return min(near, key=lambda e: (tests[e].rank, -tests[e].log_b, e), default=None)
+    """The effect of the greatest evidence."""
+    return min(tests, key=lambda e: (-tests[e].log_b, e), default=None)
 
 
 def _swap(
@@ -202,7 +203,7 @@ def _swap(
         others = [e for e in chosen if e != old]
         conditional = f.tests(others)
         best = _best({e: t for e, t in conditional.items() if f.significant(t)})
-        if best is not None and conditional[best].log_b > conditional[old].log_b + DISTINGUISHABLE:
+        if best is not None and conditional[best].log_b > conditional[old].log_b + SWAPPED:
             chosen = [*others, best]
             blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
     return chosen, blocks

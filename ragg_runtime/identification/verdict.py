@@ -54,9 +54,9 @@ class Conclusion:
             weak.append(e)
             outcome = found.without(outcome, e)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
-        level = selection.FURTHER if outcome.effects else selection.FAMILY
+        # beside the noise model, whose level has shapes of its own
         tests = outcome.random.items()
-        random = sorted((t.log_p, e) for e, t in tests if selection.significant(t, count, level))
+        random = sorted((t.log_p, e) for e, t in tests if selection.significant(t, count, selection.FURTHER))
         # noise that follows the motion is louder where the motion is: a random effect says so itself
         remains = line is not None or left.significant or outcome.complaint is not None
         remains = remains or (outcome.loud and not random)

@@ -72,7 +72,7 @@ def test_a_line_beside_a_multiple_of_the_spin_rate_accuses_nothing(frequency: fl
         (group,) = d.groups
         assert group.name == "constant term at twice the spin rate"
         assert group.effects[0] == d.found[0] and "gradient-offset" in group.effects
-        assert f"Missing: {group.name} ({d.found[0]} or " in d._repr_html_()
+        assert f"Missing: {group.name} ({d.found[0]}" in d._repr_html_()
         return
     assert (d.verdict, d.found) == ("unexplained", ())
     said = re.search(r"the output has a line at about ([0-9.]+) Hz", str(d.as_json()["reason"]))
