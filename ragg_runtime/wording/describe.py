@@ -40,8 +40,10 @@ def parameter_label(p: Json) -> str:
     """``D34 of dK1/dT``, ``K_iii of A1``, ``tau``."""
     of, _, name = str(p["name"]).rpartition(" ")
     j = p.get("accelerometer")
-    of = of or ("" if j is None else str(p.get("accelerometer_name") or f"A{j}"))
-    return f"{of!s} of {numbers.parameter(name)}" if of else numbers.parameter(name)
+    if of:
+        return f"{of} of {numbers.parameter(name)}"
+    which = "" if j is None else f" of {p.get('accelerometer_name') or f'A{j}'}"
+    return f"{numbers.parameter(name)}{which}"
 
 
 def parameter_line(p: Json) -> str:

@@ -85,9 +85,9 @@ def test_the_terminal_says_what_a_physicist_would(result: Result) -> None:
     assert "(-v)" in brief and "(-v)" not in full
     values: Any = result.diagnosis.ranking[0].parameters
     for q in values:
-        line = numbers.to_ascii(describe.parameter_line(q.as_json()))
-        assert line in full
-        assert line not in brief or abs(q.value) > q.std
+        label = numbers.to_ascii(describe.parameter_label(q.as_json()))
+        assert label in full
+        assert label not in brief or abs(q.value) > q.std
     assert "1e-2" not in brief and "< 1e-16" in brief
     a = result.step.as_json()
     floors = [result.before.as_json()["noise_floor"], a["before"]["noise_floor"]]  # type: ignore[index]

@@ -255,7 +255,7 @@ def test_uploads_keep_to_their_folder_their_kinds_and_their_size(
     names = ("../../evil.csv", "..\\evil.csv", "evil.csv")
 
     def send(name: str) -> str:  # all at once: none takes the place of another
-        answer = client.post("/api/upload", params={"name": name}, content=b"time [s]\n0\n")
+        answer = client.post("/api/upload", params={"name": name}, content=b"time [s],x [V]\n0,1\n1,2\n2,3\n")
         return str(answer.json()["path"])
 
     with ThreadPoolExecutor(3) as pool:
