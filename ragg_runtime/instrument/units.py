@@ -41,7 +41,7 @@ _CYCLES = frozenset(("hertz", "counts_per_second"))
 # pint evaluates powers of numbers in a unit ("9**9**9" never returns) and drops signs that it does not know ("m;s"): only
 # products and quotients of names with small exponents reach it, in brackets at most once.
 _POWER = r"(?:\s*(?:\^|\*\*)\s*[+-]?(?:\d|1[012])(?:\.\d+)?)?"
-_NAME = rf"(?:[^\W\d]\w*|°|%){_POWER}"
+_NAME = rf"(?:°?[^\W\d]\w*|°|%){_POWER}"
 _BY = r"(?:\s*[*/·]\s*|\s+)"
 _TERM = rf"(?:{_NAME}|\(\s*{_NAME}(?:{_BY}{_NAME})*\s*\){_POWER})"
 _UNIT = re.compile(rf"\s*(?:1\s*[*/]\s*)?{_TERM}(?:{_BY}{_TERM})*\s*")

@@ -1,7 +1,7 @@
 """Parquet, NetCDF, HDF5 and MATLAB: arrays with names and units, perhaps in groups or structures that are lines.
 
-NetCDF-4 and MATLAB 7.3 are HDF5. Of HDF5 the datasets at the root and in groups are read, tables of PyTables and pandas
-as well; nothing that stands in another file. What a library raises for a damaged file becomes one message.
+NetCDF-4 and MATLAB 7.3 are HDF5. Of HDF5 the datasets at the root and in groups are read, tables of PyTables as well;
+nothing that stands in another file. What a library raises for a damaged file becomes one message.
 """
 
 from __future__ import annotations
@@ -17,16 +17,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
-from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io.tables import (
+    INDEX,
     WIDEST,
     Column,
     Table,
     decode_values,
     label,
     make_table,
+    of_arrow,
     read_attributes,
     read_frame_units,
     read_heading,
@@ -38,8 +39,6 @@ if TYPE_CHECKING:
     import h5py
 
 HDF5_MAGIC = b"\x89HDF\r\n\x1a\n"
-LONGEST_TEXT = 200
-"""Characters of a unit or the name of a line in a MATLAB file: what is longer is neither."""
 
 _DIMENSION = "This is a netCDF dimension but not a netCDF variable"
 _UNIT_ENDINGS = ("_units", "_unit", "_UNITS", "_UNIT")
@@ -71,17 +70,17 @@ def read_parquet(path: Path) -> list[Table]:
         schema = file.schema_arrow
         require_memory(path, 8.0 * file.metadata.num_rows * len(schema))
         table = file.read()
-    pandas = _read_json(schema.metadata, b"pandas")
-    given = read_frame_units(_read_json(schema.metadata, b"PANDAS_ATTRS"))
-    labels = [n for n in pandas.get("index_columns", []) if isinstance(n, str)]
+    about = schema.metadata or {}
+    given = read_frame_units(_read_json(about.get(b"PANDAS_ATTRS", b"{}")))
+    labels = _read_json(about.get(b"pandas", b"{}")).get("index_columns", [])
     columns, other, index = [], [], None
     for field, values in zip(schema, table.columns, strict=True):
-        array = _of_arrow(values)
-        unnamed = field.name.startswith("__index_level_")
+        array = of_arrow(values)
         if array is None:
             other.append(f"{field.name!r} ({field.type})")
             continue
-        name, unit = ("index", "") if unnamed else read_heading(field.name)
+        unnamed = field.name.startswith("__index_level_")
+        name, unit = (INDEX, "") if unnamed else read_heading(field.name)
         said = (field.metadata or {}).get(b"units", b"").decode("utf-8", "replace").strip()
         columns.append(Column(name, said or given.get(field.name, "") or unit, array))
         index = name if field.name in labels or unnamed else index
@@ -89,38 +88,12 @@ def read_parquet(path: Path) -> list[Table]:
     return [Table(tuple(columns), index=index, notes=notes)]
 
 
-def _read_json(metadata: Mapping[bytes, bytes] | None, key: bytes) -> dict[str, Any]:
+def _read_json(text: bytes) -> dict[str, Any]:
     try:
-        found = json.loads((metadata or {}).get(key, b"{}"))
+        found = json.loads(text)
     except (ValueError, RecursionError):
         return {}
     return found if isinstance(found, dict) else {}
-
-
-def _of_arrow(column: pa.ChunkedArray) -> NDArray[Any] | None:
-    """Numbers, texts or instants of a column; ``None`` for anything else. Arrow's own ``to_numpy`` may load pandas."""
-    kind = column.type.value_type if pa.types.is_dictionary(column.type) else column.type
-    if (
-        pa.types.is_floating(kind)
-        or pa.types.is_integer(kind)
-        or pa.types.is_boolean(kind)
-        or pa.types.is_null(kind)
-    ):
-        whole = (
-            column.cast(pa.float64() if not pa.types.is_boolean(kind) else pa.int8())
-            .cast(pa.float64())
-            .combine_chunks()
-        )
-        return np.asarray(np.from_dlpack(whole.fill_null(float("nan")) if whole.null_count else whole))
-    if pa.types.is_decimal(kind):
-        return _of_arrow(column.cast(pa.float64()))
-    if pa.types.is_timestamp(kind) or pa.types.is_date(kind):
-        return np.asarray(column.cast(pa.timestamp("ns")).to_numpy(), dtype="datetime64[ns]")
-    if pa.types.is_duration(kind):
-        return np.asarray(column.cast(pa.duration("ns")).to_numpy(), dtype="timedelta64[ns]")
-    if pa.types.is_string(kind) or pa.types.is_large_string(kind) or pa.types.is_time(kind):
-        return np.array([write_cell(t) for t in column.to_pylist()], dtype=object)
-    return None
 
 
 # --- HDF5 and NetCDF -----------------------------------------------------------------------------------
@@ -129,7 +102,7 @@ def _of_arrow(column: pa.ChunkedArray) -> NDArray[Any] | None:
 def read_hdf5(path: Path) -> list[Table]:
     """The groups of an HDF5 or NetCDF-4 file that hold tables."""
     with _opened(path) as file:
-        return [t for group in _groups(file) for t in _tables_of_group(path, *group, {}, {})]
+        return [t for group in _groups(file) for t in _tables_of_group(path, *group, {})]
 
 
 def read_classic_netcdf(path: Path) -> list[Table]:
@@ -137,13 +110,8 @@ def read_classic_netcdf(path: Path) -> list[Table]:
     from scipy.io import netcdf_file  # slow to import, and only this format needs it
 
     with _whole(path, "NetCDF"), netcdf_file(path, mmap=False) as file:
-        arrays = []
-        for name, v in file.variables.items():
-            attributes = {
-                n: write_cell(x) if isinstance(x, bytes) else x for n, x in vars(v)["_attributes"].items()
-            }
-            arrays.append((name, label(np.array(v.data), attributes)))
-        return [make_table(arrays)]
+        found = {n: (np.array(v.data), vars(v)["_attributes"]) for n, v in file.variables.items()}
+        return [make_table([(n, label(x, a)) for n, (x, a) in found.items()])]
 
 
 @contextlib.contextmanager
@@ -188,45 +156,30 @@ def _is_column(data: h5py.Dataset) -> bool:
         return False
     if data.dtype.kind == "O" and h5py.check_string_dtype(data.dtype) is None:
         return False  # references and sequences
-    attributes = read_attributes(data)
     if (
-        _DIMENSION in write_cell(attributes.get("NAME"))
-        or write_cell(attributes.get("MATLAB_class")) == "char"
+        _DIMENSION in write_cell(data.attrs.get("NAME"))
+        or write_cell(data.attrs.get("MATLAB_class")) == "char"
     ):
         return False  # MATLAB keeps texts as numbers
-    if data.dtype.names is None and (
-        len(data.shape) > 2 or (len(data.shape) == 2 and min(data.shape) > WIDEST)
-    ):
-        return False
-    return data.dtype.kind in "fiubSOV"
+    wide = len(data.shape) > 2 or (len(data.shape) == 2 and min(data.shape) > WIDEST)
+    return data.dtype.kind in "fiubSOV" and not (wide and data.dtype.names is None)
 
 
 def _tables_of_group(
-    path: Path,
-    place: str,
-    group: h5py.Group,
-    arrays: Mapping[str, h5py.Dataset],
-    given: Mapping[str, str],
-    names: Mapping[str, str],
+    path: Path, place: str, group: h5py.Group, arrays: Mapping[str, h5py.Dataset], given: Mapping[str, str]
 ) -> Iterator[Table]:
     """The datasets of a group as a table, and every table of records (PyTables) in it; the group may be a line."""
     records = {n: d for n, d in arrays.items() if d.dtype.names is not None}
     plain = {n: d for n, d in arrays.items() if n not in records}
-    require_memory(
-        path, 8.0 * sum(math.prod(d.shape) * max(1, len(d.dtype.names or ())) for d in arrays.values())
-    )
-    line = (
-        write_cell(read_attributes(group).get("line"))
-        or matlab_text(group.get("line"))
-        or place.rsplit("/", 1)[-1]
-    )
-    if "block0_values" in plain and "block0_items" in plain:  # DataFrame.to_hdf(format="fixed")
-        yield make_table(_blocks(plain), given, index="index", line=line, part=place)
-    elif plain:
+    size = sum(math.prod(d.shape) * max(1, len(d.dtype.names or ())) for d in arrays.values())
+    require_memory(path, 8.0 * size)
+    own = write_cell(read_attributes(group).get("line")) or matlab_text(group.get("line"))
+    line = own or place.rsplit("/", 1)[-1]
+    if plain:
         read = [(n, label(d[()], read_attributes(d))) for n, d in plain.items()]
-        yield make_table(read, given, names=names, line=line, part=place)
+        yield make_table(read, given, line=line, part=place)
     for name, data in records.items():
-        yield make_table(_fields(data), given, index="index", line=line, part=f"{place}/{name}")
+        yield make_table(_fields(data), index=INDEX, line=line, part=f"{place}/{name}")
 
 
 def _fields(data: h5py.Dataset) -> list[tuple[str, Any]]:
@@ -236,33 +189,27 @@ def _fields(data: h5py.Dataset) -> list[tuple[str, Any]]:
     listed = np.atleast_1d(np.asarray(attributes.get("units", attributes.get("unit", "")))).ravel()
     found: list[tuple[str, Any]] = []
     for k, name in enumerate(whole.dtype.names):
-        unit = write_cell(listed[k]) if len(listed) == len(whole.dtype.names) else ""
         keys = [f"{n}{e}" for n in (name, f"FIELD_{k}") for e in _UNIT_ENDINGS]
-        unit = unit or next((write_cell(attributes[n]) for n in keys if n in attributes), "")
+        unit = next((write_cell(attributes[n]) for n in keys if n in attributes), "")
+        unit = write_cell(listed[k]) if len(listed) == len(whole.dtype.names) else unit
         values = whole[name]
-        columns = _pickled_names(attributes.get(f"{name}_kind"))
-        if name == "index":
-            values = _of_index(values, write_cell(attributes.get("index_kind")))
-        if values.ndim == 2 and values.shape[1] == len(columns):
-            found += [(n, values[:, i]) for i, n in enumerate(columns)]
-        else:
-            found.append(
-                (
-                    columns[0] if len(columns) == 1 and values.ndim == 1 else name,
-                    label(values, {"units": unit}),
-                )
-            )
+        kind = write_cell(attributes.get(f"{name}_kind"))
+        if name == INDEX and kind.startswith(
+            ("datetime64", "timedelta64")
+        ):  # whole numbers, of nanoseconds if not said
+            step = kind[kind.index("[") + 1 : -1] if kind.endswith("]") else "ns"
+            values = values.astype(np.int64).view(f"{'M8' if kind[0] == 'd' else 'm8'}[{step}]")
+        columns = _pickled_names(attributes.get(f"{name}_kind")) if name != INDEX else []
+        parts = values.T if values.ndim == 2 and values.shape[1] == len(columns) else [values]
+        titles = columns if len(columns) == len(parts) else [name]
+        found += [(n, label(x, {"units": unit})) for n, x in zip(titles, parts, strict=False)]
     return found
 
 
 def _pickled_names(value: object) -> list[str]:
     """The texts in a list that PyTables has pickled; nothing is executed."""
     data = (
-        value.tobytes()
-        if isinstance(value, np.void)
-        else bytes(value)
-        if isinstance(value, np.bytes_ | bytes)
-        else b""
+        value.tobytes() if isinstance(value, np.void) else bytes(value) if isinstance(value, bytes) else b""
     )
     try:
         return [a for o, a, _ in pickletools.genops(data) if "UNICODE" in o.name and isinstance(a, str)]
@@ -270,60 +217,31 @@ def _pickled_names(value: object) -> list[str]:
         return []
 
 
-def _of_index(values: NDArray[Any], kind: str) -> NDArray[Any]:
-    """The index of a DataFrame in a file of PyTables, which keeps instants as whole numbers."""
-    for start, code in (("datetime64", "M8"), ("timedelta64", "m8")):
-        if kind.startswith(start) and values.dtype.kind in "iu":
-            step = kind[len(start) + 1 : -1] if kind.endswith("]") else "ns"
-            return values.astype(np.int64).view(f"{code}[{step}]")
-    return values
-
-
-def _blocks(arrays: Mapping[str, h5py.Dataset]) -> list[tuple[str, Any]]:
-    """The columns of a DataFrame that pandas has written by blocks of one type."""
-    index = arrays["axis1"]
-    attributes = read_attributes(index)
-    found: list[tuple[str, Any]] = [("index", _of_index(index[()], write_cell(attributes.get("kind"))))]
-    for k in range(len(arrays)):
-        if f"block{k}_values" in arrays and f"block{k}_items" in arrays:
-            values, items = arrays[f"block{k}_values"][()], arrays[f"block{k}_items"][()]
-            found += [(write_cell(n), values[:, i]) for i, n in enumerate(items)]
-    return found
-
-
 # --- MATLAB --------------------------------------------------------------------------------------------
 
 
 def read_matlab(path: Path) -> list[Table]:
-    """The vectors of a MATLAB file, and its structures of vectors; units in a structure ``units``, names in ``names``."""
+    """The vectors of a MATLAB file, and its structures of vectors; units in a structure ``units``."""
     with path.open("rb") as stream:
         head = stream.read(10)
     if not head.startswith((b"MATLAB 7.3", HDF5_MAGIC)):
         return list(_structures(_load(path)))
-    import h5py
-
     tables: list[Table] = []
     with _opened(path) as file:
         for place, group, arrays in _groups(file):
-            if place.rsplit("/", 1)[-1] in ("units", "names"):
-                continue
-            given, names = (
-                {n: matlab_text(x) for n, x in inside.items()} if isinstance(inside, h5py.Group) else {}
-                for inside in (group.get("units"), group.get("names"))
-            )
-            tables += _tables_of_group(path, place, group, arrays, given, names)
+            units = group.get("units")
+            given = {n: matlab_text(x) for n, x in units.items()} if hasattr(units, "items") else {}
+            if place.rsplit("/", 1)[-1] != "units":
+                tables += _tables_of_group(path, place, group, arrays, given)
     return tables
 
 
 def matlab_text(item: object) -> str:
     """The text that MATLAB keeps in a dataset, as numbers; ``""`` where there is none, or no short one."""
-    import h5py
-
-    if not isinstance(item, h5py.Dataset) or item.dtype.kind != "u" or not 0 < item.size <= LONGEST_TEXT:
+    if getattr(getattr(item, "dtype", None), "kind", "") != "u" or not 0 < item.size <= 200:  # type: ignore[attr-defined]
         return ""
-    return "".join(
-        chr(int(c)) for c in np.asarray(item[()]).ravel(order="F") if 0 < int(c) < 0x110000
-    ).strip()
+    codes = np.asarray(item[()]).ravel(order="F")  # type: ignore[index]
+    return "".join(chr(int(c)) for c in codes if 0 < int(c) < 0x110000).strip()
 
 
 def _load(path: Path) -> dict[str, Any]:
@@ -341,28 +259,24 @@ def _structures(variables: Mapping[str, Any]) -> Iterator[Table]:
     waiting: list[tuple[str, Mapping[str, Any]]] = [("", variables)]
     while waiting:
         place, inside = waiting.pop(0)
+        units = inside.get("units")
+        known = units.items() if isinstance(units, Mapping) else ()
+        given = {n: t.strip() for n, t in known if isinstance(t, str)}
         arrays = []
-        for name, value in inside.items():
-            if name in ("units", "names"):
-                continue
+        for name, value in ((n, v) for n, v in inside.items() if n != "units"):
             boxed = isinstance(value, list) or (isinstance(value, np.ndarray) and value.dtype == object)
             parts = [value] if isinstance(value, Mapping) else list(value) if boxed else []
             if parts and all(isinstance(p, Mapping) for p in parts):
                 for k, part in enumerate(parts, 1):
-                    own = str(part.get("line", "")) if isinstance(part.get("line"), str | int | float) else ""
+                    own = str(part["line"]) if isinstance(part.get("line"), str | int | float) else ""
                     title = own or (name if len(parts) == 1 else f"{name}_{k}")
                     waiting.append((f"{place}/{title}" if place else title, part))
             elif isinstance(value, np.ndarray | list):
-                arrays.append((name, np.asarray(value, dtype=object if isinstance(value, list) else None)))
-        given, names = (
-            {n: t.strip() for n, t in inside.get(key, {}).items() if isinstance(t, str)}
-            if isinstance(inside.get(key), Mapping)
-            else {}
-            for key in ("units", "names")
-        )
-        arrays = [(n, x) for n, x in arrays if x.ndim and decode_values(x.ravel()[:4], {}) is not None]
+                x = np.asarray(value, dtype=object if isinstance(value, list) else None)
+                if x.ndim and decode_values(x.ravel()[:4], {}) is not None:
+                    arrays.append((name, x))
         if arrays:
-            yield make_table(arrays, given, names=names, line=place, part=place)
+            yield make_table(arrays, given, line=place, part=place)
 
 
 def write_parquet(path: Path, columns: Sequence[Column]) -> None:

@@ -65,15 +65,20 @@ def make_flight(
     UserError
         If a column is missing, does not convert, or the record is not uniformly sampled.
     """
-    si_units = _require_columns(made, g0, need_output, accelerometers)
-    si = _convert(made, g0, si_units)
+    names = [c.name for c in made.columns]
+    _require_names(made, names, _NEEDED, "the motion needs")
+    if any(n in names for n in ANGULAR_ACCELERATION):
+        _require_names(made, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
+    if need_output:
+        _require_output(made, names, accelerometers)
+    si, si_units = _convert(made, g0, accelerometers)
     time = si.pop("time")
     grid = uniform(time, made.place)
     notes = [*made.notes, *grid.notes]
     slower = _find_slower(time, si, si_units, notes)
     derivative = _plan_derivative(time, si, made.place)
     _drop_empty(si, notes, made.place)
-    if need_output:
+    if need_output:  # once more: of the columns that hold anything
         _require_output(made, list(si), accelerometers)
     placed = {c: slower[c].at(grid.time) if c in slower else _placed(v, grid) for c, v in si.items()}
     notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
@@ -116,36 +121,21 @@ def require_enough(flight: Flight, rows: int) -> Flight:
 # --- columns and units ---------------------------------------------------------------------------------
 
 
-def _require_columns(
-    made: Recording, g0: float, need_output: bool, accelerometers: Accelerometers
-) -> dict[str, str]:
-    """The SI units of all columns; UserError if one that is needed is missing, or a unit does not convert."""
-    names = [c.name for c in made.columns]
-    _require_names(made, names, _NEEDED, "the motion needs")
-    if any(n in names for n in ANGULAR_ACCELERATION):
-        _require_names(made, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
-    if need_output:
-        _require_output(made, names, accelerometers)
+def _convert(
+    made: Recording, g0: float, accelerometers: Accelerometers
+) -> tuple[dict[str, Array], dict[str, str]]:
+    """The columns in SI, NaN for what is beyond all bounds, and their units; UserError if one does not convert."""
     fixed = {**SI_UNITS, **dict.fromkeys(accelerometers.columns, "V")}
     fixed |= {d.angle_column: "rad" for d in accelerometers.discs}
     known = units(g0)
-    found = {}
+    found, si_units = {}, {}
     for c in made.columns:
         where = at(made.place, f"column {c.name!r}")
-        found[c.name] = fixed[c.name] if c.name in fixed else known.base_unit(c.unit, where)
-    return found
-
-
-def _convert(made: Recording, g0: float, si_units: Mapping[str, str]) -> dict[str, Array]:
-    """The columns in SI; NaN for what is beyond all bounds."""
-    known = units(g0)
-    found = {}
-    for c in made.columns:
-        where = at(made.place, f"column {c.name!r}")
+        si_units[c.name] = fixed[c.name] if c.name in fixed else known.base_unit(c.unit, where)
         values = known.to_si(c.values, c.unit, si_units[c.name], where)
         with np.errstate(invalid="ignore"):
             found[c.name] = np.where(np.abs(values) < ENDLESS, values, np.nan)
-    return found
+    return found, si_units
 
 
 def _require_names(made: Recording, names: Sequence[str], needed: Sequence[str], what: str) -> None:
@@ -154,9 +144,9 @@ def _require_names(made: Recording, names: Sequence[str], needed: Sequence[str],
         return
     spare = [n for n in (*names, *made.passed) if n not in SI_UNITS]
     near = did_you_mean(missing[0], spare) if len(missing) == 1 else None
-    several = len(missing) > 1
+    verb = "s {} are" if len(missing) > 1 else " {} is"
     raise UserError(
-        f"the column{'s' * several} {', '.join(missing)} {'are' if several else 'is'} missing",
+        f"the column{verb.format(', '.join(missing))} missing",
         where=made.place,
         found=_found(made, names),
         expected=f"{what} " + ", ".join(needed),
@@ -178,14 +168,13 @@ def _require_output(made: Recording, names: Sequence[str], a: Accelerometers) ->
     if len(a.outputs) == 1 and all(n in names for n in DEMODULATED):
         return
     volts = " ".join(a.voltage_columns(j)[0] for j in a.outputs[0].members)
-    one = f"{a.output_names[0]}, or {volts}"
-    further = f"; likewise {', '.join(a.output_names[1:])}" if len(a.outputs) > 1 else ", or inline and cross"
+    further = f"likewise {', '.join(a.output_names[1:])}" if len(a.outputs) > 1 else "or inline and cross"
     near = (did_you_mean(n, (*a.columns, *DEMODULATED)) for n in names if n not in SI_UNITS)
     raise UserError(
         "the instrument's output is missing",
         where=made.place,
         found=_found(made, names),
-        expected=one + further,
+        expected=f"{a.output_names[0]}, or {volts}; {further}",
         remedy=next(filter(None, near), None),
     )
 
@@ -194,12 +183,9 @@ def _drop_empty(si: dict[str, Array], notes: list[str], place: str) -> None:
     """Leave out columns without a single number, unless the motion would be incomplete."""
     for name in [n for n, v in si.items() if np.isnan(v).all()]:
         if name in _NEEDED:
+            where = at(place, f"column {name!r}")
             raise UserError(
-                "the column holds no number",
-                where=at(place, f"column {name!r}"),
-                found="empty cells alone",
-                expected="numbers: the motion needs it",
-                remedy="check the recorder or the export",
+                "the column holds no number", where=where, expected="numbers: the motion needs it"
             )
         del si[name]
         notes.append(f"{name}: the column holds no number; it is left out")
@@ -220,22 +206,19 @@ def _find_valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, 
     present[grid.index] = True
     valid = present.copy()
     for name, values in columns.items():
-        if not np.isnan(np.sum(values)):  # cheap, and true wherever something is missing
-            continue
         missing = np.isnan(values)
-        if not np.any(missing & present):
+        lacking = missing & present
+        if not lacking.any():
             continue
-        count = int(np.sum(missing & present))
         bridged = np.zeros_like(missing)
         if (name not in SI_UNITS or name in AUXILIARY) and name not in outputs:
-            for run in runs(missing & present):
+            for run in runs(lacking):
                 inside = run.start > 0 and run.stop < len(missing)
                 bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
-        kept = int(np.sum(bridged & present))
-        if kept:
-            notes.append(f"{name}: without a value at {samples_of(kept)}, interpolated")
-        if count > kept:
-            notes.append(f"{name}: without a value at {samples_of(count - kept)}, not used")
+        kept = int(np.sum(bridged))
+        lost = int(np.sum(lacking)) - kept
+        notes += [f"{name}: without a value at {samples_of(kept)}, interpolated"] if kept else []
+        notes += [f"{name}: without a value at {samples_of(lost)}, not used"] if lost else []
         valid &= ~missing | bridged
     return valid
 
@@ -245,16 +228,12 @@ def samples_of(count: int) -> str:
 
 
 def _filled(values: Array, name: str) -> Array:
-    if not np.isnan(np.sum(values)):
-        return values
     missing = np.isnan(values)
     if not missing.any():
         return values
-    result = values.copy()
     places = np.flatnonzero(~missing)
-    there = values[places]
-    if is_disc_angle(name):
-        there = np.unwrap(there)
+    there = np.unwrap(values[places]) if is_disc_angle(name) else values[places]
+    result = values.copy()
     result[missing] = np.interp(np.flatnonzero(missing), places, there)
     return result
 
@@ -271,12 +250,12 @@ def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Acceleromete
             notes.append(f"{o.name} is derived: {formula}")
             continue
         there = np.isfinite(sum_) & np.isfinite(outputs[o.name])
-        difference = np.sqrt(np.mean((sum_ - outputs[o.name])[there] ** 2)) if there.any() else 0.0
-        size = np.sqrt(np.mean(outputs[o.name][there] ** 2)) if there.any() else 0.0
+        own = outputs[o.name][there]
+        difference, size = np.linalg.norm(sum_[there] - own), np.linalg.norm(own)
         if difference > 1e-3 * size:
             notes.append(
-                f"{o.name} differs from {formula} by {difference:.3g} V rms, with {size:.3g} V rms "
-                "of its own: check the order and the signs of the voltages"
+                f"{o.name} differs from {formula} by {100 * difference / max(size, difference / 10):.2g} % rms: "
+                "check the order and the signs of the voltages"
             )
 
 
@@ -308,19 +287,14 @@ def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:
     given = [n for n in GRADIENT if n in channels]
     if given and len(given) < len(GRADIENT):
         notes.append("of the gravity gradient only " + ", ".join(given) + " are given")
-    if all(n in given for n in ("Gamma_xx", "Gamma_yy", "Gamma_zz")):
-        trace = float(np.max(np.abs(sum(channels[n] for n in ("Gamma_xx", "Gamma_yy", "Gamma_zz")))))
-        if trace > _TRACE_NOTED:
-            notes.append(
-                f"Gamma_xx + Gamma_yy + Gamma_zz reaches {trace / 1e-9:.3g} Eo; outside matter it is 0"
-            )
+    diagonal = [channels[n] for n in ("Gamma_xx", "Gamma_yy", "Gamma_zz") if n in given]
+    trace = float(np.max(np.abs(np.sum(diagonal, axis=0)))) if len(diagonal) == 3 else 0.0
+    if trace > _TRACE_NOTED:
+        notes.append(f"Gamma_xx + Gamma_yy + Gamma_zz reaches {trace / 1e-9:.3g} Eo; outside matter it is 0")
 
 
 DEGREE = 5
 """Of the splines: their derivative is as good as the finite differences'."""
-
-FEWEST = DEGREE + 3
-"""Samples from which one is drawn."""
 
 
 def _differentiate(x: Array, grid: Grid, derivative: Derivative) -> tuple[Array, Mask]:
@@ -328,7 +302,7 @@ def _differentiate(x: Array, grid: Grid, derivative: Derivative) -> tuple[Array,
     resampled = _evenly(x, grid)
     slope, sure = derivative.of(resampled, 1 / grid.step)
     there = np.isfinite(slope)
-    if resampled is x or np.sum(there) < FEWEST:
+    if resampled is x or np.sum(there) < DEGREE + 3:
         return slope, sure
     even = _even(grid)
     return np.where(there, make_interp_spline(even[there], slope[there], DEGREE)(grid.time), np.nan), sure
@@ -337,7 +311,7 @@ def _differentiate(x: Array, grid: Grid, derivative: Derivative) -> tuple[Array,
 def _evenly(x: Array, grid: Grid) -> Array:
     """Samples at evenly spaced instants; themselves where they do not jitter."""
     there = np.isfinite(x)
-    if not grid.jitters or np.sum(there) < FEWEST:
+    if not grid.jitters or np.sum(there) < DEGREE + 3:
         return x
     return np.where(there, make_interp_spline(grid.time[there], x[there], DEGREE)(_even(grid)), np.nan)
 
@@ -428,11 +402,11 @@ def _find_slower(
         channel = judge_slow(time[there], np.unwrap(values) if si_units[name] == "rad" else values)
         if isinstance(channel, Slow) and channel.covered < (1 - MOST_UNUSED) * whole:
             channel = f"its values cover {channel.covered:.4g} s of {whole:.4g} s"
-        lacking = len(there) - count
+        lacking = samples_of(len(there) - count)
         if isinstance(channel, Slow):
             found[name] = channel
-            notes.append(f"{name}: recorded every {channel.step:.4g} s; interpolated (at {lacking} samples)")
+            notes.append(f"{name}: recorded every {channel.step:.4g} s; interpolated (at {lacking})")
         else:
             del si[name]
-            notes.append(f"{name}: without a value at {samples_of(lacking)}; left out: {channel}")
+            notes.append(f"{name}: without a value at {lacking}; left out: {channel}")
     return found

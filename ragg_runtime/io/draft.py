@@ -9,29 +9,22 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.names import LONGEST, is_column
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.files import read_tables, write_instant
-from ragg_runtime.io.instants import GPS_EPOCH, find_order, parts_of
+from ragg_runtime.io.files import read_tables
+from ragg_runtime.io.instants import find_order, parts_of
 from ragg_runtime.io.mapping import UNKNOWN
-from ragg_runtime.io.record import DEMODULATED, SI_UNITS, is_demodulated
+from ragg_runtime.io.record import DEMODULATED, SI_UNITS
 from ragg_runtime.io.recording import find_spoiled, parse_numbers
 from ragg_runtime.io.tables import Column, Table, is_unit, split_lines
 
-NEAR_G = 0.1
-"""Relative distance from gravity, on the median, within which a vertical channel's unit is guessed: less than platforms feel on average."""
-
-_LOOKED_AT = 20_000  # rows whose numbers are looked at for remarks
-_DATED = (datetime(1995, 1, 1, tzinfo=UTC), datetime(2045, 1, 1, tzinfo=UTC))
-_EPOCHS = ((GPS_EPOCH, "GPS time"), (datetime(1970, 1, 1, tzinfo=UTC), "Unix time"))
+_LOOKED_AT = 20_000  # rows of a sample
 _FEW = 5  # different cells that are no numbers, in a column of numbers
 _RANKS = ("certain", "likely", "guess")
 _TIMES = ("time", "line", "week", "second_of_week", "date", "clock")
@@ -75,22 +68,20 @@ def draft_mapping(path: Path) -> Draft:
     _write_columns(table, page)
     unused = [c for c in table.columns if c.name not in page.used]
     if unused:
-        about = "# Not used (any column can be kept as an auxiliary channel under a name of its own):"
-        kept = [f"# {_key(c.name)} = {_entry(c.name, c.unit or UNKNOWN)}" for c in unused if c.is_number]
-        page.lines += ["", about, *kept]
-        page.lines += [f"# no numbers: {_quoted(c.name)} ({_example(c)})" for c in unused if not c.is_number]
-    if any(is_demodulated(r.name) for n in table.names if (r := role_of(n)) is not None):
-        page.lines += ["", "# How inline and cross were made, if it is known:", "# [demodulator]"]
-        page.lines += ['# kind = "butterworth"', '# cutoff = "0.18 Hz"', "# order = 6"]
+        page.lines += [
+            "",
+            "# Not used (any column can be kept as an auxiliary channel under a name of its own):",
+        ]
+    for c in unused:
+        kept = f"{_key(c.name)} = {_entry(c.name, c.unit or UNKNOWN)}"
+        page.lines.append(f"# {kept}" if c.is_number else f"# no numbers: {_quoted(c.name)} ({_example(c)})")
+    texts = [f"{c.name}: no numbers ({_example(c)}), not used" for c in unused if not c.is_number]
     return Draft(
         text="\n".join(page.lines) + "\n",
         questions=tuple(page.questions),
         unused=tuple(c.name for c in unused),
         sure=MappingProxyType(page.sure),
-        notes=(
-            *table.notes,
-            *(f"{c.name}: no numbers ({_example(c)}), not used" for c in unused if not c.is_number),
-        ),
+        notes=(*table.notes, *texts),
     )
 
 
@@ -104,11 +95,7 @@ def _pick(tables: Sequence[Table], path: Path) -> tuple[list[Table], Table]:
     """The tables that are alike to the one with most columns of known roles, and that one."""
     tables = [t for t in tables if t.columns]
     if not tables:
-        raise UserError(
-            "the file holds no table",
-            where=path,
-            expected="vectors of numbers of one length, or a header of names and rows of numbers below it",
-        )
+        raise UserError("the file holds no table", where=path, expected="vectors of numbers of one length")
     best = max(tables, key=lambda t: (len({r.name for n in t.names if (r := role_of(n))}), len(t)))
     alike = [t for t in tables if {*t.names} == {*best.names}]
     return alike, replace(alike[0], part=best.part if len(alike) < len(tables) else "")
@@ -132,14 +119,11 @@ def _write_file(table: Table, tables: Sequence[Table], page: _Page) -> None:
     lines = []
     if table.part:
         lines.append(f'part = "{_quoted(table.part)}"  # likely: the file holds several tables that differ')
+    name = next((n for n in table.names if ROLES["line"].fits(n)), None)
     if len(tables) > 1:
-        names = [f'"{_quoted(str(t.line))}"' for t in tables]
-        shown = ", ".join(names[:6]) + (", ..." if len(names) > 6 else "")
-        told = (
-            f"# {len(tables)} lines, told apart by the file itself; [file] lines = [...] picks some: {shown}"
-        )
-        page.lines += [told, ""]
-    elif (name := next((n for n in table.names if ROLES["line"].fits(n)), None)) is not None:
+        shown = ", ".join(f'"{_quoted(str(t.line))}"' for t in tables[:6])
+        page.lines += [f"# {len(tables)} lines; [file] lines = [...] picks some: {shown}", ""]
+    elif name is not None:
         page.used.add(name)
         line = f'line = "{_quoted(name)}"  # likely: tells flight lines apart; take it out if it does not'
         try:
@@ -159,18 +143,17 @@ def _write_time(table: Table, page: _Page) -> None:
         page.used.update(names)
         shown = ", ".join(f'"{_quoted(n)}"' for n in names)
         page.lines.append(f"column = {shown if len(names) == 1 else f'[{shown}]'}  # {sure}")
-        asked = ""
+        page.lines += [f'format = "{form}"', ""]
         if form == UNKNOWN:
             asked = f'is {_example(table.column(names[0]))} "d/m/y" or "m/d/y"?'
             page.questions.append(f"[time] format: {asked}")
-        page.lines += [f'format = "{form}"' + (f"  # {asked}" if asked else ""), ""]
+            page.lines[-2] += f"  # {asked}"
     elif fits:
         c = min(fits, key=lambda c: (c.name != "time", not c.unit))
         page.used.add(c.name)
         page.lines.append(f'column = "{_quoted(c.name)}"  # {"certain" if c.name == "time" else "likely"}')
         unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", page, "[time]")
-        page.lines += [f'unit = "{unit}"{remark}', *_remark_origin(c)]
-        page.lines += [_null(c, page), ""] if c.name in page.odd else [""]
+        page.lines += [f'unit = "{unit}"{remark}', _null(c, page), ""]
     else:
         page.questions.append("[time] column: which column is time?")
         page.lines.append(f'column = "{UNKNOWN}"  # no column has a name that is usual for time')
@@ -183,20 +166,19 @@ def _find_instants(table: Table) -> tuple[tuple[str, ...], str, str] | None:
         return None
     by_role = {r: c for c in reversed(table.columns) for r in _TIMES[2:] if ROLES[r].fits(c.name)}
     if "week" in by_role and "second_of_week" in by_role:
-        names = (by_role["week"].name, by_role["second_of_week"].name)
-        return names, "gps", "likely: GPS week and seconds in it"
+        return (by_role["week"].name, by_role["second_of_week"].name), "gps", "likely: GPS week and seconds"
     texts = [c for c in table.columns if not c.is_number]
     texts.sort(key=lambda c: not ROLES["time"].fits(c.name))
     for c in texts:
         if c.values.dtype.kind == "M" or all(parts_of(_cell(c))):
-            return (c.name,), _find_form(c), "certain: a date and a time in every row"
+            return (c.name,), _find_form(c), "certain: a date and a time"
     date, clock = by_role.get("date"), by_role.get("clock")
     if date is not None and clock is not None and date is not clock:
         form = _find_form(date).replace("iso", "date clock")
         return (date.name, clock.name), form, "likely: a date and a time of the day"
     for c in texts:
         if c.values.dtype.kind == "m" or parts_of(_cell(c))[1]:
-            return (c.name,), "clock", "certain: a time of the day, or an elapsed time, in every row"
+            return (c.name,), "clock", "certain: a time of the day, or an elapsed time"
     return None
 
 
@@ -229,63 +211,32 @@ def _write_columns(table: Table, page: _Page) -> None:
         c, role = taken[name]
         unit, remark = (role.unit, "") if role.unit else _find_unit(c, name, page, f"[columns] {name}")
         page.sure[name] = role.sure
-        scale = f", scale = {role.scale:g}" if role.scale != 1.0 else ""
-        null = f", {_null(c, page)}" if c.name in page.odd else ""
+        further = [f"scale = {role.scale:g}"] if role.scale != 1.0 else []
+        entry = _entry(c.name, unit, *further, *filter(None, [_null(c, page)]))
         comment = f"  # {role.sure}" + (f": {role.why}" if role.why else "") + remark.replace("  # ", "; ", 1)
-        entry = f'{{ column = "{_quoted(c.name)}", unit = "{unit}"{scale}{null} }}'
         page.lines.append(f"{_key(name)} = {entry}{comment}")
 
 
 def _null(c: Column, page: _Page) -> str:
     """What stands for missing values in a column: its cells that are no numbers."""
-    return "null = [" + ", ".join(f'"{_quoted(t)}"' for t in page.odd[c.name]) + "]"
+    cells = ", ".join(f'"{_quoted(t)}"' for t in page.odd.get(c.name, ()))
+    return f"null = [{cells}]" if cells else ""
 
 
 def _find_unit(c: Column, name: str, page: _Page, where: str) -> tuple[str, str]:
     """The unit to write and a remark; a question where the file gives none or one that cannot be."""
     stem = re.sub(r"_[^_]+$", "", name)
     si = SI_UNITS.get(name) or (SI_UNITS.get(stem) if stem in DEMODULATED else None)
-    if c.unit and is_unit(c.unit):
-        if si is None or units(9.8).fits(c.unit, si):
-            return _quoted(c.unit), ""
-        page.questions.append(f"{where}: the file says {c.unit!r}, which is no unit of it")
-        return UNKNOWN, f"  # the file says {_quoted(c.unit)}, which is no unit of {name}"
-    said = f"the file says {c.unit!r}, which is no unit that is known" if c.unit else "the file gives none"
-    looks = _describe_looks(name, c.values[:_LOOKED_AT])
-    page.questions.append(f"{where}: unit of {c.name!r} ({said}{'; ' + looks if looks else ''})")
-    return UNKNOWN, f"  # {_quoted(said)}" + (f"; {looks}" if looks else "")
+    if c.unit and is_unit(c.unit) and (si is None or units(9.8).fits(c.unit, si)):
+        return _quoted(c.unit), ""
+    said = f"the file says {c.unit!r}, which is no unit of it" if c.unit else "the file gives none"
+    page.questions.append(f"{where}: unit of {c.name!r} ({said})")
+    return UNKNOWN, f"  # {_quoted(said)}"
 
 
-def _describe_looks(name: str, values: NDArray[np.float64]) -> str:
-    """What the numbers remind of, as a remark beside a question; never an answer."""
-    v = values[np.isfinite(values)]
-    if not len(v):
-        return "no number to look at"
-    size = float(np.median(np.abs(v)))
-    if name == "a_z":
-        for unit, g in (("g", 1.0), ("m/s^2", 9.8), ("Gal", 980.0), ("mGal", 9.8e5)):
-            if abs(size / g - 1.0) < NEAR_G:
-                return f"the median is {size:.4g}, as gravity in {unit}"
-    if name == "time" and len(v) > 1:
-        return f"steps of {float(np.median(np.diff(v))):.6g}"
-    return f"from {v.min():.6g} to {v.max():.6g}"
-
-
-def _remark_origin(c: Column) -> list[str]:
-    """Remarks on when the record may have begun, if its seconds count from a usual epoch."""
-    first = float(c.values[0]) if len(c.values) and np.isfinite(c.values[0]) else 0.0
-    found = []
-    for epoch, what in _EPOCHS if " since " not in c.unit else ():
-        if 0.0 < first < 3e9 and _DATED[0] < (begun := epoch + timedelta(seconds=int(first))) < _DATED[1]:
-            begins = write_instant(begun)
-            found.append(
-                f"# origin = {write_instant(epoch)}  # guess: as {what} in seconds the record begins {begins}"
-            )
-    return found
-
-
-def _entry(column: str, unit: str) -> str:
-    return f'{{ column = "{_quoted(column)}", unit = "{_quoted(unit)}" }}'
+def _entry(column: str, unit: str, *further: str) -> str:
+    parts = (f'column = "{_quoted(column)}"', f'unit = "{_quoted(unit)}"', *further)
+    return f"{{ {', '.join(parts)} }}"
 
 
 def _key(name: str) -> str:
@@ -318,21 +269,18 @@ class Role:
     unit: str = ""
 
     def fits(self, column: str) -> bool:
-        return column == self.name or re.fullmatch(self.pattern, fold_name(column)) is not None
+        words = re.sub(r"([a-z])([A-Z][a-z])", r"\1_\2", column)
+        folded = re.sub(r"[\W_]+", "_", words).strip("_")
+        return column == self.name or re.fullmatch(self.pattern, folded, re.IGNORECASE) is not None
 
     @property
     def rank(self) -> int:
         return _RANKS.index(self.sure)
 
 
-def fold_name(column: str) -> str:
-    """A column's name in small letters, its words divided by ``_``."""
-    words = re.sub(r"([a-z])([A-Z][a-z])", r"\1_\2", column)
-    return re.sub(r"[\W_]+", "_", words).strip("_").casefold()
-
-
 _HALF = "of a disc the inline output is usually (Gamma_xx - Gamma_yy)/2, inline is twice that"
 _AXES = [(axis, n, "pqr"[n - 1]) for n, axis in enumerate("xyz", 1)]
+_DISCS = "1234ABC"
 _PAIRS = ("xx", "xy", "xz", "yy", "yz", "zz")
 _PLAIN = (
     ("time", r"t|time|(gps|utc|unix|imu|rec)_?(time|sec(onds?)?)|time_?(s|sec|gps|utc|1980|day)|sec(onds?)?|f_?time|fid(ucial)?"),
@@ -349,58 +297,27 @@ _PLAIN = (
     ("roll", r"roll"),
     ("pitch", r"pitch"),
     ("yaw", r"yaw"),
-    ("heading", r"heading|hdg|bearing|azimuth"),
-    ("easting", r"east(ing)?|mga_?x|utm_?(e|x)|x_?utm"),
-    ("northing", r"north(ing)?|mga_?y|utm_?(n|y)|y_?utm"),
-    ("latitude", r"lat(itude)?(_?(deg|wgs84))?"),
-    ("longitude", r"lon(g|gitude?)?(_?(deg|wgs84))?"),
-    ("altitude", r"alt(itude)?|height|gps_?(z|alt|height)|(mga|msl)_?z|elev(ation)?"),
-    ("clearance", r"clearance|radar_?alt|ralt|lalt|drape_?agl"),
-    ("turbulence", r"turb(ulence)?"),
-    ("vertical_velocity", r"v(ert(ical)?)?_?(vel(ocity)?|speed)|vz"),
-    ("vertical_acceleration", r"vert(ical)?_?acc(el(eration)?)?"),
 )  # fmt: skip
 """Channel and the usual names of a column of it."""
 
 _ACC, _GYRO = r"accel(eration)?|acc", r"gyro?|(ang(ular)?_?)?(rate|velocity)"
+_NUMBERED, _PQR = "a number in the place of an axis", "roll, pitch and yaw rate?"
 _ALL = (
     *(Role(name, pattern) for name, pattern in _PLAIN),
     *(Role(f"a_{x}", rf"(a|{_ACC}|f|sf|specific_force)_?{x}|{x}_?({_ACC})") for x, _, _ in _AXES),
     *(Role(f"omega_{x}", rf"(w|omega|{_GYRO})_?{x}|{x}_?({_GYRO})") for x, _, _ in _AXES),
     *(Role(f"omegadot_{x}", rf"(omega_?dot|alpha|ang(ular)?_?acc(el(eration)?)?)_?{x}") for x, _, _ in _AXES),
     *(Role(f"B_{x}", rf"(b|mag|field)_?{x}", "guess") for x, _, _ in _AXES),
-    *(
-        Role(f"a_{x}", rf"({_ACC})_?{n}", "guess", why="a number in the place of an axis")
-        for x, n, _ in _AXES
-    ),
-    *(
-        Role(f"omega_{x}", rf"(gyro?|rate)_?{n}|{p}", "guess", why="roll, pitch and yaw rate?")
-        for x, n, p in _AXES
-    ),
+    *(Role(f"a_{x}", rf"({_ACC})_?{n}", "guess", why=_NUMBERED) for x, n, _ in _AXES),
+    *(Role(f"omega_{x}", rf"(gyro?|rate)_?{n}|{p}", "guess", why=_PQR) for x, n, p in _AXES),
     *(Role(f"Gamma_{x}", rf"(gamma|gradient|gg)_?({x}|{x[::-1]})") for x in _PAIRS),
-    *(
-        Role(
-            f"Gamma_{x}",
-            rf"[tg]_?({x}|{x[::-1]})",
-            "guess",
-            why="of which frame, and is it known beforehand?",
-        )
-        for x in _PAIRS
-    ),
+    *(Role(f"Gamma_{x}", rf"[tg]_?({x}|{x[::-1]})", "guess", why="known beforehand?") for x in _PAIRS),
     Role("inline", r"in_?line(_?raw)?", scale=2.0, why=_HALF),
     *(Role(f"V_{k}", rf"v_?{k}|volt(age)?_?{k}|acc(el)?_?{k}_?v(olt(age)?)?") for k in range(1, 5)),
-    *(
-        Role(f"inline_{d}", rf"(ggi_?)?in_?line_?{d.lower()}(_?raw)?", scale=2.0, why=_HALF)
-        for d in "1234ABC"
-    ),
-    *(Role(f"cross_{d}", rf"(ggi_?)?cross_?{d.lower()}(_?raw)?") for d in "1234ABC"),
-    *(
-        Role(f"inline_{d}", rf"{d.lower()}_?uv(_\w+)?", scale=2.0, why="UV is (Gamma_xx - Gamma_yy)/2")
-        for d in "AB"
-    ),
-    *(Role(f"cross_{d}", rf"{d.lower()}_?ne(_\w+)?") for d in "AB"),
-    Role("easting", r"x", "guess", why="a position?"),
-    Role("northing", r"y", "guess", why="a position?"),
+    *(Role(f"inline_{d}", rf"(ggi_?)?in_?line_?{d}(_?raw)?", scale=2.0, why=_HALF) for d in _DISCS),
+    *(Role(f"cross_{d}", rf"(ggi_?)?cross_?{d}(_?raw)?") for d in _DISCS),
+    *(Role(f"inline_{d}", rf"{d}_?uv(_\w+)?", scale=2.0, why=_HALF) for d in "AB"),
+    *(Role(f"cross_{d}", rf"{d}_?ne(_\w+)?") for d in "AB"),
     Role("flight", r"flight(_?(no|num|number))?|flt", unit="1"),
 )
 

@@ -5,11 +5,10 @@ A further format is one function ``path -> list of Table`` and a line of :data:`
 
 from __future__ import annotations
 
-import contextlib
 import csv
 import gzip
 import io
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -37,7 +36,7 @@ from ragg_runtime.io.assemble import make_flight, require_enough
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.io.record import SI_UNITS, Flight
 from ragg_runtime.io.recording import Recording, make_recordings
-from ragg_runtime.io.tables import Column, Table, digest_tables, line_name, tabulate
+from ragg_runtime.io.tables import Column, Table, digest_tables, tabulate
 from ragg_runtime.io.text_tables import read_csv, read_excel
 
 # --- formats -------------------------------------------------------------------------------------------
@@ -53,9 +52,8 @@ def read_netcdf(path: Path) -> list[Table]:
 def write_csv(path: Path, columns: Sequence[Column]) -> None:
     """Write columns exactly: every number is the shortest that reads back as itself, NaN is left empty."""
     header = io.StringIO()
-    csv.writer(header, lineterminator="\n").writerow(
-        f"{c.name} [{c.unit}]" if c.unit else c.name for c in columns
-    )
+    titles = [f"{c.name} [{c.unit}]" if c.unit else c.name for c in columns]
+    csv.writer(header, lineterminator="\n").writerow(titles)
     arrays = [pa.array(c.values, from_pandas=True) for c in columns]
     table = pa.Table.from_arrays(arrays, names=[str(k) for k in range(len(arrays))])
     with path.open("wb") as raw:
@@ -66,10 +64,6 @@ def write_csv(path: Path, columns: Sequence[Column]) -> None:
         pyarrow.csv.write_csv(table, stream, pyarrow.csv.WriteOptions(include_header=False))
         if compressed:
             stream.close()
-
-
-COLUMN, TABLE = 8192, 1 << 16
-"""Bytes that a column of a NetCDF file takes beside its numbers, and a table beside its columns, with room to spare."""
 
 
 def write_netcdf(path: Path, columns: Sequence[Column]) -> None:
@@ -93,8 +87,8 @@ def write_netcdf(path: Path, columns: Sequence[Column]) -> None:
 
 
 def estimate_room(sizes: Sequence[int]) -> int:
-    """Bytes that columns of so many numbers take at most in a NetCDF file."""
-    return TABLE + sum(8 * n + COLUMN for n in sizes)
+    """Bytes that columns of so many numbers take at most in a NetCDF file, with their headers."""
+    return (1 << 16) + sum(8 * n + 8192 for n in sizes)
 
 
 @dataclass(frozen=True)
@@ -155,39 +149,21 @@ def require_writable(path: Path) -> Callable[[Path, Sequence[Column]], None]:
 
 def _require_content(path: Path, expected: Format) -> None:
     """Compare the first bytes of an existing file with its format."""
-    if path.exists() and not (path.is_file() or path.is_dir()):
-        raise UserError(
-            "a flight file is needed here, not a device or a pipe",
-            where=path,
-            expected="a regular file",
-            remedy="write the record to a file first",
-        )
+    regular = "a CSV, Parquet or NetCDF file, or another that `ragg convert` reads"
+    if path.exists() and not path.is_file():
+        what = f"a flight file is needed here, not a {'directory' if path.is_dir() else 'device or a pipe'}"
+        raise UserError(what, where=path, expected=f"a regular file: {regular}")
     try:
         with path.open("rb") as stream:
             head = stream.read(8)
     except FileNotFoundError:
-        raise UserError(
-            "the flight file does not exist",
-            where=path,
-            expected="a CSV, Parquet or NetCDF file, or another that `ragg convert` reads",
-            remedy="check the name and the folder",
-        ) from None
-    except IsADirectoryError:
-        raise UserError(
-            "a flight file is needed here, not a directory", where=path, remedy="name the files in it"
-        ) from None
+        raise UserError("the flight file does not exist", where=path, expected=regular) from None
     except OSError as error:
         raise UserError("the flight file cannot be read", where=path, found=error.strerror) from None
     if not head:
-        raise UserError(
-            "the flight file is empty",
-            where=path,
-            found="0 bytes",
-            expected="a header of names and units, then rows",
-            remedy="the recording or the copy may have failed: get the file again",
-        )
+        remedy = "the recording or the copy may have failed: get the file again"
+        raise UserError("the flight file is empty", where=path, found="0 bytes", remedy=remedy)
     names = [f.name for f in FORMATS if any(head.startswith(m) for m in f.magic)]
-    names += ["old Excel (.xls)"] if head.startswith(b"\xd0\xcf\x11\xe0") else []
     if (expected.name in names) if expected.magic else not names:
         return
     raise UserError(
@@ -264,10 +240,14 @@ def read_flights(
     title = name if path is None else flight_name(path)
     flights = []
     for r in made:
-        with _naming_line(r.line if len(made) > 1 else None):
+        own = title + (f":{r.line}" if len(made) > 1 else "")
+        try:
             x = make_flight(r, g0, need_output=need_output, accelerometers=accelerometers)
-            own = title + (f":{r.line}" if len(made) > 1 else "")
             flights.append(require_enough(replace(x, name=own, path=path, digest=digest), len(r)))
+        except UserError as error:
+            what = f"line {r.line}: {error.what}" if len(made) > 1 else error.what
+            facts = {n: getattr(error, n) for n in ("where", "found", "expected", "remedy")}
+            raise UserError(what, **facts) from None
     return flights
 
 
@@ -283,26 +263,8 @@ def read_flight(source: Any, g0: float, *, line: str | None = None, **options: A
         "the file holds several lines",
         where=flights[0].path or flights[0].name,
         found=", ".join(names[:12]) + (" ..." if len(names) > 12 else ""),
-        expected="one flight",
         remedy="name the line that is meant in a mapping: [file] lines = [...]; or convert it first",
     )
-
-
-@contextlib.contextmanager
-def _naming_line(line: str | None) -> Iterator[None]:
-    """Say in the message which of several lines is at fault."""
-    try:
-        yield
-    except UserError as error:
-        if line is None:
-            raise
-        raise UserError(
-            f"line {line}: {error.what}",
-            where=error.where,
-            found=error.found,
-            expected=error.expected,
-            remedy=error.remedy,
-        ) from None
 
 
 def flight_name(path: Path) -> str:
@@ -341,24 +303,14 @@ def join_tables(tables: Sequence[Table]) -> list[Column]:
     names = list(dict.fromkeys(n for t in tables for n in t.names))
     found: list[Column] = []
     if any(t.line is not None for t in tables):
-        lines = [t.line or "" for t in tables]
-        numeric = all(_is_plain_number(n) for n in lines)
-        labels = np.array([float(n) for n in lines]) if numeric else np.array(lines, dtype=object)
-        found.append(Column("line", "1" if numeric else "", np.repeat(labels, [len(t) for t in tables])))
+        lines = np.array([t.line or "" for t in tables], dtype=object)
+        found.append(Column("line", "", np.repeat(lines, [len(t) for t in tables])))
     for n in names:
         parts: list[NDArray[Any]] = [
             t.column(n).values if n in t.names else np.full(len(t), np.nan) for t in tables
         ]
         found.append(Column(n, units_of[n], np.concatenate(parts) if len(parts) > 1 else parts[0]))
     return found
-
-
-def _is_plain_number(line: str) -> bool:
-    """Whether a line's name is a number from which :func:`line_name` makes the name again."""
-    try:
-        return np.isfinite(float(line)) and line_name(float(line)) == line
-    except ValueError:
-        return False
 
 
 def _columns(flight: Flight, units_of: Mapping[str, str], g0: float | None) -> list[Column]:
@@ -400,31 +352,34 @@ def convert(source: Path, target: Path, mapping: Mapped | None = None) -> Conver
         raise UserError("a file cannot be converted into itself", where=source, remedy="name another file")
     require_writable(target)  # before a long file is read for nothing
     made = read_recordings(source, mapping, lenient=True)
-    counted = [_from_first(r) for r in made]
-    tables = [
-        Table(c, line=r.line if len(made) > 1 else None) for r, (c, _) in zip(made, counted, strict=True)
-    ]
+    tables = [Table(_from_first(r), line=r.line if len(made) > 1 else None) for r in made]
     write_tables(target, tables)
     columns = made[0].columns
     bare = [c.name for c in columns if not c.unit]
     notes = [n for r in made for n in r.notes]
     notes += [f"without a unit, as in the file: {', '.join(bare)}"] if bare else []
-    notes += [note for _, note in counted if note]
+    notes += [note for r in made if (note := _describe_origin(r))]
     names = tuple(c.name for c in columns)
     return Converted(len(tables), sum(map(len, tables)), names, tuple(dict.fromkeys(notes)))
 
 
-def _from_first(r: Recording) -> tuple[tuple[Column, ...], str]:
-    """Columns with instants as seconds since the first; and when ``time`` is 0, in words, if that is known."""
-    time = next((c for c in r.columns if c.name == "time"), None)
-    if time is None or not len(r):
-        return r.columns, ""
-    first = float(time.values[0]) if r.instants else 0.0
-    columns = tuple(replace(c, values=c.values - first) if c is time and first else c for c in r.columns)
+def _first(r: Recording) -> float:
+    """The first instant, s, of stamps that are instants; else 0."""
+    times = [c.values for c in r.columns if c.name == "time"]
+    return float(times[0][0]) if r.instants and times and len(r) else 0.0
+
+
+def _from_first(r: Recording) -> tuple[Column, ...]:
+    """The columns, with instants as seconds since the first."""
+    return tuple(replace(c, values=c.values - _first(r)) if c.name == "time" else c for c in r.columns)
+
+
+def _describe_origin(r: Recording) -> str:
+    """When ``time`` is 0 in the new file, in words, if that is known."""
     line = "" if r.line is None else f"line {r.line}: "
     if r.origin is not None:
-        return columns, f"{line}time counts from {write_instant(r.origin + timedelta(seconds=first))}"
-    return columns, f"{line}time counts from {first:.10g} s after midnight" if r.instants else ""
+        return f"{line}time counts from {write_instant(r.origin + timedelta(seconds=_first(r)))}"
+    return f"{line}time counts from {_first(r):.10g} s after midnight" if r.instants else ""
 
 
 def write_instant(instant: datetime) -> str:

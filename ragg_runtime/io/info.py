@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,29 +27,7 @@ PAPER_G = 9.8
 MOST_GAPS = 20
 """Gaps that are listed, the longest ones."""
 
-
-@dataclass(frozen=True)
-class ColumnInfo:
-    """A column: its ``name``, its ``unit`` in the file (``""``: none), how many ``samples`` hold a value and how many do
-    not (``missing``), and the ``minimum``, ``maximum`` and ``mean`` of those that do, in that unit (``None``: no value).
-    """
-
-    name: str
-    unit: str
-    samples: int
-    missing: int
-    minimum: float | None
-    maximum: float | None
-    mean: float | None
-
-
-@dataclass(frozen=True)
-class GapInfo:
-    """A gap: s from and to, in the record's time, and the samples that are missing in it."""
-
-    from_s: float
-    to_s: float
-    samples: int
+Json = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -59,8 +36,9 @@ class RecordInfo:
 
     ``name``, ``line`` (``None``: the file has only one record), ``rows``; ``start_s``, ``duration_s``, ``rate_Hz``
     (``None`` where there is no uniform time), ``origin`` (the instant at which time is 0, ISO 8601, or ``None``);
-    ``gap_count``, ``gaps`` (the longest), ``missing`` samples in all gaps; ``columns``; ``notes``: what was assumed,
-    left out or looks odd, in sentences; ``refused``: why the record is no flight as it stands (whole message), or ``None``.
+    ``gap_count``, ``missing`` samples in all gaps, ``gaps`` (the longest: from_s, to_s, samples); ``columns`` (name,
+    unit in the file, samples with and without a value, and minimum, maximum and mean in that unit); ``notes``: what was
+    assumed, left out or looks odd, in sentences; ``refused``: why the record is no flight as it stands, or ``None``.
     """
 
     name: str
@@ -72,9 +50,9 @@ class RecordInfo:
     origin: str | None
     gap_count: int
     missing: int
-    gaps: tuple[GapInfo, ...]
-    columns: tuple[ColumnInfo, ...]
-    notes: tuple[str, ...]
+    gaps: list[Json]
+    columns: list[Json]
+    notes: list[str]
     refused: str | None
 
 
@@ -86,14 +64,11 @@ class FileInfo:
     sha256: str
     format: str
     bytes: int
-    records: tuple[RecordInfo, ...]
+    records: list[RecordInfo]
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> Json:
         """All of it in the types of JSON."""
-        found = dataclasses.asdict(self)
-        for r in found["records"]:
-            r.update({k: list(r[k]) for k in ("gaps", "columns", "notes")})
-        return found | {"records": list(found["records"])}
+        return dataclasses.asdict(self)
 
 
 def describe_flight(
@@ -115,8 +90,7 @@ def describe_flight(
     Returns
     -------
     FileInfo
-        With the fields of :class:`FileInfo`, :class:`RecordInfo`, :class:`ColumnInfo` and :class:`GapInfo`. What keeps a
-        record from being a flight (no unit, a column missing, a clock that runs back) stands in ``refused``.
+        What keeps a record from being a flight (no unit, a column missing, a clock that runs back) stands in ``refused``.
 
     Raises
     ------
@@ -125,17 +99,8 @@ def describe_flight(
     """
     path = Path(path)
     made = make_recordings(read_tables(path), path, mapping, lenient=True)
-    name = flight_name(path)
-    records = [
-        _describe(r, name if len(made) == 1 else f"{name}:{r.line}", len(made) > 1, g0, layout) for r in made
-    ]
-    return FileInfo(
-        path=str(path),
-        sha256=file_digest(path),
-        format=format_of(path).name,
-        bytes=path.stat().st_size,
-        records=tuple(records),
-    )
+    records = [_describe(r, flight_name(path), len(made) > 1, g0, layout) for r in made]
+    return FileInfo(str(path), file_digest(path), format_of(path).name, path.stat().st_size, records)
 
 
 def _describe(r: Recording, name: str, several: bool, g0: float, layout: Layout) -> RecordInfo:
@@ -147,22 +112,22 @@ def _describe(r: Recording, name: str, several: bool, g0: float, layout: Layout)
     except UserError as error:
         refused = error.message
     start = duration = rate = None
-    gaps: Sequence[GapInfo] = ()
+    gaps: list[Json] = []
     try:
         time = next(c for c in r.columns if c.name == "time")
-        grid = uniform(_in_seconds(time, g0), r.place)
+        grid = uniform(units(g0).to_si(time.values, time.unit or "s", "s", "column 'time'"), r.place)
         start, rate = float(grid.time[0]), 1 / grid.step
         duration = len(grid.time) / rate
-        jumps = np.diff(grid.index)
+        here, jumps = grid.time[grid.index], np.diff(grid.index)
         gaps = [
-            GapInfo(float(grid.time[grid.index[k]]), float(grid.time[grid.index[k + 1]]), int(jumps[k] - 1))
+            {"from_s": float(here[k]), "to_s": float(here[k + 1]), "samples": int(jumps[k] - 1)}
             for k in np.flatnonzero(jumps > 1)
         ]
     except (StopIteration, UserError):
         pass  # said in ``refused``
-    longest = sorted(sorted(gaps, key=lambda g: -g.samples)[:MOST_GAPS], key=lambda g: g.from_s)
+    longest = sorted(gaps, key=lambda g: -g["samples"])[:MOST_GAPS]
     return RecordInfo(
-        name=name,
+        name=f"{name}:{r.line}" if several else name,
         line=r.line if several else None,
         rows=len(r),
         start_s=start,
@@ -170,10 +135,10 @@ def _describe(r: Recording, name: str, several: bool, g0: float, layout: Layout)
         rate_Hz=rate,
         origin=None if r.origin is None else write_instant(r.origin),
         gap_count=len(gaps),
-        missing=sum(g.samples for g in gaps),
-        gaps=tuple(longest),
-        columns=tuple(map(_describe_column, r.columns)),
-        notes=notes,
+        missing=sum(g["samples"] for g in gaps),
+        gaps=sorted(longest, key=lambda g: g["from_s"]),
+        columns=list(map(_describe_column, r.columns)),
+        notes=list(notes),
         refused=refused,
     )
 
@@ -186,14 +151,8 @@ def _angle_note(x: Flight) -> tuple[str, ...]:
     return (f"no spin_angle: the disc angle counts from {zero} (angle_origin in model.toml overrides this)",)
 
 
-def _in_seconds(time: Column, g0: float) -> np.ndarray[Any, np.dtype[np.float64]]:
-
-    return units(g0).to_si(time.values, time.unit or "s", "s", "column 'time'")
-
-
-def _describe_column(c: Column) -> ColumnInfo:
+def _describe_column(c: Column) -> Json:
     there = c.values[np.isfinite(c.values)]
-    low, high, mean = (
-        (float(there.min()), float(there.max()), float(there.mean())) if len(there) else (None,) * 3
-    )
-    return ColumnInfo(c.name, c.unit, len(there), len(c.values) - len(there), low, high, mean)
+    ranges = [float(f(there)) if len(there) else None for f in (np.min, np.max, np.mean)]
+    told = {"name": c.name, "unit": c.unit, "samples": len(there), "missing": len(c.values) - len(there)}
+    return told | dict(zip(("minimum", "maximum", "mean"), ranges, strict=True))

@@ -6,7 +6,7 @@ A date whose day and month could change places is refused until ``format`` says 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from types import MappingProxyType
@@ -36,10 +36,11 @@ WAYS: Mapping[str, tuple[int, str]] = MappingProxyType(
 )
 """The formats that a mapping may name beside plain seconds: columns that they take, and an example."""
 
+_EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 _SECOND = 10**9
 _DAY = 86400 * _SECOND
 _NONE = np.iinfo(np.int64).min
-_NOTHING = ("", "NaT", "nan", "NaN", "None", "null", "-", "--")
+_NOTHING = ("NaT", "nan", "NaN", "None", "null", "-", "--")
 _MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 _ISO = re.compile(r"\d{4}-\d{2}-\d{2}(?:[T ]\d.*)?")
 _INSTANT = re.compile(
@@ -69,11 +70,6 @@ def _spread(text: str) -> str:
     return re.sub(r"^(\d{4})(\d\d)(\d\d)[T ](\d\d)(\d\d)(\d\d)", r"\1-\2-\3T\4:\5:\6", text.strip())
 
 
-def is_instant(text: str) -> bool:
-    """Whether a text is a date, with or without a time, a time of the day, or an elapsed time."""
-    return any(parts_of(text))
-
-
 def parts_of(text: str) -> tuple[bool, bool]:
     """Whether there is a date in a stamp, and whether a time."""
     match = _INSTANT.fullmatch(_spread(text))
@@ -89,7 +85,7 @@ def order_of(format_: str) -> str | None:
 
 
 def read_stamps(
-    columns: Sequence[NDArray[Any]], way: str | None, where: str, row: Any = "row {}".format
+    columns: Sequence[NDArray[Any]], way: str | None, where: str, row: Callable[[int], str] = "row {}".format
 ) -> Seconds:
     """The stamps in one or two columns of text, dates or numbers.
 
@@ -109,34 +105,19 @@ def read_stamps(
     """
     first = columns[0]
     if way == "gps":
-        return _since_midnight(_read_gps(first, columns[1], where), dated=True)
+        return _count(_read_gps(first, columns[1], where))
     if first.dtype.kind == "m":
-        there = ~np.isnat(first)
-        return Seconds(np.where(there, first.astype(np.int64) / _SECOND, np.nan), instants=False)
-    if first.dtype.kind == "M":
-        total = first.astype("datetime64[ns]").astype(np.int64)  # NaT is the least integer
-        if len(columns) == 2:
-            total = _add(total - total % _DAY * (total != _NONE), _read_clock(columns[1], where, row)[0])
-        return _since_midnight(total, dated=True)
-    order = None if way is None else order_of(way)
+        seconds = np.where(np.isnat(first), np.nan, first.astype(np.int64) / _SECOND)
+        return Seconds(seconds, instants=False)
+    if first.dtype.kind == "M" and len(columns) == 1:
+        return _count(first.astype("datetime64[ns]").astype(np.int64))  # NaT is the least integer
+    texts = [_write_clock(v) for v in columns[-1]]
     if len(columns) == 2:
-        dates = _written_dates(first)
-        if columns[1].dtype.kind == "f":
-            days = _read_texts(dates, order, where, row)
-            return _since_midnight(_add(days.total, _read_clock(columns[1], where, row)[0]), dated=True)
-        texts = np.array(
-            [f"{d} {c}".strip() if d and c else "" for d, c in zip(dates, columns[1], strict=True)],
-            dtype=object,
-        )
-        return _read_texts(texts, order, where, row).seconds()
-    if first.dtype.kind == "f":
-        return _since_midnight(*_read_clock(first, where, row))
-    fast = _read_iso(first) if order in (None, "ymd") else None
-    return (
-        _since_midnight(fast, dated=True)
-        if fast is not None
-        else _read_texts(first, order, where, row).seconds()
-    )
+        dates = [_write_date(v) for v in first]
+        texts = [f"{d} {c}" if d and c else "" for d, c in zip(dates, texts, strict=True)]
+    order = None if way is None else order_of(way)
+    fast = _read_iso(texts) if order in (None, "ymd") else None
+    return _read_texts(texts, order, where, row) if fast is None else _count(fast)
 
 
 def count_from(values: Array, epoch: str) -> Seconds | None:
@@ -150,28 +131,39 @@ def count_from(values: Array, epoch: str) -> Seconds | None:
     return Seconds(values, origin=start.origin + timedelta(seconds=float(start.values[0])))
 
 
-def _since_midnight(
-    total: Nanoseconds, dated: bool, period: int = _DAY, notes: tuple[str, ...] = ()
-) -> Seconds:
+def _count(total: Nanoseconds, dated: bool = True, notes: tuple[str, ...] = ()) -> Seconds:
     """Instants as seconds since the midnight before the first; times of the day (not ``dated``) go on over midnight."""
+    found = np.full(len(total), np.nan)
     there = total != _NONE
     values = total[there]
     if not len(values):
-        return Seconds(np.full(len(total), np.nan), notes=notes)
+        return Seconds(found, notes=notes)
     first = int(values[0]) // _DAY if dated else 0
     if not dated:
-        values = values + np.cumsum(np.diff(values, prepend=values[:1]) < -(period // 2)) * period
-    found = np.full(len(total), np.nan)
+        values = values + np.cumsum(np.diff(values, prepend=values[:1]) < -(_DAY // 2)) * _DAY
     found[there] = (values - first * _DAY) / _SECOND
-    origin = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(days=first) if dated else None
-    return Seconds(found, origin=origin, notes=notes)
+    return Seconds(found, origin=_EPOCH + timedelta(days=first) if dated else None, notes=notes)
 
 
-def _add(day: Nanoseconds, clock: Nanoseconds) -> Nanoseconds:
-    return np.where((day == _NONE) | (clock == _NONE), _NONE, day + clock)
+def _write_clock(value: Any) -> str:
+    """A stamp as text: 132850.4 as 13:28:50.4."""
+    if not isinstance(value, float):
+        return str(value).strip()
+    text = f"{value:013.6f}"
+    return f"{text[:2]}:{text[2:4]}:{text[4:]}" if np.isfinite(value) else ""
 
 
-def _read_iso(values: NDArray[Any]) -> Nanoseconds | None:
+def _write_date(value: Any) -> str:
+    """A date as text: 20260301, as number or text, as 2026-03-01."""
+    if isinstance(value, np.datetime64):
+        return "" if np.isnat(value) else str(value.astype("datetime64[D]"))
+    text = (
+        str(value).strip() if not isinstance(value, float) else f"{value:.0f}" if np.isfinite(value) else ""
+    )
+    return re.sub(r"^(\d{4})(\d{2})(\d{2})$", r"\1-\2-\3", text)
+
+
+def _read_iso(values: Sequence[str]) -> Nanoseconds | None:
     """Nanoseconds since 1970 of ISO 8601 texts, all with a zone or all without; ``None`` if one is anything else."""
     texts = [t.strip().replace("/", "-").replace(",", ".") for t in values]
     if not _ISO.fullmatch(next(filter(None, texts), "")):
@@ -186,62 +178,40 @@ def _read_iso(values: NDArray[Any]) -> Nanoseconds | None:
     return None
 
 
-@dataclass(frozen=True)
-class _Texts:
-    """Nanoseconds since 1970, or since midnight where there are no dates, and how they are to be taken."""
-
-    total: Nanoseconds
-    dated: bool
-    elapsed: bool
-    period: int
-    notes: tuple[str, ...]
-
-    def seconds(self) -> Seconds:
-        if not self.elapsed:
-            return _since_midnight(self.total, self.dated, self.period, self.notes)
-        return Seconds(np.where(self.total == _NONE, np.nan, self.total / _SECOND), instants=False)
-
-
-def _read_texts(values: NDArray[Any], order: str | None, where: str, row: Any) -> _Texts:
+def _read_texts(values: Sequence[str], order: str | None, where: str, row: Callable[[int], str]) -> Seconds:
     """Dates and times as people write them."""
-    values = np.array(["" if str(t).strip() in _NOTHING else _spread(str(t)) for t in values], dtype=object)
-    matches = [_INSTANT.fullmatch(t) if t else None for t in values]
-    for k, (t, m) in enumerate(zip(values, matches, strict=True)):
-        if t and (m is None or (m["days"], m["a"], m["h"]) == (None, None, None)):
-            raise _unreadable(where, t, row(k))
-    there = np.array([m is not None for m in matches], dtype=np.bool_)
-    found = [m for m in matches if m is not None]
-    dated = bool(found) and found[0]["a"] is not None
-    for k in np.flatnonzero(there).tolist():
-        if ((m := matches[k]) is not None) and (m["a"] is not None) != dated:
-            raise _unreadable(where, values[k], row(k))
-    written = list(dict.fromkeys((m["a"], m["sep"], m["b"], m["c"]) for m in found)) if dated else []
-    order = order or (_find_order(written, where) if dated else "ymd")
-    days = {w: _day(w, order) for w in written}
-    total = np.full(len(values), _NONE)
-    clocks = [_clock(m) for m in found]
-    for k, m, clock in zip(np.flatnonzero(there).tolist(), found, clocks, strict=True):
-        day = days[(m["a"], m["sep"], m["b"], m["c"])] if dated else 0
-        if day is None or clock is None:
-            raise _unreadable(where, values[k], row(k))
-        total[k] = day * _DAY + clock
-    leaps = np.flatnonzero([m is not None and m["s"] == "60" for m in matches])
-    if len(leaps):  # the seconds after it have the numbers that they would have had without it
-        total[leaps[-1] + 1 :] += np.where(there[leaps[-1] + 1 :], _SECOND, 0)
-    minutes = not dated and all(m["s"] is None and m["f"] is not None for m in found)
-    elapsed = not dated and any(m["days"] or (int(m["h"] or 0) > 23 and not minutes) for m in found)
-    notes = ("a leap second (hh:mm:60) is counted",) if len(leaps) else ()
-    return _Texts(total, dated, elapsed, _DAY // 24 if minutes else _DAY, notes)
+    texts = ["" if t in _NOTHING else _spread(t) for t in values]
+    found = {k: _INSTANT.fullmatch(t) for k, t in enumerate(texts) if t}
+    dated = any(m is not None and m["a"] is not None for m in list(found.values())[:1])
+    matches = {k: m for k, m in found.items() if m is not None and (m["a"] is not None) == dated}
+    dates = dict.fromkeys(_date_in(m) for m in matches.values())
+    total = np.full(len(texts), _NONE)
+    days: dict[tuple[str, ...], int | None] = {}
+    if len(matches) == len(found) and dated:
+        order = order or _find_order(list(dates), where)
+        days = {d: _count_days(d, order) for d in dates}
+    for k in found:
+        day = days.get(_date_in(matches[k])) if dated and k in matches else 0
+        clock = _read_clock(matches[k]) if k in matches else None
+        if clock is None or (day is None and days):
+            raise _unreadable(where, texts[k], row(k))
+        total[k] = (day or 0) * _DAY + clock
+    leaps = [k for k, m in matches.items() if m["s"] == "60"]
+    if leaps:  # the seconds after it have the numbers that they would have had without it
+        after = np.arange(len(total)) > leaps[-1]
+        total[after & (total != _NONE)] += _SECOND
+    if not dated and any(m["days"] or int(m["h"]) > 23 for m in matches.values()):
+        return Seconds(np.where(total == _NONE, np.nan, total / _SECOND), instants=False)
+    return _count(total, dated, ("a leap second (hh:mm:60) is counted",) if leaps else ())
 
 
-def _clock(m: re.Match[str]) -> int | None:
+def _read_clock(m: re.Match[str]) -> int | None:
     """Nanoseconds of the time in a stamp, zone and days of an elapsed time included; ``None`` if it is none."""
+    days = int(m["days"] or 0) * _DAY
     if m["h"] is None:
-        return int(m["days"] or 0) * _DAY
+        return days if m["days"] or m["a"] else None
     hours, minutes, seconds = int(m["h"]), int(m["m"]), int(m["s"] or 0)
-    if m["s"] is None and m["f"] is not None:  # mm:ss.f
-        hours, minutes, seconds = 0, hours, minutes
-    if minutes > 59 or seconds > 60 or (m["a"] is not None and hours > 24):
+    if minutes > 59 or seconds > 60 or (m["a"] is not None and hours > 24) or (m["f"] and not m["s"]):
         return None
     if m["half"] is not None:
         if not 1 <= hours <= 12:
@@ -250,44 +220,44 @@ def _clock(m: re.Match[str]) -> int | None:
     total = ((hours * 60 + minutes) * 60 + seconds) * _SECOND + int(((m["f"] or "") + "0" * 9)[:9])
     zone = m["zone"] or ""
     if zone[:1] in ("+", "-") and m["a"] is not None:
-        offset = int(zone[1:3]) * 60 + int(zone[-2:])
-        total -= (offset if zone[0] == "+" else -offset) * 60 * _SECOND
-    return total + int(m["days"] or 0) * _DAY
+        total -= int(zone[0] + "1") * (int(zone[1:3]) * 60 + int(zone[-2:])) * 60 * _SECOND
+    return total + days
+
+
+def _date_in(m: re.Match[str]) -> tuple[str, ...]:
+    """The three parts of the date in a stamp, and what stands between them."""
+    return m["a"], m["sep"], m["b"], m["c"]
 
 
 def find_order(values: NDArray[Any]) -> str | None:
     """``ymd``, ``dmy`` or ``mdy`` of dates (n,) as text; ``None`` where two are possible."""
     matches = (_INSTANT.fullmatch(_spread(str(t))) for t in dict.fromkeys(values))
-    written = dict.fromkeys((m["a"], m["sep"], m["b"], m["c"]) for m in matches if m and m["a"])
     try:
-        return _find_order(list(written), "")
+        return _find_order(list(dict.fromkeys(_date_in(m) for m in matches if m and m["a"])), "")
     except UserError:
         return None
 
 
-def _find_order(dates: Sequence[tuple[str, str, str, str]], where: str) -> str:
+def _find_order(dates: Sequence[tuple[str, ...]], where: str) -> str:
     """The order of day, month and year, by all dates; UserError if two are possible."""
     if all(len(a) == 4 for a, *_ in dates):
         return "ymd"
-    if any(
-        sep == "." or b.isalpha() for _, sep, b, _ in dates
-    ):  # dots stand between day, month and year alone
+    if any(sep == "." or b.isalpha() for _, sep, b, _ in dates):  # with dots the day is first
         return "dmy"
-    month_first = any(int(b) > 12 for _, _, b, _ in dates)
-    day_first = any(int(a) > 12 for a, *_ in dates)
-    if day_first or month_first:
-        return "dmy" if day_first else "mdy"
+    if any(int(a) > 12 for a, *_ in dates):
+        return "dmy"
+    if any(int(b) > 12 for _, _, b, _ in dates):
+        return "mdy"
     a, sep, b, c = dates[0]
     raise UserError(
         "a date could be day/month or month/day",
         where=where,
         found=repr(f"{a}{sep}{b}{sep}{c}"),
-        expected="dates of which one order alone is possible, or yyyy-mm-dd",
-        remedy='say in a mapping which it is: [time] format = "d/m/y" or "m/d/y"',
+        remedy='say in a mapping which it is: [time] format = "d/m/y" or "m/d/y"; or write yyyy-mm-dd',
     )
 
 
-def _day(written: tuple[str, str, str, str], order: str) -> int | None:
+def _count_days(written: tuple[str, ...], order: str) -> int | None:
     """Days since 1970 of a date; ``None`` if there is none such."""
     a, _, b, c = written
     part = dict(zip(order, (a, b, c), strict=True))
@@ -297,31 +267,9 @@ def _day(written: tuple[str, str, str, str], order: str) -> int | None:
         year = int(part["y"])
         if len(part["y"]) <= 2:
             year += 1900 if year >= 70 else 2000
-        return datetime(year, number, int(part["d"])).toordinal() - datetime(1970, 1, 1).toordinal()
+        return (datetime(year, number, int(part["d"]), tzinfo=UTC) - _EPOCH).days
     except ValueError:
         return None
-
-
-def _written_dates(values: NDArray[Any]) -> NDArray[Any]:
-    """Dates as text: ``20260301`` as ``2026-03-01``."""
-    texts = [f"{v:.0f}" if np.isfinite(v) else "" for v in values] if values.dtype.kind == "f" else values
-    found = [re.sub(r"^(\d{4})(\d{2})(\d{2})$", r"\1-\2-\3", str(t).strip()) for t in texts]
-    return np.array(found, dtype=object)
-
-
-def _read_clock(values: NDArray[Any], where: str, row: Any) -> tuple[Nanoseconds, bool]:
-    """Nanoseconds since midnight of hh:mm:ss as text, or of hhmmss.s as numbers; never dated."""
-    if values.dtype.kind != "f":
-        return _read_texts(values, None, where, row).total, False
-    there = np.isfinite(values)
-    v = np.where(there, values, 0.0)
-    hours, minutes = np.floor(v / 1e4), np.floor(v % 1e4 / 100)
-    wrong = np.flatnonzero((v < 0) | (hours > 24) | (minutes >= 60) | (v % 100 >= 61))
-    if len(wrong):
-        raise _unreadable(where, float(v[wrong[0]]), row(wrong[0]))
-    second = np.rint((v % 100) * 1e6).astype(np.int64) * 1000  # a number of this size has 1e-10 s
-    total = (hours * 3600 + minutes * 60).astype(np.int64) * _SECOND + second
-    return np.where(there, total, _NONE), False
 
 
 def _read_gps(week: NDArray[Any], second: NDArray[Any], where: str) -> Nanoseconds:
@@ -330,17 +278,13 @@ def _read_gps(week: NDArray[Any], second: NDArray[Any], where: str) -> Nanosecon
         raise _unreadable(where, (second if week.dtype.kind == "f" else week)[0], "as week and seconds")
     there = np.isfinite(week) & np.isfinite(second)
     w, s = np.where(there, week, 0.0), np.where(there, second, 0.0)
-    wrong = (np.abs(w - np.rint(w)) > 0) | (w < 0) | (w > 9999) | (s < 0) | (s > 604800 + 1)
+    wrong = (w != np.rint(w)) | (w < 0) | (w > 9999) | (s < 0) | (s > 604800 + 1)
     if wrong.any():
-        raise UserError(
-            "the instant cannot be read",
-            where=where,
-            found=f"week {w[wrong][0]:g}, {s[wrong][0]:g} s",
-            expected="a whole week, and seconds from 0 to 604800 in it",
+        raise _unreadable(
+            where, f"week {w[wrong][0]:g}, {s[wrong][0]:g} s", "as a whole week and seconds in it"
         )
-    epoch = int(GPS_EPOCH.timestamp()) * _SECOND
-    total = epoch + w.astype(np.int64) * 7 * _DAY + np.rint(s * 1e9).astype(np.int64)
-    return np.where(there, total, _NONE)
+    start = int(GPS_EPOCH.timestamp()) * _SECOND
+    return np.where(there, start + w.astype(np.int64) * 7 * _DAY + np.rint(s * 1e9).astype(np.int64), _NONE)
 
 
 def _unreadable(where: str, found: object, row: str) -> UserError:

@@ -29,7 +29,6 @@ order = 6
 from __future__ import annotations
 
 import hashlib
-import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -37,6 +36,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
+
+import numpy as np
 
 from ragg_runtime.base.errors import UserError, at, check_keys, did_you_mean
 from ragg_runtime.base.files import read_text
@@ -122,65 +123,48 @@ def parse_mapping(text: str, path: Path) -> Mapped:
     try:
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # ValueError: numbers of thousands of digits
-        raise UserError(
-            "not valid TOML", where=path, found=str(error) or "tables nested too deeply"
-        ) from None
+        raise UserError("not valid TOML", where=path, found=str(error) or "nested too deeply") from None
     check_keys(data, _TABLES, path)
     for key, value in data.items():
         if not isinstance(value, dict) and key not in ("null", "format"):
             raise UserError(f"[{key}] is not a table", where=path, found=repr(value)[:60])
         if key in _KEYS and key != "columns":
             check_keys(value, _KEYS[key], at(path, f"[{key}]"))
-    file = data.get("file", {})
+    file, place = data.get("file", {}), at(path, "[file]")
     lines = file.get("lines")
-    if lines is not None and not (
-        isinstance(lines, list) and lines and all(isinstance(x, str) for x in lines)
-    ):
-        raise UserError(
-            "lines is not a list of names",
-            where=at(path, "[file]"),
-            found=repr(lines)[:60],
-            expected='["1010", "1020"]',
-        )
-    null = _null(data.get("null"), str(path)) + _null(file.get("null"), at(path, "[file]"))
-    channels = {n: _entry(n, v, null, at(path, f"[columns] {n}")) for n, v in data.get("columns", {}).items()}
-    if "time" not in data:
-        raise UserError("[time] is missing", where=path, expected='[time] column = "...", unit = "s"')
-    if "time" in channels:
-        raise UserError(
-            "time has a table of its own", where=at(path, "[columns]"), expected='[time] column = "..."'
-        )
+    if not (lines is None or (isinstance(lines, list) and lines and all(isinstance(x, str) for x in lines))):
+        raise _refuse("lines is not a list of names", place, lines, '["1010", "1020"]')
+    null = _null(data.get("null"), str(path)) + _null(file.get("null"), place)
+    columns = data.get("columns", {})
+    if "time" not in data or "time" in columns:
+        what = "time has a table of its own" if "time" in columns else "[time] is missing"
+        raise UserError(what, where=path, expected='[time] column = "...", unit = "s"')
+    formats = [{"format": x["format"]} for x in (data, file) if "format" in x]
+    time = {k: v for d in (*formats, data["time"]) for k, v in d.items()}
     return Mapped(
         path=path,
-        time=_time(
-            {**_default(data.get("format")), **_default(file.get("format")), **data["time"]},
-            null,
-            at(path, "[time]"),
+        time=_time(time, null, at(path, "[time]")),
+        channels=MappingProxyType(
+            {n: _entry(n, v, null, at(path, f"[columns] {n}")) for n, v in columns.items()}
         ),
-        channels=MappingProxyType(channels),
         axes=_axes(data["axes"], at(path, "[axes]")) if "axes" in data else None,
-        line=_word(file.get("line"), "line", at(path, "[file]")),
+        line=_word(file.get("line"), "line", place),
         lines=tuple(lines) if lines is not None else None,
-        part=_word(file.get("part"), "part", at(path, "[file]")),
+        part=_word(file.get("part"), "part", place),
         demodulator=read_demodulation(data.get("demodulator"), at(path, "[demodulator]")),
         digest=hashlib.sha256(text.encode()).hexdigest(),
     )
 
 
-def _default(format_: Any) -> dict[str, Any]:
-    return {} if format_ is None else {"format": format_}
+def _refuse(what: str, where: str, found: object, expected: str, remedy: str | None = None) -> UserError:
+    return UserError(what, where=where, found=repr(found)[:60], expected=expected, remedy=remedy)
 
 
 def _null(raw: Any, where: str) -> Null:
     """One or several numbers or texts."""
     values = raw if isinstance(raw, list) else [] if raw is None else [raw]
     if any(isinstance(v, bool) or not isinstance(v, int | float | str) for v in values):
-        raise UserError(
-            "null is no list of numbers and texts",
-            where=where,
-            found=repr(raw)[:60],
-            expected="null = [-9999]",
-        )
+        raise _refuse("null is no list of numbers and texts", where, raw, "null = [-9999]")
     return tuple(v.strip() if isinstance(v, str) else float(v) for v in values)
 
 
@@ -190,19 +174,12 @@ def _entry(name: str, raw: Any, null: Null, where: str) -> Entry:
     if isinstance(raw, str):
         raw = {"column": raw}
     if not isinstance(raw, dict) or "column" not in raw:
-        raise UserError(
-            "the column of the file is not named",
-            where=where,
-            found=repr(raw)[:60],
-            expected=f'{name} = {{ column = "its name in the file", unit = "..." }}',
-        )
+        example = f'{name} = {{ column = "its name in the file", unit = "..." }}'
+        raise _refuse("the column of the file is not named", where, raw, example)
     check_keys(raw, _KEYS["columns"], where)
-    sign = _number(raw.get("sign", 1), "sign", where)
+    sign, scale = _number(raw.get("sign", 1), "sign", where), _number(raw.get("scale", 1), "scale", where)
     if sign not in (1.0, -1.0):
-        raise UserError(
-            "sign is 1 or -1", where=where, found=raw["sign"], remedy="for other factors there is scale"
-        )
-    scale = _number(raw.get("scale", 1), "scale", where)
+        raise _refuse("sign is 1 or -1", where, raw["sign"], "scale for other factors")
     if scale == 0.0:
         raise UserError("a scale of zero leaves nothing", where=where)
     return Entry(
@@ -219,34 +196,21 @@ def _time(raw: Mapping[str, Any], null: Null, where: str) -> Time:
     names = (columns,) if isinstance(columns, str) else tuple(columns) if isinstance(columns, list) else ()
     written = _word(raw.get("format", "seconds"), "format", where) or ""
     if written not in ("seconds", *WAYS) and order_of(written) is None:
-        raise UserError(
-            "no such format of time",
-            where=where,
-            found=repr(written),
-            expected="seconds, " + ", ".join(f"{n} ({example})" for n, (_, example) in WAYS.items()),
-            remedy=did_you_mean(written, ("seconds", *WAYS)),
-        )
+        known = "seconds, " + ", ".join(f"{n} ({example})" for n, (_, example) in WAYS.items())
+        near = did_you_mean(written, ("seconds", *WAYS))
+        raise _refuse("no such format of time", where, written, known, near)
     count = WAYS[written][0] if written in WAYS else 1
     both = order_of(written) is not None and len(names) == 2  # the date and the time of the day
     if (len(names) != count and not both) or not all(isinstance(n, str) and n for n in names):
-        raise UserError(
-            f"time as {written!r} stands in {'two columns' if count == 2 else 'one column'}",
-            where=where,
-            found=repr(columns)[:60],
-            expected='column = ["DATE", "CLOCK"]' if count == 2 else 'column = "..."',
-        )
+        how, example = ("two columns", '["DATE", "CLOCK"]') if count == 2 else ("one column", '"..."')
+        raise _refuse(f"time as {written!r} stands in {how}", where, columns, f"column = {example}")
     origin = raw.get("origin")
-    if origin is not None and not isinstance(origin, datetime):
-        raise UserError(
-            "origin is not an instant", where=where, found=repr(origin)[:60], expected="2026-03-01T00:00:00Z"
-        )
+    if origin is not None and (not isinstance(origin, datetime) or written != "seconds"):
+        raise _refuse("origin is the instant of second 0", where, origin, "2026-03-01T00:00:00Z, of seconds")
     if origin is not None and origin.tzinfo is None:
         origin = origin.replace(tzinfo=UTC)
-    if origin is not None and written != "seconds":
-        raise UserError(f"time as {written!r} has its own origin", where=where, remedy="leave origin out")
     unit = _unit(raw.get("unit", "" if written == "seconds" else "s"), where)
-    null += _null(raw.get("null"), where)
-    return Time(columns=names, format=written, unit=unit, origin=origin, null=null)
+    return Time(names, written, unit, origin, null + _null(raw.get("null"), where))
 
 
 def _axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
@@ -255,17 +219,14 @@ def _axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
         text = str(raw.get(axis, axis)).strip().lstrip("+")
         bare = text.lstrip("-")
         if bare not in ("x", "y", "z") or len(text) > 2:
-            raise UserError(
-                "not an axis", where=at(where, axis), found=repr(raw.get(axis))[:40], expected='"x", "-y" ...'
-            )
+            raise _refuse("not an axis", at(where, axis), raw.get(axis), '"x", "-y" ...')
         found.append(("xyz".index(bare), -1.0 if text.startswith("-") else 1.0))
-    order = [k for k, _ in found]
-    if len(set(order)) < 3:
-        raise UserError("an axis appears twice", where=where, found=dict(raw))
-    parity = 1.0 if order in ([0, 1, 2], [1, 2, 0], [2, 0, 1]) else -1.0
-    if parity * math.prod(s for _, s in found) < 0:
+    turned = np.zeros((3, 3))
+    turned[range(3), [k for k, _ in found]] = [sign for _, sign in found]
+    volume = round(np.linalg.det(turned))
+    if volume != 1:
         raise UserError(
-            "the axes are a mirror image, not a rotation",
+            "the axes are a mirror image, not a rotation" if volume else "an axis appears twice",
             where=where,
             found=", ".join(f"{a} = {raw.get(a, a)}" for a in "xyz"),
             expected="a right-handed frame, such as x = y, y = x, z = -z between NED and ENU",
@@ -276,13 +237,8 @@ def _axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
 
 def _unit(raw: Any, where: str) -> str:
     if raw == UNKNOWN:
-        raise UserError(
-            "the unit is not answered yet",
-            where=where,
-            found='unit = "?"',
-            expected="the unit in which the file has it; 1 for a pure number",
-            remedy="look it up where the file was made; it is not guessed",
-        )
+        expected = "the unit in which the file has it; 1 for a pure number; it is not guessed"
+        raise _refuse("the unit is not answered yet", where, raw, expected)
     unit = _word(raw, "unit", where) or ""
     if unit:
         units(9.8).parse(unit, where)  # whether a text is a unit does not depend on the model's g
@@ -291,20 +247,12 @@ def _unit(raw: Any, where: str) -> str:
 
 def _word(raw: Any, key: str, where: str) -> str | None:
     if raw is not None and (not isinstance(raw, str) or (raw.strip() in ("", UNKNOWN) and key != "unit")):
-        raise UserError(
-            f"{key} is not answered" if raw == UNKNOWN else f"{key} is not a text",
-            where=where,
-            found=repr(raw)[:60],
-        )
+        what = f"{key} is not answered" if raw == UNKNOWN else f"{key} is not a text"
+        raise UserError(what, where=where, found=repr(raw)[:60])
     return raw
 
 
 def _number(raw: Any, key: str, where: str) -> float:
-    if (
-        isinstance(raw, bool)
-        or not isinstance(raw, int | float)
-        or not math.isfinite(raw)
-        or abs(raw) > 1e100
-    ):
+    if isinstance(raw, bool) or not isinstance(raw, int | float) or not abs(raw) < 1e100:
         raise UserError(f"{key} is not a number", where=where, found=repr(raw)[:60])
     return float(raw)

@@ -51,14 +51,8 @@ SI_UNITS: Mapping[str, str] = MappingProxyType(
 )
 """SI unit of every column whose meaning is fixed. Other auxiliary channels are held in SI base units."""
 
-
 WIDEST_SPIKE = 3
 """Most samples in a row that are a spike; a longer excursion is the signal, a longer stretch without samples a gap."""
-
-
-def is_demodulated(name: str) -> bool:
-    """Whether a column is a demodulated channel by its name: ``inline``, ``cross_A``, ``inline_1`` ..."""
-    return name.partition("_")[0] in DEMODULATED
 
 
 def is_disc_angle(name: str) -> bool:
@@ -141,12 +135,8 @@ class Flight:
             columns = {name: _read_only(v) for name, v in getattr(self, group).items()}
             for name, column in columns.items():
                 if column.shape != time.shape:
-                    raise UserError(
-                        f"{name} differs in length from time",
-                        where=at(self.path, self.name),
-                        found=column.shape,
-                        expected=time.shape,
-                    )
+                    what, where = f"{name} differs in length from time", at(self.path, self.name)
+                    raise UserError(what, where=where, found=column.shape, expected=time.shape)
             set_field(self, group, MappingProxyType(columns))
         names = ("time", *self.channels, *self.outputs)
         units = {name: self.units.get(name) or self._unit(name) for name in names}
@@ -222,17 +212,12 @@ def content(flight: Flight) -> str:
 
 def distinct(flights: Sequence[Flight]) -> None:
     """UserError if two of the flights are the same record."""
-    if len(flights) < 2:
-        return
     known: dict[str, Flight] = {}
-    for x in flights:
+    for x in flights if len(flights) > 1 else ():
         first = known.setdefault(content(x), x)
         if first is not x:
-            raise UserError(
-                same_record(str(first.path or first.name)),
-                where=x.path or x.name,
-                remedy="give each record once",
-            )
+            what = same_record(str(first.path or first.name))
+            raise UserError(what, where=x.path or x.name, remedy="give each record once")
 
 
 def same_record(name: str) -> str:

@@ -20,7 +20,7 @@ from ragg_runtime.base.names import EXPECTED, is_column
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.instants import WAYS, Seconds, count_from, read_stamps
-from ragg_runtime.io.mapping import Entry, Mapped, Null
+from ragg_runtime.io.mapping import Mapped, Null
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.tables import Column, Table, choose_tables, line_name, split_lines
 from ragg_runtime.io.text_tables import MISSING
@@ -100,21 +100,18 @@ def make_recordings(
     if mapping is not None and mapping.kept and not _applies(tables, mapping):
         mapping = None
     if mapping is None:
-        chosen = split_lines(choose_tables(tables, place, NEEDED), None, place)
-        return [_read_plain(t, str(place), lenient, leave) for t in _filled(chosen, place)]
-    mapping = mapping.without(leave)
-    chosen = choose_tables(tables, place, mapping.columns, mapping.part)
-    _require_names(chosen[0], mapping, place)
-    lines = split_lines(chosen, mapping.line, place)
-    if mapping.lines is not None:
-        lines = _pick_lines(lines, mapping.lines, place)
-    return [_read_mapped(t, str(place), mapping) for t in _filled(lines, place)]
-
-
-def _filled(tables: Sequence[Table], place: Path | str) -> Sequence[Table]:
-    if not tables:
+        lines = split_lines(choose_tables(tables, place, NEEDED), None, place)
+    else:
+        mapping = mapping.without(leave)
+        chosen = choose_tables(tables, place, mapping.columns, mapping.part)
+        _require_names(chosen[0], mapping, place)
+        lines = split_lines(chosen, mapping.line, place)
+        lines = lines if mapping.lines is None else _pick_lines(lines, mapping.lines, place)
+    if not lines:
         raise UserError("the file holds no rows", where=place)
-    return tables
+    if mapping is None:
+        return [_read_plain(t, str(place), lenient, leave) for t in lines]
+    return [_read_mapped(t, str(place), mapping) for t in lines]
 
 
 def _applies(tables: Sequence[Table], mapping: Mapped) -> bool:
@@ -130,22 +127,16 @@ def _require_names(table: Table, mapping: Mapped, place: Path | str) -> None:
         raise UserError(
             "columns that the mapping names are not in the file",
             where=place,
-            found=", ".join(missing),
-            expected=f"the columns of {mapping.path}; the file has {', '.join(table.names[:20])}",
+            found=f"{', '.join(missing)} of {mapping.path}; the file has {', '.join(table.names[:20])}",
             remedy="write a mapping for this file: ragg map FLIGHT -o mapping.toml",
         )
 
 
 def _pick_lines(lines: Sequence[Table], names: Sequence[str], place: Path | str) -> list[Table]:
-    known = [t.line for t in lines]
     wanted = {line_name(n) for n in names}
-    if lost := sorted(wanted - {str(n) for n in known}):
-        raise UserError(
-            "the file has no such line",
-            where=place,
-            found=", ".join(lost),
-            expected=", ".join(str(n) for n in known[:20]),
-        )
+    if lost := sorted(wanted - {str(t.line) for t in lines}):
+        expected = ", ".join(str(t.line) for t in lines[:20])
+        raise UserError("the file has no such line", where=place, found=", ".join(lost), expected=expected)
     return [t for t in lines if t.line in wanted]
 
 
@@ -153,27 +144,24 @@ def _read_plain(table: Table, place: str, lenient: bool, leave: frozenset[str]) 
     """A table whose columns have the names of the contract."""
     notes = list(table.notes)
     time, others = _find_time(table)
-    named = [c for c in others if (lenient or is_column(c.name) or _lacks_unit(c)) and c.name not in leave]
-    passed = tuple(c.name[:80] for c in others if c not in named and c.name not in leave)
-    read = None if time is None else _read_time(time, table, place)
-    kept: list[Column] = []
+    others = [c for c in others if c.name not in leave]
+    named = [c for c in others if lenient or is_column(c.name) or _lacks_unit(c)]
+    passed = tuple(c.name[:80] for c in others if c not in named)
+    kept, stamps = [], None
+    if time is not None:
+        read, stamps = _read_time([time], table, place)
+        kept.append(read)
     for c in named:
-        if c.is_number:
-            kept.append(c)
-        elif c.name in SI_UNITS:
+        if c.is_number or c.name in SI_UNITS:
             kept.append(read_numbers(c, table, place))
         else:
             notes.append(f"{c.name} holds {'text' if c.is_text else 'dates'}; it is left out")
-    if read is not None:
-        unit = "s" if isinstance(read, Seconds) else read.unit
-        kept.insert(0, Column("time", unit, read.values))
     kept = _keep_first(kept, place, notes)
     if not lenient:
         require_units(kept, place)
     if passed:
         notes.append(pass_over(passed))
     kept = [_without_codes(c, (), notes) for c in kept]
-    stamps = read if isinstance(read, Seconds) else None
     return _finish(Recording(tuple(kept), place, table.line, notes=tuple(notes), passed=passed), stamps)
 
 
@@ -181,40 +169,43 @@ def _find_time(table: Table) -> tuple[Column | None, list[Column]]:
     """The column of time and all others; where none is called so the index of the rows is, if it is a time."""
     time = next((c for c in table.columns if c.name == "time"), None)
     index = next((c for c in table.columns if c.name == table.index), None)
-    if (
-        time is None
-        and index is not None
-        and (not index.is_number or units(9.8).fits(index.unit or "1", "s"))
-    ):
-        time = index
+    if time is None and index is not None:
+        time = index if not index.is_number or units(9.8).fits(index.unit or "1", "s") else None
     return time, [c for c in table.columns if c is not time and c is not index]
 
 
-def _read_time(c: Column, table: Table, place: str) -> Column | Seconds:
-    """Time as the numbers that it is, or seconds of the instants that it is."""
-    where = at(place, f"column {c.name!r}")
-    if c.is_text and np.mean(np.isfinite(parse_numbers(c.values))) > 0.5:
-        c = read_numbers(c, table, place)
-    if not c.is_number:
-        return read_stamps([c.values], None, where, table.row)
-    base, since, epoch = c.unit.partition(" since ")
-    if not since:
-        return c
-    values = units(9.8).to_si(c.values, base, "s", where)
-    return count_from(values, epoch) or replace(c, unit=base)
+def _read_time(
+    columns: Sequence[Column],
+    table: Table,
+    place: str,
+    form: str | None = None,
+    unit: str = "",
+    null: Null = (),
+) -> tuple[Column, Seconds | None]:
+    """Time as the numbers that it is, or as seconds of the instants that it is; ``form``, ``unit``, ``null``: of a mapping."""
+    first = columns[0]
+    where = at(place, f"column {first.name!r}")
+    numeric = first.is_number or (first.is_text and np.mean(np.isfinite(parse_numbers(first.values))) > 0.5)
+    if form == "seconds" or (form is None and numeric):
+        remedy = None if numeric else f"say how it is written: [time] format = {', '.join(map(repr, WAYS))}"
+        first = read_numbers(first, table, place, null, remedy)
+        base, _, epoch = first.unit.partition(" since ")
+        first = replace(first, name="time", unit=unit or base)
+        stamps = count_from(units(9.8).to_si(first.values, first.unit, "s", where), epoch) if epoch else None
+    else:
+        stamps = read_stamps([c.values for c in columns], form, where, table.row)
+    return (first, None) if stamps is None else (Column("time", "s", stamps.values), stamps)
 
 
 def _finish(made: Recording, stamps: Seconds | None) -> Recording:
     """Rows without a time left out and counted; what is known of the instants."""
     notes = made.notes
-    time = next((c for c in made.columns if c.name == "time"), None)
-    if time is not None and not np.isfinite(time.values).all():
-        there = np.isfinite(time.values)
+    time = next((c.values for c in made.columns if c.name == "time"), np.zeros(0))
+    there = np.isfinite(time)
+    if there.any() and not there.all():
         lost = int(np.sum(~there))
-        if there.any():
-            notes = (*notes, f"{lost} row{'s' * (lost > 1)} without a time left out")
-            kept = tuple(replace(c, values=c.values[there]) for c in made.columns)
-            made = replace(made, columns=kept)
+        notes = (*notes, f"{lost} row{'s' * (lost > 1)} without a time left out")
+        made = replace(made, columns=tuple(replace(c, values=c.values[there]) for c in made.columns))
     if stamps is not None:
         made = replace(made, origin=stamps.origin, instants=stamps.instants)
         notes = (*notes, *stamps.notes)
@@ -230,13 +221,11 @@ def _keep_first(columns: Iterable[Column], place: str, notes: list[str]) -> list
     """The first column of every name; UserError if a second one has a name of the contract."""
     found: dict[str, Column] = {}
     for c in columns:
-        if c.name in found and c.name in SI_UNITS:
-            raise UserError(
-                f"the column {c.name!r} appears twice", where=place, remedy="remove or rename one"
-            )
-        if c.name in found:
-            notes.append(f"{c.name}: a second column of this name is left out")
-        found.setdefault(c.name, c)
+        if found.setdefault(c.name, c) is c:
+            continue
+        if c.name in SI_UNITS:
+            raise UserError(f"the column {c.name!r} appears twice", where=place, remedy="rename one")
+        notes.append(f"{c.name}: a second column of this name is left out")
     return list(found.values())
 
 
@@ -250,55 +239,40 @@ def require_units(columns: Iterable[Column], place: str) -> None:
     """UserError where a unit is missing."""
     for c in columns:
         if not c.unit:
-            unit = _EXAMPLES.get(c.name.split("_")[0], "K")
             raise UserError(
                 "the column has no unit",
                 where=f"{place}: column {c.name!r}",
                 found=repr(c.name),
-                expected=f"{c.name} [unit], such as {c.name} [{unit}]",
+                expected=f"{c.name} [unit], such as {c.name} [{SI_UNITS.get(c.name, 'K')}]",
                 remedy="write the unit; a pure number has the unit 1; none is guessed. Or say once for all files "
                 "what their columns are: ragg map FLIGHT -o mapping.toml",
             )
 
 
-_EXAMPLES = {
-    "time": "s",
-    "a": "g",
-    "omega": "deg/h",
-    "omegadot": "rad/s^2",
-    "Gamma": "Eo",
-    "G": "V",
-    "V": "V",
-    "inline": "Eo",
-    "cross": "Eo",
-}
-
-
 # --- numbers -------------------------------------------------------------------------------------------
 
 
-def read_numbers(c: Column, table: Table, place: str, null: Null = ()) -> Column:
+def read_numbers(c: Column, table: Table, place: str, null: Null = (), remedy: str | None = None) -> Column:
     """A column of text as numbers; UserError at the first cell that is none."""
     if c.is_number:
         return c
-    where = at(place, f"column {c.name!r}")
-    if not c.is_text:
-        raise UserError("the column does not hold numbers", where=where, found="dates", expected="numbers")
     texts = np.array(["" if t in null else t for t in c.values], dtype=object) if null else c.values
-    numbers = parse_numbers(texts)
-    wrong = np.flatnonzero(find_spoiled(texts, numbers))
-    if len(wrong):
+    numbers = parse_numbers(texts) if c.is_text else np.full(len(texts), np.nan)
+    spoiled = np.flatnonzero(find_spoiled(texts, numbers)) if c.is_text else range(len(texts))
+    if len(spoiled):
         raise UserError(
             "not a number" if np.isfinite(numbers).any() else "the column does not hold numbers",
-            where=at(place, table.row(int(wrong[0])), f"column {c.name!r}"),
-            found=repr(texts[wrong[0]])[:60],
+            where=at(place, table.row(int(spoiled[0])), f"column {c.name!r}"),
+            found=repr(str(texts[spoiled[0]]))[:60],
             expected="a number with a decimal point, or nothing where it is missing",
-            remedy="what stands for missing values can be named in a mapping: null = [...]",
+            remedy=remedy or "what stands for missing values can be named in a mapping: null = [...]",
         )
     return replace(c, values=numbers)
 
 
 def parse_numbers(texts: NDArray[np.object_]) -> Array:
+    """Numbers (n,) of texts, NaN where they are none."""
+
     def parse(text: str) -> float:
         try:
             return float(text)
@@ -315,22 +289,18 @@ def find_spoiled(texts: NDArray[np.object_], numbers: Array) -> NDArray[np.bool_
 
 def _without_codes(c: Column, null: Null, notes: list[str]) -> Column:
     """The column without what stands for missing values, by the mapping or by its looks; said in ``notes``."""
-    values = c.values
-    told: dict[float, int] = {}
-    for code in (n for n in null if isinstance(n, float)):
-        hit = np.isclose(values, code, rtol=1e-6, atol=0.0)
-        if hit.any():
-            told[code] = int(np.sum(hit))
-            values = np.where(hit, np.nan, values)
-    for code in find_codes(values, known_only=c.name == "time"):
-        hit = values == code
-        told[code] = int(np.sum(hit))
+    values, told = c.values, []
+    named = [(n, np.isclose(values, n, rtol=1e-6, atol=0.0)) for n in null if isinstance(n, float)]
+    for code, hit in named:
+        told += [(code, int(np.sum(hit)))] if hit.any() else []
         values = np.where(hit, np.nan, values)
-    for code, count in told.items():
-        notes.append(
-            f"{c.name}: {count} value{'s' * (count > 1)} of {code:.10g}{' ' + c.unit if c.unit not in ('', '1') else ''} "
-            "stand for missing values: no readings, left out"
-        )
+    for code in find_codes(values, known_only=c.name == "time"):
+        told.append((code, int(np.sum(values == code))))
+        values = np.where(values == code, np.nan, values)
+    unit = "" if c.unit in ("", "1") else f" {c.unit}"
+    for code, count in told:
+        shown = f"{count} value{'s' * (count > 1)} of {code:.10g}{unit}"
+        notes.append(f"{c.name}: {shown} stand for missing values: no readings, left out")
     return replace(c, values=values) if told else c
 
 
@@ -403,54 +373,22 @@ def _is_usual(value: float) -> bool:
 def _read_mapped(table: Table, place: str, mapping: Mapped) -> Recording:
     """A table whose columns are what the mapping says."""
     notes = [f"read by {mapping.path.name} (SHA-256 {mapping.digest[:16]})", *table.notes]
-    time = mapping.time
-    columns = [table.column(n) for n in time.columns]
-    where = at(place, f"column {time.columns[0]!r}")
-    if time.format != "seconds":
-        read: Column | Seconds = read_stamps([c.values for c in columns], time.format, where, table.row)
-    elif columns[0].is_text and not np.isfinite(parse_numbers(columns[0].values)).any():
-        raise UserError(
-            "time is text, not seconds",
-            where=where,
-            found=repr(columns[0].values[0])[:60] if len(table) else None,
-            remedy=f"say in {mapping.path} how it is written: [time] format = " + ", ".join(map(repr, WAYS)),
-        )
-    else:
-        first = read_numbers(columns[0], table, place, time.null)
-        base, _, epoch = first.unit.partition(" since ")
-        unit = f"{time.unit or base} since {epoch}" if epoch else time.unit or base
-        read = _read_time(replace(first, unit=unit), table, place)
-    unit = "s" if isinstance(read, Seconds) else read.unit
-    found = [Column("time", unit, read.values)]
-    for name, e in mapping.channels.items():
-        c = table.column(e.column)
-        if c.is_text and not np.isfinite(parse_numbers(c.values)).any():
-            raise UserError(
-                "the column does not hold numbers", where=at(place, f"column {e.column!r}"), found="text"
-            )
-        found.append(replace(read_numbers(c, table, place, e.null), name=name, unit=e.unit or c.unit))
+    t, entries = mapping.time, mapping.channels
+    time, stamps = _read_time([table.column(n) for n in t.columns], table, place, t.format, t.unit, t.null)
+    found = [time]
+    for name, e in entries.items():
+        c = read_numbers(table.column(e.column), table, place, e.null)
+        found.append(replace(c, name=name, unit=e.unit or c.unit))
     require_units(found, place)
-    entries: dict[str, Entry] = dict(mapping.channels)
-    nulls = {n: e.null for n, e in entries.items()} | {"time": time.null}
+    nulls = {n: e.null for n, e in entries.items()} | {"time": t.null}
     found = [_without_codes(c, nulls[c.name], notes) for c in found]
-    found = [_scaled(c, entries[c.name]) if c.name in entries else c for c in found]
-    found = _turn(found, mapping)
-    if mapping.demodulator is not None:
-        notes.append(f"demodulated: {mapping.demodulator.words()}")
-    made = Recording(
-        tuple(found),
-        place,
-        line=table.line,
-        origin=time.origin,
-        notes=tuple(notes),
-        demodulation=mapping.demodulator,
-    )
-    return _finish(made, read if isinstance(read, Seconds) else None)
-
-
-def _scaled(c: Column, entry: Entry) -> Column:
-    values = c.values * entry.factor if entry.factor != 1.0 else c.values
-    return replace(c, values=values + entry.offset if entry.offset else values)
+    scaled = [
+        replace(c, values=c.values * entries[c.name].factor + entries[c.name].offset) for c in found[1:]
+    ]
+    found = _turn([found[0], *scaled], mapping)
+    how = mapping.demodulator
+    notes += [] if how is None else [f"demodulated: {how.words()}"]
+    return _finish(Recording(tuple(found), place, table.line, t.origin, False, tuple(notes), how), stamps)
 
 
 def _turn(columns: Sequence[Column], mapping: Mapped) -> list[Column]:
@@ -462,12 +400,9 @@ def _turn(columns: Sequence[Column], mapping: Mapped) -> list[Column]:
     for c in columns:
         own, sign = _source_of(c.name, mapping.axes)
         if own not in by_name:
-            raise UserError(
-                "a component that the axes need is missing",
-                where=at(mapping.path, "[axes]"),
-                found=f"{c.name} comes from {own}, which [columns] does not have",
-                expected="all components of a vector or a tensor that is turned",
-            )
+            lacking = f"{c.name} comes from {own}, which [columns] does not have"
+            what = "a component that the axes need is missing"
+            raise UserError(what, where=at(mapping.path, "[axes]"), found=lacking)
         source = by_name[own]
         found.append(replace(source, name=c.name, values=source.values if sign > 0 else -source.values))
     return found

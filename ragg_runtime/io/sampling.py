@@ -31,7 +31,6 @@ NO_GAPS = 0.05
 STEADY_FROM = 512
 """Instants from which a line through them is a better clock than the mean step of a record without gaps."""
 
-
 ROUNDED = tuple(10.0**-k for k in range(10))
 """Units, s, to which stamps may have been rounded."""
 
@@ -43,6 +42,11 @@ SET = 5e-3
 
 MOST_SET = 20
 """Places at which a clock may have been set in a record; more of them are jitter."""
+
+SHARED = 0.2
+"""Share of rows with the stamp of the row before from which the stamps are too coarse, and not rows doubled."""
+
+_BY_COUNT = "if sampling went on, give the times by the sample count: time = row / {rate:.6g} Hz; else split the record there"
 
 
 @dataclass(frozen=True)
@@ -74,40 +78,29 @@ class Grid:
 def uniform(time: Array, path: Path | str | None) -> Grid:
     """The grid of a record's instants (n,), s; UserError where they make none."""
     where = at(path, "column 'time'")
-    steps = _steps(time, path, where)
-    step = _step(steps)
-    if not (time[-1] - time[0]) / step < 2.0**53:
-        raise UserError(
-            "the record is not uniformly sampled",
-            where=where,
-            found=f"steps of {step:.6g} s in a record of {time[-1] - time[0]:.6g} s",
-            remedy="resample the record to a constant rate",
-        )
+    steps = _require_increasing(time, path, where)
+    step = _typical_step(steps)
+    span = float(time[-1] - time[0])
     # A gap of more samples than memory holds is refused below, whatever their number.
     jumps = np.rint(np.minimum(steps / step, 2.0**31)).astype(np.int64)
     deviation = np.abs(steps - jumps * step) / step
     tracked = None
     if np.any(jumps < 1) or np.any(deviation > JITTER_REFUSED):
-        tracked = _tracked(time, step)
+        tracked = _follow_clock(time, step)
         if tracked is not None:
             jumps, deviation = np.diff(tracked[0]), tracked[1]
-    if np.any(jumps < 1) or (np.any(deviation[jumps == 1] > JITTER_REFUSED) and tracked is None):
+    uneven = np.any(jumps < 1) or (np.any(deviation[jumps == 1] > JITTER_REFUSED) and tracked is None)
+    if uneven or not span / step < 2.0**53:
         row = int(np.argmax(np.where(jumps <= 1, deviation, 0.0)))
-        if find_clock_steps(time, np.ones(len(time), dtype=np.bool_)):
-            raise UserError(
-                f"the stamps step by {steps[row] - step:.4g} s at t = {time[row + 1]:.10g} s: was the clock set?",
-                where=where,
-                found=f"a step of {steps[row]:.6g} s after row {row + 1}",
-                expected=f"steps of {step:.6g} s",
-                remedy=f"if sampling went on, give the times by the sample count: time = row / {1 / step:.6g} Hz; if it"
-                " paused, split the record there",
-            )
+        was_set = find_clock_steps(time, np.ones(len(time), dtype=np.bool_))
         raise UserError(
-            "the record is not uniformly sampled",
+            f"the stamps step by {steps[row] - step:.4g} s at t = {time[row + 1]:.10g} s: was the clock set?"
+            if was_set
+            else "the record is not uniformly sampled",
             where=where,
             found=f"a step of {steps[row]:.6g} s after row {row + 1} (t = {time[row]:.10g} s)",
             expected=f"steps of {step:.6g} s",
-            remedy="resample the record to a constant rate",
+            remedy=_BY_COUNT.format(rate=1 / step) if was_set else "resample the record to a constant rate",
         )
     index = np.concatenate([[0], np.cumsum(jumps)])
     count = int(index[-1]) + 1
@@ -115,33 +108,21 @@ def uniform(time: Array, path: Path | str | None) -> Grid:
         raise UserError(
             "more than nine samples in ten are missing",
             where=where,
-            found=f"{len(time)} samples in {time[-1] - time[0]:.6g} s, with steps of {step:.6g} s",
+            found=f"{len(time)} samples in {span:.6g} s, with steps of {step:.6g} s",
             remedy="split the record at its gaps into one file each",
         )
     rounded = unround(time, index)
     if rounded is not None:
         unit, first, step = rounded
-        notes = _notes(time, np.diff(index) * step, jumps, np.zeros(len(jumps)), step)
+        notes = _describe(time, np.asarray(jumps * step), jumps, 0.0 * deviation, step)
         if unit > JITTER_NOTED * step:
-            rate = f"{1 / step:.6g} Hz"
             notes.append(
-                f"the stamps are rounded to {unit:g} s: they are put on the even grid of {rate} that they follow"
+                f"the stamps are rounded to {unit:g} s: they are put on the even grid of {1 / step:.6g} Hz"
             )
-        return Grid(
-            index=index,
-            time=np.asarray(first + step * np.arange(count), dtype=np.float64),
-            step=step,
-            notes=tuple(notes),
-        )
+        return Grid(index, np.asarray(first + step * np.arange(count), dtype=np.float64), step, tuple(notes))
     whole = time if count == len(time) else np.interp(np.arange(count), index, time)
-    jitters = bool(np.max(deviation) > JITTER_FOLLOWED)
-    return Grid(
-        index=index,
-        time=whole,
-        step=step,
-        notes=tuple(_notes(time, steps, jumps, deviation, step)),
-        jitters=jitters,
-    )
+    notes = _describe(time, steps, jumps, deviation, step)
+    return Grid(index, whole, step, tuple(notes), jitters=bool(np.max(deviation) > JITTER_FOLLOWED))
 
 
 def unround(time: Array, index: NDArray[np.int64]) -> tuple[float, float, float] | None:
@@ -160,35 +141,42 @@ def unround(time: Array, index: NDArray[np.int64]) -> tuple[float, float, float]
         Unit to which the stamps were rounded (or cut off), first instant and step, s; ``None`` if they are not the roundings of
         an even clock. Where the stamps cannot tell, a round rate is taken, and a tick at time 0.
     """
-    unit = _unit_of(time)
-    if unit is None or len(time) < 2:
+    unit = _find_unit(time)
+    if unit is None:
         return None
     step, first = (float(c) for c in np.polyfit(index, time, 1))
-    for digits in range(1, 10):
-        rate = float(f"{1 / step:.{digits}g}")
-        if rate > 0.0 and abs(1 / rate - step) * float(index[-1]) <= unit / 2:
-            step = 1 / rate
-            first = float(np.mean(time - step * index))
-            break
+    if (plain := _round_rate(step, unit / 2 / float(index[-1]))) != step:
+        step, first = plain, float(np.mean(time - plain * index))
     exact = [x for x in (np.rint(first / step) * step, time[0]) if abs(x - first) <= unit]
     first = float(exact[0]) if exact else first
     slack = 1e-6 * unit + 4 * float(np.spacing(np.max(np.abs(time))))
     off = time - first - step * index
-    even = np.max(np.abs(off)) <= slack
-    if even or unit > step / 2 or np.max(np.abs(off)) > unit + slack or np.ptp(off) > unit + 2 * slack:
+    most = np.max(np.abs(off))
+    if most <= slack or unit > step / 2 or most > unit + slack or np.ptp(off) > unit + 2 * slack:
         return None
     return unit, first, step
 
 
-def _unit_of(time: Array) -> float | None:
+def _find_unit(time: Array) -> float | None:
     """The largest decimal unit, s, of which all stamps are multiples, or that of single precision; ``None``: there is none."""
     most = float(np.max(np.abs(time)))
     for unit in ROUNDED:
         slack = max(1e-6, 4 * float(np.spacing(most)) / unit)
         if slack < 0.1 and np.all(np.abs(time / unit - np.rint(time / unit)) < slack):
             return unit
+    return _find_single(time)
+
+
+def _find_single(time: Array) -> float | None:
+    """The spacing, s, of stamps that are in single precision; ``None``: they are not."""
     single = time.astype(np.float32)
     return float(np.spacing(np.abs(single).max())) if np.array_equal(single, time) else None
+
+
+def _round_rate(step: float, error: float) -> float:
+    """The step of the roundest rate within ``error``, s, of a step; else the step itself."""
+    rates = (float(f"{1 / step:.{digits}g}") for digits in range(1, 10))
+    return next((1 / r for r in rates if r > 0.0 and abs(1 / r - step) <= error), step)
 
 
 def find_clock_steps(time: Array, valid: NDArray[np.bool_]) -> list[ClockStep]:
@@ -239,43 +227,13 @@ def even_clock(time: Array, valid: NDArray[np.bool_]) -> tuple[float, float]:
     places += [(k >= c.row).astype(np.float64) for c in find_clock_steps(time, valid)]
     X, t = np.stack(places, axis=1), time[k] - time[0]
     fitted = np.linalg.lstsq(X, t, rcond=None)[0]
-    step, set_by = float(fitted[0]), X[:, 2:] @ fitted[2:]
-    scatter = float(np.std(t - X @ fitted))
+    set_by, scatter = X[:, 2:] @ fitted[2:], float(np.std(t - X @ fitted))
     # A clock is set to a round rate: take it where the instants cannot tell it from the fitted one.
-    error = 4 * scatter * np.sqrt(12 / len(k)) / (k[-1] - k[0])
-    for digits in range(1, 10):
-        rounded = 1 / float(f"{1 / step:.{digits}g}")
-        if abs(rounded - step) < error:
-            step = rounded
-            break
+    step = _round_rate(float(fitted[0]), 4 * scatter * np.sqrt(12 / len(k)) / (k[-1] - k[0]))
     return float(time[0] + np.mean(t - set_by - step * k)), step
 
 
-def _steps(time: Array, path: Path | str | None, where: str) -> Array:
-    """(n - 1,) s: from each instant to the next, all above zero."""
-    if len(time) < 2:
-        raise UserError(
-            "too few samples",
-            where=path,
-            found=f"{len(time)} row{'s' * (len(time) != 1)}",
-            expected="at least 2, usually thousands",
-        )
-    if not np.all(np.isfinite(time)):
-        row = int(np.flatnonzero(~np.isfinite(time))[0])
-        raise UserError(
-            "the time is missing",
-            where=where,
-            found=f"row {row + 1}: {time[row]}",
-            expected="a number in every row",
-            remedy="remove rows without a time",
-        )
-    steps = np.diff(time)
-    if np.any(steps <= 0):
-        raise _not_increasing(time, steps, where)
-    return steps
-
-
-def _tracked(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None:
+def _follow_clock(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None:
     """Places of samples that jitter by less than half a step about a steady clock, and by how much (n - 1,); ``None``:
     they do not.
     """
@@ -305,14 +263,17 @@ def _tracked(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None
     return (k - k[0]).astype(np.int64), off[1:]
 
 
-def _step(steps: Array) -> float:
+def _typical_step(steps: Array) -> float:
     """The mean of those steps that are about the median: the rounding of printed times averages out."""
     middle = (len(steps) - 1) // 2
     median = float(np.partition(steps, middle)[middle])  # one of the steps, never between two of them
     return float(np.mean(steps[np.abs(steps - median) < 0.5 * median]))
 
 
-def _notes(time: Array, steps: Array, jumps: NDArray[np.int64], deviation: Array, step: float) -> list[str]:
+def _describe(
+    time: Array, steps: Array, jumps: NDArray[np.int64], deviation: Array, step: float
+) -> list[str]:
+    """Notes on gaps and on jitter."""
     notes = []
     gaps = np.flatnonzero(jumps > 1)
     if len(gaps):
@@ -326,80 +287,64 @@ def _notes(time: Array, steps: Array, jumps: NDArray[np.int64], deviation: Array
     worst = int(np.argmax(deviation))
     if deviation[worst] > JITTER_NOTED:
         notes.append(
-            f"sampling jitters by up to {deviation[worst]:.2g} of the step of {step:.6g} s "
-            f"(after t = {time[worst]:.10g} s); every sample counts at its own instant, derivatives and "
-            "spectra are made on the even grid"
+            f"sampling jitters by up to {deviation[worst]:.2g} of the step of {step:.6g} s (after t = {time[worst]:.10g} s); "
+            "every sample counts at its own instant, derivatives and spectra are made on the even grid"
         )
     return notes
 
 
-def _not_increasing(time: Array, steps: Array, where: str) -> UserError:
-    if np.all(steps < 0):
-        return UserError(
-            "the time runs backwards",
-            where=where,
-            found=f"{time[0]:.10g} s first, {time[-1]:.10g} s last",
-            expected="increasing time",
-            remedy="sort the rows by time",
-        )
-    if np.all(steps == 0) and np.spacing(np.float32(time[0])) < 1e-3:
-        return UserError(
-            "the time stands still",
-            where=where,
-            found=f"{time[0]:.10g} s in every row",
-            expected="increasing time",
-            remedy="check the clock or the format in which the time was written",
-        )
-    if np.mean(steps == 0) > SHARED:
-        return _too_coarse(time, steps, where)
+def _require_increasing(time: Array, path: Path | str | None, where: str) -> Array:
+    """(n - 1,) s: from each instant to the next; UserError unless all are above zero."""
+    if len(time) < 2:
+        rows = f"{len(time)} row{'s' * (len(time) != 1)}"
+        raise UserError("too few samples", where=path, found=rows, expected="at least 2, usually thousands")
+    if not np.all(np.isfinite(time)):
+        row = int(np.flatnonzero(~np.isfinite(time))[0])
+        raise UserError("the time is missing", where=where, found=f"row {row + 1}: {time[row]}")
+    steps = np.diff(time)
+    if np.all(steps > 0):
+        return steps
+    what, remedy = (
+        "the time runs back",
+        "remove doubled rows or sort the rows by time; two records need two files",
+    )
     row, count = int(np.flatnonzero(steps <= 0)[0]), int(np.sum(steps <= 0))
-    step = _step(steps[steps > 0])
     found = f"row {row + 1}: {time[row]:.10g} s, row {row + 2}: {time[row + 1]:.10g} s"
     found += f" (and {count - 1} more such places)" if count > 1 else ""
     in_order = np.diff(np.sort(time))
     swapped = np.min(in_order) > 0.5 * np.median(in_order)  # the rows stand in another order
-    if steps[row] < 0 and not swapped and count <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)):
-        back = step - float(steps[row])
-        return UserError(
-            f"the stamps step back by {back:.4g} s at t = {time[row]:.10g} s: was the clock set?",
-            where=where,
-            found=found,
-            expected="increasing time",
-            remedy=f"if sampling went on, give the times by the sample count: time = row / {1 / step:.6g} Hz; else remove"
-            " doubled rows, or give two records as two files",
+    single = _find_single(time)
+    single = None if single is None or single < 1e-3 else single
+    if np.all(steps < 0):
+        what, remedy = "the time runs backwards", "sort the rows by time"
+    elif np.all(steps == 0) and single is None:
+        what, remedy = "the time stands still", "check the clock or the format in which the time was written"
+    elif np.mean(steps == 0) > SHARED:
+        what = "the stamps are too coarse for the rate"
+        found, remedy = _describe_coarse(time, steps, single)
+    elif steps[row] < 0 and not swapped and count <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)):
+        step = _typical_step(steps[steps > 0])
+        what = (
+            f"the stamps step back by {step - steps[row]:.4g} s at t = {time[row]:.10g} s: was the clock set?"
         )
-    return UserError(
-        "an instant appears twice" if steps[row] == 0 else "the time runs back",
-        where=where,
-        found=found,
-        expected="increasing time",
-        remedy="remove doubled rows or sort the rows by time; two records need two files",
-    )
+        remedy = _BY_COUNT.format(rate=1 / step)
+    elif steps[row] == 0:
+        what = "an instant appears twice"
+    raise UserError(what, where=where, found=found, expected="increasing time", remedy=remedy)
 
 
-SHARED = 0.2
-"""Share of rows with the stamp of the row before from which the stamps are too coarse, and not rows doubled."""
-
-
-def _too_coarse(time: Array, steps: Array, where: str) -> UserError:
-    """Several rows share each stamp: whole seconds, or single precision."""
+def _describe_coarse(time: Array, steps: Array, single: float | None) -> tuple[str, str]:
+    """What was found and the remedy where several rows share each stamp: whole seconds, or single precision."""
     edges = np.flatnonzero(steps != 0) + 1
     rows = len(time) / (len(edges) + 1)
-    single = (
-        np.array_equal(time.astype(np.float32), time) and np.spacing(np.float32(np.max(np.abs(time)))) > 1e-3
-    )
-    how = ""
-    if single:
-        spacing = float(np.spacing(np.float32(np.max(np.abs(time)))))
-        how = f"; single precision knows {np.max(np.abs(time)):.10g} s to {spacing:.3g} s only"
-    elif np.array_equal(np.rint(time), time):
-        how = "; they are whole seconds"
-    rate = rows / float(np.median(steps[edges - 1])) if len(edges) else 0.0
-    by = f"time = row / {rate:.6g} Hz" if rate > 0.0 and not single else "time = row / rate"
-    return UserError(
-        "the stamps are too coarse for the rate",
-        where=where,
-        found=f"{len(edges) + 1} different stamps in {len(time)} rows, each of some {rows:.4g} rows{how}",
-        expected="a stamp of its own for every row",
-        remedy=f"give the times by the rate and the number of the row: {by}; no row is doubled",
+    found = f"{len(edges) + 1} different stamps in {len(time)} rows, each of some {rows:.4g} rows"
+    rate = "rate"
+    if single is not None:
+        found += f"; single precision has steps of {single:.3g} s there"
+    elif len(edges):
+        found += "; they are whole seconds" * np.array_equal(np.rint(time), time)
+        rate = f"{rows / float(np.median(steps[edges - 1])):.6g} Hz"
+    return (
+        found,
+        f"give the times by the rate and the number of the row: time = row / {rate}; no row is doubled",
     )

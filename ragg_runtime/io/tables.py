@@ -7,7 +7,6 @@ file, a structure of MATLAB or a dict of arrays holds becomes one by :func:`make
 from __future__ import annotations
 
 import hashlib
-import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -16,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyarrow as pa
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at, one_line
@@ -135,8 +135,6 @@ def is_line(name: str) -> bool:
 def make_table(
     arrays: Iterable[tuple[str, Any]],
     given: Mapping[str, str] | None = None,
-    *,
-    names: Mapping[str, str] | None = None,
     **about: Any,
 ) -> Table:
     """A table of those arrays that have the length of ``time`` (or the commonest one); notes say which have not.
@@ -148,20 +146,12 @@ def make_table(
         with ``shape`` that NumPy converts, perhaps with ``attrs``.
     given
         Units by name, beside those in ``attrs`` and in the names themselves.
-    names
-        Names to be used in the place of the arrays' own.
     about
         Further fields of the table.
     """
-    given, names = given or {}, names or {}
-    arrays = list(arrays)
+    given, arrays = given or {}, list(arrays)
     if len(arrays) > MOST_COLUMNS:
-        raise UserError(
-            "the file has too many columns for a flight",
-            found=len(arrays),
-            expected=f"at most {MOST_COLUMNS}",
-            remedy="keep the columns that the instrument and its effects need",
-        )
+        raise too_wide(None, len(arrays))
     length = _common_length(arrays)
     columns, other = [], []
     for name, x in arrays:
@@ -173,10 +163,9 @@ def make_table(
         if values is None:
             other.append(f"{name!r} (neither numbers nor text)")
             continue
-        title, unit = read_heading(names.get(name) or _text(attributes.get("name")) or name)
+        title, unit = read_heading(name)
         said = next(filter(None, (_text(attributes.get(k)) for k in _UNIT_KEYS)), "").strip()
         for own, part in _spread(title, values, length):
-            own = names.get(own, own)
             unit_of = given.get(own) or given.get(name) or given.get(title) or said or unit
             columns.append(Column(own, unit_of.strip(), part))
     notes = list(about.pop("notes", ()))
@@ -186,18 +175,21 @@ def make_table(
     return Table(tuple(columns), notes=tuple(notes), **about)
 
 
+def too_wide(where: Path | None, count: int) -> UserError:
+    """The refusal of a table of more than ``MOST_COLUMNS``."""
+    what, remedy = "the file has too many columns for a flight", "keep the columns that the instrument needs"
+    return UserError(what, where=where, found=count, expected=f"at most {MOST_COLUMNS}", remedy=remedy)
+
+
 def _common_length(arrays: Sequence[tuple[str, Any]]) -> int:
     """Rows of the table that arrays make up: those of ``time``, else the commonest length."""
-    sizes = {
-        n: max(x.shape)
-        for n, x in arrays
-        if len(x.shape) == 1 or (len(x.shape) == 2 and min(x.shape) <= WIDEST)
-    }
-    time: int | None = next((size for n, size in sizes.items() if read_heading(n)[0] == "time"), None)
-    if time is not None and time > 1:
+    shapes = [(n, x.shape) for n, x in arrays]
+    sizes = [(n, max(s)) for n, s in shapes if len(s) == 1 or (len(s) == 2 and min(s) <= WIDEST)]
+    time = next((size for n, size in sizes if read_heading(n)[0] == "time"), 0)
+    if time > 1:
         return time
-    common = Counter(size for size in sizes.values() if size > 1).most_common(1)
-    return common[0][0] if common else max(sizes.values(), default=0)
+    common = Counter(size for _, size in sizes if size > 1).most_common(1)
+    return common[0][0] if common else max((size for _, size in sizes), default=0)
 
 
 def _spread(name: str, values: NDArray[Any], length: int) -> list[tuple[str, NDArray[Any]]]:
@@ -243,20 +235,14 @@ def decode_values(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArra
     for name in ("_FillValue", "missing_value"):
         for nothing in _numbers(attributes.get(name)):
             missing |= values == np.asarray(nothing).astype(values.dtype)
-    low, high, *_ = [*_numbers(attributes.get("valid_range")), None, None]
-    low = next(iter(_numbers(attributes.get("valid_min"))), low)
-    high = next(iter(_numbers(attributes.get("valid_max"))), high)
-    if low is not None:
-        missing |= values < low
-    if high is not None:
-        missing |= values > high
+    low, high = [*_numbers(attributes.get("valid_range")), -np.inf, np.inf][:2]
+    low = [*_numbers(attributes.get("valid_min")), low][0]
+    missing |= (values < low) | (values > [*_numbers(attributes.get("valid_max")), high][0])
     if (fill := _DEFAULT_FILL.get(values.dtype.str[1:])) is not None and "DIMENSION_LIST" in attributes:
         missing |= values == np.asarray(fill).astype(values.dtype)
-    result = values.astype(np.float64)
-    for factor in _numbers(attributes.get("scale_factor"))[:1]:
-        result = result * factor
-    for offset in _numbers(attributes.get("add_offset"))[:1]:
-        result = result + offset
+    factor = [*_numbers(attributes.get("scale_factor")), 1.0][0]
+    offset = [*_numbers(attributes.get("add_offset")), 0.0][0]
+    result: NDArray[Any] = values.astype(np.float64) * factor + offset
     result[missing] = np.nan
     return result
 
@@ -265,11 +251,10 @@ def _decode_objects(values: NDArray[Any]) -> NDArray[Any] | None:
     """Texts; numbers and dates that stand in an array of objects as what they are."""
     cells = values.tolist()
     there = [c for c in cells if c is not None and c != "" and c == c]
-    if there and all(isinstance(c, int | float | np.number) for c in there):
-        return np.array([float(c) if isinstance(c, int | float | np.number) else np.nan for c in cells])
-    if not all(
-        isinstance(c, str | bytes | int | float | np.number) or hasattr(c, "isoformat") for c in there
-    ):
+    number = (int, float, np.number)
+    if there and all(isinstance(c, number) for c in there):
+        return np.array([float(c) if isinstance(c, number) else np.nan for c in cells])
+    if not all(isinstance(c, (str, bytes, *number)) or hasattr(c, "isoformat") for c in there):
         return None
     return np.array([write_cell(c) for c in cells], dtype=object)
 
@@ -310,14 +295,11 @@ def tabulate(data: Any) -> list[Table]:
     if hasattr(data, "data_vars") and hasattr(data, "coords"):
         return [make_table([(str(n), _of_variable(v)) for n, v in data.variables.items()])]
     if isinstance(data, Mapping):
-        attributes = data.get("attrs") if isinstance(data.get("attrs"), Mapping) else {}
-        named = data.get("units") if isinstance(data.get("units"), Mapping) else attributes
-        arrays = [
-            (str(n), v if hasattr(v, "shape") else np.asarray(v))
-            for n, v in data.items()
-            if not isinstance(v, Mapping)
-        ]
-        return [make_table([(n, _of_series(v)) for n, v in arrays], read_frame_units(named or {}))]
+        own: Mapping[Any, Any] = next(
+            (data[n] for n in ("units", "attrs") if isinstance(data.get(n), Mapping)), {}
+        )
+        arrays = [(str(n), _of_series(v)) for n, v in data.items() if not isinstance(v, Mapping)]
+        return [make_table(arrays, read_frame_units(own))]
     raise UserError(
         "this is no flight",
         found=type(data).__name__,
@@ -334,10 +316,12 @@ def _of_variable(v: Any) -> Any:
 
 def _of_frame(frame: Any) -> Table:
     """The table of a DataFrame; an index that is more than row numbers is its first column."""
-    labels = [" ".join(map(str, c)) if isinstance(c, tuple) else str(c) for c in frame.columns]
-    for k, c in enumerate(frame.columns):  # names and units in two rows of a header
-        if isinstance(c, tuple) and len(c) == 2 and is_unit(str(c[1])):
-            labels[k] = f"{c[0]} [{c[1]}]"
+    labels = [
+        (f"{c[0]} [{c[1]}]" if is_unit(str(c[-1])) else " ".join(map(str, c)))
+        if isinstance(c, tuple)
+        else str(c)
+        for c in frame.columns  # names and units in two rows of a header
+    ]
     arrays = [(n, _of_series(frame.iloc[:, k])) for k, n in enumerate(labels)]
     index = None
     if type(frame.index).__name__ != "RangeIndex":
@@ -361,9 +345,9 @@ def label(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArray[Any]:
 
 
 def _of_series(series: Any) -> Any:
-    """A column of pandas as an array of NumPy; anything else as it is."""
+    """A column of pandas as an array of NumPy; any other array as it is."""
     if not hasattr(series, "to_numpy") or not hasattr(series, "index"):
-        return series
+        return series if hasattr(series, "shape") else np.asarray(series)
     dtype = series.dtype
     if getattr(dtype, "tz", None) is not None:
         series = series.dt.tz_convert("UTC").dt.tz_localize(None)
@@ -383,6 +367,22 @@ def read_frame_units(attributes: Mapping[Any, Any]) -> dict[str, str]:
         if isinstance(value, str):
             found[str(name)] = value.strip()
     return found
+
+
+def of_arrow(column: pa.ChunkedArray) -> NDArray[Any] | None:
+    """Numbers, texts or instants of a column of Arrow; ``None`` for anything else. Its own ``to_numpy`` may load pandas."""
+    kind = column.type.value_type if pa.types.is_dictionary(column.type) else column.type
+    if pa.types.is_string(kind) or pa.types.is_large_string(kind) or pa.types.is_time(kind):
+        return np.array([write_cell(t) for t in column.to_pylist()], dtype=object)
+    if pa.types.is_timestamp(kind) or pa.types.is_date(kind):
+        return np.asarray(column.cast(pa.timestamp("ns")).to_numpy(), dtype="datetime64[ns]")
+    if pa.types.is_duration(kind):
+        return np.asarray(column.cast(pa.duration("ns")).to_numpy(), dtype="timedelta64[ns]")
+    if not (pa.types.is_primitive(kind) or pa.types.is_decimal(kind) or pa.types.is_null(kind)):
+        return None
+    column = column.cast(pa.int8()) if pa.types.is_boolean(kind) else column
+    whole = column.cast(pa.float64()).combine_chunks()
+    return np.asarray(np.from_dlpack(whole.fill_null(float("nan")) if whole.null_count else whole))
 
 
 def digest_tables(tables: Sequence[Table]) -> str:
@@ -415,14 +415,12 @@ def choose_tables(
         return [replace(found[0], line=None)]
     if len({tuple(sorted(t.names)) for t in found}) == 1:
         return found
-    everything = [t.part or "/" for t in found]
+    parts = [t.part or "/" for t in found]
     raise UserError(
         "the file holds several tables that differ" if found else "the file holds no table",
         where=where,
-        found=", ".join(everything[:12]) + (" ..." if len(everything) > 12 else "") or None,
-        expected="vectors of numbers of one length, in one place or in groups that are alike"
-        if part is None
-        else f"a table in {part!r}",
+        found=", ".join(parts[:12]) + (" ..." if len(parts) > 12 else "") or None,
+        expected="vectors of one length in one place, or in groups that are alike" if part is None else part,
         remedy="say in a mapping which is meant: [file] part = ...",
     )
 
@@ -435,9 +433,12 @@ def split_lines(tables: Sequence[Table], column: str | None, where: Path | str |
     name = column or next((n for n in table.names if is_line(n)), None)
     if name is None:
         return [table]
-    values, inverse = _number_labels(table.column(name).values)
-    texts = [line_name(v) for v in values]
-    named = list(dict.fromkeys(filter(None, texts)))
+    values = table.column(name).values
+    different, first, inverse = np.unique(
+        values.astype(str) if values.dtype.kind == "O" else values, return_index=True, return_inverse=True
+    )
+    texts = [line_name(v) for v in different]
+    named = list(dict.fromkeys(texts[k] for k in np.argsort(first) if texts[k]))
     number = {text: k for k, text in enumerate(named)}
     which = np.array([number.get(text, -1) for text in texts], dtype=np.int64)[inverse]
     rest = replace(table, columns=tuple(c for c in table.columns if c.name != name))
@@ -446,8 +447,7 @@ def split_lines(tables: Sequence[Table], column: str | None, where: Path | str |
             "the column does not name lines: its values differ from row to row",
             where=at(where, f"column {name!r}"),
             found=f"{len(named)} values in {len(which)} rows",
-            expected=f"at most {MOST_LINES} lines",
-            remedy="rename the column, or name another one in a mapping: [file] line = ...",
+            expected=f"at most {MOST_LINES}, or another column in a mapping: [file] line = ...",
         )
     lost = int(np.sum(which < 0))
     if lost:
@@ -460,16 +460,6 @@ def split_lines(tables: Sequence[Table], column: str | None, where: Path | str |
     return [
         replace(rest.rows(order[a:b]), line=text) for text, a, b in zip(named, edges, edges[1:], strict=False)
     ]
-
-
-def _number_labels(values: NDArray[Any]) -> tuple[list[Any], NDArray[np.int64]]:
-    """The different values in the order in which they appear, and which of them stands in every row."""
-    if values.dtype.kind == "O":
-        known = {text: k for k, text in enumerate(dict.fromkeys(values))}
-        return list(known), np.array([known[text] for text in values], dtype=np.int64)
-    different, first, inverse = np.unique(values, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    return different[order].tolist(), np.argsort(order)[inverse]
 
 
 def line_name(value: object) -> str:
@@ -501,10 +491,6 @@ def find_free_memory() -> float | None:
     """Bytes that can be had without swapping; ``None`` where the system does not say."""
     try:
         with open("/proc/meminfo", encoding="ascii") as lines:
-            free = next(float(x.split()[1]) * 1024 for x in lines if x.startswith("MemAvailable:"))
+            return next(float(x.split()[1]) * 1024 for x in lines if x.startswith("MemAvailable:"))
     except (OSError, StopIteration, ValueError):
-        try:
-            return float(os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
-        except (AttributeError, ValueError, OSError):
-            return None
-    return free
+        return None  # of other systems NumPy's own MemoryError is said

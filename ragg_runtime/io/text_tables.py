@@ -26,16 +26,18 @@ import pyarrow.csv
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
-from ragg_runtime.io.instants import is_instant
+from ragg_runtime.io.instants import parts_of
 from ragg_runtime.io.tables import (
     INDEX,
     MOST_COLUMNS,
     Column,
     Table,
     is_line,
+    of_arrow,
     read_heading,
     read_units,
     require_memory,
+    too_wide,
     write_cell,
 )
 
@@ -111,14 +113,9 @@ def _filled(cell: Any) -> bool:
 
 def _is_data(row: Sequence[Any]) -> bool:
     """Whether more cells of a row are numbers or instants than are text."""
-    values = sum(_is_value(c) for c in row)
-    return values > 0 and 2 * values > sum(map(_filled, row))
-
-
-def _is_value(cell: Any) -> bool:
-    if not isinstance(cell, str):
-        return cell is not None
-    return is_number(cell) or is_instant(cell)
+    filled = [c for c in row if _filled(c)]
+    values = sum(not isinstance(c, str) or is_number(c) or any(parts_of(c)) for c in filled)
+    return values > 0 and 2 * values > len(filled)
 
 
 def is_number(text: str) -> bool:
@@ -147,10 +144,6 @@ def _joined(above: Sequence[str], below: Sequence[str]) -> list[str]:
         whole = "_".join(filter(None, (name, own)))
         found.append(f"{whole} [{its or unit}]" if its or unit else whole)
     return found
-
-
-def _no_header(path: Path) -> UserError:
-    return UserError("the flight file has no header", where=path, expected="time [s],a_x [g],...")
 
 
 # --- CSV -----------------------------------------------------------------------------------------------
@@ -183,19 +176,19 @@ def read_csv(path: Path) -> list[Table]:
             dialect = _changed(dialect, str(error))
         except (OSError, EOFError, UnicodeError) as error:
             raise _cut_off(path, error) from None
-    notes = (
-        [] if dialect.encoding.startswith("utf") else ["the file is not UTF-8; read as Windows text (cp1252)"]
-    )
-    names, units = dialect.header.names, dialect.header.units
+    notes = []
+    if not dialect.encoding.startswith("utf"):
+        notes.append("the file is not UTF-8; read as Windows text (cp1252)")
     columns = []
-    for k, x in enumerate(map(_array, table.columns)):
-        if names[k]:
-            columns.append(Column(names[k], units[k], x))
-        elif np.any(x != "" if x.dtype.kind == "O" else np.isfinite(x)):
-            if k == 0:  # pandas writes an index without a name so
-                columns.append(Column(INDEX, "", x))
-            else:
-                notes.append(f"column {k + 1} has no name; it is passed over")
+    for k, x in enumerate(map(of_arrow, table.columns)):
+        name, unit = dialect.header.names[k], dialect.header.units[k]
+        assert x is not None
+        if name or not np.any(x != "" if x.dtype.kind == "O" else np.isfinite(x)):
+            columns += [Column(name, unit, x)] if name else []
+        elif k == 0:  # pandas writes an index without a name so
+            columns.append(Column(INDEX, "", x))
+        else:
+            notes.append(f"column {k + 1} has no name; it is passed over")
     index = INDEX if columns and columns[0].name == INDEX else None
     return [Table(tuple(columns), notes=tuple(notes), index=index, counts=("line", dialect.lines + 1))]
 
@@ -218,29 +211,28 @@ def _look(path: Path, compressed: bool, encoding: str) -> _Dialect:
         try:
             rows, ends = _rows(lines, delimiter)
         except csv.Error as error:
-            raise UserError(_NOT_CSV, where=path, found=str(error)) from None
+            raise UserError(_NOT_CSV, where=path, found=error) from None
         header = find_header(rows)
         score = (0.0, 0) if header is None else (header.share, len(header.names))
         if header is not None and (best is None or score > best[0]):
             best = score, delimiter, header, rows, ends
     if best is None or best[0][1] > MOST_COLUMNS:
-        raise _no_header(path) if best is None else _too_wide(path)
+        example = "time [s],a_x [g],..."
+        nothing = UserError("the flight file has no header", where=path, expected=example)
+        raise nothing if best is None else too_wide(path, best[0][1])
     _, delimiter, header, rows, ends = best
-    sample = rows[header.begins :]
-    texts = [k for k in range(len(header.names)) if is_line(header.names[k]) or _holds_text(sample, k)]
-    commas = any(_COMMA.fullmatch(c) for r in sample for c in r)
+    names, sample = header.names, rows[header.begins :]
     count = _text_length(path, compressed) * len(lines) / (sum(map(len, lines)) or 1)
-    require_memory(path, count * len(header.names) * 8)
-    skip = ends[header.begins - 1] if header.begins else 0
+    require_memory(path, count * len(names) * 8)
     return _Dialect(
         path=path,
         compressed=compressed,
         encoding=encoding,
         delimiter=delimiter,
-        decimal="," if commas else ".",
-        lines=skip,
+        decimal="," if any(_COMMA.fullmatch(c) for r in sample for c in r) else ".",
+        lines=ends[header.begins - 1] if header.begins else 0,
         header=header,
-        texts=frozenset(texts),
+        texts=frozenset(k for k, n in enumerate(names) if is_line(n) or _holds_text(sample, k)),
     )
 
 
@@ -250,26 +242,17 @@ def _lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
     while line := stream.readline(LONGEST_LINE):
         number += 1
         if len(line) == LONGEST_LINE:
-            raise UserError(
-                _NOT_CSV,
-                where=at(path, f"line {number}"),
-                found=f"a line of more than {LONGEST_LINE} characters, beginning with {line[:20]!r}",
-                expected="one row per line, a number for each column",
-                remedy="the file may be damaged, not fully copied, or not a text file",
-            )
+            found = f"a line of more than {LONGEST_LINE} characters, beginning with {line[:20]!r}"
+            raise UserError(_NOT_CSV, where=at(path, f"line {number}"), found=found)
         yield line
 
 
 def _rows(lines: Sequence[str], delimiter: str) -> tuple[list[list[str]], list[int]]:
     """Rows of cells that are not empty, and the number of each one's last line; the header may be a remark (NumPy's is)."""
     reader = csv.reader(lines, delimiter=delimiter)
-    rows, ends = [], []
-    for row in reader:
-        if not any(c.strip() for c in row):
-            continue
-        rows.append([row[0].lstrip("#").strip(), *row[1:]] if row[0].startswith("#") else row)
-        ends.append(reader.line_num)
-    return rows, ends
+    found = [(r, reader.line_num) for r in reader if any(c.strip() for c in r)]
+    rows = [[r[0].lstrip("#").strip(), *r[1:]] if r[0].startswith("#") else r for r, _ in found]
+    return rows, [end for _, end in found]
 
 
 def _holds_text(rows: Sequence[Sequence[str]], column: int) -> bool:
@@ -292,28 +275,23 @@ def _text_length(path: Path, compressed: bool) -> float:
 def _parse(d: _Dialect) -> pa.Table:
     """The columns as Arrow reads them; ArrowInvalid where a cell is no number or a line has another width."""
     kinds = {str(k): pa.string() if k in d.texts else pa.float64() for k in range(len(d.header.names))}
-    with (
-        d.path.open("rb") as raw,
-        pa.input_stream(raw, compression="gzip" if d.compressed else None) as stream,
-    ):
-        try:
-            return pyarrow.csv.read_csv(
-                stream,
-                # with several threads Arrow does not say in which row it stumbled
-                pyarrow.csv.ReadOptions(
-                    skip_rows=d.lines,
-                    column_names=list(kinds),
-                    block_size=1 << 22,
-                    use_threads=False,
-                    encoding="utf8" if d.encoding == "utf-8-sig" else d.encoding,
-                ),
-                pyarrow.csv.ParseOptions(delimiter=d.delimiter),
-                pyarrow.csv.ConvertOptions(column_types=kinds, null_values=MISSING, decimal_point=d.decimal),
-            )
-        except pa.ArrowInvalid as error:
-            if "Empty CSV" not in str(error):
-                raise
-            return pa.table({n: pa.array([], k) for n, k in kinds.items()})
+    options = pyarrow.csv.ReadOptions(
+        skip_rows=d.lines,
+        column_names=list(kinds),
+        block_size=1 << 22,
+        use_threads=False,  # with several threads Arrow does not say in which row it stumbled
+        encoding="utf8" if d.encoding == "utf-8-sig" else d.encoding,
+    )
+    convert = pyarrow.csv.ConvertOptions(column_types=kinds, null_values=MISSING, decimal_point=d.decimal)
+    packed = "gzip" if d.compressed else None
+    try:
+        with d.path.open("rb") as raw, pa.input_stream(raw, compression=packed) as stream:
+            parse = pyarrow.csv.ParseOptions(delimiter=d.delimiter)
+            return pyarrow.csv.read_csv(stream, options, parse, convert)
+    except pa.ArrowInvalid as error:
+        if "Empty CSV" not in str(error):
+            raise
+        return pa.table({n: pa.array([], k) for n, k in kinds.items()})
 
 
 def _changed(d: _Dialect, error: str) -> _Dialect:
@@ -323,22 +301,10 @@ def _changed(d: _Dialect, error: str) -> _Dialect:
     if "invalid UTF8" in error and d.encoding == "utf-8-sig":
         return replace(d, encoding="cp1252")
     if match := _OTHER_WIDTH.match(error):
-        raise UserError(
-            "the line has the wrong number of values",
-            where=at(d.path, f"line {match[1]}"),
-            found=match[3],
-            expected=f"{match[2]}, as the header has",
-            remedy="the file may be damaged or cut off",
-        ) from None
+        where, what = at(d.path, f"line {match[1]}"), "the line has the wrong number of values"
+        expected = f"{match[2]}, as the header has: the file may be damaged or cut off"
+        raise UserError(what, where=where, found=match[3], expected=expected) from None
     raise UserError(_NOT_CSV, where=d.path, found=error.splitlines()[0][:200]) from None
-
-
-def _array(column: pa.ChunkedArray) -> NDArray[Any]:
-    """A column of Arrow: numbers as float64, text as objects. Arrow's own ``to_numpy`` would load pandas."""
-    if pa.types.is_string(column.type):
-        return np.array(["" if t is None else t.strip() for t in column.to_pylist()], dtype=object)
-    whole = column.combine_chunks()
-    return np.asarray(np.from_dlpack(whole.fill_null(float("nan")) if whole.null_count else whole))
 
 
 def _cut_off(path: Path, error: Exception) -> UserError:
@@ -348,15 +314,6 @@ def _cut_off(path: Path, error: Exception) -> UserError:
         found=str(error)[:200],
         expected="a whole file of text: a header of `name [unit]`, then numbers",
         remedy="copy it again, or save it as CSV, Parquet or NetCDF-4",
-    )
-
-
-def _too_wide(path: Path) -> UserError:
-    return UserError(
-        "the file has too many columns for a flight",
-        where=path,
-        expected=f"at most {MOST_COLUMNS}",
-        remedy="keep the columns that the instrument and its effects need",
     )
 
 
@@ -377,13 +334,11 @@ def read_excel(path: Path) -> list[Table]:
     except UserError:
         raise
     except Exception as error:  # openpyxl, zipfile and the XML parser each raise their own
-        raise UserError(
+        what, found = (
             "the Excel file is damaged or not .xlsx",
-            where=path,
-            found=(str(error) or type(error).__name__).split("\n", 1)[0][:200],
-            expected="a whole workbook (.xlsx)",
-            remedy="save it again, or as CSV",
-        ) from None
+            (str(error) or type(error).__name__).split("\n")[0],
+        )
+        raise UserError(what, where=path, found=found[:200], remedy="save it again, or as CSV") from None
     return [t for t in (_sheet(name, rows) for name, rows in sheets.items()) if t is not None]
 
 

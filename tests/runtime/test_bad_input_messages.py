@@ -41,7 +41,7 @@ def test_bad_input(name: str, tmp_path: Path) -> None:
     for fact in row.says:
         assert fact in said, f"{fact!r} is not in: {said}"
     assert "Traceback" not in r.out + r.err
-    assert r.before == r.after
+    assert r.unchanged
     if row.status:
         assert r.out == ""
         assert len(re.findall(r"^(ragg: |Usage: )", r.message, re.MULTILINE)) == 1, r.message

@@ -248,7 +248,7 @@ T = np.arange(N) / RATE
         (without("G_out") | {"V_1": T, "V_2": T, "V_4": T}, ("output is missing", "V_4")),
         (edited(omegadot_x=T), ("omegadot_y, omegadot_z",)),
         (TEXT.replace("a_x [g]", "ax [g]"), ("a_x is missing", "'ax' meant for a_x")),
-        (TEXT.replace("a_x [g]", "a_x"), ("'a_x'", "no unit", "a_x [g]")),
+        (TEXT.replace("a_x [g]", "a_x"), ("'a_x'", "no unit", "a_x [m/s^2]")),
         (TEXT.replace("a_x [g]", "[g]"), ("a_x is missing", "'[g]'", "letter")),
         (TEXT.replace("a_x [g]", "a_x [gg]"), ("'a_x'", "not a unit", "gg")),
         (TEXT.replace("a_x [g]", "a_x [V]"), ("'a_x'", "dimension", "m/s^2")),

@@ -208,7 +208,6 @@ def test_a_mapping_is_begun_from_a_survey(tmp_path: Path) -> None:
     assert 'column = ["YYMMDD", "HHMMSS"]  # likely' in d.text
     assert 'inline_1 = { column = "Inline1_raw", unit = "?", scale = 2 }  # likely' in d.text
     assert 'omega_x = { column = "Gyro_X", unit = "?" }  # likely' in d.text
-    assert 'easting = { column = "X", unit = "?" }  # guess' in d.text
     with pytest.raises(UserError, match="not answered"):
         parse_mapping(d.text, HERE)
     answered = d.text.replace('unit = "?"', 'unit = "E"')

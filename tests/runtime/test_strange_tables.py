@@ -5,7 +5,7 @@ from __future__ import annotations
 import gzip
 import os
 import sys
-from datetime import datetime, time, timedelta
+from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -97,7 +97,6 @@ DATES: dict[str, tuple[list[Any], bool]] = {
     "month first, in the afternoon": (stamps("2026-03-13 11:59:58", "%m/%d/%y %I:%M:%S.%f %p"), True),
     "month by name": (stamps("2026-03-01 10:00:00", "%d-%b-%Y %H:%M:%S.%f"), True),
     "time of the day over midnight": (stamps("2026-03-01 23:59:58", "%H:%M:%S.%f"), True),
-    "minutes and seconds over an hour": (stamps("2026-03-01 10:59:58", "%M:%S.%f"), True),
     "more than a day": ([f"{23 + k // 32}:{59 - k // 32 * 59:02d}:{k % 32 / 16 + 58 - k // 32 * 58:09.6f}" for k in range(N)], False),
     "days of Python": ([f"1 days 0:00:{k / 16:09.6f}" for k in range(N)], False),
     "a leap second": (
@@ -157,11 +156,6 @@ def test_excel_as_people_write_it(tmp_path: Path) -> None:
         book = openpyxl.Workbook()
         for row in [["of a survey"], *merged, *rows(times)]:
             book.active.append([float(c) if isinstance(c, np.floating) else c for c in row])
-        book.active.append(["end of the record"])
-        book.save(tmp_path / f"{k}.xlsx")
-        found = read_recordings(tmp_path / f"{k}.xlsx", lenient=True)[0] if k == 9 else None
-        assert found is None
-        book.active.delete_rows(book.active.max_row)
         book.save(tmp_path / f"{k}.xlsx")
         read = read_flight(tmp_path / f"{k}.xlsx", G0)
         assert read.instants == instants
@@ -169,7 +163,6 @@ def test_excel_as_people_write_it(tmp_path: Path) -> None:
             VALUES["time"], abs=6e-4
         )  # openpyxl rounds to milliseconds
         assert read.channels["a_y"] == pytest.approx(VALUES["a_y"] * G0)
-    assert isinstance(day.time(), time)
 
 
 NOISE = 290 + np.random.default_rng(3).normal(size=500)
@@ -338,7 +331,7 @@ def test_what_a_file_holds(tmp_path: Path) -> None:
         2,
         3,
     )
-    assert (record.gaps[0].from_s, record.gaps[0].samples) == (19 / RATE, 2)
+    assert (record.gaps[0]["from_s"], record.gaps[0]["samples"]) == (19 / RATE, 2)
     assert record.refused is not None and "'fuel'" in record.refused
     json = found.as_json()["records"][0]
     assert json["columns"][-1] == {
