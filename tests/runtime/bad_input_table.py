@@ -81,15 +81,6 @@ def _line(k: int) -> str:
 TEXT = "\n".join([HEADER, *(_line(k) for k in range(40))]) + "\n"
 
 
-def write(text: str) -> Make:
-    return lambda: Path("flight.csv").write_text(text)
-
-
-def edited(old: str, new: str) -> Make:
-    assert TEXT.count(old), old
-    return write(TEXT.replace(old, new, 1))
-
-
 def toml(old: str, new: str) -> Make:
     def make() -> None:
         path = Path("model/model.toml")
@@ -179,15 +170,6 @@ def jittered(size: float) -> Callable[[np.ndarray], np.ndarray]:
     return lambda t: t + np.random.default_rng(8).uniform(-size, size, len(t)) / 16
 
 
-def cut(name: str) -> Make:
-    def make() -> None:
-        flown(same, name)()
-        whole = Path(name).read_bytes()
-        Path(name).write_bytes(whole[: len(whole) // 2])
-
-    return make
-
-
 def voltages_ordered(*order: str) -> Change:
     return lambda x: dataclasses.replace(x, outputs={f"V_{j}": x.outputs[n] for j, n in enumerate(order, 1)})
 
@@ -209,8 +191,6 @@ TABLE = {
         ("thermal-scale", "temperature", "flight.csv", "ragg remove"),
     ),
     "a pipe": Row(lambda: os.mkfifo("p.csv"), ("p.csv", "regular file"), ("compare", "model", "p.csv")),
-    "decimal commas": Row(edited(_line(7), _line(7).replace(".", ",")), ("flight.csv", "line 9")),
-    "a truncated NetCDF file": Row(cut("x.nc"), ("x.nc", "damaged"), ("compare", "model", "x.nc")),
     "jittering stamps": Row(
         flown(timed(jittered(0.1)), hidden=True, derived=True), ("jitters", "sampled evenly"), status=0
     ),

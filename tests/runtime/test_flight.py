@@ -97,15 +97,6 @@ def test_auxiliary_channels_of_any_name_come_in_si(load: Load) -> None:
     assert (found.units["temperature"], found.units["fuel"], found.units["valve"]) == ("K", "kg", "1")
 
 
-def test_demodulated_channels_are_gradients(load: Load) -> None:
-    table = columns()
-    del table["G_out"]
-    table |= {"inline": np.full(N, 100.0), "cross": np.full(N, -3.0)}
-    found = load(table, {"inline": "Eo", "cross": "Eo"})
-    assert found.outputs["inline"] == pytest.approx(np.full(N, 1e-7))
-    assert list(found.outputs) == ["inline", "cross"]
-
-
 def test_G_out_of_the_voltages(load: Load) -> None:
     table = columns()
     del table["G_out"]
@@ -211,15 +202,6 @@ def test_jitter(load: Load) -> None:
         load(table)
 
 
-def test_an_origin_far_away(load: Load) -> None:
-    """Seconds since 1970: the clock's last digit is 2e-7 s, not jitter worth a word."""
-    table = columns() | {f"omegadot_{k}": np.zeros(N) for k in "xyz"}
-    table["time"] = table["time"] + 1.7e9
-    found = load(table, {f"omegadot_{k}": "rad/s^2" for k in "xyz"})
-    assert found.notes == ()
-    assert found.rate == pytest.approx(RATE, rel=1e-7)
-
-
 def edited(**changes: np.ndarray) -> dict[str, np.ndarray]:
     return columns() | changes
 
@@ -278,19 +260,6 @@ def test_what_is_refused(
         assert fact in str(caught.value), f"{fact!r} is not in: {caught.value}"
 
 
-@pytest.mark.parametrize(
-    ("old", "new"),
-    [("\n", "\r\n"), (",", ";"), (",", "\t"), (",", " , "), ("time [s]", '"time [s]"'), ("\n", "\n\n")],
-)
-def test_dialects(load: Load, old: str, new: str) -> None:
-    plain = load(TEXT)
-    other = load(TEXT.replace(old, new))
-    assert np.array_equal(other.channels["omega_z"], plain.channels["omega_z"])
-    assert other.units == plain.units
-    marked = load("\ufeff# by the recorder\n\n" + TEXT)
-    assert np.array_equal(marked.outputs["G_out"], plain.outputs["G_out"])
-
-
 def test_files_that_are_something_else(tmp_path: Path) -> None:
     for name, content, fact in (
         ("x.csv", b"PAR1....", "parquet"),
@@ -317,21 +286,6 @@ def test_files_that_are_something_else(tmp_path: Path) -> None:
     (tmp_path / "folder.csv").mkdir()
     with pytest.raises(UserError, match="directory"):
         read_flight(tmp_path / "folder.csv", G0)
-
-
-def test_flights_in_memory() -> None:
-    t = np.arange(10) / RATE
-    made = Flight(time=t, channels={"a_x": t}, outputs={}, name="x", path=None, digest="", notes=())
-    assert made.valid.all()
-    assert made.valid.shape == (10,)
-    assert made.units == {"time": "s", "a_x": "m/s^2"}
-    assert made.outputs == {}
-    assert len(made.part(slice(2, 5))) == 3
-    t[0] = 0.0  # the caller's array stays the caller's
-    with pytest.raises(ValueError, match="read-only"):
-        made.channels["a_x"][0] = 1.0
-    with pytest.raises(UserError, match="length"):
-        Flight(time=t, channels={"a_x": t[:-1]}, outputs={})
 
 
 def test_the_derivative_of_the_motion_is_no_column(load: Load) -> None:

@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.read_toml import parse_instrument, read_instrument
+from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import read_flight
 from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import parse_mapping
 from ragg_runtime.io.tables import Column, Table
-from ragg_runtime.model.directory import read_history
 from tests.runtime.foreign_files import ENDINGS, write
 
 NAMES = ("time", "a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z", "G_out")
@@ -125,16 +124,3 @@ def test_a_line_without_end(tmp_path: Path, text: str) -> None:
     (tmp_path / "flight.csv.gz").write_bytes(gzip.compress(text.encode()))
     with pytest.raises(UserError, match="a line of more than"):
         read_flight(tmp_path / "flight.csv.gz", 9.8)
-
-
-def test_texts_that_are_too_long_or_too_deep(tmp_path: Path) -> None:
-    path = tmp_path / "model.toml"
-    for text, what in (("#" * (2 << 20), "too long"), ("a = " + "[" * 5000, "not a TOML file")):
-        path.write_text(text)
-        with pytest.raises(UserError, match=what):
-            read_instrument(path)
-    path = tmp_path / "history.json"
-    for text in ("[" * 100_000, '{"steps": [{"action": ' + "9" * 5000 + "}]}"):
-        path.write_text(text)
-        with pytest.raises(UserError, match="history is damaged"):
-            read_history(path)

@@ -65,6 +65,7 @@ CSV = {
     "decimal commas": text(";".join(HEADER), rows(), ";", decimal=","),
     "decimal commas, with tabs": text("\t".join(HEADER), rows(), "\t", decimal=","),
     "units in a row of their own": text(",".join(UNITS) + "\n" + ",".join(UNITS.values()), rows()),
+    "units in round brackets": text(PLAIN.replace("[", "(").replace("]", ")"), rows()),
     "a header over two rows": text("time [s],a [g],,,omega [deg/h],,,G_out [V]\n,x,y,z,x,y,z,", rows()),
     "line ends of a Macintosh": text(PLAIN, rows(), end="\r"),
     "another alphabet": text(PLAIN + ",T [°C]", [[*r, 1.0] for r in rows()]).encode("cp1252"),
