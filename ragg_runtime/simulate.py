@@ -105,7 +105,7 @@ def simulated(
             noise=_noise(noise, instrument.radius),
             rotations=_ROTATIONS[form.mounting],
             misalignment="exact" if form.misalignment == "exact" else "first-order",
-            kinematics="full" if form.kinematics == "full" else "platform",
+            kinematics=form.kinematics,
             effects=effects,
             seed=seed,
             auxiliaries=_auxiliaries(seed, effects, instrument.layout.size),

@@ -19,6 +19,7 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.io import read_flights as _read_flights
 from ragg_runtime.io.mapping import Mapped, parse_mapping, read_mapping
+from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model import derive
 from ragg_runtime.model.directory import (
     MAPPING,
@@ -29,9 +30,9 @@ from ragg_runtime.model.directory import (
     load_model_dir,
     replace_model_dir,
 )
+from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import GRADIENTS
-from ragg_runtime.screening import check_settings, screen
+from ragg_runtime.screening import screen
 from ragg_runtime.wording import describe
 from ragg_runtime.wording.sections import render_notebook
 
@@ -108,7 +109,7 @@ def load(path: Path | str) -> Loaded:
 def load_state(directory: ModelDir) -> Loaded:
     """A model directory that was read, with the model derived for it."""
     model = derive.model_of(directory.instrument)
-    check_settings(model, directory.instrument)
+    vector(model, directory.instrument)  # its settings are good
     note = derive.departure(directory.instrument, directory.generated)
     return Loaded(directory, model, () if note is None else (note,))
 
@@ -126,7 +127,7 @@ def as_of(m: Loaded, text: str) -> Loaded:
     """The model with another text of model.toml, in memory alone: the directory stays as it is."""
     instrument = parse_instrument(text, m.directory.path / "model.toml")
     model = derive.model_of(instrument)
-    check_settings(model, instrument)
+    vector(model, instrument)
     return Loaded(replace(m.directory, text=text, instrument=instrument, generated=None), model, m.notes)
 
 
@@ -183,7 +184,7 @@ def read_flights(
 
 def read_for_compensation(m: Loaded, paths: Flights, mapping: Path | str | None = None) -> list[Flight]:
     """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
-    return read_flights(m, paths, mapping, leave=frozenset(GRADIENTS))
+    return read_flights(m, paths, mapping, leave=frozenset(GRADIENT))
 
 
 def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 
 class UserError(Exception):
@@ -91,6 +92,23 @@ def check_keys(keys: Iterable[object], known: Iterable[str], where: str | Path |
                 expected="one of " + ", ".join(known),
                 remedy=did_you_mean(str(key)[:60], known),
             )
+
+
+def check_table(found: object, what: str, where: str | Path | None, expected: str) -> dict[str, Any]:
+    """``found`` as a table of TOML; UserError if it is none."""
+    if not isinstance(found, dict):
+        raise UserError(f"{what} must be a table", where=where, found=repr(found)[:60], expected=expected)
+    return found
+
+
+def check_choice(found: object, known: Sequence[object], where: str, what: str = "no such choice") -> Any:
+    """``found``, one of the values known, of the same type (true is no 1); UserError if it is none of them."""
+    for value in known:
+        if type(found) is type(value) and found == value:
+            return value
+    shown = " or ".join(f'"{v}"' if isinstance(v, str) else str(v).lower() for v in known)
+    near = did_you_mean(found, [v for v in known if isinstance(v, str)]) if isinstance(found, str) else None
+    raise UserError(what, where=where, found=repr(found)[:60], expected=shown, remedy=near)
 
 
 def printable(text: str) -> str:

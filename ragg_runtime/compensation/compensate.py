@@ -40,9 +40,9 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import sees
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io import Flight
+from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import MANY, Model
-from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
 from ragg_runtime.signals.derivative import runs
 
@@ -110,7 +110,7 @@ SEARCHED = 4
 
 def without_gradients(flight: Flight) -> Flight:
     """A flight without recorded gradients: nothing of them shall get into what is compensated."""
-    channels = {n: x for n, x in flight.channels.items() if n not in GRADIENTS}
+    channels = {n: x for n, x in flight.channels.items() if n not in GRADIENT}
     return replace(flight, channels=channels) if len(channels) < len(flight.channels) else flight
 
 

@@ -26,9 +26,9 @@ from ragg_runtime.estimation.regressors import Column, Point, base_columns, line
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings
 from ragg_runtime.io import Flight
+from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.model.recorded import carried
 from ragg_runtime.signals.demodulate import CUTOFF
 
@@ -138,7 +138,7 @@ class Online:
     def _rows(self, o: Observation) -> Array:
         """(N, n + 3): every sample as a row of the least squares, over the noise."""
         r = o.record
-        wide = {name: x for name, x in r.wide.items() if name not in GRADIENTS}
+        wide = {name: x for name, x in r.wide.items() if name not in GRADIENT}
         bare = replace(o, record=replace(r, wide=wide), memo=[])
         columns = as_output(bare, linearised(Point(self.model, self.instrument, self.p, False), bare))
         columns = columns[[*self.own, len(columns) - 1]]

@@ -24,11 +24,12 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import EOTVOS, units
+from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model import lateness
 from ragg_runtime.model.evaluate import scale_factor, unit_factor
 from ragg_runtime.model.evaluator import Evaluator, changes
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import GRADIENTS, Record
+from ragg_runtime.model.record import Record
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
 from ragg_runtime.signals.means import between
 from ragg_runtime.signals.tensor import across
@@ -215,8 +216,8 @@ class Segment:
         self.G = as_output(o, o.data)
         moved, rest = lateness.about(s.model, self.record, s.stretches[0].about)
         self.late = s.stretches[0].about - rest
-        self.x = [None if n in GRADIENTS else moved.series(n) for n in s.model.chain.INPUTS]
-        self.places = {name: k for k, name in enumerate(s.model.chain.INPUTS) if name in GRADIENTS}
+        self.x = [None if n in GRADIENT else moved.series(n) for n in s.model.chain.INPUTS]
+        self.places = {name: k for k, name in enumerate(s.model.chain.INPUTS) if name in GRADIENT}
         phi = self.record.demodulation_angle
         self.sine, self.cosine = np.sin(2 * phi), np.cos(2 * phi)
         self.parts = within(s.stretches, self.first, self.last)
@@ -263,7 +264,7 @@ class Segment:
         axes = self.record.axes or (X_AXIS, Y_AXIS)
         parts = across(axes, EOTVOS * g.real, EOTVOS * g.imag)
         for name, place in self.places.items():
-            self.x[place] = parts[GRADIENTS.index(name)]
+            self.x[place] = parts[GRADIENT.index(name)]
 
     def first_estimate(self) -> Complex:
         """The gradient as an ideal instrument would have seen it; holes are bridged."""
@@ -360,7 +361,7 @@ class Segment:
                 bits[share > HOLES] |= Quality.GAP
                 bits[(share > FELT) & (share <= HOLES)] |= Quality.BRIDGED
         for name, (low, high) in self.s.validity.items():
-            if name == "time" or name in GRADIENTS or name == "spin_angle":
+            if name == "time" or name in GRADIENT or name == "spin_angle":
                 continue
             x = self.record.channels.get(name)
             if x is None:

@@ -17,7 +17,8 @@ from scipy import interpolate
 from ragg_runtime.base.threads import stretches
 from ragg_runtime.estimation.least_squares import orthonormal
 from ragg_runtime.estimation.observation import Observation
-from ragg_runtime.model.record import GRADIENTS, quantities_of
+from ragg_runtime.io.record import GRADIENT
+from ragg_runtime.model.record import quantities_of
 from ragg_runtime.signals.fir import Floats
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ class Window:
 
 def unknown(o: Observation) -> bool:
     """Whether the gradient was not recorded."""
-    return not all(g in o.record.wide for g in GRADIENTS)
+    return not all(g in o.record.wide for g in GRADIENT)
 
 
 def band(o: Observation) -> tuple[float, float] | None:

@@ -20,8 +20,8 @@ from ragg_runtime.base import series_name
 from ragg_runtime.estimation.observation import segments
 from ragg_runtime.identification import features
 from ragg_runtime.identification.features import Relaxations
-from ragg_runtime.io.record import is_disc_angle
-from ragg_runtime.model.record import GRADIENTS, Record
+from ragg_runtime.io.record import GRADIENT, is_disc_angle
+from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -35,7 +35,7 @@ HIGHEST_OF_ONE = 6
 _MOTION = tuple(f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
 _CUBIC = tuple(f"{n}_{k}" for n in ("a", "omega") for k in "xyz")
 _RATES = tuple(f"{d}_{n}_{k}" for d, n in (("d", "a"), ("d2", "a"), ("d", "omegadot")) for k in "xyz")
-_NOT_A_CHANNEL = frozenset(GRADIENTS)
+_NOT_A_CHANNEL = frozenset(GRADIENT)
 
 _FORCES = (*features.FORCES, "a_z")
 """What the first accelerometer feels along its input, output and (but for the sign) pendulous axis."""

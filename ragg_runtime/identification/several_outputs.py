@@ -16,8 +16,8 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.observation import Observation, as_output, segments
 from ragg_runtime.estimation.scores import channels, error
 from ragg_runtime.instrument.units import EOTVOS
+from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.evaluate import voltages
-from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.model.recorded import carried
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.tensor import Tensor, across, tensor
@@ -144,7 +144,7 @@ def _beyond_ideal(f: Fitted, o: Observation, inline: Array, cross: Array, k_ggi:
     """What the model makes of a gradient, Eo, in the output, less what an ideal instrument would, (N,) V."""
     axes = f.instrument.layout.discs[o.output.disc].across
     seen = across(axes, inline, cross)
-    wide = dict(zip(GRADIENTS, (np.pad(EOTVOS * x, o.record.halo, mode="edge") for x in seen), strict=True))
+    wide = dict(zip(GRADIENT, (np.pad(EOTVOS * x, o.record.halo, mode="edge") for x in seen), strict=True))
     response = as_output(o, _predicted(f, o, wide) - _predicted(f, o, {}))
     ideal = o.recorded.through(carried(inline, cross, o.record, k_ggi), o.record)
     return np.where(o.record.valid, response - ideal, 0.0)
@@ -152,7 +152,7 @@ def _beyond_ideal(f: Fitted, o: Observation, inline: Array, cross: Array, k_ggi:
 
 def _predicted(f: Fitted, o: Observation, gradient: Mapping[str, Array]) -> Array:
     """What the calibrated model predicts of what is observed, of another gradient than was recorded."""
-    wide = {name: x for name, x in o.record.wide.items() if name not in GRADIENTS} | dict(gradient)
+    wide = {name: x for name, x in o.record.wide.items() if name not in GRADIENT} | dict(gradient)
     other = replace(o.record, wide=wide)
     volts = voltages(f.model.chain, other, f.calibration.p, o.output)
     return regressors.observed(replace(o, record=other), volts, None)

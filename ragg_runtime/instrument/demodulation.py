@@ -13,9 +13,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
-from ragg_runtime.base.errors import UserError, at, check_keys, did_you_mean
+import numpy as np
+
+from ragg_runtime.base.errors import UserError, at, check_choice, check_keys, check_table
 from ragg_runtime.instrument.units import read_quantity, units
 
 KINDS: Mapping[str, tuple[str, ...]] = {
@@ -83,67 +84,34 @@ def read_demodulation(table: object, where: str) -> Demodulation | None:
     """``[demodulator]`` of a parsed file; ``None``: it is not there. UserError names the key."""
     if table is None:
         return None
-    if not isinstance(table, dict):
-        raise UserError(
-            "demodulator must be a table", where=where, found=repr(table)[:60], expected="[demodulator]"
-        )
+    table = check_table(table, "demodulator", where, "[demodulator]")
     check_keys(table, _KEYS, where)
     kind = table.get("kind", "fir")
-    if not isinstance(kind, str) or kind not in KINDS:
-        raise UserError(
-            "there is no such demodulator",
-            where=at(where, "kind"),
-            found=repr(kind)[:60],
-            expected=", ".join(KINDS),
-            remedy=did_you_mean(str(kind), tuple(KINDS)),
-        )
-    _fits(kind, table, where)
-    sizes = {k: _size(table, k, where) for k in _UNITS}
-    return Demodulation(
-        kind=kind,
-        cutoff=sizes["cutoff"],
-        order=_order(table, where),
-        length=sizes["length"],
-        delay=sizes["delay"] or 0.0,
-        rate=sizes["rate"],
-    )
-
-
-def _fits(kind: str, table: Mapping[str, Any], where: str) -> None:
-    """UserError if a key that the kind needs is missing, or one is there that it does not have."""
-    needed = () if kind == "fir" else KINDS[kind]
-    missing = [k for k in needed if k not in table]
+    check_choice(kind, tuple(KINDS), at(where, "kind"), "there is no such demodulator")
+    missing = [k for k in KINDS[kind] if k not in table and kind != "fir"]
     foreign = [k for k in ("cutoff", "order", "length") if k in table and k not in KINDS[kind]]
     if missing or foreign:
-        said = f"no {', '.join(missing)}" if missing else f"{', '.join(foreign)}, which {kind} does not have"
         raise UserError(
             f"the demodulator {kind} is not described",
             where=where,
-            found=said,
+            found=f"no {', '.join(missing)}"
+            if missing
+            else f"{', '.join(foreign)}, which {kind} does not have",
             expected=", ".join(KINDS[kind]),
             remedy="ask whoever made the channels",
         )
-
-
-def _size(table: Mapping[str, Any], key: str, where: str) -> float | None:
-    if key not in table:
-        return None
-    place = at(where, key)
-    q = read_quantity(table[key], place, count=1)
-    value = float(
-        units(9.8).to_si(float(q.value) if isinstance(q.value, float) else 0.0, q.unit, _UNITS[key], place)
-    )
-    if key != "delay" and value <= 0.0:
-        raise UserError(f"{key} must be positive", where=place, found=str(table[key])[:60])
-    return value
-
-
-def _order(table: Mapping[str, Any], where: str) -> int | None:
     order = table.get("order")
-    if order is None:
-        return None
-    if isinstance(order, bool) or not isinstance(order, int) or not 1 <= order <= MOST_ORDER:
+    if order is not None and not (type(order) is int and 1 <= order <= MOST_ORDER):
         raise UserError(
             "no such order", where=at(where, "order"), found=repr(order)[:60], expected=f"1 to {MOST_ORDER}"
         )
-    return order
+    sizes = {key: _size(table[key], key, at(where, key)) for key in _UNITS if key in table}
+    return Demodulation(kind=kind, order=order, **sizes)
+
+
+def _size(raw: object, key: str, where: str) -> float:
+    q = read_quantity(raw, where, count=1)
+    value = float(units(9.8).to_si(np.asarray(q.value), q.unit, _UNITS[key], where))
+    if key != "delay" and value <= 0.0:
+        raise UserError(f"{key} must be positive", where=where, found=str(raw)[:60])
+    return value

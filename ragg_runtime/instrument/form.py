@@ -5,13 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
-from ragg_runtime.base.errors import UserError, at, check_keys, did_you_mean
+from ragg_runtime.base.errors import UserError, at, check_choice, check_keys, check_table
 
-KINEMATICS = ("platform", "full")
-MOUNTING: tuple[int | str, ...] = (1, 2, "exact")
-MISALIGNMENT: tuple[int | str, ...] = (1, "exact")
 ANGLE_ORIGINS = ("zero", "first-sample")
 
 
@@ -24,7 +21,7 @@ class Form:
     terms see the force along the axes as they are.
     """
 
-    kinematics: str = "platform"
+    kinematics: Literal["platform", "full"] = "platform"
     mounting: int | str = 1
     misalignment: int | str = 1
     second_order_angles: bool = False
@@ -53,7 +50,9 @@ class Form:
 
     def words(self) -> str:
         """In half a sentence."""
-        order = self.preset or ", ".join(f"{k} = {_toml(v)}" for k, v in self.order.items())
+        order = self.preset or ", ".join(
+            f'{k} = "{v}"' if isinstance(v, str) else f"{k} = {str(v).lower()}" for k, v in self.order.items()
+        )
         return f"kinematics {self.kinematics}, order {order}"
 
 
@@ -65,51 +64,34 @@ PRESETS: Mapping[str, Mapping[str, int | str | bool]] = {
 }
 
 
-def read_form(table: object, path: Path | None = None) -> Form:
-    """``[model]`` of a parsed model.toml; ``None``: it is not there, which means the paper's."""
+def read_form(table: object, path: Path | None = None) -> tuple[Form, str | None]:
+    """``[model]`` of a parsed model.toml, and its ``angle_origin``; ``None``: it is not there, which means the paper's."""
     if table is None:
-        return PAPER
-    if not isinstance(table, dict):
-        raise UserError("model must be a table", where=path, found=repr(table), expected="[model]")
+        return PAPER, None
     where = at(path, "[model]")
+    table = check_table(table, "model", path, "[model]")
     check_keys(table, ("kinematics", "order", "angle_origin"), where)
-    kinematics = _one_of(table.get("kinematics", PAPER.kinematics), KINEMATICS, f"{where} kinematics")
-    order = table.get("order", "paper")
-    where = f"{where} order"
+    kinematics = check_choice(
+        table.get("kinematics", PAPER.kinematics), ("platform", "full"), f"{where} kinematics"
+    )
+    origin = table.get("angle_origin")
+    if origin is not None:
+        check_choice(origin, ANGLE_ORIGINS, f"{where} angle_origin")
+    return Form(kinematics=kinematics, **_read_order(table.get("order", "paper"), f"{where} order")), origin
+
+
+_CHOICES: Mapping[str, tuple[int | str | bool, ...]] = {
+    "mounting": (1, 2, "exact"),
+    "misalignment": (1, "exact"),
+    "second_order_angles": (True, False),
+}
+
+
+def _read_order(order: object, where: str) -> dict[str, Any]:
     if isinstance(order, str):
-        return Form(
-            kinematics=str(kinematics), **dict[str, Any](PRESETS[str(_one_of(order, tuple(PRESETS), where))])
-        )
+        return dict(PRESETS[check_choice(order, tuple(PRESETS), where)])
     if not isinstance(order, dict):
-        raise UserError("the order is not understood", where=where, found=repr(order), expected=_EXPECTED)
-    check_keys(order, tuple(PAPER.order), where)
-    known: dict[str, tuple[int | str | bool, ...]] = {
-        "mounting": MOUNTING,
-        "misalignment": MISALIGNMENT,
-        "second_order_angles": (True, False),
-    }
-    chosen = {k: _one_of(v, known[k], f"{where}: {k}") for k, v in order.items()}
-    return Form(kinematics=str(kinematics), **dict[str, Any]({**PAPER.order, **chosen}))
-
-
-def read_angle_origin(table: object, path: Path | None = None) -> str | None:
-    """``angle_origin`` of the table ``[model]`` that :func:`read_form` has read; ``None``: it is not there."""
-    if not isinstance(table, dict) or "angle_origin" not in table:
-        return None
-    return str(_one_of(table["angle_origin"], ANGLE_ORIGINS, f"{at(path, '[model]')} angle_origin"))
-
-
-_EXPECTED = '"paper", "exact" or { mounting = 1, misalignment = 1, second_order_angles = false }'
-
-
-def _one_of(found: object, known: tuple[int | str | bool, ...], where: str) -> int | str | bool:
-    for value in known:
-        if type(found) is type(value) and found == value:  # true is no 1
-            return value
-    shown = " or ".join(_toml(v) for v in known)
-    near = did_you_mean(found, [v for v in known if isinstance(v, str)]) if isinstance(found, str) else None
-    raise UserError("no such choice", where=where, found=repr(found), expected=shown, remedy=near)
-
-
-def _toml(value: object) -> str:
-    return f'"{value}"' if isinstance(value, str) else str(value).lower()
+        expected = '"paper", "exact" or { mounting = 1, misalignment = 1, second_order_angles = false }'
+        raise UserError("the order is not understood", where=where, found=repr(order), expected=expected)
+    check_keys(order, _CHOICES, where)
+    return {**PAPER.order, **{k: check_choice(v, _CHOICES[k], f"{where}: {k}") for k, v in order.items()}}

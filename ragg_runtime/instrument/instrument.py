@@ -52,9 +52,14 @@ class EffectSetting:
             raise UserError(
                 "the parameter is shared by the accelerometers", where=place, found=raw, expected="one number"
             )
-        value = np.atleast_1d(np.asarray(raw.value, dtype=np.float64))
-        converted = np.asarray(units(g0).to_si(value, raw.unit, si_unit, place), dtype=np.float64)
-        return _finite(converted if shared else np.broadcast_to(converted, (count,)).copy(), place)
+        value = read_si(raw, si_unit, g0, place)
+        return value if shared else np.broadcast_to(value, (count,)).copy()
+
+
+def read_si(quantity: RawQuantity, si_unit: str, g0: float, where: str | None = None) -> Vector:
+    """The numbers of a quantity, (1,) or (n,), in ``si_unit``; UserError if one is not finite there."""
+    value = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
+    return _finite(np.asarray(units(g0).to_si(value, quantity.unit, si_unit, where)), where)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,37 +96,34 @@ class Instrument:
         spin_frequency: float,
         g0: float,
         accelerometers: Mapping[str, ArrayLike],
-        effects: tuple[EffectSetting, ...] = (),
-        path: Path | None = None,
-        form: Form = forms.PAPER,
+        *,
         layout: Layout | None = None,
         sigmas: Mapping[str, ArrayLike] | None = None,
-        demodulation: Demodulation | None = None,
-        angle_origin: str | None = None,
+        **others: Any,
     ) -> Instrument:
-        """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0; by default the paper's layout."""
+        """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0; by default the paper's layout.
+
+        ``others`` are further fields, as they are.
+        """
         layout = paper(radius, spin_frequency) if layout is None else layout
         check_keys(accelerometers, PARAMETER, "[accelerometers]")
         for p in PARAMETERS:
             if p.required and p.name not in accelerometers:
                 raise UserError(
                     f"{p.name} ({p.description}) is missing",
-                    where=at(path, "[accelerometers]"),
+                    where=at(others.get("path"), "[accelerometers]"),
                     expected=f'{p.name} = {{ value = ..., unit = "{p.display_unit}" }}',
                 )
         vectors = {name: _vector(accelerometers.get(name, 0.0), layout.size) for name in PARAMETER}
+        known = {name: _vector(v, layout.size) for name, v in (sigmas or {}).items()}
         made = cls(
             radius=radius,
             spin_frequency=spin_frequency,
             g0=g0,
             accelerometers=MappingProxyType(vectors),
-            effects=tuple(effects),
-            path=path,
+            sigmas=MappingProxyType(known),
             layout=layout,
-            form=form,
-            demodulation=demodulation,
-            sigmas=MappingProxyType({name: _vector(v, layout.size) for name, v in (sigmas or {}).items()}),
-            angle_origin=angle_origin,
+            **others,
         )
         _check_physical(made)
         return made
@@ -146,10 +148,6 @@ class Instrument:
             return 1.0
         usual = PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
         return max(1.0, float(np.median(self.sigma(name) / usual)))
-
-    def with_effects(self, effects: tuple[EffectSetting, ...]) -> Instrument:
-        """The same instrument with another list of effects."""
-        return dataclasses.replace(self, effects=tuple(effects))
 
     def effect(self, effect_id: str) -> EffectSetting | None:
         """The entry of this effect, or None."""
@@ -178,7 +176,7 @@ def _vector(value: ArrayLike, count: int) -> Vector:
     return vector
 
 
-def _finite(value: Vector, where: str) -> Vector:
+def _finite(value: Vector, where: str | None) -> Vector:
     if not np.all(np.isfinite(value)):
         raise UserError("the value is not finite in SI", where=where, found=value, expected="finite numbers")
     return value

@@ -12,12 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError, at, check_keys
+from ragg_runtime.base.errors import UserError, at, check_keys, check_table
 from ragg_runtime.base.files import read_text
 from ragg_runtime.base.names import is_name, read_name
 from ragg_runtime.instrument.demodulation import read_demodulation
-from ragg_runtime.instrument.form import read_angle_origin, read_form
-from ragg_runtime.instrument.instrument import EffectSetting, Instrument, _finite
+from ragg_runtime.instrument.form import read_form
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument, read_si
 from ragg_runtime.instrument.layout import (
     PAPER,
     TANGENTIAL,
@@ -33,14 +33,12 @@ from ragg_runtime.instrument.layout import (
     unit,
 )
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, Vector
-from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
+from ragg_runtime.instrument.units import Units, read_quantity, units
 
 
 def read_instrument(path: Path | str) -> Instrument:
     """The instrument of a ``model.toml``; UserError names file and key, what is there and what should be."""
-    path = Path(path)
-    text = read_text(path)
-    return parse_instrument(text, path)
+    return parse_instrument(read_text(Path(path)), Path(path))
 
 
 def parse_instrument(text: str, path: Path | None = None) -> Instrument:
@@ -59,8 +57,8 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
             remedy="read those files, put them into a folder of your own, name it in the environment variable "
             "RAGG_EFFECTS, and take effects_folder out of model.toml",
         )
-    known = ("disc", "accelerometers", "effects", "model", "g0", "demodulator")
-    check_keys(table, known, path)
+    check_keys(table, ("disc", "accelerometers", "effects", "model", "g0", "demodulator"), path)
+    form, angle_origin = read_form(table.get("model"), path)
     layout, g0 = _discs(table, path)
     accelerometers, sigmas = _accelerometers(_table(table, "accelerometers", path), g0, path, layout.size)
     return Instrument.build(
@@ -72,8 +70,8 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         effects=_effects(table.get("effects", []), g0, path, layout.size),
         path=path,
         layout=layout,
-        form=read_form(table.get("model"), path),
-        angle_origin=read_angle_origin(table.get("model"), path),
+        form=form,
+        angle_origin=angle_origin,
         demodulation=read_demodulation(table.get("demodulator"), at(path, "[demodulator]")),
     )
 
@@ -87,8 +85,10 @@ def _discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, float]:
     if not isinstance(table.get("disc"), list):
         if "g0" in table:
             raise UserError("g0 belongs into the table [disc]", where=at(path, "g0"))
-        disc = _disc(_table(table, "disc", path), path)
-        return paper(disc["radius"], disc["spin_frequency"]), disc["g0"]
+        disc, where = _table(table, "disc", path), at(path, "[disc]")
+        check_keys(disc, DISC_UNITS, where)
+        radius, spin_frequency, g0 = (_number(disc, name, unit, where) for name, unit in DISC_UNITS.items())
+        return paper(radius, spin_frequency), g0
     tables = [(at(path, "[[disc]]"), table)]
     tables += [(at(path, f"[[disc]] {n}"), t) for n, t in enumerate(table["disc"], 1)]
     found = {_number(t, "g0", "m/s^2", where) for where, t in tables if isinstance(t, dict) and "g0" in t}
@@ -100,16 +100,7 @@ def _discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, float]:
 def _table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[str, Any]:
     if name not in table:
         raise UserError(f"the table [{name}] is missing", where=path)
-    found = table[name]
-    if not isinstance(found, dict):
-        raise UserError(f"{name} must be a table", where=path, found=repr(found), expected=f"[{name}]")
-    return found
-
-
-def _disc(table: Mapping[str, Any], path: Path | None) -> dict[str, float]:
-    where = at(path, "[disc]")
-    check_keys(table, DISC_UNITS, where)
-    return {name: _number(table, name, unit, where) for name, unit in DISC_UNITS.items()}
+    return check_table(table[name], name, path, f"[{name}]")
 
 
 def _accelerometers(
@@ -123,20 +114,15 @@ def _accelerometers(
         si_unit = PARAMETER[name].si_unit
         own = {k: v for k, v in raw.items() if k != "sigma"} if isinstance(raw, dict) else raw
         quantity = read_quantity(own, place, count=count)
-        found[name] = _si(quantity, si_unit, g0, place)
+        found[name] = read_si(quantity, si_unit, g0, place)
         if isinstance(raw, dict) and "sigma" in raw:
             where = f"{place}, sigma"
             sigma = read_quantity({"value": raw["sigma"], "unit": quantity.unit}, where, count=count)
-            sigmas[name] = _si(sigma, si_unit, g0, where)
+            sigmas[name] = read_si(sigma, si_unit, g0, where)
             if np.any(sigmas[name] <= 0):
                 expected = f"one or {'four' if count == 4 else count} above 0, in {quantity.unit}; none if the sheet does not say"
                 raise UserError("sigma must be positive", where=where, found=raw["sigma"], expected=expected)
     return found, sigmas
-
-
-def _si(quantity: RawQuantity, si_unit: str, g0: float, where: str) -> Vector:
-    value = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
-    return _finite(np.asarray(units(g0).to_si(value, quantity.unit, si_unit, where), dtype=np.float64), where)
 
 
 def _effects(
@@ -146,17 +132,16 @@ def _effects(
         raise UserError(
             "effects must be a list", where=at(path, "effects"), found=repr(entries), expected='["lag"]'
         )
-    found: list[EffectSetting] = []
-    for number, entry in enumerate(entries, 1):
-        setting = _effect(entry, at(path, f"effects, entry {number}"), units(g0), count)
-        if any(e.id == setting.id for e in found):
-            raise UserError(
-                f"the effect {setting.id!r} is listed twice",
-                where=at(path, "effects"),
-                remedy="remove one entry",
-            )
-        found.append(setting)
+    found = [_effect(e, at(path, f"effects, entry {n}"), units(g0), count) for n, e in enumerate(entries, 1)]
+    if twice := _find_twice([e.id for e in found]):
+        raise UserError(
+            f"the effect {twice!r} is listed twice", where=at(path, "effects"), remedy="remove one entry"
+        )
     return tuple(found)
+
+
+def _find_twice(names: Sequence[str]) -> str | None:
+    return next((n for n in sorted(names) if names.count(n) > 1), None)
 
 
 def _effect(entry: object, where: str, known: Units, count: int) -> EffectSetting:
@@ -178,15 +163,15 @@ def _effect(entry: object, where: str, known: Units, count: int) -> EffectSettin
         own = {}
     for name in (*own, *(entry["params"] if isinstance(entry.get("params"), dict) else ())):
         read_name(name, at(where, "the name of a parameter"), "tau")
-    values = {name: known.quantity(raw, f"{where}: {name}", count=count) for name, raw in own.items()}
     expression = _expression(entry, where, known)
     if expression is not None:
-        check_keys(values, expression["params"], where)
-        for name, parameter in expression["params"].items():
-            if "value" in parameter:
-                values[name] = known.quantity(
-                    {"value": parameter["value"], "unit": parameter["unit"]}, f"{where}: {name}", count=count
-                )
+        check_keys(own, expression["params"], where)
+        own |= {
+            name: {"value": parameter["value"], "unit": parameter["unit"]}
+            for name, parameter in expression["params"].items()
+            if "value" in parameter
+        }
+    values = {name: known.quantity(raw, f"{where}: {name}", count=count) for name, raw in own.items()}
     return EffectSetting(effect_id, MappingProxyType(values), expression)
 
 
@@ -238,8 +223,7 @@ def read_layout(tables: Sequence[Any], path: Path | None) -> Layout:
     places: list[Place] = []
     outputs: dict[str, int] = {}
     for number, table in enumerate(tables, 1):
-        if not isinstance(table, dict):
-            raise UserError("disc must be a table", where=path, found=repr(table), expected="[[disc]]")
+        check_table(table, "disc", path, "[[disc]]")
         named = table["name"] if is_name(table.get("name")) else str(number)
         where = at(path, f"[[disc]] {named}")
         check_keys(table, DISC_KEYS, where)
@@ -274,9 +258,7 @@ def _a_disc(table: Mapping[str, Any], where: str, *, single: bool) -> Disc:
 
 
 def _place(entry: Any, where: str, disc: int, radius: float | None, outputs: dict[str, int]) -> Place:
-    if not isinstance(entry, dict):
-        raise UserError("an accelerometer must be a table", where=where, found=repr(entry), expected=_EXAMPLE)
-    check_keys(entry, PLACE_KEYS, where)
+    check_keys(check_table(entry, "an accelerometer", where, _EXAMPLE), PLACE_KEYS, where)
     output = _text(entry, "output", where, None)
     sign = entry.get("sign")
     if isinstance(sign, bool) or sign not in (1, -1):
@@ -303,20 +285,12 @@ def _check(layout: Layout, path: Path | None) -> None:
     if not layout.places:
         raise UserError("there is no accelerometer", where=where, expected=_EXAMPLE)
     if len(layout.places) > MOST:
-        raise UserError(
-            "there are too many accelerometers",
-            where=where,
-            found=len(layout.places),
-            expected=f"at most {MOST}",
-        )
+        found, expected = len(layout.places), f"at most {MOST}"
+        raise UserError("there are too many accelerometers", where=where, found=found, expected=expected)
     for what, names in (("disc", [d.name for d in layout.discs]), ("accelerometer", list(layout.names))):
-        twice = sorted({n for n in names if names.count(n) > 1})
-        if twice:
-            raise UserError(
-                f"two of the same name: {what} {twice[0]!r}",
-                where=where,
-                remedy="give each a name of its own",
-            )
+        if twice := _find_twice(names):
+            remedy = "give each a name of its own"
+            raise UserError(f"two of the same name: {what} {twice!r}", where=where, remedy=remedy)
     for o in layout.outputs:
         spread = {layout.discs[layout.places[j].disc].name for j in o.members}
         if len(spread) > 1:
@@ -354,16 +328,10 @@ def _number(table: Mapping[str, Any], key: str, si_unit: str, where: str) -> flo
     if isinstance(raw, int | float) and not isinstance(raw, bool) and raw == 0:
         return 0.0  # nothing has no unit
     q = read_quantity(raw, place, count=1)
-    if q.unit == si_unit:  # as g0 mostly is: nothing need be known of units for it
-        value = float(np.asarray(q.value))
-    else:
-        known = units(1.0)
-        if known.uses_g(q.unit, place):
-            raise UserError("g cannot be used here: g0 defines it", where=place, found=q, expected=si_unit)
-        value = float(known.to_si(np.asarray(q.value, dtype=np.float64), q.unit, si_unit, place))
-    if not math.isfinite(value):
-        raise UserError(f"{key} is out of range", where=place, found=q, expected="a finite number")
-    return value
+    # as g0 mostly is in SI, nothing need be known of units for it
+    if q.unit != si_unit and units(1.0).uses_g(q.unit, place):
+        raise UserError("g cannot be used here: g0 defines it", where=place, found=q, expected=si_unit)
+    return float(read_si(q, si_unit, 1.0, place)[0])
 
 
 def _direction(table: Mapping[str, Any], key: str, where: str, default: Vector3) -> Vector3:

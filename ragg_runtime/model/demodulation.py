@@ -16,11 +16,6 @@ UNEVEN = 1e-3
 
 @cache
 def kernel(d: Demodulation, rate: float) -> Demodulator:
-    """As :func:`built`, once."""
-    return built(d, rate)
-
-
-def built(d: Demodulation, rate: float) -> Demodulator:
     """Of a record at ``rate``, Hz; where the channels were made at a higher rate, thinned out as they were."""
     every = 1 if d.rate is None else round(d.rate / rate)
     if d.rate is not None and (every < 1 or abs(d.rate / (every * rate) - 1) > UNEVEN):

@@ -6,13 +6,12 @@ model directory: they are code.
 
 from __future__ import annotations
 
-import functools
 import hashlib
 import inspect
 import json
 import os
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import metadata, resources
@@ -20,7 +19,7 @@ from importlib.metadata import entry_points
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, Literal, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import platformdirs
 
@@ -42,10 +41,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Known:
-    """The effects that a model directory can use: the catalogue's, and ``own``: the user's in Python, its one-line ones."""
+    """The effects that a model directory can use: the catalogue's, the user's in Python, its one-line ones."""
 
     effects: tuple[SymbolicEffect, ...]
-    own: tuple[SymbolicEffect, ...] = ()
 
     def get(self, identifier: str, where: str | None = None) -> SymbolicEffect:
         """The effect of this id; UserError if there is none."""
@@ -63,42 +61,26 @@ class Known:
         )
 
 
-P = ParamSpec("P")
-R = TypeVar("R")
-
 _SYMPY = threading.RLock()
+"""One thread at a time derives: SymPy's caches are not made for several."""
 
 
-def _by_one(function: Callable[P, R]) -> Callable[P, R]:
-    """Let one thread at a time derive: SymPy's caches are not made for several."""
-
-    @functools.wraps(function)
-    def alone(*args: P.args, **kwargs: P.kwargs) -> R:
-        with _SYMPY:
-            return function(*args, **kwargs)
-
-    return alone
-
-
-@_by_one
 def known(instrument: Instrument) -> Known:
     """Every effect that this instrument's model directory can use."""
     from derive.effects import catalogue
 
-    found = list(catalogue())
-    taken = {e.id for e in found}
-    own = list(own_effects())
-    own += [_expression(s, instrument.path) for s in instrument.effects if s.expression is not None]
-    for e in own:
-        if e.id in taken:
-            raise UserError(
-                "an effect of your own has the id of another one",
-                where=at(instrument.path, "effects"),
-                found=repr(e.id),
-                remedy="choose another id",
-            )
-        taken.add(e.id)
-    return Known((*found, *own), tuple(own))
+    with _SYMPY:
+        found = [*catalogue(), *own_effects()]
+        found += [_expression(s, instrument.path) for s in instrument.effects if s.expression is not None]
+    ids = [e.id for e in found]
+    if twice := next((i for i in reversed(ids) if ids.count(i) > 1), None):
+        raise UserError(
+            "an effect of your own has the id of another one",
+            where=at(instrument.path, "effects"),
+            found=repr(twice),
+            remedy="choose another id",
+        )
+    return Known(tuple(found))
 
 
 def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
@@ -146,9 +128,7 @@ def _sized(layout: Layout) -> Layout:
 
 def departure(instrument: Instrument, generated: Path | None) -> str | None:
     """That a model directory's ``generated/`` was derived for something else, in a sentence; ``None``: it was not."""
-    if generated is None or not _has_files(instrument):
-        return None
-    if read_digest(generated) == request(instrument):
+    if generated is None or not _has_files(instrument) or read_digest(generated) == request(instrument):
         return None
     return (
         "generated/ was not derived for this model.toml by this version; it is never used, but what is derived; "
@@ -175,8 +155,7 @@ def _symbolic(form: Form, layout: Layout) -> SymbolicForm:
         misalignment=None if form.misalignment == "exact" else int(form.misalignment),
         second_order_angles=form.second_order_angles,
     )
-    kinematics: Literal["full", "platform"] = "full" if form.kinematics == "full" else "platform"
-    return SymbolicForm(order=order, kinematics=kinematics, layout=_placed(layout))
+    return SymbolicForm(order=order, kinematics=form.kinematics, layout=_placed(layout))
 
 
 def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
@@ -205,7 +184,6 @@ def _check_needed(e: SymbolicEffect, form: SymbolicForm, instrument: Instrument)
 
 
 @cache
-@_by_one
 def derived(
     effects: tuple[SymbolicEffect, ...],
     candidates: tuple[SymbolicEffect, ...],
@@ -215,7 +193,8 @@ def derived(
     """A model of this form with these effects, and the files that its derivation yields."""
     from derive import pipeline
 
-    files = pipeline.derive_model(effects, candidates, _symbolic(form, layout))
+    with _SYMPY:
+        files = pipeline.derive_model(effects, candidates, _symbolic(form, layout))
     return from_files(files, layout=_sized(layout)), files
 
 
@@ -281,12 +260,12 @@ def chain_of(instrument: Instrument) -> str:
     return resources.files(package).joinpath("chain.py").read_text("utf-8")
 
 
-@_by_one
 def harmonics_of(instrument: Instrument) -> Mapping[str, str]:
     """The instrument's outputs as harmonics of their discs' angles, without effects: file name -> text."""
     from derive import pipeline
 
-    return pipeline.derive_harmonics(_symbolic(instrument.form, instrument.layout))
+    with _SYMPY:
+        return pipeline.derive_harmonics(_symbolic(instrument.form, instrument.layout))
 
 
 _LARGEST = 1 << 24
@@ -302,9 +281,13 @@ def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candida
         s.id: _expression_key(s.expression) for s in instrument.effects if s.expression is not None
     }
     chosen = [s.id for s in instrument.effects] if ids is None else ids
-    effects = [[i, expressions.get(i)] for i in chosen]
-    own = sorted(map(_sha256, own_sources().values()))
-    asked: list[object] = [_derivation(), effects, own, instrument.form.as_json(), candidates and expressions]
+    asked: list[object] = [
+        _derivation(),
+        [[i, expressions.get(i)] for i in chosen],
+        sorted(map(_sha256, own_sources().values())),
+        instrument.form.as_json(),
+        candidates and expressions,
+    ]
     if not instrument.layout.like_paper:
         layout = instrument.layout
         asked += [

@@ -7,12 +7,11 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean
-from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.base.errors import at, check_keys
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.instrument.units import EOTVOS, Units, units
-from ragg_runtime.model.chain import Chain
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Chain, Model
 from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]
@@ -48,7 +47,10 @@ def named(chain: Chain, p: Array) -> dict[str, Array]:
 
 
 def vector(model: Model, instrument: Instrument) -> Array:
-    """The parameter vector of ``model.chain``, SI, from model.toml's values; effects' parameters else neutral."""
+    """The parameter vector of ``model.chain``, SI, from model.toml's values; effects' parameters else neutral.
+
+    UserError if model.toml gives an effect a parameter that it does not have, or one of a wrong dimension.
+    """
     known = units(instrument.g0)
     layout = instrument.layout
     discs = [layout.discs[q.disc] for q in layout.places]
@@ -59,18 +61,17 @@ def vector(model: Model, instrument: Instrument) -> Array:
     if layout.like_paper:  # one value each
         values = {name: v[:1] for name, v in values.items()}
     values |= {k: np.asarray(v, dtype=float) for k, v in instrument.accelerometers.items()}
-    settings = {s.id: s for s in instrument.effects}
     for e in model.effects:
-        setting = settings.get(e.id)
+        setting = instrument.effect(e.id) or EffectSetting(e.id)
+        where = None if instrument.path is None else str(instrument.path)
+        check_keys(setting.values, [q.name for q in e.parameters], at(where, "effects", e.id))
         for q in e.parameters:
             size = 1 if q.shared else layout.size
-            given = setting.values.get(q.name) if setting else None
-            if given is None:
-                values[q.symbol] = np.full(size, q.default * unit_factor(q.unit, known))
-            else:
-                si = known.base_unit(q.unit)
-                value = known.to_si(np.asarray(given.value), given.unit, si, f"effect {e.id}, {q.name}")
-                values[q.symbol] = np.broadcast_to(value, size).astype(float)
+            si = known.base_unit(q.unit)
+            given = setting.si(q.name, si, known.g0, shared=q.shared, where=where, count=size)
+            values[q.symbol] = (
+                np.full(size, q.default * unit_factor(q.unit, known)) if given is None else given
+            )
     return np.concatenate([values[name] for name, _ in model.chain.PARAMETERS])
 
 
@@ -78,26 +79,3 @@ def vector(model: Model, instrument: Instrument) -> Array:
 def unit_factor(unit: str, known: Units) -> float:
     """SI value of one display unit."""
     return float(known.to_si(1.0, unit, known.base_unit(unit)))
-
-
-def check_settings(model: Model, instrument: Instrument) -> None:
-    """UserError if model.toml gives an effect a parameter that it does not have, or one of a wrong dimension."""
-    for e in model.effects:
-        setting = instrument.effect(e.id)
-        if setting is None:
-            continue
-        names = {q.name: q for q in e.parameters}
-        for name in setting.values:
-            if name not in names:
-                raise UserError(
-                    f"the effect {e.id} has no parameter {name!r}",
-                    where=at(instrument.path, "effects", e.id),
-                    expected="one of " + ", ".join(names),
-                    remedy=did_you_mean(name, names),
-                )
-            q = names[name]
-            where = str(instrument.path) if instrument.path else None
-            si_unit = instrument.units.base_unit(q.unit)
-            setting.si(
-                name, si_unit, instrument.g0, shared=q.shared, where=where, count=instrument.layout.size
-            )

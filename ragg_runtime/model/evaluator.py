@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import stretches
 from ragg_runtime.instrument.layout import PAPER, Layout
-from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.compiler import BuildError, build, load
+from ragg_runtime.model.model import Chain
 
 Array = NDArray[np.float64]
 Series = Sequence[ArrayLike | None] | NDArray[np.floating]
@@ -87,12 +87,11 @@ class Evaluator:
         inputs: Series,
         p: ArrayLike,
         angle: ArrayLike | None = None,
-        out: Array | None = None,
         which: int = 0,
     ) -> Array:
-        """G_out, or another of the layout's outputs, (N,), V; into ``out``, contiguous float64, where that is given."""
+        """G_out, or another of the layout's outputs, (N,), V."""
         c = self._case(t, inputs, p, angle)
-        G = _into(out, len(c.t))
+        G = np.empty(len(c.t))
         own = () if self.layout.like_paper else (which,)
         if self.library is not None:
             self._call("folded" if self.folded else self.name, "output", own, c, G)
@@ -190,15 +189,6 @@ def _series(x: ArrayLike, name: str, length: int | None = None) -> Array:
         expected = "one number per sample" if length is None else f"shape ({length},)"
         raise UserError(f"{name} is no series of samples", found=f"shape {found.shape}", expected=expected)
     return found
-
-
-def _into(out: Array | None, length: int) -> Array:
-    if out is None:
-        return np.empty(length)
-    if out.dtype != np.float64 or out.shape != (length,) or not out.flags.carray:
-        found, expected = f"{out.dtype}, shape {out.shape}", f"contiguous float64, shape ({length},)"
-        raise UserError("out cannot be written to", found=found, expected=expected)
-    return out
 
 
 _size = ctypes.c_size_t

@@ -13,9 +13,9 @@ from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Vector3, gain
 from ragg_runtime.io import Flight
-from ragg_runtime.io.record import GRADIENT, RATES, SPECIFIC_FORCE
-from ragg_runtime.model.chain import Chain
+from ragg_runtime.io.record import RATES, SPECIFIC_FORCE
 from ragg_runtime.model.demodulation import kernel
+from ragg_runtime.model.model import Chain
 from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.derivative import (
     DEGREES,
@@ -29,8 +29,6 @@ from ragg_runtime.signals.derivative import (
 
 Array = NDArray[np.float64]
 
-
-GRADIENTS = GRADIENT
 
 HALO = 32
 """Samples on either side that a part of a record keeps, so that second derivatives come out as in the whole."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,75 +19,48 @@ from ragg_runtime.signals.fir import convolved
 Array = NDArray[np.float64]
 
 
-class Recorded(Protocol):
-    """What of an output a flight holds, as m series over N samples."""
+@dataclass(frozen=True)
+class Recorded:
+    """What of an output a flight holds, as m series over N samples; one, and as it is before demodulation, unless a form says else.
 
-    @property
-    def kind(self) -> str:
-        """One word for it, for programs."""
+    ``kind``: one word for it, for programs; ``words``: for people. ``separate``: each accelerometer's voltage is a series of its own.
+    ``demodulated``: by the recorder; then neighbouring samples are not independent, and the mean is lost.
+    """
 
-    @property
-    def words(self) -> str:
-        """For people."""
-
-    @property
-    def separate(self) -> bool:
-        """Whether each accelerometer's voltage is a series of its own; else m = 1."""
-
-    @property
-    def demodulated(self) -> bool:
-        """Whether the recorder has demodulated it: then neighbouring samples are not independent, and the mean is lost."""
+    kind: ClassVar[str]
+    words: ClassVar[str]
+    separate: ClassVar[bool] = False
+    demodulated: ClassVar[bool] = False
 
     def columns(self, layout: Layout, o: Output, held: Container[str]) -> tuple[str, ...] | None:
         """The columns that hold it, among those that a flight has; ``None`` if not all are there."""
+        raise NotImplementedError
 
     def series(self, columns: Sequence[Array], r: Record, k_ggi: float) -> tuple[Array, ...]:
         """What is fitted, m series (N,), V, made of its columns in SI; ``k_ggi`` in V s^2."""
+        return tuple(columns)
 
     def signs(self, o: Output) -> Array:
         """(m,): how each series counts in the output."""
-
-    def of_voltages(self, o: Output, v: Array, accelerometer: int | None) -> Array:
-        """(m, N), V, before demodulation: of the members' voltages (members, N), or of one accelerometer's (N,)."""
-
-    def through(self, G: Array, r: Record, low: Demodulator | None = None) -> Array:
-        """What the recorder lets pass of the output (..., N) before demodulation, by its low-pass or another one."""
-
-    def noise_share(self, r: Record) -> float:
-        """Variance of white noise of unit variance after :meth:`through`."""
-
-
-class _BeforeDemodulation:
-    """What the two forms have in common that no recorder has demodulated."""
-
-    demodulated = False
-
-    def series(self, columns: Sequence[Array], r: Record, k_ggi: float) -> tuple[Array, ...]:
-        return tuple(columns)
-
-    def through(self, G: Array, r: Record, low: Demodulator | None = None) -> Array:
-        return G
-
-    def noise_share(self, r: Record) -> float:
-        return 1.0
-
-
-class _Sum:
-    """What the two forms have in common in which voltages are added up."""
-
-    separate = False
-
-    def signs(self, o: Output) -> Array:
         return np.ones(1)
 
     def of_voltages(self, o: Output, v: Array, accelerometer: int | None) -> Array:
+        """(m, N), V, before demodulation: of the members' voltages (members, N), or of one accelerometer's (N,)."""
         signs = np.array(o.signs, dtype=np.float64)
         G = signs @ v if accelerometer is None else signs[o.members.index(accelerometer - 1)] * v
         return np.asarray(G[None])
 
+    def through(self, G: Array, r: Record, low: Demodulator | None = None) -> Array:
+        """What the recorder lets pass of the output (..., N) before demodulation, by its low-pass or another one."""
+        return G
+
+    def noise_share(self, r: Record) -> float:
+        """Variance of white noise of unit variance after :meth:`through`."""
+        return 1.0
+
 
 @dataclass(frozen=True)
-class Voltages(_BeforeDemodulation):
+class Voltages(Recorded):
     """The voltage of every accelerometer of the output: m = 4 in the paper's instrument."""
 
     kind = "voltages"
@@ -109,7 +82,7 @@ class Voltages(_BeforeDemodulation):
 
 
 @dataclass(frozen=True)
-class Summed(_BeforeDemodulation, _Sum):
+class Summed(Recorded):
     """The output itself, G_out: the sum of voltages with their signs (Eq. 15)."""
 
     kind = "G_out"
@@ -120,7 +93,7 @@ class Summed(_BeforeDemodulation, _Sum):
 
 
 @dataclass(frozen=True)
-class Channels(_Sum):
+class Channels(Recorded):
     """Inline and cross alone, of an instrument's only output; the data are the channels put back on their carriers."""
 
     kind = "channels"

@@ -12,7 +12,7 @@ from scipy import optimize
 
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.demodulation import built
+from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening.hypothesis import Hypothesis
 from ragg_runtime.screening.linear_fit import Explained, low_passes
@@ -83,7 +83,7 @@ def _left(explained: Callable[[Array], Explained], rate: float, half: int, how: 
     highest = HIGHEST * (how.rate or rate)
     if how.cutoff is not None and how.cutoff > highest:
         how = replace(how, cutoff=highest)
-    taps = built(how, rate).centred
+    taps = kernel(how, rate).centred
     spare = len(taps) // 2 - half
     return explained(taps[spare:-spare] if spare > 0 else np.pad(taps, -spare))
 

@@ -14,18 +14,10 @@ from ragg_runtime.instrument.demodulation import OURS
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc, Output
 from ragg_runtime.io import Flight
-from ragg_runtime.model.chain import Chain
+from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.demodulation import kernel
-from ragg_runtime.model.record import (
-    GRADIENTS,
-    SPIN,
-    differentiated,
-    disc_angle,
-    lateness,
-    spin,
-    spin_degree,
-    start_of,
-)
+from ragg_runtime.model.model import Chain
+from ragg_runtime.model.record import SPIN, differentiated, disc_angle, lateness, spin, spin_degree, start_of
 from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.derivative import differentiate
 from ragg_runtime.signals.fir import convolved
@@ -107,7 +99,7 @@ class Rows:
 
     @property
     def gradient_recorded(self) -> bool:
-        return all(g in self.channels for g in GRADIENTS)
+        return all(g in self.channels for g in GRADIENT)
 
 
 @dataclass(frozen=True)

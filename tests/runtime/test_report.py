@@ -95,7 +95,7 @@ def flight(
     true = true.replace(K0=true.accelerometers["K0"] + UG, K7=true.accelerometers["K7"] * 1.1)
     model = load.packaged()
     if effect is not None:
-        true = true.with_effects((effect,))
+        true = replace(true, effects=(effect,))
         model = derive.with_effects(true, model, [effect.id])
     time, channels = motion(samples, seed)
     made = Flight(time=time, channels=channels, outputs={}, name=name)
