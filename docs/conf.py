@@ -74,7 +74,7 @@ def _made(app: Sphinx, config: Any) -> None:
     from ragg_runtime.cli import demo
     from ragg_runtime.experiments.dynamic import dynamic
     from ragg_runtime.experiments.multifrequency import multifrequency
-    from ragg_runtime.experiments.paper import page
+    from ragg_runtime.experiments.result import page
     from ragg_runtime.experiments.turbulence import turbulence
 
     made = HERE / "_made"

@@ -5,7 +5,7 @@ Left open by the paper: sampling (here 16 Hz, 64 turns), vartheta_x (here 0), an
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +13,13 @@ from numpy.typing import NDArray
 from ragg_runtime.experiments import paper
 from ragg_runtime.experiments.models import (
     ANGLES_DROPPED,
+    CHANNELS,
+    DERIVED,
     LARGEST,
-    Reach,
+    bounds,
     draws,
     error,
+    largest,
     over_turns,
     response,
     smallest_angles,
@@ -26,49 +29,45 @@ from ragg_runtime.experiments.result import Cell, Result, Row, Table, judge
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.reference import Motion, Simulation, Sinusoids, simulate
-from ragg_runtime.reference.effects import EffectValues
-from ragg_runtime.reference.gravity import Gravity, PointMass
+from ragg_runtime.reference.gravity import PointMass
 from ragg_runtime.reference.instruments import table_v
-from ragg_runtime.reference.rotation import Rotations
-
-TURNS = 64
-
 
 Array = NDArray[np.float64]
 
-MODELS = ("analytical", "simplified")
-CHANNELS = ("inline", "cross")
+RATE, TURNS = 16.0, 64
+
+WITH_MASS = PointMass(paper.MASS, paper.MASS_POSITION)
+"""The test mass of Section III.A where it starts."""
 
 
-def dynamic(rate: float = 16.0, turns: int = TURNS) -> Result:
-    """Repeat the experiment at a sampling rate (Hz) over a number of turns of the disc."""
-    run = regular_run(rate=rate, turns=turns)
-    angle, reach = missing_angle()
-    settings = {
-        "instrument": "Table V, R = 0.1 m, 0.25 Hz; vartheta_x = 0 (not stated), g = 9.8 m/s^2",
-        "motion": "Table VI; angular acceleration is the derivative of the angular rate",
-        "record": f"{turns} turns at {rate:g} Hz (not stated)",
-        "model error": "numerical minus model; first-order rotations; no mass near",
-    }
+def dynamic() -> Result:
+    """Repeat the experiment."""
+    angle, reached = missing_angle()
     return Result(
         title="Dynamic experiment (Section III.B, Tables V and VI)",
-        settings=settings,
-        rows=_rows(run, {name: error(name, run) for name in MODELS}, reach),
-        tables=(conditions(), angle),
+        settings={
+            "instrument": "Table V, R = 0.1 m, 0.25 Hz; vartheta_x = 0 (not stated), g = 9.8 m/s^2",
+            "motion": "Table VI; angular acceleration is the derivative of the angular rate",
+            "record": f"{TURNS} turns at {RATE:g} Hz (not stated)",
+            "model error": "numerical minus model; first-order rotations; no mass near",
+        },
+        rows=_compare_rows(regular_run(turns=TURNS), reached),
+        tables=(tabulate_conditions(), angle),
     )
 
 
-def _rows(run: Simulation, errors: Mapping[str, Array], reach: Reach) -> tuple[Row, ...]:
-    largest = float(np.abs(run.G_out).max())
-    analytical = float(np.abs(errors["analytical"]).max())
-    simplified = float(np.abs(errors["simplified"]).max())
-    gradient = float(np.abs(regular_run(gravity=WITH_MASS).G_out - regular_run().G_out).max())
+def _compare_rows(run: Simulation, reached: Array) -> tuple[Row, ...]:
+    errors = {name: error(name, run) for name in DERIVED}
+    whole, analytical = largest(run.G_out), largest(errors["analytical"])
+    gradient = largest(regular_run(gravity=WITH_MASS).G_out - regular_run().G_out)
     rows = [
         judge("k_ggi", paper.K_GGI, run.instrument.scale_factor * EOTVOS),
-        judge("output before demodulation", paper.OUTPUT, largest),
-        judge("analytical model error before demodulation", paper.MODEL_ERROR, analytical),
-        judge("simplified model error before demodulation", paper.MODEL_ERROR, simplified),
-        judge("relative error of the analytical model", paper.RELATIVE_ERROR, analytical / largest),
+        judge("output before demodulation", paper.OUTPUT, whole),
+        *(
+            judge(f"{n} model error before demodulation", paper.MODEL_ERROR, largest(errors[n]))
+            for n in errors
+        ),
+        judge("relative error of the analytical model", paper.RELATIVE_ERROR, analytical / whole),
         judge(
             "voltage of the gravitational gradient",
             paper.GRADIENT_VOLTAGE,
@@ -76,14 +75,14 @@ def _rows(run: Simulation, errors: Mapping[str, Array], reach: Reach) -> tuple[R
             unexplained="no gradient is stated for this experiment",
         ),
     ]
-    for name in MODELS:
-        for channel, ours in zip(CHANNELS, over_turns(errors[name], run), strict=True):
+    for name, e in errors.items():
+        for k, (channel, ours) in enumerate(zip(CHANNELS, over_turns(e, run), strict=True)):
             rows.append(
                 judge(
                     f"{name} model error, {channel}",
                     paper.DYNAMIC[name, channel],
                     ours,
-                    reach=reach.of(channel) if name == "analytical" else None,
+                    reach=bounds(reached[:, k]) if name == "analytical" else None,
                     open_input="the analytical model's error is the product of second-order coefficients and "
                     "angles (misalignments and mounting errors) alone, vartheta_x among them, of which Table V says nothing; four "
                     f"vartheta_x within {LARGEST:g} arcsec, the largest misalignment of Table V, reach it",
@@ -94,23 +93,25 @@ def _rows(run: Simulation, errors: Mapping[str, Array], reach: Reach) -> tuple[R
     return tuple(rows)
 
 
-def conditions() -> Table:
+def tabulate_conditions() -> Table:
     """Model errors with one convention changed at a time: what they consist of."""
-    runs = (
-        ("as set up", regular_run()),
-        ("second-order terms without angles (Eq. 5)", regular_run(effects=ANGLES_DROPPED)),
-        ("vartheta = 0: second-order terms times beta alone", _without("vartheta_y", "vartheta_z")),
-        ("beta = 0: second-order terms times vartheta alone", _without("beta_x", "beta_z")),
-        ("exact rotations", regular_run(rotations="exact")),
-        ("vartheta_x = 20 arcsec, all four", regular_run(with_angles(np.full(4, 20.0)))),
-        ("the mass of Section III.A at rest", regular_run(gravity=WITH_MASS)),
-    )
+    straight = table_v().replace(vartheta_y=np.zeros(4), vartheta_z=np.zeros(4))
+    mounted = table_v().replace(beta_x=np.zeros(4), beta_z=np.zeros(4))
+    runs = {
+        "as set up": regular_run(),
+        "second-order terms without angles (Eq. 5)": regular_run(effects=ANGLES_DROPPED),
+        "vartheta = 0: second-order terms times beta alone": regular_run(straight),
+        "beta = 0: second-order terms times vartheta alone": regular_run(mounted),
+        "exact rotations": regular_run(rotations="exact"),
+        "vartheta_x = 20 arcsec, all four": regular_run(with_angles(np.full(4, 20.0))),
+        "the mass of Section III.A at rest": regular_run(gravity=WITH_MASS),
+    }
     rows: list[tuple[Cell, ...]] = []
-    for label, run in runs:
-        errors = [error(name, run) for name in MODELS]
+    for label, run in runs.items():
+        errors = [error(name, run) for name in DERIVED]
         # What is zero but for rounding (1e-9 V) must not show its last digits.
         eotvos = [v if abs(v) > 1e-4 else 0.0 for e in errors for v in over_turns(e, run)]
-        volts = [v if v > 1e-7 else 0.0 for v in (float(np.abs(e).max()) for e in errors)]
+        volts = [v if v > 1e-7 else 0.0 for v in map(largest, errors)]
         rows.append((label, *eotvos, *volts))
     return Table(
         "Model errors after demodulation (Eo) and the largest before it (V)",
@@ -124,25 +125,21 @@ def conditions() -> Table:
     )
 
 
-def _without(*names: str) -> Simulation:
-    """A run of the instrument of Table V with some of its angles zero."""
-    return regular_run(table_v().replace(**dict.fromkeys(names, np.zeros(4))))
+def measure_analytical(instrument: Instrument) -> Array:
+    """Error of the analytical model, (2,) Eo: inline and cross."""
+    run = regular_run(instrument)
+    return np.array(over_turns(error("analytical", run), run))
 
 
-def missing_angle() -> tuple[Table, Reach]:
-    """What vartheta_x does to the analytical model's error, and which angles would give the printed one."""
-
-    def measure(instrument: Instrument) -> Array:
-        run = regular_run(instrument)
-        return np.array(over_turns(error("analytical", run), run))
-
-    base, slopes = response(measure)
+def missing_angle() -> tuple[Table, Array]:
+    """Which vartheta_x would give the printed error of the analytical model, and what draws of it give, (draws, 2) Eo."""
+    base, slopes = response(measure_analytical)
     reached = base + draws() @ slopes
     printed = np.array([paper.DYNAMIC["analytical", c].value for c in CHANNELS])
     rows: list[tuple[Cell, ...]] = []
     for label, target in (("printed", printed), ("printed, signs reversed", -printed)):
         angles = smallest_angles(base, slopes, target)
-        rows.append((label, *(float(a) for a in angles), float(np.abs(angles).max())))
+        rows.append((label, *(float(a) for a in angles), largest(angles)))
     low, high = reached.min(axis=0), reached.max(axis=0)
     return Table(
         "The four vartheta_x of least square that give the printed analytical error, arcsec",
@@ -152,44 +149,26 @@ def missing_angle() -> tuple[Table, Reach]:
         f"within {LARGEST:g} arcsec put it anywhere from {low[0]:.2f} to {high[0]:.2f} and from "
         f"{low[1]:.2f} to {high[1]:.2f} Eo. The printed pair is thus no contradiction, and no confirmation "
         "either.",
-    ), Reach({"inline": reached[:, 0], "cross": reached[:, 1]})
-
-
-WITH_MASS = PointMass(paper.MASS, paper.MASS_POSITION)
-"""The test mass of Section III.A where it starts."""
+    ), reached
 
 
 def regular_motion() -> Motion:
     """Table VI."""
     g0, frequency = table_v().g0, table_v().spin_frequency
-
-    def signal(name: str) -> Sinusoids:
-        unit = g0 if name.startswith("a") else paper.DEGREE_PER_HOUR
-        mean, amplitude = paper.TABLE_VI[name]
-        return Sinusoids(mean * unit, [amplitude * unit], [frequency], [0.0])
-
-    a_x, a_y, a_z, w_x, w_y, w_z = (signal(n) for n in ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z"))
+    a_x, a_y, a_z, w_x, w_y, w_z = (
+        Sinusoids(mean * unit, [amplitude * unit], [frequency], [0.0])
+        for name, (mean, amplitude) in paper.TABLE_VI.items()
+        for unit in [g0 if name.startswith("a") else paper.DEGREE_PER_HOUR]
+    )
     return Motion((a_x, a_y, a_z), (w_x, w_y, w_z))
 
 
 def regular_run(
-    instrument: Instrument | None = None,
-    *,
-    gravity: Gravity | None = None,
-    rotations: Rotations = "first-order",
-    effects: EffectValues | None = None,
-    rate: float = 16.0,
-    turns: int = 1,
+    instrument: Instrument | None = None, *, rate: float = RATE, turns: int = 1, **how: Any
 ) -> Simulation:
-    """The numerical model in the motion of Table VI; means over one turn are exact at 16 Hz."""
-    known = table_v() if instrument is None else instrument
+    """The numerical model in the motion of Table VI; means over one turn are exact at 16 Hz. ``how``: as of :func:`simulate`."""
+    known = instrument or table_v()
+    duration = float(np.rint(turns / known.spin_frequency))
     return simulate(
-        known,
-        regular_motion(),
-        float(np.rint(turns / known.spin_frequency)),
-        rate,
-        gravity=gravity,
-        rotations=rotations,
-        effects=effects,
-        auxiliaries={},
+        known, regular_motion(), duration, rate, **{"rotations": "first-order", "auxiliaries": {}, **how}
     )

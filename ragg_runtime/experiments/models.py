@@ -1,17 +1,17 @@
-"""The derived models over a simulated record, and their errors against the numerical model."""
+"""The derived models over a simulated record, their errors against the numerical model, and the angle that Table V omits."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 from itertools import product
-from typing import Protocol, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.experiments import paper
+from generated import analytical, simplified
+from ragg_runtime.experiments.paper import ARCSEC
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.reference import Simulation, disc_angle
@@ -23,42 +23,29 @@ Array = NDArray[np.float64]
 ANGLES_DROPPED = {"second-order-misalignment": {"kappa": 0.0}}
 """The numerical model with the second-order terms of Eq. 5, without angles, in place of those of Eq. 52."""
 
+DERIVED: dict[str, Any] = {"analytical": analytical, "simplified": simplified}
+"""Eq. 17-19 and Eq. 42-47, as derived."""
 
-class HarmonicModel(Protocol):
-    """A generated module in the paper's form (``generated/analytical.py``)."""
+CHANNELS = ("inline", "cross")
 
-    INPUTS: tuple[str, ...]
-    PARAMETERS: tuple[tuple[str, int], ...]
+LARGEST = 30.0
+"""arcsec: the largest misalignment angle of Table V."""
 
-    def output(self, t: Array, inputs: Array, p: Array, angle: Array | None = None) -> Array: ...
-
-
-@cache
-def harmonic_models() -> Mapping[str, HarmonicModel]:
-    """The analytical model (Eq. 17-19) and the simplified one (Eq. 42-47), as derived."""
-    from generated import analytical, simplified
-
-    return {"analytical": cast(HarmonicModel, analytical), "simplified": cast(HarmonicModel, simplified)}
+DRAWS = 1000
 
 
 def output(name: str, run: Simulation) -> Array:
     """G_out, (N,) V, of the ``analytical`` or ``simplified`` model, given the motion and gradients of a run."""
-    model = harmonic_models()[name]
-    known = run.instrument
-    values: dict[str, Array] = {
-        "radius": np.array([known.radius]),
-        "spin_frequency": np.array([known.spin_frequency]),
-        **known.accelerometers,
-    }
+    model, known = DERIVED[name], run.instrument
+    values = {"radius": [known.radius], "spin_frequency": [known.spin_frequency], **known.accelerometers}
     p = np.concatenate([values[q] for q, _ in model.PARAMETERS])
     inputs = np.stack([run.channels[channel] for channel in model.INPUTS])
-    return model.output(run.time, inputs, p)
+    return np.asarray(model.output(run.time, inputs, p))
 
 
 def error(name: str, run: Simulation) -> Array:
     """Model error, (N,) V: output of the numerical model *minus* that of a derived one, which gives the paper's signs."""
-    difference: Array = run.G_out - output(name, run)
-    return difference
+    return np.asarray(run.G_out - output(name, run))
 
 
 @dataclass(frozen=True)
@@ -72,9 +59,9 @@ class Channels:
 
 def channels(G: Array, run: Simulation, attenuation: float = 100.0) -> Channels:
     """Inline and cross channel, Eo, of an output or an error (N,) V; ``attenuation`` of the filter, dB."""
-    rate = 1 / (run.time[1] - run.time[0])
+    rate = float(1 / (run.time[1] - run.time[0]))
     phi = disc_angle(run.instrument.spin_frequency, run.time)
-    d = demodulate(G, phi, float(rate), run.instrument.scale_factor, attenuation=attenuation)
+    d = demodulate(G, phi, rate, run.instrument.scale_factor, attenuation=attenuation)
     return Channels(run.time[d.valid], d.inline / EOTVOS, d.cross / EOTVOS)
 
 
@@ -87,44 +74,35 @@ def over_turns(G: Array, run: Simulation) -> tuple[float, float]:
     return float(np.mean(4 * g * np.sin(2 * phi))), float(-np.mean(2 * g * np.cos(2 * phi)))
 
 
-LARGEST = 30.0
-"""arcsec: the largest misalignment angle of Table V."""
+def largest(x: Array) -> float:
+    """The largest magnitude."""
+    return float(np.abs(x).max())
 
-DRAWS = 1000
 
-
-@dataclass(frozen=True)
-class Reach:
-    """Least and greatest of a quantity over vartheta_x within ``LARGEST``: name -> values over the draws."""
-
-    values: dict[str, Array]
-
-    def of(self, name: str) -> tuple[float, float]:
-        """Least and greatest."""
-        v = self.values[name]
-        return float(v.min()), float(v.max())
+def bounds(x: Array) -> tuple[float, float]:
+    """Least and greatest."""
+    return float(x.min()), float(x.max())
 
 
 def with_angles(arcsec: Array) -> Instrument:
     """Table V with four vartheta_x in arcsec."""
-    return table_v().replace(vartheta_x=np.asarray(arcsec) * paper.ARCSEC)
+    return table_v().replace(vartheta_x=np.asarray(arcsec) * ARCSEC)
 
 
 def response(measure: Callable[[Instrument], Array]) -> tuple[Array, Array]:
     """A measured array without vartheta_x, shape (...), and its change per arcsec of each, (4, ...)."""
     base = measure(with_angles(np.zeros(4)))
-    step = LARGEST
-    slopes = np.stack([(measure(with_angles(step * np.eye(4)[j])) - base) / step for j in range(4)])
+    slopes = np.stack([(measure(with_angles(one)) - base) / LARGEST for one in LARGEST * np.eye(4)])
     return base, slopes
 
 
-def draws(seed: int = 0) -> Array:
+def draws() -> Array:
     """Four vartheta_x, uniform within +-``LARGEST``, (DRAWS, 4) arcsec; the corners of that cube first."""
     corners = LARGEST * np.array(list(product((1.0, -1.0), repeat=4)))
-    rng = np.random.default_rng(seed)
-    return np.concatenate([corners, rng.uniform(-LARGEST, LARGEST, (DRAWS - 16, 4))])
+    inside = np.random.default_rng(0).uniform(-LARGEST, LARGEST, (DRAWS - len(corners), 4))
+    return np.concatenate([corners, inside])
 
 
 def smallest_angles(base: Array, slopes: Array, target: Array) -> Array:
     """The four vartheta_x of least square, (4,) arcsec, with which a measure (2,) becomes ``target``."""
-    return np.asarray(np.linalg.lstsq(slopes.T, target - base, rcond=None)[0], dtype=np.float64)
+    return np.asarray(np.linalg.lstsq(slopes.T, target - base, rcond=None)[0])

@@ -18,13 +18,13 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import read_flight, write_flight
 from ragg_runtime.model.evaluate import output, scale_factor, vector
 from ragg_runtime.model.record import record
-from tests.runtime.flown_twice import files, flights, new_model, run
+from tests.runtime.flown_twice import BRIEF, files, flights, new_model, run
 
 Array = NDArray[np.float64]
 
-WARNED = "CFLAGS=-std=c17 -O1 -Wall -Wextra -Wconversion -Wno-sign-conversion -Werror -pedantic"
-STRICT = f"{WARNED} -O0 -fsanitize=undefined,address -fno-sanitize-recover=all"
-"""The sanitizers see as much of what is not optimised, which is compiled ten times as fast."""
+WARNED = "CFLAGS=-std=c17 -O0 -Wall -Wextra -Wconversion -Wno-sign-conversion -Werror -pedantic"
+"""Not optimised, which is compiled ten times as fast: the sanitizers see as much."""
+STRICT = f"{WARNED} -fsanitize=undefined,address -fno-sanitize-recover=all"
 
 
 def make(folder: Path, *arguments: str) -> str:
@@ -53,7 +53,7 @@ def answer(text: bytes) -> tuple[Array, Array]:
 def base(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path]:
     """A calibrated model, its program, and a flight as CSV in SI."""
     folder = tmp_path_factory.mktemp("base")
-    model, (one, _) = new_model(folder), files(folder)
+    model, (one, _) = new_model(folder), files(folder, rows=BRIEF)
     run("calibrate", model, one, "--save")
     run("export", model, folder / "c", "--c")
     assert "largest difference" in make(folder / "c", WARNED, "check")
