@@ -11,6 +11,7 @@ from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import comb
 
 from ragg_runtime.estimation import whitening
 from ragg_runtime.estimation.calibration import QUIET
@@ -178,7 +179,7 @@ def _best(
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
     # not tempered: second orders make scores uneven
-    near = sorted(near, key=lambda e: (-float(log_bayes(tests[e].chi2, tests[e].rank)), e))
+    near = sorted(near, key=lambda e: (-_evidence(tests[e], len(stage.field.candidates[e])), e))
     tried = near[:CONTENDERS]
     left = score(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
     best = min(tried, key=lambda e: (left[e], e))
@@ -191,6 +192,11 @@ def _best(
         e for e in left if left[e] < left[effect] + INDISTINGUISHABLE and _as_sure(tests[e], tests[effect])
     ]
     return effect, tuple(sorted({*equal, *as_near} - {effect}))
+
+
+def _evidence(t: Test, columns: int) -> float:
+    """Log evidence of an effect, charged for the choice of the coefficients that it needs from all that it has."""
+    return float(log_bayes(t.chi2, t.rank)) - float(np.log(comb(columns, min(t.rank, columns))))
 
 
 def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend) -> Taken:
