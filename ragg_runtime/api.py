@@ -48,11 +48,7 @@ from ragg_runtime.io.files import require_writable as check_output
 from ragg_runtime.io.record import distinct
 from ragg_runtime.model import derive
 from ragg_runtime.model.catalogue import Catalogue, effects
-from ragg_runtime.model.directory import (
-    CALIBRATION,
-    Step,
-    replace_model_dir,
-)
+from ragg_runtime.model.directory import CALIBRATION, Step, replace_model_dir
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model, missing_channels
 from ragg_runtime.wording import describe, describe_other
@@ -188,13 +184,8 @@ class Added:
 
 def errors_of(c: Comparison | None) -> dict[str, object] | None:
     """The ``error`` of compare: nominal, calibrated, holdout."""
-    if c is None:
-        return None
-    return {
-        "nominal": c.nominal.as_json(),
-        "calibrated": c.calibrated.as_json(),
-        "holdout": c.holdout.as_json(),
-    }
+    parts = ("nominal", "calibrated", "holdout")
+    return None if c is None else {name: getattr(c, name).as_json() for name in parts}
 
 
 def _judged(c: Comparison | None) -> dict[str, object] | None:
@@ -295,14 +286,11 @@ def _instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> float:
 def _written(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:
     """Calibrated parameters of an effect as they are written to model.toml, ``count`` accelerometers."""
     values: dict[str, RawQuantity] = {}
-    for p in parameters:
-        if p.accelerometer is None:
-            values[p.name] = RawQuantity(p.value, p.unit)
-        else:
-            old = values.get(p.name)
-            each = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * count
-            each[p.accelerometer - 1] = p.value
-            values[p.name] = RawQuantity(tuple(each), p.unit)
+    for name in dict.fromkeys(p.name for p in parameters):
+        own = [p for p in parameters if p.name == name]
+        each = {p.accelerometer: p.value for p in own}
+        value = each[None] if None in each else tuple(each.get(k, 0.0) for k in range(1, count + 1))
+        values[name] = RawQuantity(value, own[0].unit)
     return values
 
 

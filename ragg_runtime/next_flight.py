@@ -158,29 +158,37 @@ class CalibrationFlight(NextFlight):
             f"| {q.name}{'' if q.accelerometer is None else f'[{q.accelerometer}]'} | {q.unit} | {q.now:.3g} | {q.then:.3g} |"
             for q in self.plan.parameters
         ]
-        return "\n".join(
-            [
-                "# Run sheet of a calibration",
-                "",
-                f"{len(self.sinusoids)} sinusoids, {self.duration:g} s at {self.rate:g} Hz.",
-                "",
-                "About the mean motion; x(t) = amplitude sin(2 pi frequency t + phase), t from the beginning of the run.",
-                "",
-                "| axis | frequency, Hz | amplitude | unit | phase, deg |",
-                "|---|---|---|---|---|",
-                *rows,
-                "",
-                *(f"Largest deviation of {axis}: {x:.4g} {_unit(axis)}." for axis, x in peaks.items()),
-                "",
-                "| parameter | unit | std now | std planned |",
-                "|---|---|---|---|",
-                *parameters,
-                "",
-                "Afterwards, with the flights so far and this one: `ragg calibrate MODEL FLIGHT... --plan PLAN.json`,",
-                "PLAN.json being what `ragg next-motion ... --json PLAN.json` wrote.",
-                "",
-            ]
+        largest = [f"Largest deviation of {axis}: {x:.4g} {_unit(axis)}." for axis, x in peaks.items()]
+        return _RUN_SHEET.format(
+            count=len(self.sinusoids),
+            duration=self.duration,
+            rate=self.rate,
+            sinusoids="\n".join(rows),
+            largest="\n".join(largest),
+            parameters="\n".join(parameters),
         )
+
+
+_RUN_SHEET = """\
+# Run sheet of a calibration
+
+{count} sinusoids, {duration:g} s at {rate:g} Hz.
+
+About the mean motion; x(t) = amplitude sin(2 pi frequency t + phase), t from the beginning of the run.
+
+| axis | frequency, Hz | amplitude | unit | phase, deg |
+|---|---|---|---|---|
+{sinusoids}
+
+{largest}
+
+| parameter | unit | std now | std planned |
+|---|---|---|---|
+{parameters}
+
+Afterwards, with the flights so far and this one: `ragg calibrate MODEL FLIGHT... --plan PLAN.json`,
+PLAN.json being what `ragg next-motion ... --json PLAN.json` wrote.
+"""
 
 
 def _unit(axis: str) -> str:

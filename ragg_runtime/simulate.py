@@ -111,15 +111,11 @@ def simulated(
             auxiliaries=_auxiliaries(seed, effects, instrument.layout.size),
             turning=turning_of(spin, instrument.layout, record, start),
         )
-        return _finite(s.flight("simulated", voltages=voltages), record is None)
-
-
-def _finite(x: Flight, everywhere: bool) -> Flight:
-    """The flight, if its outputs are numbers: all of them, or some where a record with gaps is flown. Else OverflowError."""
-    there = np.isfinite(list(x.outputs.values()))
-    if not (there.all() if everywhere else there.any()):
-        raise OverflowError
-    return x
+        found = s.flight("simulated", voltages=voltages)
+        there = np.isfinite(list(found.outputs.values()))
+        if not (there.all() if record is None else there.any()):  # a record that is flown may have gaps
+            raise OverflowError
+    return found
 
 
 @contextlib.contextmanager
@@ -193,14 +189,10 @@ def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
 
 
 def _numbers(effect: Effect, name: str, text: str, instrument: Instrument) -> Array:
-    count = instrument.layout.size
-    for q in effect.parameters:
-        if q.name == name:
-            break
-    else:
-        raise UserError(
-            f"{effect.id} has no parameter {name!r}", expected=", ".join(q.name for q in effect.parameters)
-        )
+    count, parameters = instrument.layout.size, {q.name: q for q in effect.parameters}
+    if name not in parameters:
+        raise UserError(f"{effect.id} has no parameter {name!r}", expected=", ".join(parameters))
+    q = parameters[name]
     try:
         raw = np.array([float(x) for x in text.split("/")])
     except ValueError:
@@ -223,7 +215,11 @@ def turning_of(
     """Name of a disc -> how it turns; ``given`` are texts FORM, for the disc named or for all, before the angles of
     ``motion``, which begins at ``start``, s.
     """
-    found = {} if motion is None else _recorded_turning(motion, layout, start)
+    found = {}
+    if motion is not None:
+        time = motion.time - motion.time[0] + start
+        angles = {d.name: d.angle_column for d in layout.discs if d.angle_column in motion.channels}
+        found = {name: Turning.of_record(time, motion.channels[c]) for name, c in angles.items()}
     for text in given:
         name, colon, profile = text.rpartition(":")
         known = [d.name for d in layout.discs]
@@ -237,36 +233,20 @@ def turning_of(
     return found
 
 
-def _recorded_turning(motion: Flight, layout: Layout, start: float) -> dict[str, Turning]:
-    columns: Mapping[str, Array] = motion.channels
-    time = motion.time - motion.time[0] + start
-    return {
-        d.name: Turning.of_record(time, columns[d.angle_column])
-        for d in layout.discs
-        if d.angle_column in columns
-    }
-
-
 def _profile(profile: str, text: str) -> Turning:
     steady, *swings = profile.split(",")
     try:
-        frequency = float(steady)
         parts = [tuple(float(x) for x in s.split("@")) for s in swings]
+        numbers = [float(steady), *(x for s in parts for x in s)]
+        if any(len(s) not in (2, 3) or s[1] <= 0 for s in parts) or not np.all(np.isfinite(numbers)):
+            raise ValueError
     except ValueError:
-        raise _misread(text) from None
-    numbers = [frequency, *(x for s in parts for x in s)]
-    if any(len(s) not in (2, 3) or s[1] <= 0 for s in parts) or not np.all(np.isfinite(numbers)):
-        raise _misread(text)
-    return Turning(
-        frequency=frequency, swings=tuple((s[0], s[1], s[2] if len(s) == 3 else 0.0) for s in parts)
-    )
-
-
-def _misread(text: str) -> UserError:
-    return UserError(
-        "the turning of a disc is not understood",
-        where="--spin",
-        found=repr(text),
-        expected=FORM,
-        remedy="0.25,0.4@0.05 swings by 0.4 rad every 20 s about 0.25 Hz; 0 stands still",
-    )
+        raise UserError(
+            "the turning of a disc is not understood",
+            where="--spin",
+            found=repr(text),
+            expected=FORM,
+            remedy="0.25,0.4@0.05 swings by 0.4 rad every 20 s about 0.25 Hz; 0 stands still",
+        ) from None
+    swung = tuple((s[0], s[1], s[2] if len(s) == 3 else 0.0) for s in parts)
+    return Turning(frequency=numbers[0], swings=swung)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import read_text, replacing
+from ragg_runtime.base.files import read_text, write_text
 from ragg_runtime.base.provenance import provenance
 from ragg_runtime.instrument.edit_toml import with_full_kinematics
 from ragg_runtime.instrument.instrument import Instrument
@@ -202,8 +202,7 @@ def keep_mapping(m: Loaded, text: str, *, replace: bool) -> None:
         raise UserError(
             "the model has a mapping already", where=place, remedy="say that it shall be replaced"
         )
-    with replacing(place) as temporary:
-        temporary.write_text(text, "utf-8")
+    write_text(place, text)
 
 
 def mapping_text(path: Path) -> str:

@@ -23,8 +23,8 @@ from benchmarks.diagnosis.outside import Outside
 from benchmarks.diagnosis.plan import Spec, World
 from benchmarks.diagnosis.records import Loudness, Recorded, Table
 from benchmarks.diagnosis.strength import Hidden, Oracle
+from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.simulate import Simulation, combine, simulate

@@ -27,12 +27,20 @@ from ragg_runtime.base.errors import UserError
 def replacing(path: Path) -> Iterator[Path]:
     """A temporary file that takes the place of ``path`` on success and vanishes on failure; a device is written to."""
     with contextlib.closing(Target(path)) as target:
-        try:
+        with _writing(path):
             yield target.temporary
-        except OSError as error:
-            raise _unwritten(path, error) from None
         target.prepare()
         target.place()
+
+
+@contextlib.contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    """UserError where the system refuses to write."""
+    try:
+        yield
+    except OSError as error:
+        found = error.strerror or error
+        raise UserError("the file cannot be written", where=path, found=found) from None
 
 
 def require_room(path: Path, size: int) -> None:
@@ -49,64 +57,48 @@ class Target:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        try:
+        with _writing(path):
+            if not path.parent.exists():
+                raise UserError("the folder does not exist", where=path.parent, remedy="make it first")
             self._mode = path.stat().st_mode if path.exists() else None
             if self._mode is not None and stat.S_ISDIR(self._mode):
-                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-            self.is_stream = _descriptor(path) is not None or (
-                self._mode is not None and not stat.S_ISREG(self._mode)
-            )
-            if self.is_stream:
-                if not os.access(path, os.W_OK):
-                    raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
-                beside = Path(tempfile.gettempdir()) / "ragg-output"
-            else:
-                beside = self._place = Path(os.path.realpath(path))
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+            special = self._mode is not None and not stat.S_ISREG(self._mode)
+            self.is_stream = special or _descriptor(path) is not None
+            if self.is_stream and not os.access(path, os.W_OK):
+                raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+            self._place = Path(os.path.realpath(path))
+            beside = Path(tempfile.gettempdir()) / "ragg-output" if self.is_stream else self._place
             handle, name = tempfile.mkstemp(path.suffix, f".{beside.name[:60]}.", beside.parent)
             os.close(handle)
             self.temporary = Path(name)
-        except FileNotFoundError:
-            raise UserError("the folder does not exist", where=path.parent, remedy="make it first") from None
-        except OSError as error:
-            raise _unwritten(path, error) from None
 
     def write(self, content: bytes) -> None:
         """Write all that is to be written; see :meth:`prepare`."""
-        try:
+        with _writing(self.path):
             self.temporary.write_bytes(content)
-        except OSError as error:
-            raise _unwritten(self.path, error) from None
         self.prepare()
 
     def prepare(self) -> None:
         """Do all that may fail: a file is forced to the disc, a device or a pipe gets its content now."""
-        try:
+        with _writing(self.path):
             if self.is_stream:
                 _pour(self.temporary, self.path)
-                return
-            # It is private so far; the file that is asked for has the rights of any new file, or its own.
-            os.chmod(self.temporary, 0o666 & ~_umask() if self._mode is None else self._mode & 0o7777)
-            sync(self.temporary)
-        except OSError as error:
-            raise _unwritten(self.path, error) from None
+            else:
+                # It is private so far; the file that is asked for has the rights of any new file, or its own.
+                os.chmod(self.temporary, 0o666 & ~_umask() if self._mode is None else self._mode & 0o7777)
+                sync(self.temporary)
 
     def place(self) -> None:
         """Bring what was prepared to its place."""
-        if self.is_stream:
-            return
-        try:
-            os.replace(self.temporary, self._place)
-        except OSError as error:
-            raise _unwritten(self.path, error) from None
-        sync(self._place.parent)
+        if not self.is_stream:
+            with _writing(self.path):
+                os.replace(self.temporary, self._place)
+            sync(self._place.parent)
 
     def close(self) -> None:
         """Clear the temporary file away, if it is still there."""
         self.temporary.unlink(missing_ok=True)
-
-
-def _unwritten(path: Path, error: OSError) -> UserError:
-    return UserError("the file cannot be written", where=path, found=error.strerror or error)
 
 
 def _descriptor(path: Path) -> int | None:

@@ -12,9 +12,8 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT
 
 from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.instrument.instrument import EffectSetting, Instrument
-from ragg_runtime.instrument.layout import Layout
-from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS
+from ragg_runtime.instrument.instrument import EffectSetting
+from ragg_runtime.instrument.parameters import PARAMETER
 from ragg_runtime.instrument.units import RawQuantity
 
 
@@ -37,11 +36,11 @@ def set_parameters(
                 expected="one of " + ", ".join(PARAMETER),
                 remedy=did_you_mean(name, PARAMETER),
             )
-        _put(table, name, _quantity(quantity))
+        _put(table, name, quantity_table(quantity))
         if name in sigmas:
             table[name].pop("sigma", None)
         if sigma := sigmas.get(name):
-            table[name].add("sigma", [_plain(v) for v in sigma])
+            table[name].add("sigma", [plain_number(v) for v in sigma])
     return tomlkit.dumps(document)
 
 
@@ -63,7 +62,7 @@ def add_effect(text: str, setting: EffectSetting) -> str:
         entries[place].trivia.comment = comment
     else:
         for name, quantity in setting.values.items():
-            _put(entries[place], name, _quantity(quantity))
+            _put(entries[place], name, quantity_table(quantity))
     return tomlkit.dumps(document)
 
 
@@ -89,65 +88,6 @@ def with_full_kinematics(text: str) -> str:
     if "model" in document or _place(document.get("effects", []), "disc-spin") is not None:
         return text
     return f'{text.rstrip()}\n\n[model]\nkinematics = "full"\n'
-
-
-def model_text(instrument: Instrument) -> str:
-    """A whole model.toml for an instrument, in display units; reads back to the same SI numbers."""
-    layout, form = instrument.layout, instrument.form
-    document: dict[str, Any] = {"effects": []}
-    if not layout.of_paper:
-        document["g0"] = f"{instrument.g0!r} m/s^2"
-    document["model"] = {"kinematics": form.kinematics, "order": form.preset or dict(form.order)}
-    if instrument.angle_origin is not None:
-        document["model"]["angle_origin"] = instrument.angle_origin
-    if instrument.demodulation is not None:
-        document["demodulator"] = dict(instrument.demodulation.entries())
-    if layout.of_paper:
-        document["disc"] = {n: f"{getattr(instrument, n)!r} {unit}" for n, unit in DISC_UNITS.items()}
-    else:
-        document["disc"] = _discs(layout)
-    document["accelerometers"] = accelerometers = {}
-    for p in PARAMETERS:
-        accelerometers[p.name] = entry = _quantity(RawQuantity(_shortest(p.name, instrument), p.display_unit))
-        if p.name in instrument.sigmas:
-            sigma = instrument.units.from_si(instrument.sigmas[p.name], p.si_unit, p.display_unit)
-            entry.add("sigma", [_plain(v) for v in sigma])
-    text = tomlkit.dumps(document)
-    for setting in instrument.effects:
-        text = add_effect(text, setting)
-    return text
-
-
-def _discs(layout: Layout) -> list[dict[str, Any]]:
-    discs: list[dict[str, Any]] = [
-        {
-            "name": d.name,
-            "spin_frequency": f"{d.spin_frequency!r} Hz",
-            "axis": list(d.axis),
-            "zero": list(d.zero),
-            "accelerometer": [],
-        }
-        for d in layout.discs
-    ]
-    for p in layout.places:
-        place: dict[str, Any] = {"name": p.name, "angle": f"{p.angle!r} rad", "radius": f"{p.radius!r} m"}
-        place |= {"height": f"{p.height!r} m", "direction": list(p.direction)}
-        place |= {"sign": p.sign, "output": layout.output_names[p.output]}
-        discs[p.disc]["accelerometer"].append(place)
-    return discs
-
-
-def _shortest(name: str, instrument: Instrument) -> tuple[float, ...]:
-    """Values in the display unit with the fewest digits that still convert to the instrument's SI values."""
-    p, known = PARAMETER[name], instrument.units
-    target = instrument.accelerometers[name]
-    result = []
-    for value, si in zip(known.from_si(target, p.si_unit, p.display_unit), target, strict=True):
-        near = (float(f"{value:.{digits}g}") for digits in (6, 9, 12, 15, 16, 17))
-        result.append(
-            next((v for v in near if known.to_si(v, p.display_unit, p.si_unit) == si), float(value))
-        )
-    return tuple(result)
 
 
 def _document(text: str) -> tomlkit.TOMLDocument:
@@ -182,19 +122,19 @@ def _entry(setting: EffectSetting) -> Any:
             if name not in setting.values:
                 entry.add(name, inner)
     for name, quantity in setting.values.items():
-        entry.add(name, _quantity(quantity))
+        entry.add(name, quantity_table(quantity))
     return entry
 
 
-def _quantity(quantity: RawQuantity) -> Any:
+def quantity_table(quantity: RawQuantity) -> Any:
     table = tomlkit.inline_table()
     value = quantity.value
-    table.add("value", [_plain(v) for v in value] if isinstance(value, tuple) else _plain(value))
+    table.add("value", [plain_number(v) for v in value] if isinstance(value, tuple) else plain_number(value))
     table.add("unit", quantity.unit)
     return table
 
 
-def _plain(value: float) -> int | float:
+def plain_number(value: float) -> int | float:
     """Whole numbers are written as people write them: 30, not 30.0."""
     value = float(np.float64(value))
     return int(value) if value.is_integer() and abs(value) < 1e6 else value

@@ -436,24 +436,21 @@ def rederive(root: Path) -> list[str]:
     ]
 
 
-@dataclass(frozen=True)
-class Checked:
-    """What is committed below a root against what the derivation yields: ``difference`` is text, empty if there is none."""
-
-    difference: str
-    versions: str | None
-    committed_with: str
-
-
-def check(root: Path) -> Checked:
-    """Compare what is below ``root`` with what the derivation yields, and write nothing."""
+def check(root: Path) -> str | None:
+    """A note on versions, if what is below ``root`` is what the derivation yields; else UserError. Nothing is written."""
     from derive import everything
 
-    return Checked(
-        difference=everything.difference(root),
-        versions=everything.about_versions(root),
-        committed_with=everything.committed_with(root),
-    )
+    versions = everything.about_versions(root)
+    if difference := everything.difference(root):
+        raise UserError(
+            "the committed code does not match the derivation",
+            where=root,
+            found="\n" + difference,
+            expected="the same files, byte for byte",
+            remedy=versions or "run: make derive   (or: ragg derive), look at the change, and commit it",
+        )
+    committed_with = everything.committed_with(root)
+    return versions and f"note: it was derived with SymPy {committed_with}, and is the same here"
 
 
 def home() -> Path:

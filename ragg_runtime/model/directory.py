@@ -309,9 +309,9 @@ def identity(
     directory: ModelDir, derivation: str | None = None, before: ModelDir | None = None
 ) -> dict[str, object]:
     """Of a directory as it was read, with the digest of what was derived for it, and as it was ``before`` a change."""
-    found: dict[str, object] = {"model": str(directory.path), "model_digest": digest(directory.text)}
-    if before is not None:
-        found["model_digest_before"] = digest(before.text)
-    if derivation is not None:
-        found["derivation_digest"] = derivation
-    return found
+    digests = {
+        "model_digest": digest(directory.text),
+        "model_digest_before": None if before is None else digest(before.text),
+        "derivation_digest": derivation,
+    }
+    return {"model": str(directory.path), **{k: v for k, v in digests.items() if v is not None}}

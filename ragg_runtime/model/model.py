@@ -190,7 +190,7 @@ def _packaged(kinematics: str) -> Model:
     return replace(model, sources=sources, folded=folded, lasting=True)
 
 
-def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout = PAPER) -> Model:
+def from_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
     """A model from derived source texts (``derive.pipeline.derive_model``), for this layout.
 
     The texts are executed: pass only what the derivation of this program has just yielded or what is the same bytes.
@@ -201,9 +201,9 @@ def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout 
         if name not in files:
             continue
         stem = name.removesuffix(".py")
-        module = ModuleType(f"ragg_{label}_{stem.replace('/', '_')}")
+        module = ModuleType(f"ragg_derived_{stem.replace('/', '_')}")
         sys.modules[module.__name__] = module
-        exec(compile(files[name], f"<{label}/{name}>", "exec"), module.__dict__)
+        exec(compile(files[name], f"<derived/{name}>", "exec"), module.__dict__)
         modules[stem] = module
     own = {
         stem.partition("/")[2].replace("_", "-"): cast(Recogniser, module)

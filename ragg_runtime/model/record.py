@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from generated import folded
 from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Vector3, gain
@@ -193,8 +194,7 @@ class Record:
 
     def part(self, rows: slice, only: Container[str] | None = None) -> Record:
         """Some of the samples, copied, with what derivatives need of their neighbours; ``only`` some channels, and the angle."""
-        n = len(self.time)
-        a, b = rows.start, rows.stop
+        n, a, b = len(self.time), rows.start, rows.stop
         if (a, b) == (0, n):
             return self
         first, last = max(0, a - HALO), min(n, b + HALO)
@@ -203,15 +203,12 @@ class Record:
         for x in wide.values():
             if not np.isfinite(np.dot(x, x)):  # cheap, and true wherever something is not finite
                 x[~np.isfinite(x)] = 0.0
-        valid = np.array(self.valid[rows])
-        time = np.array(self.time[rows])
-        halo = (a - first, last - b)
         return replace(
             self,
-            time=time,
+            time=np.array(self.time[rows]),
             wide=wide,
-            valid=valid,
-            halo=halo,
+            valid=np.array(self.valid[rows]),
+            halo=(a - first, last - b),
             whole=self.whole or self,
             instants=np.array(self.time[first:last]),
         )
@@ -341,17 +338,9 @@ def _half(rate: float) -> int:
 
 
 def disc_angle(time: Array, spin_frequency: float, start: float = 0.0) -> Array:
-    """2 pi frac(spin_frequency (start + t)), rad, with the rounding errors of the products kept (Dekker); ``time`` (N,) s."""
-    if start:
-        first = disc_angle(np.array([start]), spin_frequency)
-        return np.asarray(disc_angle(time, spin_frequency) + first)
-    turns = spin_frequency * time
-    split = 134217729.0
-    f_high = (f := split * spin_frequency) - (f - spin_frequency)
-    t_high = (s := split * time) - (s - time)
-    f_low, t_low = spin_frequency - f_high, time - t_high
-    error = ((f_high * t_high - turns) + f_high * t_low + f_low * t_high) + f_low * t_low
-    return np.asarray(2 * np.pi * ((turns - np.rint(turns)) + error))
+    """2 pi frac(spin_frequency (start + t)), rad, with the rounding errors of the products kept; ``time`` (N,) s."""
+    phi = folded.disc_angle(time, spin_frequency)
+    return phi + folded.disc_angle(np.array([start]), spin_frequency) if start else phi
 
 
 REMEMBERED = 1 << 16

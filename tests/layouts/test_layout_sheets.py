@@ -7,9 +7,9 @@ import re
 import numpy as np
 import pytest
 
+from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument import layout as layouts
-from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.instrument.layout import scale
 from ragg_runtime.instrument.read_toml import parse_instrument
 from tests.layouts import sheets

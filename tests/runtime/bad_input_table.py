@@ -19,8 +19,8 @@ from unittest import mock
 import commands
 import numpy as np
 
+from benchmarks.sheet import model_text
 from ragg_runtime import api
-from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.reference.scenario import Scenario, scenario
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.files import convert

@@ -12,10 +12,10 @@ import pytest
 from numpy.typing import NDArray
 from scipy import signal
 
+from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.identification.comparison import Comparison, compare
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
-from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.mapping import parse_mapping

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from scipy.signal import savgol_filter
 
+from benchmarks.sheet import model_text
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.identification.comparison import STEPS
-from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.instrument.form import PAPER, PRESETS, Form
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model import derive

@@ -11,10 +11,10 @@ import tomlkit
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.edit_toml import (
     add_effect,
-    model_text,
     remove_effect,
     set_parameters,
 )

@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 from commands import ragg
 
+from benchmarks.sheet import model_text
 from ragg_runtime import api
 from ragg_runtime.identification.comparison import compare, nominal_residual
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
