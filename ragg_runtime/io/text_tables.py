@@ -18,7 +18,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, datetime, time, timedelta
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -153,9 +153,6 @@ def _joined(above: Sequence[str], below: Sequence[str]) -> list[str]:
 class _Dialect:
     """How a CSV file is written: ``lines`` stand before the first row, ``texts`` are columns that hold text."""
 
-    path: Path
-    compressed: bool
-    encoding: str
     delimiter: str
     decimal: str
     lines: int
@@ -165,20 +162,14 @@ class _Dialect:
 
 def read_csv(path: Path) -> list[Table]:
     """The CSV file as one table; UserError if it has no header or lines of different widths."""
-    with path.open("rb") as stream:
-        start = stream.read(2)
-    dialect = _look(path, start == _GZIP, "utf-8-sig")
-    while True:  # a column is of text as soon as one of its cells is no number
+    data, notes = _read_text(path)
+    dialect = _look(data, path)
+    table = None
+    while table is None:  # a column is of text as soon as one of its cells is no number
         try:
-            table = _parse(dialect)
-            break
+            table = _parse(data, dialect)
         except pa.ArrowInvalid as error:
-            dialect = _changed(dialect, str(error))
-        except (OSError, EOFError, UnicodeError) as error:
-            raise _cut_off(path, error) from None
-    notes = []
-    if not dialect.encoding.startswith("utf"):
-        notes.append("the file is not UTF-8; read as Windows text (cp1252)")
+            dialect = _changed(dialect, str(error), path)
     columns = []
     for k, x in enumerate(map(of_arrow, table.columns)):
         name, unit = dialect.header.names[k], dialect.header.units[k]
@@ -193,19 +184,38 @@ def read_csv(path: Path) -> list[Table]:
     return [Table(tuple(columns), notes=tuple(notes), index=index, counts=("line", dialect.lines + 1))]
 
 
-def _look(path: Path, compressed: bool, encoding: str) -> _Dialect:
-    """Delimiter, header and kinds of the columns, from the first lines."""
-    raw: IO[bytes] = gzip.GzipFile(path) if compressed else path.open("rb")  # type: ignore[assignment]
+def _read_text(path: Path) -> tuple[bytes, list[str]]:
+    """The file's text in UTF-8, unpacked, and notes."""
+    require_memory(path, path.stat().st_size)
     try:
-        with raw, io.TextIOWrapper(raw, encoding, newline="") as stream:
-            lines = list(itertools.islice(_lines(stream, path), _LOOKED_AT))
-    except UnicodeDecodeError as error:
-        if encoding.startswith("utf-8"):
-            wide = error.object[:2] in (b"\xff\xfe", b"\xfe\xff")
-            return _look(path, compressed, "utf-16" if wide else "cp1252")
-        raise _cut_off(path, error) from None
+        data = path.read_bytes()
+        if data.startswith(_GZIP):
+            unpacker = zlib.decompressobj(31)
+            start = unpacker.decompress(data[: 1 << 16], 1 << 25)
+            packed = min(len(data), 1 << 16) - len(unpacker.unconsumed_tail)
+            require_memory(path, len(data) * len(start) / max(1, packed))
+            data = gzip.decompress(data)
+        if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+            return data.decode("utf-16").encode(), []
+        try:
+            data.decode()
+        except UnicodeDecodeError:
+            return data.decode("cp1252").encode(), ["the file is not UTF-8; read as Windows text (cp1252)"]
     except (OSError, EOFError, zlib.error, UnicodeError) as error:
-        raise _cut_off(path, error) from None
+        raise UserError(
+            "the file is damaged or cut off, or no text",
+            where=path,
+            found=str(error)[:200],
+            expected="a whole file of text: a header of `name [unit]`, then numbers",
+            remedy="copy it again, or save it as CSV, Parquet or NetCDF-4",
+        ) from None
+    return data.removeprefix(b"\xef\xbb\xbf"), []
+
+
+def _look(data: bytes, path: Path) -> _Dialect:
+    """Delimiter, header and kinds of the columns, from the first lines."""
+    stream = io.TextIOWrapper(io.BytesIO(data), "utf-8", newline="")
+    lines = list(itertools.islice(_lines(stream, path), _LOOKED_AT))
     best = None
     for delimiter in "\t;,":
         try:
@@ -216,18 +226,15 @@ def _look(path: Path, compressed: bool, encoding: str) -> _Dialect:
         score = (0.0, 0) if header is None else (header.share, len(header.names))
         if header is not None and (best is None or score > best[0]):
             best = score, delimiter, header, rows, ends
-    if best is None or best[0][1] > MOST_COLUMNS:
-        example = "time [s],a_x [g],..."
-        nothing = UserError("the flight file has no header", where=path, expected=example)
-        raise nothing if best is None else too_wide(path, best[0][1])
+    if best is None:
+        raise UserError("the flight file has no header", where=path, expected="time [s],a_x [g],...")
     _, delimiter, header, rows, ends = best
     names, sample = header.names, rows[header.begins :]
-    count = _text_length(path, compressed) * len(lines) / (sum(map(len, lines)) or 1)
+    if len(names) > MOST_COLUMNS:
+        raise too_wide(path, len(names))
+    count = len(data) * len(lines) / (sum(map(len, lines)) or 1)
     require_memory(path, count * len(names) * 8)
     return _Dialect(
-        path=path,
-        compressed=compressed,
-        encoding=encoding,
         delimiter=delimiter,
         decimal="," if any(_COMMA.fullmatch(c) for r in sample for c in r) else ".",
         lines=ends[header.begins - 1] if header.begins else 0,
@@ -260,19 +267,7 @@ def _holds_text(rows: Sequence[Sequence[str]], column: int) -> bool:
     return any(c.strip() not in MISSING and not is_number(c) for c in cells)
 
 
-def _text_length(path: Path, compressed: bool) -> float:
-    """Bytes of a text; of a compressed one estimated by its beginning."""
-    size = path.stat().st_size
-    if not compressed:
-        return size
-    with path.open("rb") as stream:
-        start = stream.read(1 << 16)
-    unpacker = zlib.decompressobj(31)
-    text = unpacker.decompress(start, 1 << 25)
-    return size * len(text) / max(1, len(start) - len(unpacker.unconsumed_tail))
-
-
-def _parse(d: _Dialect) -> pa.Table:
+def _parse(data: bytes, d: _Dialect) -> pa.Table:
     """The columns as Arrow reads them; ArrowInvalid where a cell is no number or a line has another width."""
     kinds = {str(k): pa.string() if k in d.texts else pa.float64() for k in range(len(d.header.names))}
     options = pyarrow.csv.ReadOptions(
@@ -280,41 +275,26 @@ def _parse(d: _Dialect) -> pa.Table:
         column_names=list(kinds),
         block_size=1 << 22,
         use_threads=False,  # with several threads Arrow does not say in which row it stumbled
-        encoding="utf8" if d.encoding == "utf-8-sig" else d.encoding,
     )
+    parse = pyarrow.csv.ParseOptions(delimiter=d.delimiter)
     convert = pyarrow.csv.ConvertOptions(column_types=kinds, null_values=MISSING, decimal_point=d.decimal)
-    packed = "gzip" if d.compressed else None
     try:
-        with d.path.open("rb") as raw, pa.input_stream(raw, compression=packed) as stream:
-            parse = pyarrow.csv.ParseOptions(delimiter=d.delimiter)
-            return pyarrow.csv.read_csv(stream, options, parse, convert)
+        return pyarrow.csv.read_csv(pa.BufferReader(data), options, parse, convert)
     except pa.ArrowInvalid as error:
         if "Empty CSV" not in str(error):
             raise
         return pa.table({n: pa.array([], k) for n, k in kinds.items()})
 
 
-def _changed(d: _Dialect, error: str) -> _Dialect:
+def _changed(d: _Dialect, error: str, path: Path) -> _Dialect:
     """The file read otherwise, by what Arrow says; UserError where nothing helps."""
     if (match := _NO_NUMBER.match(error)) and int(match[1]) not in d.texts:
         return replace(d, texts=d.texts | {int(match[1])})
-    if "invalid UTF8" in error and d.encoding == "utf-8-sig":
-        return replace(d, encoding="cp1252")
     if match := _OTHER_WIDTH.match(error):
-        where, what = at(d.path, f"line {match[1]}"), "the line has the wrong number of values"
+        where, what = at(path, f"line {match[1]}"), "the line has the wrong number of values"
         expected = f"{match[2]}, as the header has: the file may be damaged or cut off"
         raise UserError(what, where=where, found=match[3], expected=expected) from None
-    raise UserError(_NOT_CSV, where=d.path, found=error.splitlines()[0][:200]) from None
-
-
-def _cut_off(path: Path, error: Exception) -> UserError:
-    return UserError(
-        "the file is damaged or cut off, or no text",
-        where=path,
-        found=str(error)[:200],
-        expected="a whole file of text: a header of `name [unit]`, then numbers",
-        remedy="copy it again, or save it as CSV, Parquet or NetCDF-4",
-    )
+    raise UserError(_NOT_CSV, where=path, found=error.splitlines()[0][:200]) from None
 
 
 # --- Excel ---------------------------------------------------------------------------------------------
