@@ -73,19 +73,15 @@ def read_parquet(path: Path) -> list[Table]:
     about = schema.metadata or {}
     given = read_frame_units(_read_json(about.get(b"PANDAS_ATTRS", b"{}")))
     labels = _read_json(about.get(b"pandas", b"{}")).get("index_columns", [])
-    columns, other, index = [], [], None
+    arrays, index = [], None
     for field, values in zip(schema, table.columns, strict=True):
-        array = of_arrow(values)
-        if array is None:
-            other.append(f"{field.name!r} ({field.type})")
-            continue
         unnamed = field.name.startswith("__index_level_")
-        name, unit = (INDEX, "") if unnamed else read_heading(field.name)
-        said = (field.metadata or {}).get(b"units", b"").decode("utf-8", "replace").strip()
-        columns.append(Column(name, said or given.get(field.name, "") or unit, array))
-        index = name if field.name in labels or unnamed else index
-    notes = (f"passed over, neither numbers nor text: {', '.join(other[:6])}",) if other else ()
-    return [Table(tuple(columns), index=index, notes=notes)]
+        name = INDEX if unnamed else field.name
+        index = read_heading(name)[0] if unnamed or field.name in labels else index
+        found = of_arrow(values)
+        said = (field.metadata or {}).get(b"units", b"").decode("utf-8", "replace")
+        arrays.append((name, label(np.zeros(len(values), "V1") if found is None else found, {"units": said})))
+    return [make_table(arrays, given, index=index)]
 
 
 def _read_json(text: bytes) -> dict[str, Any]:

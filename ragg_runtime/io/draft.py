@@ -32,13 +32,12 @@ _TIMES = ("time", "line", "week", "second_of_week", "date", "clock")
 
 @dataclass(frozen=True)
 class Draft:
-    """A mapping to begin with: its ``text``, the ``questions`` to be answered, the columns that are ``unused``, channel ->
-    ``certain``, ``likely`` or ``guess``, and in ``notes`` what could not be taken.
+    """A mapping to begin with: its ``text``, the ``questions`` to be answered, channel -> ``certain``, ``likely`` or
+    ``guess``, and in ``notes`` what could not be taken.
     """
 
     text: str
     questions: tuple[str, ...]
-    unused: tuple[str, ...]
     sure: Mapping[str, str]
     notes: tuple[str, ...] = ()
 
@@ -79,7 +78,6 @@ def draft_mapping(path: Path) -> Draft:
     return Draft(
         text="\n".join(page.lines) + "\n",
         questions=tuple(page.questions),
-        unused=tuple(c.name for c in unused),
         sure=MappingProxyType(page.sure),
         notes=(*table.notes, *texts),
     )
@@ -209,7 +207,7 @@ def _write_columns(table: Table, page: _Page) -> None:
     page.used.update(c.name for c, _ in taken.values())
     for name in [n for n in dict.fromkeys([*SI_UNITS, *(r.name for _, r in candidates)]) if n in taken]:
         c, role = taken[name]
-        unit, remark = (role.unit, "") if role.unit else _find_unit(c, name, page, f"[columns] {name}")
+        unit, remark = _find_unit(c, name, page, f"[columns] {name}")
         page.sure[name] = role.sure
         further = [f"scale = {role.scale:g}"] if role.scale != 1.0 else []
         entry = _entry(c.name, unit, *further, *filter(None, [_null(c, page)]))
@@ -258,7 +256,7 @@ class Role:
     """A channel that a column may be.
 
     ``pattern`` must match the column's whole name, in small letters, divided by ``_``. ``sure``: ``likely`` or
-    ``guess``. ``scale``: between column and channel, where the name tells it. ``unit``: the only one that it can have.
+    ``guess``. ``scale``: between column and channel, where the name tells it.
     """
 
     name: str
@@ -266,7 +264,6 @@ class Role:
     sure: str = "likely"
     scale: float = 1.0
     why: str = ""
-    unit: str = ""
 
     def fits(self, column: str) -> bool:
         words = re.sub(r"([a-z])([A-Z][a-z])", r"\1_\2", column)
@@ -318,7 +315,6 @@ _ALL = (
     *(Role(f"cross_{d}", rf"(ggi_?)?cross_?{d}(_?raw)?") for d in _DISCS),
     *(Role(f"inline_{d}", rf"{d}_?uv(_\w+)?", scale=2.0, why=_HALF) for d in "AB"),
     *(Role(f"cross_{d}", rf"{d}_?ne(_\w+)?") for d in "AB"),
-    Role("flight", r"flight(_?(no|num|number))?|flt", unit="1"),
 )
 
 ROLES: Mapping[str, Role] = MappingProxyType({r.name: r for r in reversed(_ALL)})
@@ -328,6 +324,6 @@ ROLES: Mapping[str, Role] = MappingProxyType({r.name: r for r in reversed(_ALL)}
 def role_of(column: str) -> Role | None:
     """What a column of this name may be; its own name is certain."""
     own = next((r for r in _ALL if r.name == column), None)
-    if own is not None and column not in ("line", "flight"):
-        return Role(own.name, own.pattern, "certain", unit=own.unit)
+    if own is not None and column != "line":
+        return Role(own.name, own.pattern, "certain")
     return min((r for r in _ALL if r.fits(column)), key=lambda r: r.rank, default=None)

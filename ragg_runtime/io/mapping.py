@@ -1,29 +1,6 @@
 """``mapping.toml``: which column of a foreign file is what, in which unit, sign, axis and clock. Plain data.
 
-[file]
-line = "LINE"                   # column that tells flight lines apart
-lines = ["1010", "1020"]        # only these
-part = "flight/imu"             # group (HDF5), structure (MATLAB) or sheet (Excel)
-null = [-9999, "n/a"]           # what stands for a missing value in any column; a column may have its own
-
-[time]
-column = "UTC"                  # or two: ["DATE", "CLOCK"], ["WEEK", "SECOND"]
-format = "seconds"              # or "iso", "clock", "date clock", "gps", "d/m/y", "m/d/y"
-unit = "s"                      # of "seconds"
-origin = 2026-03-01T00:00:00Z   # of "seconds": when they were 0, if that is known
-
-[columns]
-a_x = { column = "ACC1", unit = "g", sign = -1, scale = 1.0, offset = 0.0 }
-
-[axes]                          # the measurement frame's axes among the recorder's; a rotation
-x = "y"
-y = "x"
-z = "-z"
-
-[demodulator]                   # how inline and cross were made; further keys: instrument/demodulation.py
-kind = "butterworth"
-cutoff = "0.18 Hz"
-order = 6
+Its tables and keys, with an example: docs/reference/mapping.md.
 """
 
 from __future__ import annotations

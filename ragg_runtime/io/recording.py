@@ -7,7 +7,7 @@ values is left out, a mapping's names, units, signs and axes are applied.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
@@ -20,7 +20,7 @@ from ragg_runtime.base.names import EXPECTED, is_column
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.instants import WAYS, Seconds, count_from, read_stamps
-from ragg_runtime.io.mapping import Mapped, Null
+from ragg_runtime.io.mapping import Entry, Mapped, Null
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.tables import Column, Table, choose_tables, line_name, split_lines
 from ragg_runtime.io.text_tables import MISSING
@@ -161,8 +161,7 @@ def _read_plain(table: Table, place: str, lenient: bool, leave: frozenset[str]) 
         require_units(kept, place)
     if passed:
         notes.append(pass_over(passed))
-    kept = [_without_codes(c, (), notes) for c in kept]
-    return _finish(Recording(tuple(kept), place, table.line, notes=tuple(notes), passed=passed), stamps)
+    return _finish(Recording(tuple(kept), place, table.line, notes=tuple(notes), passed=passed), stamps, {})
 
 
 def _find_time(table: Table) -> tuple[Column | None, list[Column]]:
@@ -197,19 +196,20 @@ def _read_time(
     return (first, None) if stamps is None else (Column("time", "s", stamps.values), stamps)
 
 
-def _finish(made: Recording, stamps: Seconds | None) -> Recording:
-    """Rows without a time left out and counted; what is known of the instants."""
-    notes = made.notes
-    time = next((c.values for c in made.columns if c.name == "time"), np.zeros(0))
+def _finish(made: Recording, stamps: Seconds | None, nulls: Mapping[str, Null]) -> Recording:
+    """Missing-value codes and rows without a time left out and counted; what is known of the instants."""
+    notes = list(made.notes)
+    columns = tuple(_without_codes(c, nulls.get(c.name, ()), notes) for c in made.columns)
+    time = next((c.values for c in columns if c.name == "time"), np.zeros(0))
     there = np.isfinite(time)
     if there.any() and not there.all():
         lost = int(np.sum(~there))
-        notes = (*notes, f"{lost} row{'s' * (lost > 1)} without a time left out")
-        made = replace(made, columns=tuple(replace(c, values=c.values[there]) for c in made.columns))
+        notes.append(f"{lost} row{'s' * (lost > 1)} without a time left out")
+        columns = tuple(replace(c, values=c.values[there]) for c in columns)
     if stamps is not None:
         made = replace(made, origin=stamps.origin, instants=stamps.instants)
-        notes = (*notes, *stamps.notes)
-    return replace(made, notes=notes)
+        notes += stamps.notes
+    return replace(made, columns=columns, notes=tuple(notes))
 
 
 def _lacks_unit(c: Column) -> bool:
@@ -380,15 +380,16 @@ def _read_mapped(table: Table, place: str, mapping: Mapped) -> Recording:
         c = read_numbers(table.column(e.column), table, place, e.null)
         found.append(replace(c, name=name, unit=e.unit or c.unit))
     require_units(found, place)
-    nulls = {n: e.null for n, e in entries.items()} | {"time": t.null}
-    found = [_without_codes(c, nulls[c.name], notes) for c in found]
-    scaled = [
-        replace(c, values=c.values * entries[c.name].factor + entries[c.name].offset) for c in found[1:]
-    ]
-    found = _turn([found[0], *scaled], mapping)
     how = mapping.demodulator
     notes += [] if how is None else [f"demodulated: {how.words()}"]
-    return _finish(Recording(tuple(found), place, table.line, t.origin, False, tuple(notes), how), stamps)
+    made = Recording(tuple(found), place, table.line, t.origin, False, tuple(notes), how)
+    made = _finish(made, stamps, {n: e.null for n, e in entries.items()} | {"time": t.null})
+    scaled = [c if c.name == "time" else _scale(c, entries[c.name]) for c in made.columns]
+    return replace(made, columns=tuple(_turn(scaled, mapping)))
+
+
+def _scale(c: Column, e: Entry) -> Column:
+    return c if (e.factor, e.offset) == (1.0, 0.0) else replace(c, values=c.values * e.factor + e.offset)
 
 
 def _turn(columns: Sequence[Column], mapping: Mapped) -> list[Column]:

@@ -240,9 +240,10 @@ def decode_values(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArra
     missing |= (values < low) | (values > [*_numbers(attributes.get("valid_max")), high][0])
     if (fill := _DEFAULT_FILL.get(values.dtype.str[1:])) is not None and "DIMENSION_LIST" in attributes:
         missing |= values == np.asarray(fill).astype(values.dtype)
-    factor = [*_numbers(attributes.get("scale_factor")), 1.0][0]
-    offset = [*_numbers(attributes.get("add_offset")), 0.0][0]
-    result: NDArray[Any] = values.astype(np.float64) * factor + offset
+    result: NDArray[Any] = values.astype(np.float64)
+    if "scale_factor" in attributes or "add_offset" in attributes:
+        factor = [*_numbers(attributes.get("scale_factor")), 1.0][0]
+        result = result * factor + [*_numbers(attributes.get("add_offset")), 0.0][0]
     result[missing] = np.nan
     return result
 
@@ -295,11 +296,9 @@ def tabulate(data: Any) -> list[Table]:
     if hasattr(data, "data_vars") and hasattr(data, "coords"):
         return [make_table([(str(n), _of_variable(v)) for n, v in data.variables.items()])]
     if isinstance(data, Mapping):
-        own: Mapping[Any, Any] = next(
-            (data[n] for n in ("units", "attrs") if isinstance(data.get(n), Mapping)), {}
-        )
+        about = [data[n] for n in ("units", "attrs") if isinstance(data.get(n), Mapping)]
         arrays = [(str(n), _of_series(v)) for n, v in data.items() if not isinstance(v, Mapping)]
-        return [make_table(arrays, read_frame_units(own))]
+        return [make_table(arrays, read_frame_units(about[0] if about else {}))]
     raise UserError(
         "this is no flight",
         found=type(data).__name__,
@@ -317,7 +316,7 @@ def _of_variable(v: Any) -> Any:
 def _of_frame(frame: Any) -> Table:
     """The table of a DataFrame; an index that is more than row numbers is its first column."""
     labels = [
-        (f"{c[0]} [{c[1]}]" if is_unit(str(c[-1])) else " ".join(map(str, c)))
+        (f"{' '.join(map(str, c[:-1]))} [{c[-1]}]" if is_unit(str(c[-1])) else " ".join(map(str, c)))
         if isinstance(c, tuple)
         else str(c)
         for c in frame.columns  # names and units in two rows of a header
