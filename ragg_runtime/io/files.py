@@ -192,14 +192,11 @@ def read_tables(path: Path) -> list[Table]:
 # --- reading -------------------------------------------------------------------------------------------
 
 
-def read_recordings(
-    source: Any, mapping: Mapped | None = None, *, lenient: bool = False, leave: frozenset[str] = frozenset()
-) -> list[Recording]:
+def read_recordings(source: Any, mapping: Mapped | None = None, *, lenient: bool = False) -> list[Recording]:
     """The recordings in a file or in memory, one for each line; see :func:`.recording.make_recordings`."""
-    if isinstance(source, str | Path):
-        path = Path(source)
-        return make_recordings(read_tables(path), path, mapping, lenient=lenient, leave=leave)
-    return make_recordings(tabulate(source), "flight", mapping, lenient=lenient, leave=leave)
+    path = Path(source) if isinstance(source, str | Path) else None
+    tables = tabulate(source) if path is None else read_tables(path)
+    return make_recordings(tables, path or "flight", mapping, lenient=lenient)
 
 
 def read_flights(

@@ -11,7 +11,6 @@ import numpy as np
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import file_digest
-from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.assemble import make_flight, require_enough
 from ragg_runtime.io.files import flight_name, format_of, read_tables, write_instant
@@ -71,9 +70,7 @@ class FileInfo:
         return dataclasses.asdict(self)
 
 
-def describe_flight(
-    path: Path | str, mapping: Mapped | None = None, g0: float = PAPER_G, layout: Layout = PAPER
-) -> FileInfo:
+def describe_flight(path: Path | str, mapping: Mapped | None = None) -> FileInfo:
     """What a flight file holds.
 
     Parameters
@@ -82,10 +79,6 @@ def describe_flight(
         The file.
     mapping
         What its columns are, where it has names of its own.
-    g0
-        The g of its units, m/s^2.
-    layout
-        Accelerometers and outputs of the instrument.
 
     Returns
     -------
@@ -99,15 +92,15 @@ def describe_flight(
     """
     path = Path(path)
     made = make_recordings(read_tables(path), path, mapping, lenient=True)
-    records = [_describe(r, flight_name(path), len(made) > 1, g0, layout) for r in made]
+    records = [_describe(r, flight_name(path), len(made) > 1) for r in made]
     return FileInfo(str(path), file_digest(path), format_of(path).name, path.stat().st_size, records)
 
 
-def _describe(r: Recording, name: str, several: bool, g0: float, layout: Layout) -> RecordInfo:
+def _describe(r: Recording, name: str, several: bool) -> RecordInfo:
     notes, refused = r.notes, None
     try:
         require_units(r.columns, r.place)
-        x = require_enough(make_flight(r, g0, accelerometers=layout), len(r))
+        x = require_enough(make_flight(r, PAPER_G), len(r))
         notes = (*x.notes, *_angle_note(x))
     except UserError as error:
         refused = error.message
@@ -115,7 +108,7 @@ def _describe(r: Recording, name: str, several: bool, g0: float, layout: Layout)
     gaps: list[Json] = []
     try:
         time = next(c for c in r.columns if c.name == "time")
-        grid = uniform(units(g0).to_si(time.values, time.unit or "s", "s", "column 'time'"), r.place)
+        grid = uniform(units(PAPER_G).to_si(time.values, time.unit or "s", "s", "column 'time'"), r.place)
         start, rate = float(grid.time[0]), 1 / grid.step
         duration = len(grid.time) / rate
         here, jumps = grid.time[grid.index], np.diff(grid.index)
