@@ -59,11 +59,13 @@ SCATTER = 0.01
 class Regression:
     """A fit of some flights, block of time by block: R factors [columns | residual], and the prior's ``centre`` (n,) of unit width.
 
-    ``effects``: the effect of every column, ``None`` of the instrument's own.
+    ``absent`` (n,): the coefficients where no effect acts, which the prior of one with a physical size is not centred on; ``effects``:
+    the effect of every column, ``None`` of the instrument's own.
     """
 
     flights: tuple[tuple[Array, ...], ...]
     centre: Array
+    absent: Array
     effects: tuple[str | None, ...]
 
     @staticmethod
@@ -74,6 +76,7 @@ class Regression:
         return Regression(
             flights=tuple(tuple(t[:, picked] for t in own) for own in f.triangles),
             centre=np.concatenate([f.to_nominal, np.zeros(len(extra))]),
+            absent=np.concatenate([_absent(f), np.zeros(len(extra))]),
             effects=tuple(effects),
         )
 
@@ -91,7 +94,7 @@ class Regression:
         n = len(self.centre)
         kept = [k for k in range(n) if k not in set(without)]
         fixed = np.zeros(n)
-        fixed[list(without)] = self.centre[list(without)]
+        fixed[list(without)] = self.absent[list(without)]
         blocks = self.blocks(some)
         rows = [np.column_stack([t[:, kept], t[:, -1] - t[:, :n] @ fixed]) for t in blocks]
         sheet = np.column_stack([np.eye(len(kept)), self.centre[kept]])
@@ -100,6 +103,17 @@ class Regression:
         root = np.linalg.inv(R[:k, :k])
         fixed[kept] = root @ R[:k, k]
         return fixed, root
+
+
+def _absent(f: Fitted) -> Array:
+    """(n_base,): how far the neutral values of effects, and the nominal ones of the instrument, are from the calibrated, in scales."""
+    c, found = f.calibration, f.to_nominal.copy()
+    for n, column in enumerate(c.columns):
+        effect = f.model.effect(column.effect) if column.effect is not None else None
+        for q in effect.parameters if effect is not None else ():
+            if q.physical is not None and column.name == f"{column.effect}.{q.name}":
+                found[n] = ((q.neutral or 0.0) * column.unit_factor - c.p[c.index[n]]) / column.scale
+    return found
 
 
 @dataclass(frozen=True)
@@ -142,7 +156,7 @@ class Robust:
         spread = sizes * (
             1.0 - sizes
         )  # of a value that is not there: the prior, which does not scatter, holds it back
-        y = U.T @ (self.value[E] - self.regression.centre[E])
+        y = U.T @ (self.value[E] - self.regression.absent[E])
         along = U @ (y / spread)
         expected = float(np.sum(y**2 / spread))
         by = float(along @ self.sandwich[own] @ along) / expected if expected > 0.0 else 1.0
