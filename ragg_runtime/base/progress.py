@@ -42,6 +42,16 @@ def remark(text: str) -> None:
 
 
 @contextlib.contextmanager
+def listening(tell: Callable[[float], None]) -> Iterator[None]:
+    """Let ``tell`` hear of every step that is done meanwhile; what it raises ends the work."""
+    token = _listener.set(tell)
+    try:
+        yield
+    finally:
+        _listener.reset(token)
+
+
+@contextlib.contextmanager
 def shown(command: str, samples: int) -> Iterator[None]:
     """Say on stderr how far ``command`` is with flights of so many ``samples``: one line that changes, or a line now and then."""
     total, terminal = PASSES[command] * max(samples, 1), sys.stderr.isatty()
@@ -58,11 +68,8 @@ def shown(command: str, samples: int) -> Iterator[None]:
             text = f"... {100 * share:.0f} % done, {_left(share, now - start)}"
             click.echo(f"\r{text:<60}" if terminal else text, err=True, nl=not terminal)
 
-    token = _listener.set(tell)
-    try:
+    with listening(tell):
         yield
-    finally:
-        _listener.reset(token)
     if terminal and due > first:
         click.echo(f"\r{'':<60}\r", err=True, nl=False)
 
