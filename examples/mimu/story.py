@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -89,7 +90,7 @@ def calibrated(
 ) -> Found:
     """Calibrate a sheet, with these effects in the model beside its own."""
     i = parse_instrument(text)
-    i = i.with_effects((*i.effects, *(EffectSetting(e) for e in effects)))
+    i = dataclasses.replace(i, effects=(*i.effects, *(EffectSetting(e) for e in effects)))
     model = derive.without_signatures(i, i.form)
     f = fit(model, i, observations_of(flights(i, motion, misread), i))
     c = f.calibration
