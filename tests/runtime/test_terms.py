@@ -196,7 +196,7 @@ def _crept(f: Array, t: Array, constant: float) -> Array:
 
 CASES: dict[str, tuple[Callable[[dict[str, Array]], Array], int, str]] = {
     "fourth power": (lambda w: 1e-7 * w["f_i"] ** 4, 0, "f_i*f_i*f_i*f_i"),
-    "fourth power, A3": (lambda w: 1e-7 * w["f_i"] ** 4, 2, "f_o*f_o*f_o*f_o"),
+    "fourth power, A3": (lambda w: 3e-7 * w["f_i"] ** 4, 2, "f_o*f_o*f_o*f_o"),
     "modulus": (lambda w: 1e-8 * np.abs(w["f_i"]), 1, "abs(f_i)"),
     "temperature squared": (lambda w: 3e-7 * w["f_i"] * w["T"] ** 2, 0, "f_i*temperature*temperature"),
     "curvature by temperature": (lambda w: 3e-7 * w["f_i"] ** 2 * w["T"], 0, "f_i*f_i*temperature"),
