@@ -241,7 +241,7 @@ export function timePlot(box, { label, lines, moved, level, limits, unit }) {
 }
 
 function reach(low, high, level) {
-  if (low === null || low === undefined) return [-1, 1];
+  if (!Number.isFinite(low) || !Number.isFinite(high)) return [-1, 1];
   const top = Math.max(Math.abs(low), Math.abs(high), level || 0) * 1.08 || 1;
   return low >= 0 || high <= 0 ? [low - 0.06 * (high - low || top), high + 0.06 * (high - low || top)] : [-top, top];
 }
@@ -282,7 +282,7 @@ export function spectrumPlot(box, { band, banded, harmonic }) {
   const made = mounted(
     box,
     {
-      scales: { x: { time: false, distr: 3, range: (u, a, b) => [a, b] }, y: { distr: 3, range: (u, a, b) => spread(a, b) } },
+      scales: { x: { time: false, distr: 3, range: (u, a, b) => (a > 0 && b > a ? [a, b] : [0.1, 1]) }, y: { distr: 3, range: (u, a, b) => spread(a, b) } },
       series: [{}, ...LINES.map((l) => ({ label: l.name, stroke: () => colour(l.colour), width: l.width, dash: l.dash, points: { show: false } }))],
       axes: [
         axis("frequency before demodulation, Hz", LOG),
@@ -322,7 +322,7 @@ export function spectrumPlot(box, { band, banded, harmonic }) {
 const DEEPEST = 1e5; // below the top: what a low-pass leaves beyond its band is digits, not signal
 
 function spread(a, b) {
-  if (!(a > 0)) return [0.1, 10];
+  if (!(a > 0 && Number.isFinite(b))) return [0.1, 10];
   const [low, high] = [Math.max(a, b / DEEPEST) / 1.5, b * 1.5];
   const widen = Math.sqrt(Math.max(1, 10 / (high / low)));
   return [low / widen, high * widen];
