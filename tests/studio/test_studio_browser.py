@@ -225,6 +225,7 @@ def test_06_the_test_sheet_is_edited_and_what_is_no_number_is_not_saved(page: Pa
     page.get_by_role("button", name="Cancel").click()
     expect(page.get_by_role("button", name="Nothing changed")).to_be_visible(timeout=PATIENCE)
     assert load_model_dir(server.folder / "model").history[-1].action == "edit"  # type: ignore[attr-defined]
+    idle(page)  # what was cancelled ends at its next step; until then the page is busy
     page.locator("#main").focus()
     page.keyboard.press("u")
     expect(page.get_by_label("K0 of A1, ug")).to_have_value(old, timeout=PATIENCE)
