@@ -257,4 +257,4 @@ def test_saturation_of_the_output_is_recognised() -> None:
     assert d.found == ("saturation",)
     first = json.loads(json.dumps(d.as_json(), allow_nan=False))["ranking"][0]  # certain: no infinity in JSON
     assert (first["effect"], first["p_value"], first["log10_p"]) == ("saturation", 0.0, None)
-    assert "&lt; 10⁻¹⁶" in d._repr_html_()
+    assert "10⁻¹⁶" in d._repr_html_()

@@ -50,7 +50,17 @@ const labelled = (u, splits) => {
   return splits.map((v, k) => (shown[k] ? v : null));
 };
 /** Of a logarithmic axis: lines and ticks stand at its labels alone. */
+// uPlot's own division of a logarithmic axis has no end where a limit is not a number that it can add to.
+function decades(u, axis, low, high) {
+  const found = [];
+  if (!(low > 0 && Number.isFinite(high))) return found;
+  for (let e = Math.floor(Math.log10(low)); e <= Math.log10(high); e++)
+    for (let m = 1; m < 10; m++) if (m * 10 ** e >= low * (1 - 1e-9) && m * 10 ** e <= high * (1 + 1e-9)) found.push(m * 10 ** e);
+  return found;
+}
+
 export const LOG = {
+  splits: decades,
   values: logValues,
   filter: (u, splits) => splits, // logValues says which have room
   grid: { stroke: () => colour("grid"), width: 1, filter: labelled },
