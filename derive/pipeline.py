@@ -13,7 +13,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 
-import sympy
 import sympy as sp
 from sympy import QQ
 from sympy.polys.orderings import lex
@@ -183,7 +182,7 @@ def _complete(
     text = "".join(f"{name}\0{files[name]}\0" for name in sorted(files))
     manifest: dict[str, object] = {
         "format": FORMAT,
-        "sympy": sympy.__version__,
+        "sympy": sp.__version__,
         "digest": hashlib.sha256(text.encode()).hexdigest(),
         **({} if form == PAPERS else {"form": _told(form)}),
         "effects": [e.id for e in effects],

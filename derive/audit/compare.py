@@ -15,11 +15,9 @@ from functools import cache
 from importlib import resources
 from typing import Any
 
-import sympy as sp
 from sympy import QQ
 from sympy.polys.rings import PolyElement, PolyRing
 
-from derive import stages
 from derive.audit.reading import (
     ANGLE_RING,
     COMBINATIONS,
@@ -28,11 +26,10 @@ from derive.audit.reading import (
     REDUNDANT_MOTION,
     Reader,
     generators,
-    ring_of,
 )
+from derive.pipeline import starred
 from derive.propagation import Collected, motion_numbers
-from derive.stages import PAPER
-from derive.symbols import SECOND_ORDER, symbol
+from derive.symbols import symbol
 
 Monomial = tuple[int, ...]
 Rational = Any
@@ -263,36 +260,13 @@ ANALYTICAL = tuple(e for e in PRINTED if e.number in ("18", "19"))
 SIMPLIFIED = tuple(e for e in PRINTED if e.number in ("43", "45", "47"))
 
 
-_FORCES = ("f_x", "f_y", "f_z")
-_FULL = ring_of((*_FORCES, "vartheta_x", "vartheta_y", "vartheta_z", *SECOND_ORDER))
-_POWERS = {
-    r"\vartheta_{jz}^*": (0, 1, 0),
-    r"\vartheta_{jy}^*": (0, 0, 1),
-    "K_{j2}^*": (2, 0, 0),
-    "K_{j4}^*": (1, 0, 1),
-    "K_{j5}^*": (0, 2, 0),
-    "K_{j6}^*": (1, 1, 0),
-    "K_{j7}^*": (0, 0, 2),
-    "K_{j8}^*": (0, 1, 1),
-}
-"""Powers of f_x, f_y, f_z that the left sides of Eq. 5b multiply in Eq. 5a."""
-_NEGATIVE = r"\vartheta_{jy}^*"
-"""The one that Eq. 5a subtracts."""
-
-
 def derived_transducer() -> dict[str, PolyElement]:
     """Eq. 5b by its left sides, from the stages of the derivation: the coefficients of Eq. 5a, without K_0."""
-    x, y, z = (
-        stages.turn(sp.eye(3)[:, n], -symbol(f"vartheta_{k}"), PAPER.rotation) for n, k in enumerate("xyz")
-    )
-    turned = z * y * x * sp.Matrix([symbol(n) for n in _FORCES])
-    f = stages.SensedForce(*(_FULL.from_expr(sp.expand(e)) for e in turned))
-    output = stages.transducer(f, f, generators(_FULL) | {"K0": _FULL.zero})
-    rows: dict[tuple[int, ...], dict[tuple[int, ...], Rational]] = {}
-    for m, c in output.terms():
-        rows.setdefault(m[:3], {})[m[3:]] = c
-    by_left = {left: ANGLE_RING.from_dict(rows[powers]) for left, powers in _POWERS.items()}
-    return by_left | {_NEGATIVE: -by_left[_NEGATIVE]}
+
+    def left(name: str) -> str:
+        return f"K_{{j{name[1:]}}}^*" if name.startswith("K") else rf"\vartheta_{{j{name[-1]}}}^*"
+
+    return {left(name): ANGLE_RING.from_expr(e) for name, e in starred().items()}
 
 
 def derived_motion() -> dict[str, PolyElement]:
