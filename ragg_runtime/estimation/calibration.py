@@ -328,6 +328,12 @@ class OffSheet:
         }
 
 
+def to_nominal(model: Model, instrument: Instrument, c: Calibration) -> Array:
+    """(n_base,): how far the nominal values are from the calibrated ones, in scales: the prior's centre."""
+    scale = np.array([q.scale for q in c.columns])
+    return np.asarray((vector(model, instrument)[c.index] - c.p[c.index]) / scale)
+
+
 def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffSheet]:
     """The instrument's parameters that ended more than :data:`FAR` sigmas from their sheet, farthest first."""
     sheet = vector(model, instrument)

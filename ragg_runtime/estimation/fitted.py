@@ -325,7 +325,8 @@ def about(
     candidates: bool = True,
 ) -> Fitted:
     """The evidence about a calibration, however it was found; of its parameters alone without ``candidates``."""
-    prepared = whitening.prepare(model, instrument, observations, c, candidates=candidates)
+    at = regressors.Point(model, instrument, c.p, with_candidates=candidates)
+    prepared = tuple(PreparedFlight(o, own, at) for o, own in zip(observations, c.noise, strict=True))
     triangles, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
     return Fitted(
         model=model,
@@ -335,7 +336,7 @@ def about(
         prepared=prepared,
         triangles=triangles,
         sums=sums,
-        to_nominal=whitening.to_nominal(model, instrument, c),
+        to_nominal=calibration.to_nominal(model, instrument, c),
         scales=tuple(scale_factor(model, c.p, o.place) for o in observations),
     )
 

@@ -26,13 +26,9 @@ from ragg_runtime.estimation.observation import (
 )
 from ragg_runtime.estimation.regressors import Point, linearised
 from ragg_runtime.estimation.unknown_gradient import Window
-from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import Record
 
 if TYPE_CHECKING:
-    from ragg_runtime.estimation.calibration import Calibration
     from ragg_runtime.estimation.noise import NoiseModel
 
 Array = NDArray[np.float64]
@@ -319,25 +315,6 @@ def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
         tuple(empty if t is None else t for t in triangles),
         np.stack([np.broadcast_to(x, size) for x in totals]),
     )
-
-
-def prepare(
-    model: Model,
-    instrument: Instrument,
-    observations: Sequence[Observation],
-    c: Calibration,
-    *,
-    candidates: bool,
-) -> tuple[PreparedFlight, ...]:
-    """Every flight about the calibrated parameters."""
-    at = Point(model, instrument, c.p, with_candidates=candidates)
-    return tuple(PreparedFlight(o, noise, at) for o, noise in zip(observations, c.noise, strict=True))
-
-
-def to_nominal(model: Model, instrument: Instrument, c: Calibration) -> Array:
-    """(n_base,): how far the nominal values are from the calibrated ones, in scales: the prior's centre."""
-    scale = np.array([q.scale for q in c.columns])
-    return np.asarray((vector(model, instrument)[c.index] - c.p[c.index]) / scale)
 
 
 @dataclass(frozen=True)

@@ -10,11 +10,11 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.calibration import as_said, room_taken
+from ragg_runtime.estimation.calibration import as_said, room_taken, to_nominal
 from ragg_runtime.estimation.fitted import Fitted, calibrated
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.thinning import certain
-from ragg_runtime.estimation.whitening import excerpt, to_nominal
+from ragg_runtime.estimation.whitening import excerpt
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model.model import Model

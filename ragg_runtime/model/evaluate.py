@@ -11,7 +11,8 @@ from ragg_runtime.base.errors import at, check_keys
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.instrument.units import EOTVOS, Units, units
-from ragg_runtime.model.model import Chain, Model
+from ragg_runtime.model.chain import Chain
+from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]

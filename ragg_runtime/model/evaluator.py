@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import stretches
 from ragg_runtime.instrument.layout import PAPER, Layout
+from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.compiler import BuildError, build, load
-from ragg_runtime.model.model import Chain
 
 Array = NDArray[np.float64]
 Series = Sequence[ArrayLike | None] | NDArray[np.floating]

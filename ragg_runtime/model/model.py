@@ -16,30 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.layout import PAPER, Layout
+from ragg_runtime.model.chain import Chain
 
 if TYPE_CHECKING:
     from ragg_runtime.model.evaluator import Evaluator
 
 Array = NDArray[np.float64]
-
-
-class Chain(Protocol):
-    """A generated module: one accelerometer's V_j and its derivatives (see ``generated/chain.py``)."""
-
-    INPUTS: tuple[str, ...]
-    PARAMETERS: tuple[tuple[str, int], ...]
-    ROWS: tuple[tuple[str, bool], ...]
-    SIZE: int
-
-    def accelerometer(
-        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
-    ) -> Array: ...
-
-    def derivatives(
-        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
-    ) -> Array: ...
-
-    def values_of(self, j: int, p: Array) -> Array: ...
 
 
 class Recogniser(Protocol):

@@ -16,9 +16,10 @@ from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.angular_acceleration import Derivative
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT, SI_UNITS, is_disc_angle
+from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.evaluate import named, scale_factor
 from ragg_runtime.model.lateness import late
-from ragg_runtime.model.model import Chain, Model
+from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import SPIN, Record, phase
 
 Array = NDArray[np.float64]
