@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.signals.demodulate import CUTOFF as HALF_AMPLITUDE
 from ragg_runtime.signals.demodulate import low_pass
-from ragg_runtime.signals.fir import Series, convolved, thinned
+from ragg_runtime.signals.fir import Series, convolved
 
 Array = NDArray[np.float64]
 
@@ -111,13 +111,6 @@ class Demodulator:
         ends = [(0, 0)] * (x.ndim - 1) + [(self.before, self.ahead)]
         padded: Series = np.pad(x, ends)
         return convolved(padded, self.taps)
-
-    def thinly_passed(self, x: Series, rows: slice, every: int) -> Series:
-        """(..., n): of :meth:`low_passed` the first of some samples and every so many further."""
-        before, after = max(0, self.before - rows.start), max(0, rows.stop + self.ahead - x.shape[-1])
-        padded: Series = np.pad(x, [(0, 0)] * (x.ndim - 1) + [(before, after)])
-        first = rows.start + before - self.before
-        return thinned(padded[..., first : rows.stop + before + self.ahead], self.taps, every)
 
 
 def fir(rate: float, cutoff: float = HALF_AMPLITUDE) -> Demodulator:
