@@ -23,6 +23,7 @@ from ragg_runtime.estimation.fitted import FITTED_BLOCKS, HELD_OUT_BLOCKS, Fitte
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf, log_sf_f
 from ragg_runtime.identification.likelihood_ratio import TESTABLE, log_bayes
 from ragg_runtime.identification.omnibus import Found, Omnibus, Remainder
+from ragg_runtime.identification.parameters import physical_columns
 
 Array = NDArray[np.float64]
 
@@ -107,12 +108,9 @@ class Regression:
 
 def _absent(f: Fitted) -> Array:
     """(n_base,): how far the neutral values of effects, and the nominal ones of the instrument, are from the calibrated, in scales."""
-    c, found = f.calibration, f.to_nominal.copy()
-    for n, column in enumerate(c.columns):
-        effect = f.model.effect(column.effect) if column.effect is not None else None
-        for q in effect.parameters if effect is not None else ():
-            if q.physical is not None and column.name == f"{column.effect}.{q.name}":
-                found[n] = ((q.neutral or 0.0) * column.unit_factor - c.p[c.index[n]]) / column.scale
+    found = f.to_nominal.copy()
+    for n, c, q in physical_columns(f):
+        found[n] = ((q.neutral or 0.0) * c.unit_factor - f.calibration.p[f.calibration.index[n]]) / c.scale
     return found
 
 

@@ -110,8 +110,8 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(evidence.rivals()), limits)
         ),
         complaint=outcome.complaint,
-        remark=found.remark(words(apart), evidence.spent),
-        reason=found.reason(words(apart), evidence.spent),
+        remarks=tuple(found.remarks(words(apart), evidence.spent)),
+        reasons=tuple(found.reasons(words(apart), evidence.spent)),
         disagree=apart,
         tests=round(first.field.effective_count, 3),
         explained=outcome.explained,
@@ -158,7 +158,7 @@ def _beside_rest(r: Ranked, o: Outcome, covariance: Array) -> Ranked:
     every = [*c.columns, *(f.candidates[k] for k in o.given)]
     E = [k for k, q in enumerate(every) if q.effect == r.effect]
     columns = [every[k] for k in E]
-    values = (o.robust.value - o.robust.regression.centre)[E]
+    values = (o.robust.value - o.robust.regression.absent)[E]
     instant = [q for q in r.parameters if q.name == "t_step"]
     own = covariance[np.ix_(E, E)]
     return replace(

@@ -12,7 +12,7 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.regressors import Column, spelt
 from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.model.evaluate import named
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import EffectParameter, Model
 
 Array = NDArray[np.float64]
 
@@ -182,15 +182,7 @@ def calibrated(f: Fitted, effect: str) -> tuple[tuple[ParameterValue, ...], tupl
     )
 
 
-def headlines(
-    parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]
-) -> tuple[ParameterValue, ...]:
-    """One value a parameter: of its combinations, or single values, the one that stands out most; known ones (an instant) first."""
-    every: dict[str, list[ParameterValue]] = {}
-    for q in (*combinations, *parameters):
-        every.setdefault(q.name.rpartition(" ")[2], []).append(q)
-    found = []
-    for same in every.values():
-        among = [q for q in same if q.weights] or same
-        found.append(max(among, key=lambda q: abs(q.value) / q.std if q.std > 0.0 else np.inf))
-    return tuple(found)
+def physical_columns(f: Fitted) -> list[tuple[int, Column, EffectParameter]]:
+    """The fitted columns of effects whose parameter has one physical size, each with its place and that parameter."""
+    sizes = {f"{e.id}.{q.name}": q for e in f.model.effects for q in e.parameters if q.physical is not None}
+    return [(n, c, sizes[c.name]) for n, c in enumerate(f.calibration.columns) if c.name in sizes]

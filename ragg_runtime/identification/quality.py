@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.identification.ranking import Ranked
-from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.identification.result import Diagnosis, Reason
 from ragg_runtime.io import Flight
 from ragg_runtime.screening.repeated import with_derived_acceleration
 
@@ -42,12 +42,12 @@ def heed_flags(
     if not flags or d.verdict == "adequate":
         return d
     several = len(flights) > 1
-    reasons = [f"{x.name}: {f.reason}" if several else f.reason for x, f in flags]
-    said = "; ".join([*reasons, *([] if d.reason is None else [d.reason])])
+    noted = (Reason(f"{x.name}: {f.reason}" if several else f.reason) for x, f in flags)
+    reasons = (*noted, *d.reasons)
     odd = [f for _, f in flags if f.open]
     if not odd or (d.found and all(set(d.found) <= set(f.effects) for f in odd)):
-        return replace(d, reason=said)
-    return replace(d, verdict="unexplained", found=(), groups=(), reason=said)
+        return replace(d, reasons=reasons)
+    return replace(d, verdict="unexplained", found=(), groups=(), reasons=reasons)
 
 
 def _without_feigned(
@@ -72,7 +72,7 @@ def _without_feigned(
     said = f"{', '.join(alike)}: no more than what the steps of {', '.join(coarse)} feign, and not claimed"
     verdict = d.verdict if kept else "adequate" if d.verdict == "missing-effect" else "unexplained"
     groups = tuple(g for g in d.groups if g.effects[0] in kept)
-    return replace(d, verdict=verdict, found=kept, groups=groups, reason=said)
+    return replace(d, verdict=verdict, found=kept, groups=groups, reasons=(Reason(said),))
 
 
 def _rounded_again(x: Flight, residual: NDArray[np.float64]) -> Flight:

@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.regressors import Column
-from ragg_runtime.estimation.scores import INDISTINGUISHABLE, Error, finite
+from ragg_runtime.estimation.scores import Error, finite
 from ragg_runtime.identification import likelihood_ratio, probability, selection, sheet
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.parameters import ParameterValue, parameter_values, visible_combinations
@@ -252,27 +251,6 @@ def list_detectable(f: Fitted, field: Field) -> list[Detectable]:
                 size = 3.0 / norm * c.scale / c.unit_factor
                 rows.append(Detectable(effect=e, name=name.split(".", 1)[1], size=float(size), unit=c.unit))
     return rows
-
-
-def other_accelerometers(
-    f: Fitted, effect: str, own: Sequence[tuple[int, Column]], columns: Sequence[tuple[int, Column]]
-) -> list[list[tuple[int, Column]]]:
-    """The same parameters of other accelerometers that account for the same, each with its place among the candidates.
-
-    ``own`` are those that were found, ``columns`` all of the effect.
-    """
-    field = selection.field_of(f, [effect])
-    mine, names = {c.accelerometer for _, c in own}, {c.name for _, c in own}
-
-    def chi2(block: Sequence[tuple[int, Column]]) -> float:
-        return likelihood_ratio.explained(field.P, [n for n, _ in block], field.floor)[0]
-
-    found = []
-    for a in range(1, f.instrument.layout.size + 1):
-        other = [(n, c) for n, c in columns if c.accelerometer == a and c.name in names]
-        if a not in mine and other and chi2(own) - chi2(other) < INDISTINGUISHABLE:
-            found.append(other)
-    return found
 
 
 def weighed(field: Field, steps: Sequence[Taken]) -> Probabilities:

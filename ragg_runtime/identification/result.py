@@ -45,8 +45,8 @@ class Diagnosis:
     coefficients: Array
     next_motion: tuple[Proposal, ...]
     complaint: str | None = None
-    remark: str | None = None
-    reason: str | None = None
+    remarks: tuple[str, ...] = ()
+    reasons: tuple[Reason, ...] = ()
     off_sheet: tuple[OffSheet, ...] = ()
     credible_set: tuple[tuple[str, ...], ...] = ((),)
     holds: Evidence | None = None
@@ -62,6 +62,16 @@ class Diagnosis:
     def converged(self) -> bool:
         """Whether the calibration with what was chosen in the model has arrived; if not, ``complaint`` says why."""
         return self.complaint is None
+
+    @property
+    def remark(self) -> str | None:
+        """What is wrong with the record, or how it is disturbed."""
+        return "; ".join(self.remarks) or None
+
+    @property
+    def reason(self) -> str | None:
+        """In one sentence, why the verdict is not ``adequate``, and what is odd about the record."""
+        return "; ".join(r.text for r in self.reasons) or None
 
     @property
     def remains(self) -> bool:
@@ -134,6 +144,7 @@ class Diagnosis:
             "verdict": self.verdict,
             "converged": self.converged,
             "reason": self.reason,
+            "notes": [r.text for r in self.reasons if not r.is_verdict],
             "remark": self.complaint or self.remark,
             "off_sheet": [x.as_json() for x in self.off_sheet],
             "ranking": [{"place": n, **r.as_json()} for n, r in enumerate(self.ranking, 1)],
@@ -158,6 +169,14 @@ class Diagnosis:
             "next_motion": [p.as_json() for p in self.next_motion],
             "detectable": [{"effect": s.effect, "three_sigma": str(s)} for s in self.sizes],
         }
+
+
+@dataclass(frozen=True)
+class Reason:
+    """A part of why a verdict is what it is; ``is_verdict``: it only says the verdict itself, which a headline does, too."""
+
+    text: str
+    is_verdict: bool = False
 
 
 @dataclass(frozen=True)

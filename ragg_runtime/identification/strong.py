@@ -25,6 +25,7 @@ from ragg_runtime.identification import contenders, selection
 from ragg_runtime.identification import steps as special
 from ragg_runtime.identification.contenders import Contest, Extend
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
+from ragg_runtime.identification.parameters import physical_columns
 from ragg_runtime.identification.selection import Choice, Field, field_of, testable_effects
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
@@ -156,19 +157,13 @@ ROOM = 0.1
 
 def impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
     """Those of the effects, all in the fitted model, whose parameter has a size that it cannot have."""
-    c = f.calibration
-    found = []
-    for e in effects:
-        effect = f.model.effect(e)
-        for q in effect.parameters if effect is not None else ():
-            for n, column in enumerate(c.columns):
-                if q.physical is None or column.name != f"{e}.{q.name}":
-                    continue
-                true = q.physical * column.unit_factor
-                off = abs(float(c.p[c.index[n]]) - true)
-                if off > CERTAIN * column.scale * np.sqrt(c.covariance[n, n]) + ROOM * abs(true):
-                    found.append(e)
-    return tuple(dict.fromkeys(found))
+    calibration, found = f.calibration, []
+    for n, c, q in physical_columns(f):
+        true = float(q.physical or 0.0) * c.unit_factor
+        off = abs(float(calibration.p[calibration.index[n]]) - true)
+        if off > CERTAIN * c.scale * np.sqrt(calibration.covariance[n, n]) + ROOM * abs(true):
+            found.append(c.effect)
+    return tuple(e for e in dict.fromkeys(effects) if e in found)
 
 
 def _best(

@@ -13,6 +13,7 @@ from ragg_runtime.identification import claims, comparison, omnibus, selection, 
 from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.line_rival import LineRival, Steady, line_rival
 from ragg_runtime.identification.omnibus import Remainder
+from ragg_runtime.identification.result import Reason
 from ragg_runtime.identification.search import Evidence, Outcome, explained_by
 from ragg_runtime.identification.selection import Field
 
@@ -94,47 +95,49 @@ class Conclusion:
         loud = self.outcome.target.calibration.excess > QUIET
         return self.verdict == "unexplained" or (self.remains and loud)
 
-    def remark(self, apart: str | None, spent: bool) -> str | None:
+    def remarks(self, apart: str | None, spent: bool) -> list[str]:
         """What is wrong with the record, or what else than the effects found would do, or how the record is disturbed."""
         doubt = apart or self.outcome.explained.complaint
         if doubt is not None:
-            return doubt
+            return [doubt]
         if self.line is not None:
-            return self.line.words
+            return [self.line.words]
         disturbed = comparison.disturbed(self.outcome.target)
         said = [s.words for s in self.steady]
         said += [f"the search was ended after {strong.FITS} fits"] if spent and self.remains else []
-        return "; ".join([*said, *([] if disturbed is None else [disturbed])]) or None
+        return [*said, *([] if disturbed is None else [disturbed])]
 
-    def reason(self, apart: str | None, spent: bool) -> str | None:
-        """In one sentence, why the verdict is not ``adequate``, and what is odd about the record."""
-        remark = self.remark(apart, spent)
+    def reasons(self, apart: str | None, spent: bool) -> list[Reason]:
+        """Why the verdict is not ``adequate``, and what is odd about the record."""
+        remarks = [Reason(text) for text in self.remarks(apart, spent)]
         if self.verdict == "adequate" or apart or self.line or self.outcome.explained.complaint:
-            return remark
-        sure = "is sure" if len(self.claims) == 1 else "are sure"
-        how = sure if self.remains else "is missing" if len(self.claims) == 1 else "are missing"
-        said = [f"{listed(self.claims)} {how}"] if self.claims else []
+            return remarks
+        found = []
+        if self.claims:
+            sure = "is sure" if len(self.claims) == 1 else "are sure"
+            how = sure if self.remains else "is missing" if len(self.claims) == 1 else "are missing"
+            found.append(Reason(f"{listed(self.claims)} {how}", is_verdict=True))
         if self.remains:
-            said.append(self._left())
+            found += self._left()
         if self.open:
-            said.append(
-                f"the record does not suffice to say whether {listed(self.open[:3], 'or')} is there, too"
-            )
-        return "; ".join([*said, *([] if remark is None else [remark])])
+            names = listed(self.open[:3], "or")
+            found.append(Reason(f"the record does not suffice to say whether {names} is there, too"))
+        return [*found, *remarks]
 
-    def _left(self) -> str:
+    def _left(self) -> list[Reason]:
         """What remains, in words."""
         o = self.outcome
         terms = [f"{t.term.harmonic} x {t.term.product}" for x in self.left.searches for t in x.terms]
         if self.rival and terms:
-            return f"{listed(o.effects)} would do, but no better than a generic term, {terms[0]}"
-        rms = o.scored.whole.rms_Eo
-        found = [] if o.complaint is None else [o.complaint]
+            return [Reason(f"{listed(o.effects)} would do, but no better than a generic term, {terms[0]}")]
+        found = [] if o.complaint is None else [Reason(o.complaint)]
         if terms:
-            found.append(f"what remains is more than noise, mostly {terms[0]}")
-        return "; ".join(found) or (
-            f"what remains, {rms:.3g} Eo, is more than the noise of {o.noise_floor:.3g} Eo"
-        )
+            found.append(
+                Reason(f"what remains is more than noise, mostly {terms[0]}", is_verdict=True),
+            )
+        rms = o.scored.whole.rms_Eo
+        noise = f"what remains, {rms:.3g} Eo, is more than the noise of {o.noise_floor:.3g} Eo"
+        return found or [Reason(noise, is_verdict=True)]
 
 
 OPEN = 0.1

@@ -283,7 +283,7 @@ def verdict_headline(d: Json) -> str:
     terms = d["unexplained"]["terms"]
     mostly = f", mostly at {term_label(terms[0])}" if terms else ""
     left = excess(after["rms_Eo"], noise["rms_Eo"])
-    if not d["converged"]:
+    if not d["converged"] and d["verdict"] != "partly-explained":
         return f"No verdict: {d['remark']!s}."
     if d["verdict"] == "adequate":
         return (
@@ -401,7 +401,8 @@ def describe_diagnosis(d: Json, then: str = "") -> Sections:
 
 def _remarks(d: Json) -> list[str]:
     """What belongs beside the verdict: its reason, groups, flights that disagree, from when on the model fails."""
-    said = [f"Note: {text}." for text in _reasons(d)] if d["converged"] else []
+    judged = d["converged"] or d["verdict"] == "partly-explained"
+    said = [f"Note: {text}." for text in d["notes"]] if judged else []
     for g in d["groups"]:
         main, *others = map(str, g["effects"])
         if others and not g["name"]:
@@ -430,13 +431,6 @@ def _remarks(d: Json) -> list[str]:
             " claimed: probabilities compare the effects of the catalogue only, and the cause may be another one."
         )
     return said
-
-
-def _reasons(d: Json) -> list[str]:
-    """The parts of a verdict's reason that the headline does not say already."""
-    parts = str(d["reason"] or "").split("; ")
-    said = (" sure", " is missing", " are missing")
-    return [x for x in parts if x and not x.startswith("what remains") and not x.endswith(said)]
 
 
 def _evidence(d: Json) -> Sections:
