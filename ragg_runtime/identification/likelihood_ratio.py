@@ -166,13 +166,17 @@ def effective_number(effects: Sequence[Sequence[Way]], level: float) -> float:
     if not effects:
         return 1.0
     noise = np.random.default_rng(0).standard_normal((len(effects[0][0].Q), DRAWS))
-    least = np.ones(DRAWS)
+    largest: dict[
+        tuple[int, int], Array
+    ] = {}  # of tests of one rank and number the largest has the least p-value
     for ways in effects:
         along = np.concatenate([w.Q for w in ways], axis=1).T @ noise
         ranks = np.array([w.Q.shape[1] for w in ways])
-        chi2 = np.add.reduceat(along**2, np.cumsum(ranks) - ranks, axis=0)
-        p = special.chdtrc(ranks[:, None], chi2) * np.array([w.count for w in ways])[:, None]
-        least = np.minimum(least, np.min(p, axis=0))
+        every = np.add.reduceat(along**2, np.cumsum(ranks) - ranks, axis=0)
+        for w, rank, chi2 in zip(ways, ranks, every, strict=True):
+            largest[rank, w.count] = np.maximum(largest.get((rank, w.count), 0.0), chi2)
+    p = [special.chdtrc(rank, chi2) * count for (rank, count), chi2 in largest.items()]
+    least = np.min([np.ones(DRAWS), *p], axis=0)
     x = float(np.quantile(least, level))
     return max(1.0, float(np.log1p(-level) / np.log1p(-min(x, level))))
 
