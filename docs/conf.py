@@ -100,7 +100,7 @@ def _made(app: Sphinx, config: Any) -> None:
     if not (reports / "report.html").exists():
         shutil.rmtree(made / "extra", ignore_errors=True)
         reports.parent.mkdir(parents=True)
-        demo.main(reports, build.FLIGHT)
+        demo.run_demo(reports, build.FLIGHT)
         shutil.rmtree(reports / "model")
 
 

@@ -20,4 +20,4 @@ if __name__ == "__main__":
     else:
         if arguments.output.exists():
             shutil.rmtree(arguments.output)
-        demo.main(arguments.output, FLIGHT, "make demo")
+        demo.run_demo(arguments.output, FLIGHT)

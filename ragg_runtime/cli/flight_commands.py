@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.cli import shared
 from ragg_runtime.cli.shared import (
     PLACE,
     Command,
     Finite,
+    Later,
     OutputFile,
+    Source,
     command_line,
     conclude,
     flights_argument,
@@ -24,16 +25,21 @@ from ragg_runtime.cli.shared import (
     mapping_option,
     model_argument,
     next_command,
-    origin_of,
     read,
     series_option,
     under_way,
+    working,
 )
+from ragg_runtime.report.page import Origin
+from ragg_runtime.wording import describe, describe_other
 
 if TYPE_CHECKING:
+    from ragg_runtime import api, next_flight
     from ragg_runtime.api import Added, Loaded
     from ragg_runtime.identification.motion_design import Criterion
-    from ragg_runtime.next_flight import NextFlight
+    from ragg_runtime.report import pages
+else:
+    api, next_flight, pages = map(Later, ("api", "next_flight", "report.pages"))
 
 
 @click.command(cls=Command, report=True)
@@ -53,57 +59,28 @@ def compare(
     frozen: bool,
 ) -> None:
     """Show how far the model is from flights, and where."""
-    from ragg_runtime import api
-    from ragg_runtime.wording import describe
-
     m = load(model_dir)
-    if frozen or calibration == "frozen":
-        _compare_frozen(m, flights, mapping)
-        return
+    frozen = frozen or calibration == "frozen"
+    odd = _calibration_notes(m) if frozen else []
     records = read(m, flights, mapping)
-    under_way("calibrating and comparing")
-    with progress.shown("compare", sum(map(len, records))):
-        c = api.compare(m, records, ladder=ladder)
-
-    def page() -> str:
-        from ragg_runtime.report.pages import compare_page
-
-        return compare_page(c, origin_of(m, records))
-
-    result = c.as_json()
-    then = next_command("diagnose", model_dir, records, mapping)
-    said = describe.describe_comparison(result, [x.name for x in records], then)
-    conclude(result | api.origin(m, records, command_line()), said, page, records)
-
-
-def _compare_frozen(m: Loaded, flights: Sequence[Path], mapping: Path | None) -> None:
-    """``ragg compare --frozen``."""
-    from ragg_runtime import api
-    from ragg_runtime.wording import describe
-
-    odd = _calibration_notes(m)
-    records = read(m, flights, mapping)
-    under_way("comparing with the saved calibration")
-    with progress.shown("compare", sum(map(len, records))):
-        h = api.compare_frozen(m, records)
-
-    def page() -> str:
-        from ragg_runtime.report.pages import compare_page
-
-        title = f"{m.name}, frozen, and {', '.join(x.name for x in records)}"
-        return compare_page(h.comparison, origin_of(m, records, title, odd), h)
-
-    result = h.as_json()
-    then, again = (next_command(v, m.directory.path, records, mapping) for v in ("diagnose", "calibrate"))
-    said = describe.describe_held(result, [x.name for x in records], then, again)
-    origin = api.origin(m, records, command_line()) | {"notes": [*odd, *api.notes(m, records)]}
-    conclude(result | origin, said, page, records)
+    names = [x.name for x in records]
+    then, again = (next_command(v, model_dir, records, mapping) for v in ("diagnose", "calibrate"))
+    with working("comparing" if frozen else "calibrating and comparing", "compare", records):
+        held = api.compare_frozen(m, records) if frozen else None
+        c = api.compare(m, records, ladder=ladder) if held is None else held.comparison
+    if held is None:
+        result = c.as_json()
+        said = describe.describe_comparison(result, names, then)
+    else:
+        result = held.as_json()
+        said = describe.describe_held(result, names, then, again)
+    title = f"{m.name}, frozen, and {', '.join(names)}" if frozen else None
+    page = lambda origin: pages.compare_page(c, origin, held)  # noqa: E731
+    conclude(result, said, Source(m, records, notes=odd), page, title)
 
 
 def _calibration_notes(m: Loaded) -> list[str]:
     """What is odd about the saved calibration, also on stderr."""
-    from ragg_runtime import api
-
     odd = api.calibration_notes(m)
     for note in odd:
         click.echo(printable(f"note: {note}"), err=True)
@@ -117,65 +94,44 @@ def _calibration_notes(m: Loaded) -> list[str]:
 @mapping_option
 def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], mapping: Path | None) -> None:
     """Find which physical effect is missing."""
-    from ragg_runtime import api
-    from ragg_runtime.wording import describe
-
     m = load(model_dir)
     allowed = api.motion_limits(m, limits)
     records = read(m, flights, mapping)
-    under_way("calibrating, then testing every effect of the catalogue")
-    with progress.shown("diagnose", sum(map(len, records))):
+    with working("calibrating, then testing every effect of the catalogue", "diagnose", records):
         d = api.diagnose(m, records, allowed)
-
-    def page() -> str:
-        from ragg_runtime.report.pages import diagnose_page
-
-        return diagnose_page(d, origin_of(m, records))
-
     result = d.as_json()
     then = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
-    conclude(
-        result | api.origin(m, records, command_line()),
-        describe.describe_diagnosis(result, then),
-        page,
-        records,
-    )
+    said = describe.describe_diagnosis(result, then)
+    conclude(result, said, Source(m, records), lambda origin: pages.diagnose_page(d, origin))
 
 
 @click.command(cls=Command, report=True)
 @model_argument
-@click.argument("effect", shell_complete=shared.complete_addable)
+@click.argument("effect", shell_complete=shared.complete_effect)
 @click.argument("flights", type=PLACE, nargs=-1)
 @mapping_option
 def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | None) -> None:
     """Add an effect: derive again, calibrate, show the error."""
-    from ragg_runtime import api
-    from ragg_runtime.wording import describe
-
     m = load(model_dir)
     if shared.running().report_file is not None and not flights:
         raise UserError("a report of `add` needs a flight", remedy="name a flight file after the effect")
     records = read(m, flights, mapping) if flights else []
-    under_way(f"deriving the model with {effect}{', calibrating' if flights else ''}")
+    check = next_command("diagnose", model_dir, records, mapping)
 
     def tell(result: Added) -> None:
-        def page() -> str:
-            from ragg_runtime.report.pages import add_page
-
+        def page(origin: Origin) -> str:
             assert result.before is not None
             assert result.after is not None
             steps = [s.as_json() for s in result.loaded.directory.history]
-            origin = origin_of(result.loaded, records, f"{m.name}: {effect} added")
-            return add_page(steps, result.before, result.after, origin)
+            return pages.add_page(steps, result.before, result.after, origin)
 
         found = result.as_json()
-        then = next_command("diagnose", m.directory.path, records, mapping)
-        said = describe.describe_addition(found, [e.id for e in result.loaded.model.effects], then)
+        said = describe.describe_addition(found, [e.id for e in result.loaded.model.effects], check)
         with shared.before_change():
-            origin = api.origin(result.loaded, records, command_line(), before=m)
-            conclude(found | origin, said, page, records)
+            source = Source(result.loaded, records, before=m)
+            conclude(found, said, source, page, f"{m.name}: {effect} added")
 
-    with progress.shown("add", sum(map(len, records))):
+    with working(f"deriving the model with {effect}{', calibrating' if flights else ''}", "add", records):
         result = api.add(m, effect, records, tell)
     if not result.converged:
         shared.running().place()  # report and JSON say why; they are the result
@@ -183,8 +139,7 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
             "nothing was added: the model is as it was",
             where=", ".join(x.name for x in records),
             found=result.after.complaint if result.after else None,
-            remedy=f"see what else is missing: {next_command('diagnose', model_dir, records, mapping)}; "
-            "or what is wrong with the record",
+            remedy=f"see what else is missing: {check}; or what is wrong with the record",
         )
 
 
@@ -232,30 +187,20 @@ def next_motion(
 
     The motion separates effects that these flights cannot distinguish, or calibrates best.
     """
-    from ragg_runtime import api
-    from ragg_runtime.next_flight import calibration_flight, next_flight, write_motion
-    from ragg_runtime.wording import describe_other
-
     if run_sheet is not None and purpose != "calibration":
         raise UserError("a run sheet is of a calibration", where="--run-sheet", expected="--for calibration")
     m = load(model_dir)
     records, most = read(m, flights, mapping), api.motion_limits(m, limits)
-    found: NextFlight
-    if purpose == "calibration":
-        found = planned = calibration_flight(m, records, most, criterion=criterion, **options)
+    if purpose == "effects":
+        found = next_flight.next_flight(m, records, most, **options)
+    else:
+        found = planned = next_flight.calibration_flight(m, records, most, criterion=criterion, **options)
         if run_sheet is not None:
             shared.running().write(run_sheet, planned.run_sheet())
-    else:
-        found = next_flight(m, records, most, **options)
-    write_motion(found, Path(output))
+    next_flight.write_motion(found, Path(output))
     said = describe_other.describe_next_motion(found.as_json(), output)
-
-    def page() -> str:
-        from ragg_runtime.report.pages import info_page
-
-        return info_page(said, [found.motion()], origin_of(m, records))
-
-    conclude(found.as_json() | api.origin(m, records, command_line()), said, page)
+    page = lambda origin: pages.info_page(said, [found.motion()], origin)  # noqa: E731
+    conclude(found.as_json(), said, Source(m, records), page)
 
 
 @click.command(cls=Command, report=True)
@@ -276,28 +221,18 @@ def calibrate(
     mapping: Path | None,
 ) -> None:
     """Fit the parameters, with their uncertainty."""
-    from ragg_runtime import api
-    from ragg_runtime.next_flight import certify, read_plan
-    from ragg_runtime.wording import describe_other
-
     m = load(model_dir)
-    planned = None if plan is None else read_plan(plan)
+    planned = None if plan is None else next_flight.read_plan(plan)
     records = read(m, flights, mapping)
-    under_way("calibrating")
-    with progress.shown("compare", sum(map(len, records))):
+    with working("calibrating", "compare", records):
         kept = api.calibrate(m, records, save, mapping, drift=drift)
-    use = f"{next_command('compensate', m.directory.path, records)} -o compensated.csv --calibration frozen"
     found = kept.as_json()
     if planned is not None:
-        found["certificate"] = certify(planned, found["parameters"])
+        found["certificate"] = next_flight.certify(planned, found["parameters"])
+    use = f"{next_command('compensate', model_dir, records)} -o compensated.csv --calibration frozen"
     said = describe_other.describe_calibration(found, [x.name for x in records], use if kept.saved else "")
-
-    def page() -> str:
-        from ragg_runtime.report.pages import calibrate_page
-
-        return calibrate_page(said, kept.calibrated.fitted, origin_of(m, records))
-
-    conclude(found | api.origin(kept.loaded, records, command_line()), said, page, records)
+    page = lambda origin: pages.calibrate_page(said, kept.calibrated.fitted, origin)  # noqa: E731
+    conclude(found, said, Source(kept.loaded, records), page)
 
 
 @click.command(cls=Command, report=True)
@@ -343,9 +278,6 @@ def compensate(
 
     The result is the gravity gradient as the instrument saw it, with its uncertainty.
     """
-    from ragg_runtime import api
-    from ragg_runtime.wording import describe_other
-
     out = Path(output)
     api.check_output(out)
     calibration = "frozen" if frozen else calibration
@@ -358,23 +290,16 @@ def compensate(
     odd = _calibration_notes(m) if kept else []
     under_way(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
     records = api.read_for_compensation(m, flights, mapping)
-    under_way("compensating" if calibration in ("frozen", "online") else "calibrating and compensating")
-    with progress.shown("compare", sum(map(len, records))):
+    with working("compensating", "compare", records):
         c = api.compensate(
             m, records, calibration, demodulator, out, noise=noise, walk=walk, forget=forget or float("inf")
         )
     result = c.as_json()
     made = describe_other.describe_online if calibration == "online" else describe_other.describe_compensation
     said = made(result, output)
-
-    def page() -> str:
-        from ragg_runtime.report.pages import compensate_page
-
-        return compensate_page(said, c.series, origin_of(m, records, notes=odd))
-
-    notes = [*result.get("notes", ()), *odd, *api.notes(m, records)]
-    origin = api.origin(m, records, command_line()) | {"notes": notes}
-    conclude(result | {"output": str(out)} | origin, said, page, records)
+    source = Source(m, records, notes=[*result.get("notes", ()), *odd])
+    page = lambda origin: pages.compensate_page(said, c.series, origin)  # noqa: E731
+    conclude(result | {"output": str(out)}, said, source, page)
 
 
 @click.command(cls=Command, json=False)
@@ -394,8 +319,6 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
 
     The values are those of `ragg calibrate --save`, else of model.toml.
     """
-    from ragg_runtime import api
-
     if form is None:
         raise UserError(
             "say what to export",
@@ -433,8 +356,6 @@ def survey(
     mapping: Path | None,
 ) -> None:
     """Diagnose many flights, one by one."""
-    from ragg_runtime import api
-    from ragg_runtime.api import of_survey
     from ragg_runtime.survey import run
     from ragg_runtime.survey.result import check_place, parquet
 
@@ -451,14 +372,8 @@ def survey(
             progress=run.show_progress(),
             mapping=mapping,
         )
-    origin, about = of_survey(m, s, command_line())
-
-    def page() -> str:
-        from ragg_runtime.report.page import Origin
-        from ragg_runtime.report.pages import survey_page
-
-        return survey_page(s, Origin(**about))
-
+    origin, about = api.of_survey(m, s, command_line())
     if table_file is not None:
         shared.running().write(table_file, parquet(s.records))
-    conclude(s.as_json() | origin, s.sections(model_dir), page)
+    page = lambda _: pages.survey_page(s, Origin(**about))  # noqa: E731
+    conclude(s.as_json() | origin, s.sections(model_dir), page=page)

@@ -73,7 +73,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     try:
         for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
             os.environ.setdefault(name, "1")  # before NumPy is imported: its threads would turn idly
-        cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
+        words = sys.argv[1:] if arguments is None else list(arguments)
+        cli.main(args=words, prog_name="ragg", standalone_mode=False, obj=words)
     except UserError as error:
         click.echo(printable(f"ragg: {error}"), err=True)
         sys.exit(2)

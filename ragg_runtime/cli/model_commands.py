@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,9 @@ from ragg_runtime.cli.shared import (
     PLACE,
     Command,
     Finite,
+    Later,
     OutputFile,
+    Source,
     command_line,
     conclude,
     load,
@@ -23,9 +26,16 @@ from ragg_runtime.cli.shared import (
     series_option,
     under_way,
 )
+from ragg_runtime.report.page import Origin
+from ragg_runtime.wording import describe, describe_other
+from ragg_runtime.wording.sections import Section
 
 if TYPE_CHECKING:
+    from ragg_runtime import api
     from ragg_runtime.api import Loaded
+    from ragg_runtime.report import pages
+else:
+    api, pages = map(Later, ("api", "report.pages"))
 
 
 @click.command(cls=Command, json=False, hidden=True)
@@ -56,9 +66,6 @@ def derive(out: Path | None, check: bool) -> None:
 @mapping_option
 def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
     """Make a model directory from a test sheet."""
-    from ragg_runtime import api
-    from ragg_runtime.wording.sections import Section
-
     m = api.new(model_dir, source, mapping)
     for note in m.notes:
         click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
@@ -67,8 +74,7 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
         f"{place}: made; effects in the model: {', '.join(effects) or 'none'}",
         f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT",
     )
-    result = {"model": place, "effects": effects} | api.origin(m, (), command_line())
-    conclude(result, [Section(sentences=said)])
+    conclude({"model": place, "effects": effects}, [Section(sentences=said)], Source(m))
 
 
 @click.command(cls=Command)
@@ -76,7 +82,6 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
 def effects(identifier: str | None) -> None:
     """List the catalogue of effects; with ID, one in full."""
     from ragg_runtime.model.catalogue import effects as catalogue
-    from ragg_runtime.wording import describe_other
 
     found = catalogue()
     if identifier is None:
@@ -87,20 +92,17 @@ def effects(identifier: str | None) -> None:
 
 @click.command(cls=Command)
 @model_argument
-@click.argument("effect", shell_complete=shared.complete_present)
+@click.argument("effect", shell_complete=shared.complete_effect)
 def remove(model_dir: Path, effect: str) -> None:
     """Take an effect out of the model."""
-    from ragg_runtime import api
-    from ragg_runtime.wording.sections import Section
-
     before = load(model_dir)
 
     def tell(m: Loaded) -> None:
         left = [e.id for e in m.model.effects]
         text = f"removed {effect}; effects in the model: {', '.join(left) or 'none'}"
-        result = {"effect": effect, "effects": left} | api.origin(m, (), command_line(), before=before)
         with shared.before_change():
-            conclude(result, [Section(sentences=(text,))])
+            result = {"effect": effect, "effects": left}
+            conclude(result, [Section(sentences=(text,))], Source(m, before=before))
 
     api.remove(before, effect, tell)
 
@@ -111,19 +113,12 @@ def history(model_dir: Path) -> None:
     """Show the error after every step."""
     from ragg_runtime.base.provenance import provenance
     from ragg_runtime.model.directory import identity, load_model_dir
-    from ragg_runtime.wording import describe
 
     d = load_model_dir(model_dir)  # not derived: the steps of a model that no longer can be are shown, too
     steps = [s.as_json() for s in d.history]
-
-    def page() -> str:
-        from ragg_runtime.report.page import Origin
-        from ragg_runtime.report.pages import history_page
-
-        return history_page(steps, Origin(f"{d.path.name}: history", command_line(), ()))
-
     result = {"steps": steps, "provenance": provenance(command_line(), identity(d))}
-    conclude(result, describe.describe_history(steps), page)
+    page = lambda origin: pages.history_page(steps, origin)  # noqa: E731
+    conclude(result, describe.describe_history(steps), page=page, title=f"{d.path.name}: history")
 
 
 @click.command(cls=Command)
@@ -169,29 +164,27 @@ def simulate(
     **options: Any,
 ) -> None:
     """Simulate a flight, hidden effects on request."""
-    from ragg_runtime.api import mapping_of, origin
     from ragg_runtime.io import write_flight
     from ragg_runtime.simulate import simulated
-    from ragg_runtime.wording.sections import Section
 
     m = load(model_dir)
     under_way("simulating")
     flight = simulated(
-        m.instrument, hidden, mapping=mapping_of(m, mapping), no_gradient=not gradient, **options
+        m.instrument, hidden, mapping=api.mapping_of(m, mapping), no_gradient=not gradient, **options
     )
     write_flight(flight, output)
     text = f"{one_line(output)}: {len(flight.time)} samples at {flight.rate:g} Hz"
     result = {"output": output, "samples": len(flight.time), "rate_Hz": flight.rate, "effects": list(hidden)}
-    conclude(result | origin(m, (), command_line()), [Section(sentences=(text,))])
+    conclude(result, [Section(sentences=(text,))], Source(m))
 
 
 @click.command(cls=Command, json=False)
 @click.option("--output", type=PLACE, default=Path("ragg-demo"), show_default=True, help="Folder to make.")
 def demo(output: Path) -> None:
     """Find a hidden effect in a simulated flight, add it."""
-    from ragg_runtime.cli import demo as _demo
+    from ragg_runtime.cli.demo import run_demo
 
-    _demo.main(output, command=command_line())
+    run_demo(output)
 
 
 @click.command(cls=Command, report=True)
@@ -199,24 +192,20 @@ def demo(output: Path) -> None:
 @mapping_option
 def info(flight: Path, mapping: Path | None) -> None:
     """Show what a flight file holds, and what is assumed."""
+    from ragg_runtime.io import read_flights
     from ragg_runtime.io.info import PAPER_G, describe_flight
     from ragg_runtime.io.mapping import read_mapping
-    from ragg_runtime.wording import describe_other
 
     how = None if mapping is None else read_mapping(mapping)
     found = describe_flight(flight, how)
     said = describe_other.describe_flight_file(found.as_json())
 
-    def page() -> str:
-        from ragg_runtime.io import read_flights
-        from ragg_runtime.report.page import Origin
-        from ragg_runtime.report.pages import info_page
-
+    def page(origin: Origin) -> str:
         usable = not any(r.refused for r in found.records)
         records = read_flights(flight, PAPER_G, mapping=how) if usable else []
-        return info_page(said, records, Origin(flight.name, command_line(), [(found.path, found.sha256)]))
+        return pages.info_page(said, records, replace(origin, sources=[(found.path, found.sha256)]))
 
-    conclude(found.as_json(), said, page)
+    conclude(found.as_json(), said, page=page, title=flight.name)
 
 
 @click.command(cls=Command)
@@ -231,7 +220,6 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
     """
     from ragg_runtime.io.files import convert as _convert
     from ragg_runtime.io.mapping import read_mapping
-    from ragg_runtime.wording.sections import Section
 
     if mapping is not None and mapping.resolve() == target.resolve():
         raise UserError("OUT is the mapping itself", where=target, remedy="name another file")

@@ -3,32 +3,53 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import math
 import os
 import shlex
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+import tomllib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 from click.shell_completion import CompletionItem
 
+from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import Target
+from ragg_runtime.base.files import Target, read_text
+from ragg_runtime.base.provenance import provenance
+from ragg_runtime.report.page import Origin
+from ragg_runtime.wording.sections import Section, render_text
+
+
+class Later:
+    """A module that is imported when it is first used: help and completion are there at once."""
+
+    def __init__(self, name: str) -> None:
+        self._name = f"ragg_runtime.{name}"
+
+    def __getattr__(self, attribute: str) -> Any:
+        return getattr(import_module(self._name), attribute)
+
 
 if TYPE_CHECKING:
+    from ragg_runtime import api
     from ragg_runtime.api import Loaded
     from ragg_runtime.io import Flight
-    from ragg_runtime.report.page import Origin
-    from ragg_runtime.wording.sections import Section
+else:
+    api = Later("api")
 
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of stdout; where JSON is asked for there, it is all that is written there."""
 
 _RUN = f"{__name__}.run"
-_OF_A_MODEL = (("model.toml", "history.json", "calibration.json", "mapping.toml"), ("generated",))
-"""A model directory's own files, and folders with all in them."""
+GENERATED = "generated"
+_OF_A_MODEL = ("model.toml", "history.json", "calibration.json", "mapping.toml", GENERATED)
+"""A model directory's own files, and the folder with the derived code."""
 
 
 class OutputFile(click.Path):
@@ -46,7 +67,7 @@ class OutputFile(click.Path):
 
             if ending_of(path.name) is not None:
                 raise _over("a record", path, "a file that is not empty, with the ending of a flight file")
-            if path.name in _OF_A_MODEL[0] and (path.resolve().parent / "model.toml").is_file():
+            if path.name in _OF_A_MODEL and (path.resolve().parent / "model.toml").is_file():
                 raise _over("a file of a model directory", path, path.name)
         return name
 
@@ -142,8 +163,7 @@ class Command(click.Command):
                 "the result cannot be written: stdout is closed",
                 remedy="if it is not wanted, send it away: > /dev/null",
             )
-        inputs = [Path(os.fsdecode(p)) for p in _paths(self, ctx, outputs=False)]
-        targets = _opened(_paths(self, ctx, outputs=True), inputs)
+        targets = _opened(_paths(self, ctx, outputs=True), _paths(self, ctx, outputs=False))
         options: dict[str, Any] = {
             k: ctx.params.pop(k) for k in ("json_file", "report_file", "verbose") if k in ctx.params
         }
@@ -167,8 +187,6 @@ def under_way(text: str) -> None:
 
 def load(model_dir: Path) -> Loaded:
     """The model directory; what is odd about it is said on stderr."""
-    from ragg_runtime import api
-
     m = api.load(model_dir)
     for note in m.notes:
         click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
@@ -177,58 +195,79 @@ def load(model_dir: Path) -> Loaded:
 
 def read(m: Loaded, flights: Sequence[Path], mapping: Path | None) -> list[Flight]:
     """The flights, read and examined."""
-    from ragg_runtime import api
-
     under_way(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
     return api.read_flights(m, flights, mapping)
 
 
-def origin_of(
-    m: Loaded, flights: Sequence[Flight], title: str | None = None, notes: Sequence[str] = ()
-) -> Origin:
-    """What a page says about itself: its title (else those of model and flights), command, sources and notes."""
-    from ragg_runtime import api
-    from ragg_runtime.report.page import Origin
+@contextlib.contextmanager
+def working(text: str, command: str, flights: Sequence[Flight]) -> Iterator[None]:
+    """Say on stderr what is done meanwhile, and how far it is."""
+    under_way(text)
+    with progress.shown(command, sum(map(len, flights))):
+        yield
 
-    return Origin(
-        title=title or f"{m.name} and {', '.join(x.name for x in flights)}",
-        command=command_line(),
-        sources=api.sources(m, flights),
-        notes=(*notes, *api.notes(m, flights)),
-        digest=m.model.digest,
-    )
+
+@dataclass(frozen=True)
+class Source:
+    """What a result was made from: model and flights, the model before the command changed it, notes beside theirs."""
+
+    m: Loaded
+    flights: Sequence[Flight] = ()
+    before: Loaded | None = None
+    notes: Sequence[str] = ()
+
+    def json(self) -> dict[str, object]:
+        """``provenance`` and ``notes`` of the JSON."""
+        made = api.origin(self.m, self.flights, command_line(), before=self.before)
+        return made | {"notes": [*self.notes, *api.notes(self.m, self.flights)]}
+
+    def origin(self, title: str | None) -> Origin:
+        """Title, command, sources and notes of a page."""
+        return Origin(
+            title=title or f"{self.m.name} and {', '.join(x.name for x in self.flights)}",
+            command=command_line(),
+            sources=api.sources(self.m, self.flights),
+            notes=(*self.notes, *api.notes(self.m, self.flights)),
+            digest=self.m.model.digest,
+        )
 
 
 def conclude(
     result: Mapping[str, Any],
     sections: Sequence[Section],
-    page: Callable[[], str] | None = None,
-    flights: Sequence[Flight] = (),
+    source: Source | None = None,
+    page: Callable[[Origin], str] | None = None,
+    title: str | None = None,
 ) -> None:
     """Write the report and the JSON where they are asked for, and say the result on stdout.
 
-    If JSON goes to stdout it is all that is written there. ``flights``: what the reader did to them is said below.
+    Parameters
+    ----------
+    result
+        The JSON, without what ``source`` adds.
+    sections
+        What is said of it. If JSON goes to stdout it is all that is written there.
+    source
+        What it was made from; notes on its flights are said below.
+    page
+        Makes the report, which has this ``title``.
     """
-    import json
-
-    from ragg_runtime.wording.sections import render_text
-
     run = running()
     if run.report_file is not None and page is not None:
         under_way("writing the report")
-        run.write(run.report_file, page())
+        origin = Origin(title or "", command_line(), ()) if source is None else source.origin(title)
+        run.write(run.report_file, page(origin))
         click.echo(one_line(f"report: {run.report_file}"), err=True)
     if run.json_file is not None:
-        if "provenance" not in result:
-            from ragg_runtime.base.provenance import provenance
-
-            result = {**result, "provenance": provenance(command_line())}
-        text = json.dumps(result, indent=1, allow_nan=False)
+        whole = {**result, **({} if source is None else source.json())}
+        whole.setdefault("provenance", provenance(command_line()))
+        text = json.dumps(whole, indent=1, allow_nan=False)
         if run.json_file in STDOUT:
             click.echo(text)
             return
         run.write(run.json_file, text + "\n")
-    click.echo(render_text([*sections, *notes_of(flights)], verbose=run.verbose))
+    noted = notes_of([] if source is None else source.flights)
+    click.echo(render_text([*sections, *noted], verbose=run.verbose))
 
 
 @contextlib.contextmanager
@@ -247,30 +286,21 @@ def before_change() -> Iterator[None]:
 
 def notes_of(flights: Sequence[Flight]) -> list[Section]:
     """What the reader did to flights, every note once, with the flights that it is about."""
-    from ragg_runtime.wording.sections import Section
-
     about: dict[str, list[str]] = {}
     for x in flights:
         for note in x.notes:
             about.setdefault(str(note), []).append(x.name)
     lines = []
     for note, names in about.items():
-        which = (
-            ""
-            if len(flights) == 1
-            else f"{len(names)} flights: "
-            if len(names) > 3
-            else f"{', '.join(names)}: "
-        )
-        lines.append(f"note: {which}{note}")
+        which = f"{len(names)} flights: " if len(names) > 3 else f"{', '.join(names)}: "
+        lines.append(f"note: {which if len(flights) > 1 else ''}{note}")
     return [Section(sentences=tuple(lines))] if lines else []
 
 
 def command_line() -> str:
     """The command that runs, as it is written in results."""
-    from ragg_runtime.base.provenance import command
-
-    return command()
+    words = click.get_current_context().find_root().obj
+    return shlex.join(["ragg", *(sys.argv[1:] if words is None else words)])
 
 
 def next_command(
@@ -284,38 +314,22 @@ def next_command(
 
 
 def complete_effect(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Effects of the catalogue, each with its title where the shell shows it."""
+    """Effects that the model lists, and, but for ``remove``, those of the catalogue with their titles."""
     from ragg_runtime.model.catalogue import effects
 
-    found = [(str(e["id"]), str(e["title"])) for e in effects()]
-    return [CompletionItem(e, help=title) for e, title in found if e.startswith(incomplete)]
+    found = dict.fromkeys(_listed(ctx.params.get("model_dir")), "listed in model.toml")
+    if ctx.command.name != "remove":
+        found |= {str(e["id"]): str(e["title"]) for e in effects()}
+    return [CompletionItem(e, help=title) for e, title in found.items() if e.startswith(incomplete)]
 
 
-def complete_addable(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """The catalogue's, and those that the model lists, without those that it has with values."""
-    listed = _listed(ctx.params.get("model_dir"))
-    own = [e for e, has_values in listed.items() if not has_values and e.startswith(incomplete)]
-    others = [x for x in complete_effect(ctx, param, incomplete) if x.value not in listed]
-    return [*(CompletionItem(e, help="listed in model.toml") for e in own), *others]
-
-
-def complete_present(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Effects that the model lists."""
-    return [CompletionItem(e) for e in _listed(ctx.params.get("model_dir")) if e.startswith(incomplete)]
-
-
-def _listed(model_dir: Any) -> dict[str, bool]:
-    """Effects of a model.toml -> whether they have values; nothing of one that cannot be read: completion never fails."""
-    import tomllib
-
-    from ragg_runtime.base.files import read_text
-
+def _listed(model_dir: Any) -> list[str]:
+    """Effects of a model.toml; nothing of one that cannot be read: completion never fails."""
     try:
         entries = tomllib.loads(read_text(Path(model_dir) / "model.toml")).get("effects", [])
-        rows = [{"id": e} if isinstance(e, str) else dict(e) for e in entries]
-        return {str(r["id"]): any(isinstance(v, dict) and "value" in v for v in r.values()) for r in rows}
+        return [e if isinstance(e, str) else str(e["id"]) for e in entries]
     except (OSError, ValueError, KeyError, TypeError, UserError):
-        return {}
+        return []
 
 
 def _over(what: str, path: Path, found: str) -> UserError:
@@ -333,45 +347,29 @@ def _paths(command: click.Command, ctx: click.Context, *, outputs: bool) -> list
     for p in command.params:
         value = ctx.params.get(p.name or "")
         if isinstance(p.type, click.Path) and isinstance(p.type, OutputFile) == outputs and value is not None:
-            found += [str(v) for v in (value if p.multiple or p.nargs == -1 else (value,))]
+            found += [os.fsdecode(v) for v in (value if p.multiple or p.nargs == -1 else (value,))]
     return found
 
 
-def _opened(names: Sequence[str], inputs: Sequence[Path]) -> dict[str, Target]:
-    targets: dict[str, Target] = {}
-    try:
-        for name in names:
-            if name in STDOUT:
-                continue
-            _check(Path(name), inputs)
-            for other in targets.values():
-                if not other.is_stream and _same(Path(name), other.path):
-                    raise UserError("two results would be written to one file", where=name)
-            targets[name] = Target(Path(name))
-    except BaseException:
-        for t in targets.values():
-            t.close()
-        raise
-    return targets
-
-
-def _check(path: Path, inputs: Iterable[Path]) -> None:
-    """UserError if ``path`` is a file that the command reads, or one of a model directory's or folder's own."""
-    for given in inputs:
-        files, folders = [given], [given / f for f in _OF_A_MODEL[1]]
-        if given.is_dir():
-            files += [given / f for f in _OF_A_MODEL[0]]
-        real = Path(os.path.realpath(path))
-        inside = next((f for f in folders if Path(os.path.realpath(f)) in real.parents), None)
-        over = next((f for f in files if _same(path, f)), inside)
-        if over is not None:
-            raise UserError(
-                "a result would be written over what the command reads",
-                where=path,
-                found=f"the same as {over}" if over is not inside else f"a file in {over}",
-                expected="a file of its own",
-                remedy="name another file",
+def _opened(names: Sequence[str], inputs: Sequence[str]) -> dict[str, Target]:
+    """The files to write, made ready; UserError if one is read as well, or is written twice."""
+    read = [Path(p) for p in inputs]
+    read += [p / name for p in read if p.is_dir() for name in _OF_A_MODEL]
+    with contextlib.ExitStack() as undo:
+        targets: dict[str, Target] = {}
+        for name in (n for n in names if n not in STDOUT):
+            path = Path(name)
+            over = next(
+                (f for f in read if _same(path, f) or (f.name == GENERATED and _inside(path, f))), None
             )
+            if over is not None:
+                raise _over("what the command reads", path, f"the same as {over}, or a file in it")
+            if any(not t.is_stream and _same(path, t.path) for t in targets.values()):
+                raise UserError("two results would be written to one file", where=name)
+            targets[name] = Target(path)
+            undo.callback(targets[name].close)
+        undo.pop_all()
+    return targets
 
 
 def _same(one: Path, other: Path) -> bool:
@@ -380,3 +378,7 @@ def _same(one: Path, other: Path) -> bool:
     with contextlib.suppress(OSError):
         return one.samefile(other)
     return False
+
+
+def _inside(path: Path, folder: Path) -> bool:
+    return Path(os.path.realpath(folder)) in Path(os.path.realpath(path)).parents
