@@ -10,11 +10,13 @@ import numpy as np
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.compensation.frozen import Held
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.identification import series
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.parameters import calibrated
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
-from ragg_runtime.report import panels
+from ragg_runtime.report import panels, whiteness
 from ragg_runtime.report.page import Origin, render_page
 from ragg_runtime.report.parameters import describe_parameters
 from ragg_runtime.survey.result import Survey, Trend
@@ -40,6 +42,7 @@ def compare_page(c: Comparison, origin: Origin, frozen: Held | None = None) -> s
         Section(title="Measured over model", plots=(panels.plot_measured(f, c.residual),)),
         *_figure("Spectrum", panels.plot_spectrum(f, lines)),
         *_figure("Demodulated channels", panels.plot_channels(f, lines)),
+        *_whiteness(f, c.residual),
         *describe_parameters(f),
     ]
     return render_page("Model against flight", sections, _of(origin, f), panels.describe_record(f))
@@ -59,6 +62,22 @@ def _figure(title: str, *plots: Plot | None, detail: bool = False) -> list[Secti
     return [Section(title=title, plots=drawn, detail=detail)] if drawn else []
 
 
+def _whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
+    """Whether the residual of the worst flight is noise, folded; nothing where only the channels were recorded."""
+    (n,) = series.worst(f, residual, 1)
+    if f.observations[n].recorded.demodulated:
+        return []
+    channel = whiteness.worst_channel(f, n, residual[n])
+    white, against = (
+        whiteness.plot_whiteness(f, n, residual[n]),
+        whiteness.plot_against(f, n, residual[n], channel),
+    )
+    return [
+        *_figure("Whiteness of the residual", white, detail=True),
+        *_figure(f"Residual against {numbers.product(channel)}", against, detail=True),
+    ]
+
+
 def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
     """The sections, the one that says where the model fails with its figures."""
     f = c.fitted
@@ -68,7 +87,7 @@ def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
     )
     found = [_with_plots(s, *plots) if s.title == "Where it fails" else s for s in sections]
     if not any(s.title == "Where it fails" for s in sections):
-        found += _figure("Where it fails", plots[0])
+        found += _figure("Residual by harmonic of the spin", plots[0])
     return found
 
 
@@ -163,10 +182,10 @@ def calibrate_page(said: Sequence[Section], f: Any, origin: Origin) -> str:
     )
 
 
-def compensate_page(said: Sequence[Section], series: Sequence[Mapping[str, Array]], origin: Origin) -> str:
+def compensate_page(said: Sequence[Section], made: Sequence[Mapping[str, Array]], origin: Origin) -> str:
     """The report of ``compensate``: ``said`` and the compensated channels of every flight."""
     axes = []
-    for columns in series[: panels.FLIGHTS]:
+    for columns in made[: panels.FLIGHTS]:
         time = np.asarray(columns["time"], dtype=np.float64)
         step = max(1, len(time) // panels.MOST_POINTS)
         for name in columns:

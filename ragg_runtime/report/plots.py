@@ -6,12 +6,14 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes as Drawn
+from matplotlib.collections import PatchCollection
+from matplotlib.patches import Rectangle
 from matplotlib.transforms import blended_transform_factory
 from numpy.typing import NDArray
 
 from ragg_runtime.report import draw
 from ragg_runtime.wording import numbers
-from ragg_runtime.wording.sections import Axes, Bars, Curve, Curves, Plot
+from ragg_runtime.wording.sections import Axes, Bars, Curve, Curves, Matrix, Plot
 
 Array = NDArray[np.float64]
 
@@ -29,6 +31,8 @@ HALO = {"facecolor": draw.PAPER, "edgecolor": "none", "pad": 0.6}
 def draw_plot(plot: Plot) -> str:
     """The plot as an inline ``<svg>`` element."""
     with draw.style():
+        if isinstance(plot, Matrix):
+            return draw_matrix(plot)
         return draw_curves(plot) if isinstance(plot, Curves) else draw_bars(plot)
 
 
@@ -212,3 +216,24 @@ def _label_bars(ax: Drawn, plot: Bars, place: Array, low: float, top: float) -> 
     draw.no_ticks(ax, across)
     if ax.get_legend_handles_labels()[1]:
         draw.legend(ax, 3)
+
+
+def draw_matrix(plot: Matrix) -> str:
+    """Squares below the diagonal whose areas are the sizes of the entries; those of less than 0.1 are left out."""
+    count = len(plot.names)
+    fig = draw.figure(max(2.0, 0.17 * count + 1.4))
+    ax = fig.subplots()
+    for sign, colour, words in ((1.0, draw.RESIDUAL, "positive"), (-1.0, draw.NOISE, "negative")):
+        found = [(i, j, float(plot.values[i, j]) * sign) for i in range(count) for j in range(i)]
+        sides = [(i, j, 0.94 * np.sqrt(r)) for i, j, r in found if r > 0.1]
+        squares = [Rectangle((j - s / 2, i - s / 2), s, s) for i, j, s in sides]
+        ax.add_collection(PatchCollection(squares, facecolor=colour, edgecolor="none"))
+        ax.plot([], [], "s", color=colour, label=words)
+    names = [numbers.short(x, 24) for x in plot.names]
+    ax.set_xticks(range(count), names, rotation=90)
+    ax.set_yticks(range(count), names)
+    ax.set(xlim=(-0.6, count - 0.4), ylim=(count - 0.4, -0.6), aspect="equal")
+    ax.tick_params(labelsize=7, length=0)
+    ax.grid(False)
+    draw.legend(ax, 2)
+    return draw.svg(fig, plot.key, plot.label)

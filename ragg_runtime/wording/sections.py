@@ -99,7 +99,18 @@ class Bars:
     dots: tuple[str, ...] = ()
 
 
-Plot = Curves | Bars
+@dataclass(frozen=True)
+class Matrix:
+    """A figure of a symmetric matrix (n, n) of correlations, with the names of its rows."""
+
+    key: str
+    label: str
+    caption: str
+    names: tuple[str, ...]
+    values: Array
+
+
+Plot = Curves | Bars | Matrix
 
 
 @dataclass(frozen=True)

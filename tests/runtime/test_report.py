@@ -18,6 +18,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.identification import budget, diagnose, result, series
 from ragg_runtime.identification import comparison as compare
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -27,7 +28,7 @@ from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import named, output, vector, voltages
 from ragg_runtime.model.record import record
-from ragg_runtime.report import parameters
+from ragg_runtime.report import parameters, whiteness
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.pages import add_page, compare_page, diagnose_page
 from ragg_runtime.report.plots import draw_plot
@@ -302,31 +303,37 @@ def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
 def test_what_a_record_sees_of_the_parameters_is_what_the_paper_derives(clean: Case) -> None:
     """Eq. 17-19: of the biases only D1234 enters; K2 and K5 enter as Sigma (k5 - k2) and D1234 (k2 + k5)."""
     v = parameters.visibility(clean.comparison.fitted)
-    unseen = {pattern: {s.name for s in symbols} for pattern, symbols in v.unseen}
-    for pattern in ("Σ", "D12", "D34"):
-        assert "K0" in unseen[pattern]
-    assert "K0" not in unseen.get("D1234", set())
-    groups = {frozenset((p.pattern, p.symbol.name) for p in g.members): g for g in v.groups}
+    unseen = {str(d) for d in v.unseen}
+    assert {f"{pattern} K_0" for pattern in ("Σ", "D12", "D34")} <= unseen
+    assert "D1234 K_0" not in unseen
+    groups = {frozenset(map(str, g.members)): g for g in v.groups}
     for pattern, sign in (("Σ", numbers.MINUS), ("D1234", "+")):
-        group = groups[frozenset({(pattern, "K2"), (pattern, "K5")})]
+        group = groups[frozenset({f"{pattern} K_2", f"{pattern} K_5"})]
         assert group.unseen == 1
-        assert [p.sign for p in group.seen[0]] == ["", sign]
-        assert [p.factor for p in group.seen[0]] == ["", ""]
+        assert group.seen == (f"{pattern} K_2 {sign} {pattern} K_5",)
     # a larger radius is the same as a larger scale factor: R / K1 = 0.1 m / (10 mA/g)
-    radius = groups[frozenset({("Σ", "dR"), ("Σ", "K1")})].seen[0]
-    assert radius[1].factor.startswith(f"10{numbers.THIN}000")
+    (radius,) = groups[frozenset({"Σ dR", "Σ K_1"})].seen
+    assert radius.startswith(f"Σ dR + 10{numbers.THIN}000")
     assert 0 < v.determined < v.total
 
 
 def test_combinations_are_known_better_than_single_values(clean: Case) -> None:
-    rows = {r.symbol.name: r for r in parameters.by_combination(clean.comparison.fitted)}
+    rows = {r[0].split()[-1]: r[2:] for r in parameters.combination_rows(clean.comparison.fitted)}
     patterns = [name for name, _ in parameters.PATTERNS]
-    K0 = rows["K0"].cells[patterns.index("D1234")]
-    assert K0.state == "seen"
+    K0 = rows["K0"][patterns.index("D1234")]
     # the flight's biases are 1 ug above the test sheet in all four: D1234 stays 10 + 2 - 5 - 8 = -1 ug
-    value = float(K0.value.split(numbers.THIN)[0].split("(")[0].replace(numbers.MINUS, "-"))
+    value = float(K0.split(numbers.THIN)[0].split("(")[0].replace(numbers.MINUS, "-"))
     assert value == pytest.approx(-1.0, abs=0.05)
-    assert rows["K0"].cells[patterns.index("Σ")].state == "unseen"
+    assert rows["K0"][patterns.index("Σ")] == "(25)"
+
+
+def test_correlations_are_of_what_the_record_determines(clean: Case) -> None:
+    matrix, pairs = parameters.correlations(clean.comparison.fitted)
+    assert np.allclose(np.diag(matrix.values), 1.0)
+    assert not {"Σ K_0", "D12 K_0"} & set(matrix.names)
+    sizes = [abs(float(r.replace(numbers.MINUS, "-"))) for _, _, r in pairs]
+    assert sizes == sorted(sizes, reverse=True)
+    assert "<svg" in draw_plot(matrix)
 
 
 def test_budget_of_the_bias_is_its_analytical_value(clean: Case) -> None:
@@ -395,9 +402,34 @@ def test_four_voltages_see_every_accelerometer() -> None:
     made = replace(made, outputs=noisy)
     c = compare.compare(model, known, [made])
     v = parameters.visibility(c.fitted)
-    assert not v.patterns
+    assert {d.pattern for d in v.unseen} <= {"A1", "A2", "A3", "A4"}
     assert v.determined > parameters.visibility(compare.compare(model, known, [flight()]).fitted).determined
     assert "<svg" in compare_page(c, ORIGIN)
+
+
+def test_whiteness_has_99_percent_bounds_and_finds_what_is_not_noise(clean: Case) -> None:
+    f = clean.comparison.fitted
+    rng = np.random.default_rng(8)
+    w = f.prepared[0]
+    n = len(w.observation.record.time)
+    frequency = np.fft.rfftfreq(n, 1 / RATE)
+    density = w.noise_psd(np.maximum(frequency, frequency[1])) * RATE / 2
+    noise = np.fft.irfft(np.fft.rfft(rng.normal(size=n)) * np.sqrt(density), n)
+    a_x = w.observation.record.channels["a_x"]
+
+    def outside(residual: np.ndarray, axes: int) -> float:
+        band, curve = whiteness.plot_whiteness(f, 0, residual, ("a_x",)).axes[axes].curves
+        assert band.high is not None
+        return float(np.mean((curve.y > band.high) | (curve.y < band.y)))
+
+    assert outside(noise, 0) < 0.03
+    assert outside(noise, 1) < 0.03
+    assert outside(noise + 0.3 * np.std(noise) * a_x / np.std(a_x), 1) > 0.03
+    assert whiteness.worst_channel(f, 0, noise + 0.3 * np.std(noise) * a_x / np.std(a_x)) == "a_x"
+    against = whiteness.plot_against(f, 0, noise, "a_x")
+    assert np.mean(against.axes[1].curves[1].y) == pytest.approx(1.0, abs=0.05)
+    with pytest.raises(UserError, match="no such channel"):
+        whiteness.plot_against(f, 0, noise, "pressure")
 
 
 # --- numbers in words ---------------------------------------------------------------------------------------
