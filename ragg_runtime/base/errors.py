@@ -28,6 +28,11 @@ class UserError(Exception):
         super().__init__(self.message)
 
     @property
+    def facts(self) -> dict[str, str | None]:
+        """Its parts by name."""
+        return {k: getattr(self, k) for k in ("what", "where", "found", "expected", "remedy")}
+
+    @property
     def message(self) -> str:
         """The whole message, one fact per line."""
         head = self.what if self.where is None else f"{self.where}: {self.what}"

@@ -36,6 +36,15 @@ def draw_plot(plot: Plot) -> str:
         return draw_curves(plot) if isinstance(plot, Curves) else draw_bars(plot)
 
 
+def draw_file(plot: Plot) -> str:
+    """The plot as an SVG document of its own, in light colours."""
+    text = draw_plot(plot)
+    for colour, name in draw.NAMES.items():
+        text = text.replace(f"var(--{name})", colour)
+    own = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+    return text.replace("<svg ", f'<svg {own} font-family="sans-serif" style="background: {draw.PAPER}" ', 1)
+
+
 def draw_curves(plot: Curves) -> str:
     """Axes below each other, each with its curves, the noise dashed."""
     shares = [a.share for a in plot.axes]
@@ -144,7 +153,9 @@ def draw_bars(plot: Bars) -> str:
         ax.barh(place, shown - low, 0.6, left=low, color=colours)
     for k, b in enumerate(plot.bars):
         text = numbers.number(b.value) if np.isfinite(b.value) else "certain"
-        at = (place[k], shown[k]) if plot.upright else (shown[k], place[k])
+        # beside a lying bar nothing may lie below the value
+        end = shown[k] if plot.upright else max([shown[k], *(d for d in b.dots if np.isfinite(d))])
+        at = (place[k], end) if plot.upright else (end, place[k])
         away: dict[str, Any] = (
             {"xytext": (0, 4), "ha": "center"} if plot.upright else {"xytext": (4, 0), "va": "center"}
         )

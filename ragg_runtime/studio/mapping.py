@@ -120,8 +120,7 @@ def tried(m: Loaded, path: Path, given: Mapping[str, Any]) -> Json:
         how = parse_mapping(text, UNWRITTEN)
         return {"text": text, "error": None, "preview": _preview(m, path, how)}
     except UserError as e:
-        facts = {k: getattr(e, k) for k in ("what", "where", "found", "expected", "remedy")}
-        return {"text": text, "error": facts, "preview": []}
+        return {"text": text, "error": e.facts, "preview": []}
 
 
 def _preview(m: Loaded, path: Path, how: Mapped) -> list[Json]:

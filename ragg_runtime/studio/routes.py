@@ -1,43 +1,30 @@
-"""What the page asks for and what it can do: JSON, binary series, events, files."""
+"""What the page asks for and what it can do: JSON, binary series, pictures, events, files."""
 
 from __future__ import annotations
 
 import asyncio
 import json
 import math
-import secrets
 import traceback
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
-from dataclasses import dataclass, field
 from functools import partial
-from http.cookies import CookieError, SimpleCookie
-from importlib import metadata, resources
+from importlib import resources
 from pathlib import Path
 from typing import Any
-from urllib.parse import parse_qs
 
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
-from starlette.datastructures import Headers
 from starlette.requests import ClientDisconnect, Request
-from starlette.responses import (
-    HTMLResponse,
-    JSONResponse,
-    PlainTextResponse,
-    RedirectResponse,
-    Response,
-    StreamingResponse,
-)
+from starlette.responses import JSONResponse, Response, StreamingResponse
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.identification import foresee
-from ragg_runtime.studio import drawing, mapping, states, views
+from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.studio import mapping, series, views
+from ragg_runtime.studio.guard import TooLong
 from ragg_runtime.studio.mapping import check_upload, receive
-from ragg_runtime.studio.session import Busy, Session
-from ragg_runtime.studio.views import take_away
+from ragg_runtime.studio.session import Busy, Edit, Session
 
 BEAT = 0.15
 """How often a page hears of changes, s."""
@@ -47,10 +34,8 @@ WATCH = 1.5
 
 UPLOAD = "/api/upload"
 
-UNFINISHED = 10.0
-"""Longest wait for the rest of a request, s."""
-
 Answer = Callable[[Session, Request], Awaitable[Response]]
+Body = Mapping[str, Any]
 
 
 def application(session: Session) -> Starlette:
@@ -67,42 +52,35 @@ def application(session: Session) -> Starlette:
         routes=[
             route("/", _page(static)),
             Mount("/static", StaticFiles(directory=static)),
-            route("/api/state", _state),
             route("/api/events", _events),
-            route("/api/series", _series),
-            route("/api/spectrum", _spectrum),
-            route("/api/spectrogram", _spectrogram),
-            route("/api/heat", _heat),
-            route("/api/preview", _preview),
-            route("/api/folder", _folder),
-            route("/api/mapping", _mapping),
             route("/api/mapping", _mapped, "POST"),
             route("/api/take/{what}", _take),
             route("/api/do/{what}", _do, "POST"),
             route(UPLOAD, _upload, "POST"),
+            *(route(f"/api/{name}", partial(_read, make)) for name, make in READS.items()),
         ]
     )
 
 
 async def _guarded(answer: Answer, session: Session, request: Request) -> Response:
+    def refused(status: int, what: str | None, **facts: object) -> Response:
+        return JSONResponse({"error": {"what": what, **facts}}, status)
+
     try:
         return await answer(session, request)
     except UserError as e:
-        facts = {k: getattr(e, k) for k in ("what", "where", "found", "expected", "remedy")}
-        return JSONResponse({"error": facts}, 400)
+        return JSONResponse({"error": e.facts}, 400)
     except Busy:
-        return JSONResponse({"error": {"what": "something else is being worked on; cancel it or wait"}}, 409)
+        return refused(409, "something else is being worked on; cancel it or wait")
     except TooLong:
-        return JSONResponse({"error": {"what": "the request is too long"}}, 413)
+        return refused(413, "the request is too long")
     except ClientDisconnect:
-        return JSONResponse({"error": {"what": "the request did not come to its end"}}, 408)
-    except Exception as e:
-        if not isinstance(e, OSError):
-            traceback.print_exc()
-            return JSONResponse(
-                {"error": {"what": "this is a fault of the program; the terminal shows where"}}, 500
-            )
-        return JSONResponse({"error": {"what": e.strerror or "the system refuses", "where": e.filename}}, 400)
+        return refused(408, "the request did not come to its end")
+    except OSError as e:
+        return refused(400, e.strerror or "the system refuses", where=e.filename)
+    except Exception:
+        traceback.print_exc()
+        return refused(500, "this is a fault of the program; the terminal shows where")
 
 
 def _page(static: Path) -> Answer:
@@ -117,9 +95,18 @@ def _page(static: Path) -> Answer:
     return page
 
 
-def _json(content: Any, status: int = 200) -> Response:
+async def _read(make: Callable[[Session, Request], Any], session: Session, request: Request) -> Response:
+    """What is asked for: bytes as they are (pictures begin with ``<``), everything else as JSON."""
+    made = await run_in_threadpool(make, session, request)
+    if isinstance(made, bytes):
+        kind = "image/svg+xml" if made.startswith(b"<") else "application/octet-stream"
+        return Response(made, media_type=kind)
+    return _json(made)
+
+
+def _json(content: Any) -> Response:
     text = json.dumps(_finite(content), allow_nan=False, ensure_ascii=False, separators=(",", ":"))
-    return Response(text.encode("utf-8", "replace"), status, media_type="application/json")
+    return Response(text.encode("utf-8", "replace"), media_type="application/json")
 
 
 def _finite(x: Any) -> Any:
@@ -131,18 +118,13 @@ def _finite(x: Any) -> Any:
     return [_finite(v) for v in x] if isinstance(x, list | tuple) else x
 
 
-async def _state(session: Session, request: Request) -> Response:
-    status = {"status": session.jobs.status.as_json()}
-
-    def made() -> Response:
-        s = session.state
-        known = session.shown
-        if known is None or known[0] is not s:  # a state never changes: what is said of it is made once
-            said = views.overview(s, metadata.version("ragg")) | {"commands": views.commands(s)}
-            session.shown = known = (s, said | {"roots": [str(r) for r in session.places.roots]})
-        return _json(status | known[1])
-
-    return await run_in_threadpool(made)
+def _state(session: Session, request: Request) -> Any:
+    status, s = {"status": session.jobs.status.as_json()}, session.state
+    if (
+        session.shown is None or session.shown[0] is not s
+    ):  # a state never changes: what is said of it is made once
+        session.shown = s, views.overview(s) | {"roots": [str(r) for r in session.places.roots]}
+    return status | session.shown[1]
 
 
 async def _events(session: Session, request: Request) -> Response:
@@ -180,71 +162,40 @@ def _number(request: Request, name: str, default: float) -> float:
     return value
 
 
-def _asked(request: Request) -> drawing.Asked:
+def _asked(request: Request) -> series.Asked:
     q = request.query_params
-    effects = tuple(sorted({e for e in q.get("effects", "").split(",") if e}))
     unit = q.get("unit", "Eo")
-    if unit not in drawing.UNITS:
-        raise UserError("the unit is not known", found=unit[:40], expected=", ".join(drawing.UNITS))
-    return drawing.Asked(
+    if unit not in series.UNITS:
+        raise UserError("the unit is not known", found=unit[:40], expected=", ".join(series.UNITS))
+    return series.Asked(
         what=q.get("what", "residual"),
         unit=unit,
         flight=int(_number(request, "flight", 0)),
         output=int(_number(request, "output", 0)),
-        effects=effects,
+        effects=tuple(sorted({e for e in q.get("effects", "").split(",") if e})),
         first=_number(request, "from", -1e12),
         last=_number(request, "to", 1e12),
         points=int(min(max(_number(request, "points", 1500), 16), 20000)),
     )
 
 
-async def _series(session: Session, request: Request) -> Response:
-    data = await run_in_threadpool(drawing.series, session.state, _asked(request))
-    return Response(data, media_type="application/octet-stream")
-
-
-async def _spectrum(session: Session, request: Request) -> Response:
-    return _json(await run_in_threadpool(drawing.spectra, session.state, _asked(request)))
-
-
-async def _spectrogram(session: Session, request: Request) -> Response:
-    highest = _number(request, "top", 0.0)
-    data = await run_in_threadpool(drawing.spectrogram_of, session.state, _asked(request), highest)
-    return Response(data, media_type="application/octet-stream")
-
-
-async def _heat(session: Session, request: Request) -> Response:
-    return _json(await run_in_threadpool(drawing.heat_map, session.state, _asked(request)))
-
-
-async def _preview(session: Session, request: Request) -> Response:
-    asked = _asked(request)
-
-    def made() -> Any:
-        s = session.state
-        d, unwhitened = s.diagnosed, s.unwhitened
-        if d is None or unwhitened is None:
-            raise UserError("the effects are not tested yet", remedy="wait a moment")
-        known = foresee.field(d)
-
-        def foreseen(*effects: str) -> foresee.Foreseen:
-            make = partial(foresee.foreseen, d.fitted, unwhitened, known, effects)
-            return s.tracks.cache.get(("foreseen", effects), make)  # type: ignore[return-value]
-
-        found, without = foreseen(*(e for e in asked.effects if e in known.candidates)), foreseen()
-        return found.as_json() | {"before_Eo": without.rms_Eo, "noise_Eo": d.noise_floor}
-
-    return _json(await run_in_threadpool(made))
-
-
-async def _folder(session: Session, request: Request) -> Response:
-    place = request.query_params.get("place", "")
-    return _json(await run_in_threadpool(session.places.listing, place))
-
-
-async def _mapping(session: Session, request: Request) -> Response:
+def _begun(session: Session, request: Request) -> Any:
     path = session.places.inside(request.query_params.get("flight", ""))
-    return _json(await run_in_threadpool(mapping.begun, session.state.model, path))
+    return mapping.begun(session.state.model, path)
+
+
+READS: Mapping[str, Callable[[Session, Request], Any]] = {
+    "state": _state,
+    "series": lambda session, request: series.draw_series(session.state, _asked(request)),
+    "spectrum": lambda session, request: series.draw_spectra(session.state, _asked(request)),
+    "spectrogram": lambda session, request: series.draw_spectrogram(session.state, _asked(request)),
+    "heat": lambda session, request: series.draw_heat(session.state, _asked(request)),
+    "panel": lambda session, request: series.draw_panel(session.state, _asked(request)),
+    "preview": lambda session, request: series.foresee_error(session.state, _asked(request)),
+    "folder": lambda session, request: session.places.listing(request.query_params.get("place", "")),
+    "mapping": _begun,
+}
+"""What the page reads, by the last part of the address."""
 
 
 async def _mapped(session: Session, request: Request) -> Response:
@@ -253,7 +204,7 @@ async def _mapped(session: Session, request: Request) -> Response:
     return _json(await run_in_threadpool(mapping.tried, session.state.model, path, _given(body)))
 
 
-def _given(body: Mapping[str, Any]) -> dict[str, Any]:
+def _given(body: Body) -> dict[str, Any]:
     """A mapping as the page sends it: tables of texts and numbers."""
     given = body.get("mapping")
     if isinstance(given, dict):
@@ -269,10 +220,9 @@ def _given(body: Mapping[str, Any]) -> dict[str, Any]:
 
 async def _take(session: Session, request: Request) -> Response:
     what = request.path_params["what"]
-    name, kind, data = await run_in_threadpool(take_away, session.state, what)
+    kind, data = await run_in_threadpool(views.take_away, session.state, what)
     # A report holds its style and its figures in itself: it is handed over as a file, never shown as our page.
-    headers = {"content-disposition": f'attachment; filename="{name}"'}
-    return Response(data, media_type=kind, headers=headers)
+    return Response(data, media_type=kind, headers={"content-disposition": f'attachment; filename="{what}"'})
 
 
 async def _upload(session: Session, request: Request) -> Response:
@@ -306,73 +256,86 @@ async def _do(session: Session, request: Request) -> Response:
     if action is None:
         raise UserError("there is no such thing to do", found=request.path_params["what"][:40])
     await run_in_threadpool(action, session, body)
-    return _json({"status": session.jobs.status.as_json()}, 202)
+    return JSONResponse({"status": session.jobs.status.as_json()}, 202)
 
 
-def _text(body: Mapping[str, Any], key: str, longest: int = 4096) -> str:
+def _text(body: Body, key: str, longest: int = 4096) -> str:
     value = body.get(key)
     if not isinstance(value, str) or len(value) > longest:
         raise UserError("a text is needed", where=key, found=repr(value)[:80])
     return value
 
 
-def _texts(body: Mapping[str, Any], key: str) -> list[str]:
+def _texts(body: Body, key: str) -> list[str]:
     value = body.get(key)
     if not isinstance(value, list) or not all(isinstance(x, str) for x in value) or len(value) > 2000:
         raise UserError("a list of texts is needed", where=key, found=repr(value)[:80])
     return value
 
 
-def _step(body: Mapping[str, Any]) -> int | None:
-    value = body.get("step")
-    if value is not None and (not isinstance(value, int) or isinstance(value, bool)):
-        raise UserError("the number of a step is needed", where="step", found=repr(value)[:40])
+def _count(body: Body, key: str) -> int:
+    value = body.get(key)
+    if type(value) is not int:
+        raise UserError("a whole number is needed", where=key, found=repr(value)[:40])
     return value
 
 
-def _open(session: Session, body: Mapping[str, Any]) -> None:
+def _numbers(given: object, where: str) -> tuple[float, ...]:
+    if isinstance(given, list) and given and all(type(x) in (int, float) for x in given):
+        return tuple(float(x) for x in given)
+    raise UserError("numbers are needed", where=where[:40], found=repr(given)[:80])
+
+
+def _open(session: Session, body: Body) -> None:
     model = session.places.inside(_text(body, "model")) if body.get("model") else None
     flights = [session.places.inside(f) for f in _texts(body, "flights")] if body.get("flights") else []
     session.open(model, flights)
 
 
-def _new(session: Session, body: Mapping[str, Any]) -> None:
+def _new(session: Session, body: Body) -> None:
     sheet = session.places.inside(_text(body, "sheet")) if body.get("sheet") else None
     session.new(session.places.inside(_text(body, "model")), sheet)
 
 
-def _map(session: Session, body: Mapping[str, Any]) -> None:
+def _map(session: Session, body: Body) -> None:
     flight = session.places.inside(_text(body, "flight"))
     m = session.state.model
     mapping.keep(m, flight, _given(body), replace=body.get("replace") is True)
     session.open(m.directory.path, [flight])  # the model anew: the mapping is its own now
 
 
-def _leave(session: Session, body: Mapping[str, Any]) -> None:
-    flight, ends = body.get("flight"), [body.get(k) for k in ("from", "to")]
-    if not isinstance(flight, int) or isinstance(flight, bool):
-        raise UserError("the number of a flight is needed", where="flight", found=repr(flight)[:40])
+def _leave(session: Session, body: Body) -> None:
+    flight, ends = _count(body, "flight"), [body.get(k) for k in ("from", "to")]
     if ends == [None, None]:
         session.leave_out(flight, None)
         return
     first, last = (float(x) if isinstance(x, int | float) else math.nan for x in ends)
     if not first < last:
-        raise UserError("a stretch of time is needed", where="from, to", found=repr(ends)[:80])
+        raise UserError("a segment of time is needed", where="from, to", found=repr(ends)[:80])
     session.leave_out(flight, (first, last))
 
 
-def _edit(session: Session, body: Mapping[str, Any]) -> None:
-    session.edit(states.asked_sheet(body.get("values")))
+def _edit(session: Session, body: Body) -> None:
+    """Values of the test sheet: name -> as many numbers as accelerometers, unit, sigma."""
+    values, found = body.get("values"), dict[str, Edit]()
+    for name, given in values.items() if isinstance(values, dict) else ():
+        own = given if isinstance(given, dict) else {}
+        value, sigma = _numbers(own.get("value"), name), own.get("sigma")
+        of_sheet = None if sigma is None else _numbers(sigma, f"{name}, sigma")
+        found[name] = RawQuantity(value, _text(own, "unit", 80)), of_sheet
+    if not found:
+        raise UserError("no value was changed", remedy="change one, then save")
+    session.edit(found)
 
 
-def _try(session: Session, body: Mapping[str, Any]) -> None:
+def _try(session: Session, body: Body) -> None:
     units = body.get("units")
-    if not isinstance(units, dict) or not all(isinstance(u, str) and len(u) < 80 for u in units.values()):
+    if not isinstance(units, dict):
         raise UserError("every parameter needs a unit", where="units", found=repr(units)[:80])
-    session.attempt(_text(body, "id", 80), _text(body, "add", 600), units)
+    session.attempt(_text(body, "id", 80), _text(body, "add", 600), {n: _text(units, n, 80) for n in units})
 
 
-ACTIONS: Mapping[str, Callable[[Session, Mapping[str, Any]], None]] = {
+ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
     "open": _open,
     "new": _new,
     "map": _map,
@@ -383,8 +346,10 @@ ACTIONS: Mapping[str, Callable[[Session, Mapping[str, Any]], None]] = {
     "leave": _leave,
     "undo": lambda session, body: session.go("undo"),
     "redo": lambda session, body: session.go("redo"),
-    "restore": lambda session, body: session.go("restore", _step(body)),
-    "beside": lambda session, body: session.beside(_step(body)),
+    "restore": lambda session, body: session.go("restore", _count(body, "step")),
+    "beside": lambda session, body: session.beside(
+        None if body.get("step") is None else _count(body, "step")
+    ),
     "try": _try,
     "keep": lambda session, body: session.keep(),
     "compensate": lambda session, body: session.compensate(
@@ -394,163 +359,3 @@ ACTIONS: Mapping[str, Callable[[Session, Mapping[str, Any]], None]] = {
     "cancel": lambda session, body: session.jobs.cancel(),
 }
 """What the page can do, by the last part of the address."""
-
-
-BODY = 1 << 20
-"""Longest body of a request, bytes; files have a limit of their own."""
-
-POSTED = 1 << 10
-"""Longest body that hands over the token, bytes."""
-
-ONCE = "open the address that `ragg studio` printed; it serves once: start it again for a new one"
-
-POLICY = "; ".join(
-    (
-        "default-src 'none'",
-        "script-src 'self'",
-        "style-src 'self'",
-        "img-src 'self' data: blob:",
-        "connect-src 'self'",
-        "base-uri 'none'",
-        "form-action 'none'",
-        "frame-ancestors 'none'",
-    )
-)
-"""Content security policy: nothing from elsewhere, no code and no style inside the page itself."""
-
-HEADERS = {
-    "content-security-policy": POLICY,
-    "x-content-type-options": "nosniff",
-    "referrer-policy": "no-referrer",
-    "cross-origin-opener-policy": "same-origin",
-    "cross-origin-resource-policy": "same-origin",
-    "cache-control": "no-store",
-}
-
-
-@dataclass
-class Keys:
-    """The one-time token of the address and the secret of the cookie it is exchanged for; ``forget`` is called when it is."""
-
-    token: str = field(default_factory=lambda: secrets.token_urlsafe(32))
-    cookie: str = field(default_factory=lambda: secrets.token_urlsafe(32))
-    used: bool = False
-    forget: Callable[[], None] = lambda: None
-
-    def exchange(self, token: str) -> bool:
-        """Whether this is the token, for the first time."""
-        good = secrets.compare_digest(token.encode(), self.token.encode()) and not self.used
-        self.used = self.used or good
-        if good:
-            self.forget()
-        return good
-
-
-class Guard:
-    """Lets through what comes from our own page. ``uploads`` are the paths whose bodies may be long."""
-
-    def __init__(self, app: ASGIApp, keys: Keys, port: int, uploads: tuple[str, ...] = ()) -> None:
-        self._app, self._keys, self._uploads = app, keys, uploads
-        self._hosts = (f"127.0.0.1:{port}", f"localhost:{port}")
-        self._name = f"ragg-studio-{port}"
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http":  # there is no websocket here
-            return
-        refusal = await self._posted(scope, receive) or self._refusal(scope)
-        await (refusal or self._inner)(scope, receive, _with_headers(send))
-
-    async def _posted(self, scope: Scope, receive: Receive) -> Response | None:
-        """The answer to the file that the browser was opened with (its origin is none); ``None``: this is no such request."""
-        headers = Headers(scope=scope)
-        if (scope["method"], scope["path"]) != ("POST", "/") or headers.getlist("host") != [self._hosts[0]]:
-            return None
-        body, more = b"", True
-        while more and len(body) <= POSTED:
-            message = await receive()
-            body += message.get("body", b"")
-            more = message.get("more_body", False)
-        token = parse_qs(body.decode("latin-1")).get("token", [""])[0] if len(body) <= POSTED else ""
-        if not self._keys.exchange(token):
-            return _refused(ONCE)
-        # The browser would not send a strict cookie where a redirect follows another site's form: the page goes on itself.
-        return self._with_cookie(HTMLResponse('<!doctype html><meta http-equiv="refresh" content="0;url=/">'))
-
-    def _refusal(self, scope: Scope) -> Response | None:
-        headers = Headers(scope=scope)
-        hosts = headers.getlist("host")
-        if len(hosts) != 1 or hosts[0] not in self._hosts:
-            return _refused("this server answers to 127.0.0.1 alone", 421)
-        own = f"http://{hosts[0]}"
-        origins = headers.getlist("origin")
-        if any(o != own for o in origins):
-            return _refused("the request comes from another site")
-        safe = scope["method"] in ("GET", "HEAD")
-        if not safe and len(origins) != 1:
-            return _refused("a request that changes something must say where it comes from")
-        if not safe and headers.get("sec-fetch-site", "same-origin") != "same-origin":
-            return _refused("the request comes from another site")
-        if self._known(headers):
-            return RedirectResponse("/", 303) if scope["path"] == "/" and scope["query_string"] else None
-        if headers.get("sec-fetch-site", "none") not in ("none", "same-origin"):
-            return _refused("the request comes from another site")
-        if scope["path"] == "/" and scope["method"] == "GET":
-            token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
-            if self._keys.exchange(token):
-                return self._with_cookie(RedirectResponse("/", 303))  # the token does not stay in the address
-        return _refused(ONCE)
-
-    def _known(self, headers: Headers) -> bool:
-        try:
-            found = SimpleCookie(headers.get("cookie", "")).get(self._name)
-        except CookieError:
-            return False
-        return found is not None and secrets.compare_digest(found.value.encode(), self._keys.cookie.encode())
-
-    def _with_cookie(self, response: Response) -> Response:
-        response.set_cookie(self._name, self._keys.cookie, httponly=True, samesite="strict", path="/")
-        return response
-
-    async def _inner(self, scope: Scope, receive: Receive, send: Send) -> None:
-        long = scope["path"] in self._uploads
-        await self._app(scope, _limited(receive, math.inf if long else BODY), send)
-
-
-class TooLong(Exception):
-    """A body longer than :data:`BODY`."""
-
-
-def _limited(receive: Receive, longest: float) -> Receive:
-    """The body of a request up to a length; one that does not come on is given up as if the page had gone."""
-    seen, whole = 0, False
-
-    async def counted() -> Message:
-        nonlocal seen, whole
-        if whole:
-            return await receive()
-        try:
-            message = await asyncio.wait_for(receive(), UNFINISHED)
-        except TimeoutError:
-            return {"type": "http.disconnect"}
-        seen += len(message.get("body", b""))
-        whole = not message.get("more_body", False)
-        if seen > longest:
-            raise TooLong
-        return message
-
-    return counted
-
-
-def _with_headers(send: Send) -> Send:
-    async def sent(message: Message) -> None:
-        if message["type"] == "http.response.start":
-            own = {k.encode(): v.encode() for k, v in HEADERS.items()}
-            others = [(k, v) for k, v in message["headers"] if k.lower() not in own]
-            message = {**message, "headers": [*others, *own.items()]}
-        await send(message)
-
-    return sent
-
-
-def _refused(why: str, status: int = 403) -> Response:
-    return PlainTextResponse(f"refused: {why}\n", status)

@@ -19,7 +19,8 @@ import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.studio.routes import UNFINISHED, UPLOAD, Guard, Keys, application
+from ragg_runtime.studio.guard import UNFINISHED, Guard, Keys
+from ragg_runtime.studio.routes import UPLOAD, application
 from ragg_runtime.studio.session import Places, Session
 
 LOOPBACK = "127.0.0.1"

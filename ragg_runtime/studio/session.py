@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from ragg_runtime import api
@@ -24,14 +25,19 @@ from ragg_runtime.identification import foresee
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.foresee import Unwhitened
 from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.instrument.edit_toml import add_effect, set_parameters
+from ragg_runtime.instrument.instrument import EffectSetting
+from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
 from ragg_runtime.io.draft import draft_mapping
 from ragg_runtime.io.files import ENDINGS, ending_of
-from ragg_runtime.studio import states
-from ragg_runtime.studio.states import Edit, branches, text_of
-from ragg_runtime.studio.tracks import Tracks, compensated
+from ragg_runtime.model import derive
+from ragg_runtime.model.directory import Step, load_model_dir
+from ragg_runtime.studio.pyramid import Cache
 
 Part = Callable[[str, float], None]
+Edit = tuple[RawQuantity, tuple[float, ...] | None]
+"""Values of a parameter, and the sheet's sigmas in the same unit (``None``: it says nothing)."""
 
 KEPT = 4
 """Results that are remembered, by model and flights: undo, redo and taking back a cut cost nothing."""
@@ -44,9 +50,10 @@ SMALL = 1e6
 class State:
     """What is open and known; ``None`` and empty where it is not yet.
 
-    ``read`` are the flights as they were read, ``cuts`` the stretches (from, to, s) of each that are left out;
+    ``read`` are the flights as they were read, ``cuts`` the segments (from, to, s) of each that are left out;
     ``compared``, ``diagnosed`` and ``unwhitened`` are results for exactly these. ``previous`` is the comparison before
-    the last step, ``beside`` a state of the history with its comparison, ``trial`` an own effect that is not kept yet.
+    the last step, ``beside`` a state of the history with its comparison, ``trial`` an own effect that is not kept yet;
+    ``cache`` holds series that were made of these.
     """
 
     loaded: Loaded | None = None
@@ -61,7 +68,7 @@ class State:
     beside: tuple[int, Comparison] | None = None
     trial: tuple[str, str, Mapping[str, str], Added] | None = None
     compensated: Compensation | None = None
-    tracks: Tracks = field(default_factory=Tracks)
+    cache: Cache = field(default_factory=Cache)
 
     @property
     def model(self) -> Loaded:
@@ -148,19 +155,18 @@ class Session:
         known = self._results.get(key)
         if known is not None:
             compared, d, unwhitened = known
-            tracks = Tracks.of(compared, s.previous).diagnosed(d)
-            self._put(compared=compared, diagnosed=d, unwhitened=unwhitened, tracks=tracks)
+            self._put(compared=compared, diagnosed=d, unwhitened=unwhitened, cache=Cache())
             return
         if s.compared is None:
             part("calibrating and comparing", PASSES["compare"] * s.samples)
             compared = api.compare(s.loaded, s.flights)
-            self._put(compared=compared, tracks=Tracks.of(compared, s.previous))
+            self._put(compared=compared, cache=Cache())
         s = self.state
         part("testing every effect", PASSES["diagnose"] * s.samples)
         d = api.diagnose(s.model, s.flights, compared=s.compared)
         part("preparing the preview", s.samples)
         unwhitened = foresee.unwhitened(d.fitted)
-        self._put(diagnosed=d, unwhitened=unwhitened, tracks=s.tracks.diagnosed(d))
+        self._put(diagnosed=d, unwhitened=unwhitened)
         if s.compared is not None and s.samples <= SMALL:
             self._results[key] = s.compared, d, unwhitened
             while len(self._results) > KEPT:
@@ -171,7 +177,7 @@ class Session:
         s = self.state
         if s.loaded is None or self.jobs.status.name:
             return
-        if states.changed_by_others(s.loaded):
+        if load_model_dir(s.loaded.directory.path).digest != s.loaded.directory.digest:
             self._changed(api.load(s.loaded.directory.path))
 
     def _changed(self, m: Loaded) -> None:
@@ -198,9 +204,7 @@ class Session:
         s = self.state
         part("calibrating and comparing", PASSES["compare"] * s.samples)
         compared = api.compare(m, s.flights) if s.flights else None
-        tracks = Tracks() if compared is None else Tracks.of(compared, s.compared)
-        new = {"previous": s.compared, "compared": compared, "tracks": tracks, "loaded": m}
-        self._put(**(_nothing() | new))
+        self._put(**(_nothing() | {"previous": s.compared, "compared": compared, "loaded": m}))
         self._look(part)
 
     def remove(self, effect: str) -> None:
@@ -213,7 +217,9 @@ class Session:
         self._idle()
         sheet = {n: value for n, (value, _) in values.items()}
         sigmas = {n: sigma for n, (_, sigma) in values.items()}
-        self._changed(states.edited(self.state.model, sheet, sigmas))
+        m = self.state.model
+        text = set_parameters(m.directory.text, sheet, sigmas)
+        self._changed(api.change(m, text, "edit", ", ".join(values)))
 
     def go(self, action: str, step: int | None = None) -> None:
         """Undo, redo, or go back to the state after a step of the history."""
@@ -248,9 +254,8 @@ class Session:
 
     def attempt(self, effect: str, add: str, units: Mapping[str, str]) -> None:
         """Try an effect of the user's own: derived and calibrated, but not kept."""
-        listed = states.with_own(self.state.model, effect, add, units)
-        if not self.state.flights:
-            raise UserError("no flight is open", remedy="choose one first")
+        listed = with_own(self.state.model, effect, add, units)
+        self._flown()
         self.jobs.start(f"trying {effect}", partial(self._attempt, listed, effect, add, dict(units)))
 
     def _attempt(self, listed: Loaded, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
@@ -268,22 +273,22 @@ class Session:
     def _keep(self, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
         s = self.state
         part(f"deriving {effect} and calibrating", PASSES["add"] * s.samples)
-        self._after(api.add(states.with_own(s.model, effect, add, units), effect, s.flights).loaded, part)
+        self._after(api.add(with_own(s.model, effect, add, units), effect, s.flights).loaded, part)
 
     def compensate(self, kind: str, demodulator: str) -> None:
         """Compensate the flights that are open."""
+        self._flown()
 
         def work(part: Part) -> None:
             s = self.state
             part("compensating", PASSES["compare"] * s.samples)
-            self._put(compensated=compensated(s.model, s.flights, kind, demodulator))
+            self._put(compensated=api.compensate(s.model, s.flights, kind, demodulator))  # type: ignore[arg-type]
 
         self.jobs.start("compensating", work)
 
     def calibrate(self) -> None:
         """Keep the parameters fitted to these flights with the model, as ``ragg calibrate --save``."""
-        if not self.state.flights:
-            raise UserError("no flight is open", remedy="choose one first")
+        self._flown()
 
         def work(part: Part) -> None:
             s = self.state
@@ -291,6 +296,10 @@ class Session:
             self._put(loaded=api.calibrate(s.model, s.flights, save=True).loaded)
 
         self.jobs.start("calibrating", work)
+
+    def _flown(self) -> None:
+        if not self.state.flights:
+            raise UserError("no flight is open", remedy="choose one first")
 
     def _idle(self) -> None:
         if self.jobs.status.name:
@@ -300,7 +309,55 @@ class Session:
 def _nothing() -> dict[str, object]:
     """Of another model or other flights nothing is known yet."""
     names = ("compared", "diagnosed", "unwhitened", "previous", "beside", "trial", "compensated")
-    return dict.fromkeys(names) | {"tracks": Tracks()}
+    return dict.fromkeys(names) | {"cache": Cache()}
+
+
+def with_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Loaded:
+    """The model with an effect of one's own listed, ``add`` at the transducer (unit of each parameter), in memory alone."""
+    parameters = MappingProxyType({n: MappingProxyType({"unit": u}) for n, u in units.items()})
+    expression = MappingProxyType({"stage": "transducer", "add": add, "params": parameters})
+    if effect in {e.id for e in derive.known(m.instrument).effects}:
+        raise UserError(
+            "an effect of this id exists already", found=repr(effect[:80]), remedy="choose another name"
+        )
+    return api.as_of(m, add_effect(m.directory.text, EffectSetting(effect, expression=expression)))
+
+
+def text_of(history: Sequence[Step], step: int) -> str:
+    """model.toml as it was after a step; UserError if that was not kept."""
+    if not history[step].text:
+        raise UserError(
+            "that state was not kept: an older version made the step",
+            found=f"step {step + 1}",
+            remedy="remove effects one by one instead",
+        )
+    return history[step].text
+
+
+def branches(history: Sequence[Step]) -> tuple[list[int], list[int]]:
+    """Steps on the present branch, and those that undo has left (nearest last); undo and redo are steps themselves."""
+    past: list[int] = []
+    future: list[int] = []
+    for n, s in enumerate(history):
+        if s.action == "calibrate":
+            continue  # the model stays as it is
+        if s.action == "undo" and len(past) > 1:
+            future.append(past.pop())
+        elif s.action == "redo" and future:
+            past.append(future.pop())
+        else:
+            past.append(n)
+            future.clear()
+    return past, future
+
+
+def lineage(history: Sequence[Step]) -> list[int]:
+    """The steps that lead to the present state, without those that were undone or left."""
+    past, _ = branches(history)
+    back = next((k for k in reversed(range(len(past))) if history[past[k]].action == "restore"), None)
+    if back is None:
+        return past
+    return [*lineage(history[: int(history[past[back]].effect) + 1]), *past[back + 1 :]]
 
 
 LISTED = 500
@@ -496,8 +553,7 @@ class Jobs:
         except Cancelled:
             error = {"what": "cancelled; nothing was changed"}
         except UserError as e:
-            facts = ("what", "where", "found", "expected", "remedy")
-            error = {k: getattr(e, k) for k in facts}
+            error = e.facts
         except OSError as e:
             error = {"what": e.strerror or "the system refuses", "where": _shown(e.filename)}
         except MemoryError:

@@ -8,9 +8,12 @@ import json
 import math
 import re
 import shlex
+import tempfile
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
+from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,43 +26,37 @@ from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.compensation.result import Compensation
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.io.record import WIDEST_SPIKE, left_out
-from ragg_runtime.model.directory import Step
 from ragg_runtime.report import pages, panels, parameters
 from ragg_runtime.report.page import Origin
 from ragg_runtime.signals.derivative import runs
-from ragg_runtime.studio import states, tracks
-from ragg_runtime.studio.session import State
-from ragg_runtime.studio.states import branches, tree
+from ragg_runtime.studio.session import State, branches, lineage
 from ragg_runtime.wording import describe, describe_other, numbers
 from ragg_runtime.wording.sections import Section
 
 Json = dict[str, Any]
 
 
-def overview(s: State, version: str) -> Json:
+def overview(s: State) -> Json:
     """Everything small, in one answer."""
+    d = s.diagnosed
     return {
-        "version": version,
+        "version": metadata.version("ragg"),
+        "commands": commands(s),
         "model": None if s.loaded is None else _model(s),
         "flights": shown(s),
         "unread": [] if s.flights else [str(p) for p in s.paths],
         "banner": _banner(s),
-        "effects": [] if s.diagnosed is None else effects(s.diagnosed),
-        "untestable": [] if s.diagnosed is None else _untestable(s.diagnosed),
-        "unexplained": None if s.diagnosed is None else _unexplained(s.diagnosed),
-        "next_motion": []
-        if s.diagnosed is None
-        else [
-            {**x, "words": describe.motion_sentence(x)}
-            for x in (p.as_json() for p in s.diagnosed.next_motion)
-        ],
+        "effects": [] if d is None else effects(d),
+        "untestable": [] if d is None else _untestable(d),
+        "unexplained": None if d is None else _unexplained(d),
+        "next_motion": [] if d is None else [describe.motion_sentence(p.as_json()) for p in d.next_motion],
         "parameters": None
         if s.compared is None
         else shown_sections(parameters.describe_parameters(s.compared.fitted)),
-        "sheet": None
-        if s.loaded is None
-        else states.shown_sheet(s.loaded.instrument) | {"discs": _discs(s.loaded)},
+        "sheet": None if s.loaded is None else shown_sheet(s.loaded.instrument) | {"discs": _discs(s.loaded)},
         "history": None if s.loaded is None else _history(s.loaded),
         "compensated": None if s.compensated is None else _compensation(s.compensated),
         "beside": None if s.beside is None else _beside(*s.beside),
@@ -74,10 +71,45 @@ def _model(s: State) -> Json:
         "name": m.name,
         "path": str(m.directory.path),
         "notes": list(m.notes),
-        "calibrated": tracks.kept(m),
+        "calibrated": _kept(m),
         "effects": [_about(e) for e in m.model.effects],
         "spin_Hz": m.instrument.spin_frequency,
     }
+
+
+def shown_sheet(i: Instrument) -> Json:
+    """Names of the accelerometers, and of each parameter values, sigmas and plausible errors in its display unit."""
+    known, rows = i.units, []
+    for q in PARAMETERS:
+        v = i.accelerometers[q.name]
+
+        def of(x: Any, digits: int, unit: str = q.si_unit, to: str = q.display_unit) -> list[float]:
+            return [float(f"{y:.{digits}g}") for y in known.from_si(np.asarray(x), unit, to)]
+
+        rows.append(
+            {
+                "name": q.name,
+                "symbol": [list(p) for p in numbers.symbol(q.symbol)],
+                "meaning": q.description,
+                "unit": q.display_unit,
+                "unit_shown": numbers.unit(q.display_unit),
+                "values": of(v, 12),
+                "plausible": of(q.plausible_si(v, i.g0), 4),
+                "sigma": of(i.sigmas[q.name], 12) if q.name in i.sigmas else None,
+            }
+        )
+    return {"names": list(i.layout.names), "rows": rows}
+
+
+def _kept(m: Loaded) -> str | None:
+    """Where the calibration comes from that is kept with the model, or why it does not count; ``None``: there is none."""
+    if m.directory.calibration is None:
+        return None
+    try:
+        saved = api.saved_calibration(m)
+    except UserError as e:
+        return f"not used: {e.what}"
+    return f"of {saved.time[:16].replace('T', ' ')} UTC, on {numbers.listed([numbers.clean(n) for n in saved.flights])}"
 
 
 def _discs(m: Loaded) -> Json:
@@ -253,21 +285,20 @@ def _unexplained(d: Diagnosis) -> Json:
 def _history(m: Loaded) -> Json:
     history = m.directory.history
     past, future = branches(history)
-    made = tree(history)
+    present = lineage(history)
     return {
-        "now": past[-1] if past else None,
-        "tree": [{"n": n, "from": origin, "lane": lane} for n, (origin, lane) in made.items()],
+        "now": present[-1] if present else None,
         "steps": [
             {
                 "n": n,
                 "action": s.action,
                 "effect": numbers.clean(s.effect),
                 "time": s.time,
-                "before": _rms(s.before, "calibrated"),
-                "after": _rms(s.after, "calibrated"),
-                "holdout": _rms(s.after, "holdout"),
+                "before": describe.rms_of(s.before),
+                "after": describe.rms_of(s.after),
+                "holdout": describe.rms_of(s.after, "holdout"),
                 "flights": sorted(s.flights),
-                "present": n in past,
+                "present": n in present,
                 "kept": bool(s.text),
             }
             for n, s in enumerate(history)
@@ -275,12 +306,6 @@ def _history(m: Loaded) -> Json:
         "can_undo": len(past) > 1 and bool(history[past[-2]].text),
         "can_redo": bool(future),
     }
-
-
-def _rms(entry: Any, which: str) -> float | None:
-    value = entry.get(which) if isinstance(entry, Mapping) else None
-    found = value.get("rms_Eo") if isinstance(value, Mapping) else None
-    return float(found) if isinstance(found, int | float) else None
 
 
 def _compensation(c: Compensation) -> Json:
@@ -320,17 +345,6 @@ def _trial(s: State) -> Json:
         "adequate": a.after is not None and a.after.adequate,
         "values": [describe.parameter_line(p.as_json()) for p in (a.combinations or a.parameters)],
     }
-
-
-def lineage(history: Sequence[Step]) -> list[int]:
-    """The steps that lead to the present state, without those that were undone or left."""
-    made, past = tree(history), branches(history)[0]
-    now: int | None = past[-1] if past and past[-1] in made else None
-    found: list[int] = []
-    while now is not None:
-        found.insert(0, now)
-        now = made[now][0]
-    return found
 
 
 def _done(s: State, model: str, flights: str) -> list[str]:
@@ -422,13 +436,13 @@ def mathml(latex: str, *, block: bool = False) -> str:
     return str(made) if "\\" not in made else plain
 
 
-def take_away(s: State, what: str) -> tuple[str, str, bytes]:
-    """(name, media type, content) of a file to download."""
+def take_away(s: State, what: str) -> tuple[str, bytes]:
+    """(media type, content) of a file to download."""
     if what not in FILES:
         raise UserError("there is no such file", found=what[:40], expected=", ".join(FILES))
     kind, make = FILES[what]
     content = make(s)
-    return what, kind, content.encode() if isinstance(content, str) else content
+    return kind, content.encode() if isinstance(content, str) else content
 
 
 def _origin(s: State, command: str) -> Origin:
@@ -464,7 +478,10 @@ def _steps_report(s: State) -> str:
 def _compensated(s: State, name: str) -> bytes:
     if s.compensated is None:
         raise UserError("nothing is compensated yet", remedy="do it under Apply")
-    return tracks.file_of(s.compensated, name)
+    with tempfile.TemporaryDirectory(prefix="ragg-") as folder:
+        path = Path(folder, name)
+        s.compensated.write(path)
+        return path.read_bytes()
 
 
 def _exported(s: State, form: str) -> bytes:
