@@ -207,8 +207,12 @@ def test_05_by_keyboard_alone_an_effect_is_added_undone_and_redone(page: Page, s
     expect(table.locator("tr", has_text="calibrated").first).to_contain_text(
         f"{before:.2f}", timeout=PATIENCE
     )
-    expect(page.locator(".tree circle")).to_have_count(2)
-    expect(page.locator(".tree circle.now")).to_have_count(1)
+    expect(page.locator(".history .badge")).to_have_count(1)
+    page.keyboard.press("1")
+    page.get_by_text("Is the residual noise?").click()
+    for what in ("against:temperature", "whiteness"):
+        expect(page.get_by_alt_text(what)).to_have_js_property("complete", True)
+        assert page.get_by_alt_text(what).evaluate("x => x.naturalWidth") > 100
     idle(page)
 
 

@@ -27,10 +27,9 @@ from ragg_runtime.io import write_flight
 from ragg_runtime.model.directory import Step
 from ragg_runtime.simulate import simulated
 from ragg_runtime.studio import mapping, session, views
+from ragg_runtime.studio.pyramid import HEAD, pyramid
 from ragg_runtime.studio.routes import ACTIONS
-from ragg_runtime.studio.session import Places, Session
-from ragg_runtime.studio.states import branches, tree
-from ragg_runtime.studio.tracks import HEAD, pyramid
+from ragg_runtime.studio.session import Places, Session, branches, lineage
 from ragg_runtime.studio.views import mathml, missing
 from tests.layouts import sheets
 
@@ -87,7 +86,7 @@ def test_a_pyramid_loses_no_extreme_and_no_gap() -> None:
     x = np.random.default_rng(3).normal(size=n)
     x[77_777], x[123_456] = 50.0, -60.0
     x[10_000:11_000] = np.nan
-    p = pyramid(5.0, 0.01, n, lambda s: x[s])
+    p = pyramid(5.0, 0.01, x)
     for first, last, points in (
         (5.0, 2005.03, 700),
         (700.0, 1300.0, 300),
@@ -124,7 +123,8 @@ def test_undo_and_redo_walk_along_a_branch() -> None:
     kept = [*steps[:2], Step("calibrate", "2026-01-01")]  # leaves the model as it is
     assert branches([*kept, Step("undo", "2026-01-01", "0", text="0")]) == ([0], [1])
     went = [*steps[:4], Step("add", "2026-01-01", text="4"), Step("restore", "2026-01-01", "2", text="2")]
-    assert tree(went) == {0: (None, 0), 1: (0, 0), 2: (1, 0), 4: (1, 1), 5: (2, 0)}
+    assert lineage(went[:5]) == [0, 1, 4]
+    assert lineage(went) == [0, 1, 2]  # what is shown is the state after step 2
 
 
 def test_a_timeline_shows_gaps_and_lone_samples() -> None:

@@ -320,6 +320,12 @@ def test_what_is_drawn_is_what_the_commands_compute(client: httpx.Client) -> Non
         rms[what] = float(np.sqrt(np.mean(np.frombuffer(data[28:], "<f4").astype(float) ** 2)))
     assert rms["residual"] == pytest.approx(state["banner"]["errors"][1]["rms_Eo"], rel=1e-5)
     assert rms["left"] == pytest.approx(preview["rms_Eo"], rel=1e-5)
+    for what in ("correlations", "whiteness", "against:temperature"):
+        picture = client.get("/api/panel", params={"what": what})
+        assert picture.headers["content-type"] == "image/svg+xml"
+        assert picture.text.startswith("<svg ")
+        assert "var(--" not in picture.text
+    assert client.get("/api/panel", params={"what": "against:nothing"}).status_code == 400
     report = client.get("/api/take/diagnosis.html")
     assert report.headers["content-disposition"].startswith("attachment")
     assert best in report.text

@@ -40,6 +40,14 @@ export function sectionNode(s) {
   return s.detail ? h("details", {}, h("summary", {}, s.title, s.summary ? h("small", {}, ` ${s.summary}`) : null), body) : h("div", {}, s.title ? h("h3", {}, s.title) : null, body);
 }
 
+/** A panel of the reports as a picture, with a link to its file. */
+export function pictureNode(what, values) {
+  const source = `/api/panel?${new URLSearchParams({ what, ...values })}`;
+  const note = h("p.note", { hidden: true });
+  const image = h("img.picture", { src: source, alt: what, onerror: () => fetch(source).then((r) => r.json()).then((e) => { image.hidden = true; note.hidden = false; note.textContent = e.error.what; }) });
+  return h("div", {}, image, note, h("a", { href: source, download: `${what.replace(/\W+/g, "-")}.svg` }, "SVG"));
+}
+
 const SVG = "http://www.w3.org/2000/svg";
 
 /** The same for SVG. */
@@ -52,28 +60,11 @@ export function s(tag, attributes = {}, ...children) {
   return made;
 }
 
-const MATHML = "http://www.w3.org/1998/Math/MathML";
-const MATHS = new Set(
-  "math mrow mi mo mn ms mtext mspace msub msup msubsup mfrac msqrt mroot mover munder munderover mstyle mtable mtr mtd mpadded mphantom".split(" "),
-);
-const ALLOWED = new Set(["display", "mathvariant", "stretchy", "width", "accent", "displaystyle", "scriptlevel", "fence", "form"]);
-
-/** MathML from the server, rebuilt from the elements it may hold; anything else is shown as text. */
+/** MathML from the server; anything else is shown as text. Its attributes run nothing: the page's policy allows no code but its own. */
 export function maths(text) {
-  const parsed = new DOMParser().parseFromString(text || "", "application/xml");
-  const root = parsed.documentElement;
-  if (root.localName === "code") return h("code", {}, root.textContent);
-  if (root.localName !== "math") return document.createTextNode(root.textContent.slice(0, 500));
-  return rebuilt(root);
-}
-
-function rebuilt(node) {
-  if (node.nodeType === Node.TEXT_NODE) return document.createTextNode(node.data);
-  if (node.nodeType !== Node.ELEMENT_NODE || !MATHS.has(node.localName)) return document.createTextNode(node.textContent);
-  const made = document.createElementNS(MATHML, node.localName);
-  for (const a of node.attributes) if (ALLOWED.has(a.name)) made.setAttribute(a.name, a.value);
-  for (const child of node.childNodes) made.append(rebuilt(child));
-  return made;
+  const root = new DOMParser().parseFromString(text || "", "application/xml").documentElement;
+  if (root.localName === "math") return document.importNode(root, true);
+  return root.localName === "code" ? h("code", {}, root.textContent) : document.createTextNode(root.textContent.slice(0, 500));
 }
 
 /** A symbol in pieces [text, lowered]. */

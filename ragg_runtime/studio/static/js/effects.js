@@ -42,7 +42,7 @@ export function effectsPane(box) {
     others.firstChild.textContent = hidden.length === effects.length ? `No further effect needed; ${hidden.length} tested` : `${hidden.length} others, not significant`;
     const untestable = state ? state.untestable : [];
     fill(rest, untestable.length ? h("details", {}, h("summary", {}, `${untestable.length} effects are not testable on this record`), h("ul.silent", {}, untestable.map((e) => h("li", {}, h("b", {}, e.title || e.id), " ", h("code", {}, e.id), h("p", {}, e.why))))) : null,
-      state && state.next_motion.length ? h("details", { open: true }, h("summary", {}, "Next motion"), h("ul.silent", {}, state.next_motion.map((m) => h("li", {}, m.words)))) : null);
+      state && state.next_motion.length ? h("details", { open: true }, h("summary", {}, "Next motion"), h("ul.silent", {}, state.next_motion.map((m) => h("li", {}, m)))) : null);
     marks();
     footer();
   };

@@ -1,6 +1,6 @@
 // The linked figures of one flight: one window of time, one band of frequencies, one term; what is marked in one is marked in all.
 import { ask, doing, Refused, series, spectrogram } from "./api.js";
-import { calm, counted, fill, h, number } from "./dom.js";
+import { calm, counted, fill, h, number, pictureNode } from "./dom.js";
 import { curvesText, fileName, frame, heatTable, tableText } from "./drawings.js";
 import { look, on, server, view } from "./store.js";
 import { overview, ramp, spectrogramPlot, spectrumLines, spectrumPlot, timePlot } from "./curves.js";
@@ -37,7 +37,7 @@ export function figures(box) {
   };
   fill(panels.heat.legend, "σ, of what the model leaves");
   const { strip, measured, residual, spectrum, spectrogram: gram } = panels;
-  strip.body.title = "Drag to choose a stretch of time; drag its middle to move it";
+  strip.body.title = "Drag to choose a segment of time; drag its middle to move it";
   fill(box, head, strip.element, measured.element, residual.element, h("div.pair", {}, spectrum.element, gram.element), panels.heat.element);
 
   const plots = {
@@ -230,7 +230,28 @@ export function figures(box) {
   };
 }
 
-// The window on a flight: which stretch of time, which band of frequencies, which of its outputs and units.
+// Whether the residual is noise: against a channel, its whiteness, its correlation with the motion; drawn by the server once it is asked for.
+
+export function noisePane(box) {
+  let shown = "", picked = "";
+  const body = h("div");
+  const pane = h("details.panel", { ontoggle: () => known() }, h("summary", {}, h("h2", {}, "Is the residual noise?"), h("small", {}, " against a channel; whiteness; correlation with the motion")), body);
+  fill(box, pane);
+  function known() {
+    pane.hidden = !ready();
+    if (pane.hidden || !pane.open) return;
+    const names = flight().channels.map((c) => c.name), channel = names.includes(picked) ? picked : names.find((n) => n === "temperature") || names[0];
+    const asked = { flight: view.flight, output: view.output, of: server.state.banner.errors[1].rms_Eo };
+    const key = JSON.stringify([asked, channel, flight().path]);
+    if (key === shown) return;
+    shown = key;
+    fill(body, h("div.row.choices", {}, h("label", {}, "channel "), choose("Channel", names, names.indexOf(channel), (k) => ((picked = names[k]), known()))), pictureNode(`against:${channel}`, asked), pictureNode("whiteness", asked));
+  }
+  const offs = [on("flight output", known)];
+  return { known, gone: () => offs.forEach((f) => f()) };
+}
+
+// The window on a flight: which segment of time, which band of frequencies, which of its outputs and units.
 
 const UNITS = { V: ["V", "v"], Eo: ["Eo", "e"], inline: ["inline", "i"], cross: ["cross", "c"] };
 const MOST_LINES = 40; // more flights than these are chosen from a list alone
@@ -304,7 +325,7 @@ export function windowKeys() {
   return () => removeEventListener("keydown", keys);
 }
 
-/** Which stretch of the flight is shown, in words. */
+/** Which segment of the flight is shown, in words. */
 export const windowText = () => {
   const f = flight();
   return f ? `${number(limits()[0], 4)} – ${number(limits()[1], 4)} s of ${number(f.duration_s, 4)} s at ${number(f.rate_Hz, 3)} Hz` : "";

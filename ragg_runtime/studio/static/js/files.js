@@ -50,12 +50,17 @@ export function filesView(main) {
     h("p", {}, "Drop flights here (CSV, Parquet, NetCDF, HDF5, MATLAB, Excel), or ", h("label.file", {}, "choose them", h("input", { type: "file", multiple: true, onchange: (e) => take([...e.target.files]) })), "."),
     h("p.note", {}, "They are saved in the folder flights of the model directory; no file is overwritten. Columns have their units: time [s], a_x [m/s^2], omega_x [deg/h], G_out [V] …"));
   const take = async (files) => {
-    const paths = [];
+    const paths = [], said = drop.querySelector(".note"), words = said.textContent;
     try {
-      for (const file of files) paths.push((await upload(file)).path);
+      for (const file of files) {
+        said.textContent = `Saving and examining ${file.name} …`;
+        paths.push((await upload(file)).path);
+      }
     } catch (error) {
       if (error instanceof Refused) return trouble(error.facts);
       throw error;
+    } finally {
+      said.textContent = words;
     }
     if (paths.length) open(null, paths);
   };

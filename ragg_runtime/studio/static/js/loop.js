@@ -2,17 +2,17 @@
 import { doing } from "./api.js";
 import { drawingText, fileName, saves, stepBars } from "./drawings.js";
 import { effectsPane, foreseen } from "./effects.js";
-import { figures } from "./figures.js";
+import { figures, noisePane } from "./figures.js";
 import { fill, h, number } from "./dom.js";
 import { look, on, server, view } from "./store.js";
 
 export function loopView(main) {
   const top = h("section.banner", { "aria-label": "Verdict" });
-  const left = h("div.figures");
+  const left = h("div.figures"), noise = h("div.noise-pane");
   const right = h("aside.effects", { "aria-label": "Effects" });
   const below = h("section.unexplained", { "aria-label": "What is unexplained" });
-  main.replaceChildren(top, h("div.columns", {}, left, h("div.side", {}, right, below)));
-  const parts = [banner(top), figures(left), effectsPane(right), unexplainedPane(below)];
+  main.replaceChildren(top, h("div.columns", {}, h("div.left", {}, left, noise), h("div.side", {}, right, below)));
+  const parts = [banner(top), figures(left), noisePane(noise), effectsPane(right), unexplainedPane(below)];
   const off = on("server", () => parts.forEach((p) => p.known && p.known()));
   parts.forEach((p) => p.known && p.known());
   return () => {
@@ -76,16 +76,15 @@ export function banner(box) {
 /** The error after every step of the present branch, ending with what the flights that are open show now. */
 function present(state) {
   const steps = [];
+  const far = (value) => !steps.length || Math.abs(steps.at(-1).value - value) > 0.02 * value;
+  let removed = "";
+  const start = (value) => far(value) && steps.push({ label: removed || (steps.length ? "other flights" : "as it was"), value, kind: removed ? "step" : "start" });
   for (const s of state.history ? state.history.steps.filter((x) => x.present) : []) {
-    const lastly = steps.at(-1);
-    if (s.before !== null && (!lastly || Math.abs(lastly.value - s.before) > 0.02 * s.before)) {
-      steps.push({ label: steps.length ? "other flights" : "as it was", value: s.before, kind: "start" });
-    }
-    if (s.after !== null) steps.push({ label: `${s.action === "remove" ? "−" : "+"} ${s.effect}`, value: s.after, kind: "step" });
+    if (s.before !== null) start(s.before);
+    if (s.after !== null) steps.push({ label: `+ ${s.effect}`, value: s.after, kind: "step" });
+    removed = s.action === "remove" ? `− ${s.effect}` : s.action === "edit" ? "sheet edited" : "";
   }
-  const now = state.banner.errors[1].rms_Eo;
-  const lastly = steps.at(-1);
-  if (!lastly || Math.abs(lastly.value - now) > 0.02 * now) steps.push({ label: steps.length ? "now" : "as it is", value: now, kind: steps.length ? "step" : "start" });
+  start(state.banner.errors[1].rms_Eo);
   return steps;
 }
 

@@ -1,7 +1,7 @@
 // What the record determines of the parameters, the test sheet, and the history.
 import { ask, doing, Refused } from "./api.js";
-import { branchTree, curvesText, drawingText, fileName, frame, saves } from "./drawings.js";
-import { fill, h, number, sectionNode, symbol, tableNode } from "./dom.js";
+import { curvesText, fileName, frame } from "./drawings.js";
+import { fill, h, number, pictureNode, sectionNode, symbol, tableNode } from "./dom.js";
 import { on, server, view } from "./store.js";
 import { spectrumLines, spectrumPlot } from "./curves.js";
 
@@ -16,8 +16,8 @@ export function parametersView(main) {
     if (!p) return void fill(main, h("p.empty-note", {}, "The parameters are known once a flight is compared."));
     fill(
       main,
-      p.map((s) => h("section.card", {}, h("h2", {}, s.title), sectionNode({ ...s, title: "", detail: false }))),
-      h("section.card", {}, h("h2", {}, "Next motion"), state.next_motion.length ? h("ul", {}, state.next_motion.map((m) => h("li", {}, m.words))) : h("p.note", {}, "No effects are left that another motion would separate.")),
+      p.map((s) => h("section.card", {}, h("h2", {}, s.title), s.title.startsWith("Correlations") ? pictureNode("correlations", { flight: view.flight }) : null, sectionNode({ ...s, title: "", detail: false }))),
+      h("section.card", {}, h("h2", {}, "Next motion"), state.next_motion.length ? h("ul", {}, state.next_motion.map((m) => h("li", {}, m))) : h("p.note", {}, "No effects are left that another motion would separate.")),
     );
   };
   known();
@@ -103,7 +103,6 @@ export function sheetView(main) {
 // The steps as they were made, and the branches that were left; any state can be compared beside the present one.
 
 const SAID = { new: "made from a test sheet", add: "added", remove: "removed", edit: "sheet edited:", undo: "undo", redo: "redo", restore: "went back", calibrate: "calibration saved" };
-const SHORT = { new: () => "test sheet", add: (s) => `+ ${s.effect}`, remove: (s) => `− ${s.effect}`, edit: (s) => `sheet: ${s.effect}`, restore: (s) => `as after ${Number(s.effect) + 1}` };
 
 export function historyView(main) {
   const steps = h("section.card"), two = h("section.card", { hidden: true });
@@ -126,16 +125,13 @@ export function historyView(main) {
 
   const listed = (state) => {
     const { history } = state, busy = Boolean(state.status.job);
-    const of = (n) => history.steps.find((s) => s.n === n);
-    const states = history.tree.map((x) => ({ ...x, label: (SHORT[of(x.n).action] || (() => of(x.n).action))(of(x.n)), after: of(x.n).after, present: of(x.n).present }));
     fill(
       steps,
       h("h2", {}, "History"),
-      h("p.note", {}, "Append-only: undo and redo are steps, too. Grey states are on a branch that was left; you can go back to each."),
+      h("p.note", {}, "Append-only: undo and redo are steps, too. Grey steps are on a branch that was left; you can go back to each."),
       h("div.row", {},
         h("button", { type: "button", disabled: !history.can_undo || busy, onclick: () => doing("undo") }, "Undo"),
         h("button", { type: "button", disabled: !history.can_redo || busy, onclick: () => doing("redo") }, "Redo")),
-      states.length ? branches(state.model.name, branchTree(states, history.now)) : null,
       h("div.wide", {}, h("table.numbers.history", {},
         h("thead", {}, h("tr", {}, h("th", {}, "no."), h("th", {}, "when"), h("th", {}, "step"), h("th.n", {}, "before, Eo"), h("th.n", {}, "after, Eo"), h("th.n", {}, "held out, Eo"), h("th", {}, "flights"), h("th", { "aria-label": "what can be done" }))),
         h("tbody", {}, [...history.steps].reverse().map((s) => h("tr", { class: s.present ? "" : "left" },
@@ -151,8 +147,6 @@ export function historyView(main) {
   const offs = [on("server", known), on("flight", known)];
   return () => (offs.forEach((f) => f()), drop());
 }
-
-const branches = (name, tree) => h("figure.tree-box", { "aria-label": "Branches" }, h("div.wide", { tabindex: "0", role: "group", "aria-label": "The states of the model as a tree" }, tree), saves("Branches", () => fileName(name, "history"), () => drawingText(tree)));
 
 function beside(box, state) {
   const b = state.beside, now = state.banner, old = `after step ${b.step + 1}`;
