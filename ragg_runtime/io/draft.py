@@ -20,7 +20,7 @@ from ragg_runtime.instrument.units import units
 from ragg_runtime.io.files import read_tables
 from ragg_runtime.io.instants import find_order, parts_of
 from ragg_runtime.io.mapping import UNKNOWN
-from ragg_runtime.io.record import DEMODULATED, SI_UNITS
+from ragg_runtime.io.record import ANGULAR_RATE, DEMODULATED, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.recording import find_spoiled, parse_numbers
 from ragg_runtime.io.tables import Column, Table, is_unit, split_lines
 
@@ -75,12 +75,20 @@ def draft_mapping(path: Path) -> Draft:
         kept = f"{_key(c.name)} = {_entry(c.name, c.unit or UNKNOWN)}"
         page.lines.append(f"# {kept}" if c.is_number else f"# no numbers: {_quoted(c.name)} ({_example(c)})")
     texts = [f"{c.name}: no numbers ({_example(c)}), not used" for c in unused if not c.is_number]
+    lacking = [n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE) if n not in page.sure]
+    if not any(n.startswith(OUTPUTS) for n in page.sure):
+        lacking.append("the output (G_out, V_1 ... or inline and cross)")
+    said = [f"no column is recognised as {', '.join(lacking)}: name it in [columns]"] if lacking else []
     return Draft(
-        text="\n".join(page.lines) + "\n",
+        text="\n".join([*page.lines, *(f"# {x}" for x in said)]) + "\n",
         questions=tuple(page.questions),
         sure=MappingProxyType(page.sure),
-        notes=(*table.notes, *texts),
+        notes=(*table.notes, *texts, *said),
     )
+
+
+OUTPUTS = ("G_out", "V_", "inline")
+"""How channels begin of which one must be there."""
 
 
 def sample_table(path: Path) -> Table:

@@ -19,7 +19,7 @@ from starlette.requests import ClientDisconnect, Request
 from ragg_runtime.api import Loaded, keep_mapping, mapping_of
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text, replacing
-from ragg_runtime.io.draft import draft_mapping, sample_table
+from ragg_runtime.io.draft import OUTPUTS, draft_mapping, sample_table
 from ragg_runtime.io.mapping import UNKNOWN, Mapped, parse_mapping
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.tables import Column
@@ -30,9 +30,6 @@ Json = dict[str, Any]
 
 NEEDED = (*SPECIFIC_FORCE, *ANGULAR_RATE)
 """Channels that every flight has."""
-
-OUTPUTS = ("G_out", "V_1", "inline")
-"""Channels of which one must be there as well."""
 
 POINTS = 160
 """Samples of a column that are drawn."""
@@ -57,7 +54,7 @@ def _shown(data: Json, held: Sequence[Column], sure: Mapping[str, str], *, kept:
     columns = data.get("columns", {})
     missing = [n for n in NEEDED if n not in columns]
     if not any(n.startswith(OUTPUTS) for n in columns):
-        missing.append(OUTPUTS[0])
+        missing.append("G_out")
     for name in (*columns, *missing):
         raw = columns.get(name, {"column": UNKNOWN, "unit": UNKNOWN})
         entry = {"column": raw} if isinstance(raw, str) else raw

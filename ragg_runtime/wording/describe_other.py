@@ -32,6 +32,15 @@ LISTED = 60
 """Flights of a survey that are listed one by one."""
 
 
+FROM = {
+    "frozen": "of the saved calibration",
+    "self": "fitted to these flights",
+    "crossed": "of every block of time fitted to the others",
+    "smoothed": "fitted to these flights, drifting from block to block",
+}
+"""Where the parameters of a compensation come from."""
+
+
 def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sections:
     """The result of ``calibrate``."""
     e, seen = c["error"], c["directions"]
@@ -128,9 +137,7 @@ def describe_compensation(r: Json, output: str) -> Sections:
     d = r["demodulator"]
     lag = f", {number(d['latency_s'])} s late" if d["latency_s"] else ""
     head = [
-        f"{output}: calibration {r['calibration']}, {d['what']}{lag}."
-        if output
-        else f"Calibration {r['calibration']}, {d['what']}."
+        f"{f'{output}: ' if output else ''}parameters {FROM[r['calibration']]}; demodulator: {d['what']}{lag}."
     ]
     if not r["converged"]:
         head.append("The calibration has NOT converged: do not rely on these values.")
@@ -365,7 +372,8 @@ def _record_sections(r: Json) -> list[Section]:
         )
     text += [f"note: {n!s}" for n in r["notes"]]
     if r["refused"]:
-        text.append(f"This record cannot be used as it is: {' '.join(str(r['refused']).split())}")
+        why = "; ".join(line.strip() for line in str(r["refused"]).splitlines())
+        text.append(f"This record cannot be used as it is: {why}.")
     rows = [
         (
             str(c["name"]),

@@ -202,7 +202,7 @@ def test_another_flight_that_cannot_be_read_leaves_a_page_to_look_at(tmp_path: P
     s.open(None, [tmp_path / "y.csv"])
     s.jobs.wait(60)
     assert s.jobs.status.error is not None
-    assert views.overview(s.state, "0")["flights"] == []
+    assert views.overview(s.state)["flights"] == []
     assert views.commands(s.state)
 
 
