@@ -187,12 +187,13 @@ _NO_LOCKS = (errno.EBADF, errno.ENOLCK, errno.ENOTSUP, errno.EOPNOTSUPP, errno.E
 
 @contextlib.contextmanager
 def locked(path: Path, patience: float) -> Iterator[None]:
-    """Hold the lock of a directory while this process lives; without one where the file system knows none.
+    """Hold the lock of a directory, or of a file, while this process lives; without one where the file system knows none.
 
     Raises TimeoutError if another process holds it for longer than ``patience``, s.
     """
     if sys.platform == "win32":  # a directory cannot be locked there
-        with filelock.FileLock(path / ".ragg.lock", timeout=patience):
+        place = path / ".ragg.lock" if path.is_dir() else path.with_name(f"{path.name}.lock")
+        with filelock.FileLock(place, timeout=patience):
             yield
         return
     handle = os.open(path, os.O_RDONLY)

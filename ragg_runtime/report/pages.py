@@ -19,7 +19,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.report import panels, whiteness
 from ragg_runtime.report.page import Origin, render_page
 from ragg_runtime.report.parameters import describe_parameters
-from ragg_runtime.survey.result import Survey, Trend
+from ragg_runtime.survey.result import Survey, find_trends
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Axes, Bar, Bars, Curve, Curves, Plot, Section
 
@@ -244,7 +244,7 @@ def survey_page(s: Survey, origin: Origin) -> str:
     """The report of ``survey``."""
     said = s.sections("MODEL_DIR")
     drawn = [plot_errors(s)] if s.done else []
-    trends = s.summary.trends[:6]
+    trends = find_trends(s.done)[:6]
     sections = [_with_plots(said[0], *drawn), *said[1:]]
     if trends:
         sections += _figure(
@@ -273,14 +273,15 @@ def plot_errors(s: Survey) -> Plot:
     )
 
 
-def plot_trend(t: Trend, n: int) -> Plot:
+def plot_trend(t: Json, n: int) -> Plot:
     """A calibrated parameter over the flights, less its mean, with one standard deviation."""
-    at = np.array([k for k, v in enumerate(t.values) if v is not None], dtype=np.float64)
-    v, std = (np.array([x for x in xs if x is not None]) for xs in (t.values, t.stds))
-    middle = numbers.with_unit(numbers.rounded(t.mean, float(np.min(std))), t.unit)
-    label = numbers.short(t.label, 44)
-    band = Curve("± 1 sigma", at, v - t.mean - std, "envelope", "band", v - t.mean + std)
-    axes = Axes((band, Curve("value", at, v - t.mean)), numbers.unit(t.unit), f"{label} − {middle}")
+    at = np.array([k for k, v in enumerate(t["values"]) if v is not None], dtype=np.float64)
+    v, std = (np.array([x for x in t[k] if x is not None]) for k in ("values", "stds"))
+    middle = numbers.with_unit(numbers.rounded(t["mean"], float(np.min(std))), t["unit"])
+    name = t["name"] if t["accelerometer"] is None else f"{t['name']}[{t['accelerometer']}]"
+    label, away = numbers.short(name, 44), v - t["mean"]
+    band = Curve("± 1 sigma", at, away - std, "envelope", "band", away + std)
+    axes = Axes((band, Curve("value", at, away)), numbers.unit(t["unit"]), f"{label} − {middle}")
     return Curves(
         f"trend{n}",
         f"{label} over the flights",

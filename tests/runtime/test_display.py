@@ -152,5 +152,5 @@ def test_a_survey_is_shown_flight_by_flight() -> None:
     records = [common | own | {"flight": f"{k:03}", "noise_floor": {"rms_Eo": 2.5}} for k in range(100)]
     text = shown(Survey(tuple(records)))
     assert "100 flights: 100 missing an effect" in text
-    assert "recommended: add lag, which 100 of 100 flights ask for" in text
+    assert "recommended: add lag (needed by 100 of 100 flights)" in text
     assert "and 40 more" in text

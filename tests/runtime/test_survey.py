@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-import hashlib
 import io
 import json
-import multiprocessing
 import os
 import signal
 import subprocess
@@ -22,17 +20,18 @@ import pytest
 from flights_of_a_survey import COUNT, WITH_EFFECT, lines_of, make, without_effect
 
 from ragg_runtime import api
+from ragg_runtime.base import files
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.cli.main import main
 from ragg_runtime.io import write_flight
 from ragg_runtime.io.tables import Column, Table
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.pages import survey_page
 from ragg_runtime.simulate import simulated
 from ragg_runtime.survey import run
-from ragg_runtime.survey.result import Survey, parquet
-from ragg_runtime.survey.run import distinct_names, ordered
-from ragg_runtime.survey.task import Record, divided, examine, expanded, job
+from ragg_runtime.survey.examine import Record, examine, expand_lines, make_job, split_line
+from ragg_runtime.survey.journal import digest_file, make_head, open_journal
+from ragg_runtime.survey.result import Survey, make_parquet
+from ragg_runtime.survey.run import name_flights, order_files
 from ragg_runtime.wording.sections import render_text
 from tests.runtime.foreign_files import write
 
@@ -56,14 +55,8 @@ def records_of(whole: Survey, files: list[Path]) -> str:
 
 def ragg(*arguments: object, **options: Any) -> subprocess.Popen[str]:
     words = [sys.executable, "-m", "ragg_runtime", *map(str, arguments)]
-    return subprocess.Popen(
-        words,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=_interruptible,
-        **options,
-    )
+    pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    return subprocess.Popen(words, preexec_fn=_interruptible, start_new_session=True, **pipes, **options)
 
 
 def _interruptible() -> None:
@@ -87,16 +80,17 @@ def test_every_flight_has_its_own_figures(flights: Flights, whole: Survey) -> No
 
 
 def test_a_flight_that_cannot_be_read_is_reported_and_stops_nothing(flights: Flights, whole: Survey) -> None:
-    assert [r["flight"] for r in whole.failed] == ["flight-2b.parquet"]
-    assert "damaged" in whole.failed[0]["error"]["message"]
-    assert whole.summary.counts["error"] == 1
+    (failed,) = (r for r in whole.records if "verdict" not in r)
+    assert failed["flight"] == "flight-2b.parquet"
+    assert "damaged" in failed["error"]["message"]
+    assert whole.as_json()["counts"]["error"] == 1
     assert len(whole.done) == COUNT
     said = render_text(whole.sections(flights[0]))
     assert "1 in error" in said
     assert "flight-2b.parquet  " in said
-    advice = whole.summary.advice[0]
-    assert (advice.effect, advice.firm) == ("thermal-scale", True)
-    assert set(WITH_EFFECT) <= set(advice.flights)
+    advice = whole.as_json()["recommendation"][0]
+    assert (advice["effect"], advice["firm"]) == ("thermal-scale", True)
+    assert set(WITH_EFFECT) <= set(advice["flights"])
     assert "ragg add" in said
 
 
@@ -107,7 +101,7 @@ def test_a_flight_with_a_likely_mistake_is_told_as_elsewhere(flights: Flights, t
     bad = dataclasses.replace(good, outputs={"G_out": 1e3 * good.outputs["G_out"]})
     write_flight(bad, tmp_path / "millivolts.parquet")
     toml = flights[0] / "model.toml"
-    error = examine(job(toml.read_text(), toml), str(tmp_path / "millivolts.parquet"))["error"]
+    error = examine(make_job(toml.read_text(), toml), str(tmp_path / "millivolts.parquet"))["error"]
     assert error["kind"] == "input"
     assert "G_out is in mV, not in V" in error["message"]
 
@@ -119,51 +113,9 @@ def test_a_file_system_without_locks_is_noted_once(
         raise OSError(37, "No locks available")
 
     monkeypatch.setattr("fcntl.flock", refuse)
-    with run.open_journal(tmp_path / "kept.jsonl"):
-        assert capfd.readouterr().err.count("cannot be locked here") == 1
-
-
-def test_provenance_names_every_flight(
-    flights: Flights, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The damaged one too, with its digest; one that is not there, without."""
-    damaged = flights[1][-1]
-    monkeypatch.setattr(run, "examine_here", lambda given, files, _: (
-        (file, examine(given, file)) for file in files))  # fmt: skip
-    main(
-        [
-            "survey",
-            str(flights[0]),
-            str(damaged),
-            str(tmp_path / "no.csv"),
-            "--json",
-            str(tmp_path / "s.json"),
-        ]
-    )
-    found = json.loads((tmp_path / "s.json").read_text())["provenance"]["flights"]
-    digest = hashlib.sha256(damaged.read_bytes()).hexdigest()
-    assert found == [
-        {"path": str(damaged), "digest": digest},
-        {"path": str(tmp_path / "no.csv"), "digest": None},
-    ]
-
-
-def test_killed_workers_are_replaced_and_change_no_bit(flights: Flights, whole: Survey) -> None:
-    killed: list[int] = []
-
-    def kill_one(done: int, total: int, record: Record | None) -> None:
-        if record is not None and not killed:
-            pids = sorted(p.pid for p in multiprocessing.active_children() if p.pid)
-            assert len(pids) == 2
-            killed.extend(pids)
-            for pid in pids:
-                os.kill(pid, signal.SIGKILL)
-
-    m, files = api.load(flights[0]), without_effect(flights[1])
-    again = api.survey(m, files, jobs=2, progress=kill_one)
-    assert len(killed) == 2
-    assert json.dumps(list(again.records)) == records_of(whole, files)
-    assert not multiprocessing.active_children()
+    files._say_once.cache_clear()
+    with open_journal(tmp_path / "kept.jsonl", make_job("", tmp_path)):
+        assert capfd.readouterr().err.count("knows no locks") == 1
 
 
 def test_a_flight_that_kills_every_worker_is_given_up(
@@ -172,7 +124,7 @@ def test_a_flight_that_kills_every_worker_is_given_up(
     monkeypatch.setattr(run, "examine", dying.deadly)
     files = [str(p) for p in flights[1]]
     toml = flights[0] / "model.toml"
-    found = dict(run.examine_here(job(toml.read_text(), toml), files, 2))
+    found = dict(run.examine_here(make_job(toml.read_text(), toml), files, 2))
     assert sorted(found) == sorted(files)
     failed = {Path(f).name: r["error"] for f, r in found.items() if "error" in r}
     assert sorted(failed) == ["flight-1.parquet", "flight-2.parquet"]
@@ -189,12 +141,12 @@ def wait_for_records(file: Path, count: int, process: subprocess.Popen[str]) -> 
         time.sleep(0.02)
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+@pytest.mark.skipif(not Path("/proc").exists(), reason="looks at processes of Linux")
 def test_a_killed_survey_continues(flights: Flights, whole: Survey, tmp_path: Path) -> None:
     kept = tmp_path / "kept.jsonl"
     files = without_effect(flights[1])
     command = ("survey", flights[0], *files, "--jobs", 1, "--resume", kept)
-    process = ragg(*command, start_new_session=True)
+    process = ragg(*command)
     wait_for_records(kept, 1, process)
     workers = children(process.pid)
     os.kill(process.pid, signal.SIGKILL)
@@ -215,34 +167,25 @@ def test_a_killed_survey_continues(flights: Flights, whole: Survey, tmp_path: Pa
 
 
 def children(pid: int) -> list[int]:
-    """Processes started by a process (where the system shows them)."""
-    try:
-        return [int(p) for p in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
-    except OSError:
-        return []
+    """Processes started by a process."""
+    return [int(p) for p in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
 
 
 def gone(pid: int) -> None:
     deadline = time.monotonic() + 20
-    while time.monotonic() < deadline:
-        try:
-            os.kill(pid, 0)
-            state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
-        except OSError:
-            return
-        if state == "Z":  # dead, and not yet fetched by whoever adopted it
-            return
+    while Path(f"/proc/{pid}/stat").exists():
+        if Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z":
+            return  # dead, and not yet fetched by whoever adopted it
+        assert time.monotonic() < deadline, f"worker {pid} outlives the survey"
         time.sleep(0.05)
-    raise AssertionError(f"worker {pid} outlives the survey")
 
 
+@pytest.mark.skipif(not Path("/proc").exists(), reason="looks at processes of Linux")
 def test_an_interrupted_survey_without_results_file_keeps_what_is_done(
     flights: Flights, tmp_path: Path
 ) -> None:
     environment = os.environ | {"TMPDIR": str(tmp_path)}
-    process = ragg(
-        "survey", flights[0], *flights[1][1:], "--jobs", 1, start_new_session=True, env=environment
-    )
+    process = ragg("survey", flights[0], *flights[1][1:], "--jobs", 1, env=environment)
     deadline = time.monotonic() + 90
     while not (found := list(tmp_path.glob("ragg-survey-*.jsonl"))):
         assert time.monotonic() < deadline
@@ -341,8 +284,8 @@ def record(name: str, found: dict[str, list[str]], value: float = 1.0, log10_p: 
 
 
 def test_the_table_has_a_row_a_flight_and_the_figures_of_the_json(whole: Survey) -> None:
-    rows = pq.read_table(io.BytesIO(parquet(whole.records))).to_pylist()
-    assert parquet(whole.records) == parquet(whole.records)
+    rows = pq.read_table(io.BytesIO(make_parquet(whole.records))).to_pylist()
+    assert make_parquet(whole.records) == make_parquet(whole.records)
     for row, r in zip(rows, whole.records, strict=True):
         assert (row["flight"], row["file"], row["verdict"]) == (r["flight"], r["file"], r.get("verdict"))
         if "verdict" not in r:
@@ -357,54 +300,50 @@ def test_the_table_has_a_row_a_flight_and_the_figures_of_the_json(whole: Survey)
         assert row["ranking"] == r["ranking"]
 
 
-def test_flights_come_in_the_order_of_the_names_that_they_are_given() -> None:
-    """Days in folders, each with the same lines: the days follow one another, and so does what drifts."""
-    days = [f"/s/day-{d}/line-{n}.csv" for d in (1, 0) for n in (1, 0)]
-    assert ordered([*days, days[0]]) == sorted(days)
-    assert ordered(["/s/b/1.csv", "/s/a/2.csv"]) == ["/s/b/1.csv", "/s/a/2.csv"]
+def advised(s: Survey) -> list[tuple[str, bool]]:
+    return [(a["effect"], a["firm"]) for a in s.as_json()["recommendation"]]
 
 
 def test_few_flights_are_chance_many_are_not() -> None:
-    few = Survey(tuple(record(f"{k:03}", {"lag": []} if k < 4 else {}) for k in range(100)))
-    assert [(a.effect, a.firm) for a in few.summary.advice] == [("lag", False)]
-    many = Survey(tuple(record(f"{k:03}", {"lag": []} if k < 15 else {}) for k in range(100)))
-    assert [(a.effect, a.firm) for a in many.summary.advice] == [("lag", True)]
-    strong = Survey(tuple(record(f"{k:03}", {"lag": []} if k < 1 else {}, log10_p=-90.0) for k in range(100)))
-    assert [(a.effect, a.firm) for a in strong.summary.advice] == [("lag", True)]
+    def with_lag(count: int, log10_p: float = -5.0) -> Survey:
+        records = (record(f"{k:03}", {"lag": []} if k < count else {}, log10_p=log10_p) for k in range(100))
+        return Survey(tuple(records))
+
+    assert advised(with_lag(4)) == [("lag", False)]
+    assert advised(with_lag(15)) == [("lag", True)]
+    assert advised(with_lag(1, -90.0)) == [("lag", True)]
 
 
 def test_an_effect_that_accounts_for_all_flights_is_advised_before_those_that_fit_some() -> None:
     claims: list[dict[str, list[str]]] = [
         {"arm-sag": ["lag"]}, {"cubic-input": ["lag", "arm-sag"]}, {"lag": ["cubic-input"]}, {"lag": []},
     ]  # fmt: skip
-    s = Survey(tuple(record(f"{k}", c) for k, c in enumerate(claims))).summary
-    assert [(a.effect, a.flights, a.alternatives) for a in s.advice] == [("lag", ("0", "1", "2", "3"), ())]
-    first = s.effects[0]
-    assert (first.effect, first.found, first.perhaps) == ("lag", 2, 2)
-    assert first.testable == 0  # `record` says that no flight could have shown it
+    s = Survey(tuple(record(f"{k}", c) for k, c in enumerate(claims))).as_json()
+    (advice,) = s["recommendation"]
+    assert (advice["effect"], advice["flights"], advice["alternatives"]) == ("lag", ["0", "1", "2", "3"], [])
+    assert s["effects"][0] == {"effect": "lag", "found": 2, "perhaps": 2, "testable": 0}
 
 
 def test_trends_tell_constant_drifting_and_scattered_parameters() -> None:
-    draw = np.random.default_rng(8)
-    n = 60
-    constant = Survey(tuple(record(f"{k:02}", {}, v) for k, v in enumerate(3.0 + 0.1 * draw.normal(size=n))))
-    drifting = Survey(tuple(record(f"{k:02}", {}, 3.0 + 0.02 * k) for k in range(n)))
-    scattered = Survey(tuple(record(f"{k:02}", {}, v) for k, v in enumerate(3.0 + draw.normal(size=n))))
+    noise = np.random.default_rng(8).normal(size=60)
 
-    def of(s: Survey) -> Any:
-        return next(t for t in s.summary.trends if t.name == "K2")
+    def trend_of(values: np.ndarray[Any, Any], name: str = "K2") -> Record:
+        s = Survey(tuple(record(f"{k:02}", {}, v) for k, v in enumerate(values)))
+        return next(t for t in s.as_json()["parameters"] if t["name"] == name)
 
-    assert not of(constant).varies
-    assert of(constant).mean == pytest.approx(3.0, abs=0.05)
-    assert of(constant).chi2 / of(constant).dof == pytest.approx(1.0, abs=0.4)
-    assert of(drifting).varies
-    assert of(drifting).slope_z > 10
-    assert of(scattered).varies
-    assert abs(of(scattered).slope_z) < 4  # not a trend, however small the single standard deviations
-    assert of(scattered).scatter == pytest.approx(1.0, rel=0.25)
-    large = next(t for t in constant.summary.trends if t.name == "K1")
-    assert 1e9 <= large.mean <= 1e9 + 0.01  # no digits lost to the large mean
-    assert large.chi2 < 1.0
+    constant, drifting = trend_of(3.0 + 0.1 * noise), trend_of(3.0 + 0.02 * np.arange(60))
+    assert not constant["varies"]
+    assert constant["mean"] == pytest.approx(3.0, abs=0.05)
+    assert constant["chi2"] / constant["dof"] == pytest.approx(1.0, abs=0.4)
+    assert drifting["varies"]
+    assert drifting["slope_z"] > 10
+    scattered = trend_of(3.0 + noise)
+    assert scattered["varies"]
+    assert abs(scattered["slope_z"]) < 4  # not a trend, however small the single standard deviations
+    assert scattered["scatter"] == pytest.approx(1.0, rel=0.25)
+    large = trend_of(3.0 + 0.1 * noise, "K1")
+    assert 1e9 <= large["mean"] <= 1e9 + 0.01  # no digits lost to the large mean
+    assert large["chi2"] < 1.0
 
 
 MAPPING = '[time]\ncolumn = "T"\nunit = "s"\n[columns]\n'
@@ -428,31 +367,36 @@ def made(tmp_path: Path) -> tuple[Path, str, Path]:
 
 def test_lines_are_flights(tmp_path: Path) -> None:
     path, text, toml = made(tmp_path)
-    given = job(toml.read_text(), toml, mapping=(text, "mapping.toml", False))
-    files = expanded(given, [str(path), str(tmp_path / "none.csv")])
+    given = make_job(toml.read_text(), toml, mapping=(text, "mapping.toml", False))
+    files = expand_lines(given, [str(path), str(tmp_path / "none.csv")])
     assert files == [f"{path}::10", f"{path}::20", str(tmp_path / "none.csv")]
-    assert divided(files[0]) == (path, "10")
+    assert split_line(files[0]) == (path, "10")
     record = examine(given, files[1])
     assert record["flight"] == "s.h5::20"
     assert record["verdict"] == "adequate"
-    assert record["sha256"] == run.sha256(Path(files[1])) == run.sha256(path)
+    assert record["sha256"] == digest_file(files[1]) == digest_file(str(path))
     assert "several lines" in examine(given, str(path))["error"]["message"]
-    assert "no unit" in examine(job(toml.read_text(), toml), files[0])["error"]["message"]
+    assert "no unit" in examine(make_job(toml.read_text(), toml), files[0])["error"]["message"]
 
 
 def test_a_results_file_of_another_mapping_is_refused(tmp_path: Path) -> None:
     _, text, toml = made(tmp_path)
-    plain, mapped = (job(toml.read_text(), toml, mapping=x) for x in (None, (text, "m.toml", False)))
-    assert "mapping" not in run.head(plain)
+    plain, mapped = (make_job(toml.read_text(), toml, mapping=x) for x in (None, (text, "m.toml", False)))
+    assert "mapping" not in make_head(plain)
     assert (
-        run.head(mapped)["mapping"]
-        != run.head(job(toml.read_text(), toml, mapping=("", "m", True)))["mapping"]
+        make_head(mapped)["mapping"]
+        != make_head(make_job(toml.read_text(), toml, mapping=("", "m", True)))["mapping"]
     )
 
 
-def test_flights_of_one_file_name_are_told_apart_by_their_folders() -> None:
+def test_flights_of_one_file_name_are_named_with_their_folders_and_in_order() -> None:
+    days = [f"/s/day-{d}/line-{n}.csv" for d in (1, 0) for n in (1, 0)]
+    assert order_files([*days, days[0]]) == sorted(
+        days
+    )  # the days follow one another, and so does what drifts
+    assert order_files(["/s/b/1.csv", "/s/a/2.csv"]) == ["/s/b/1.csv", "/s/a/2.csv"]
     files = ["/s/01/flight.csv", "/s/02/flight.csv", "/t/02/flight.csv", "/s/other.csv", "/none/s.csv::20"]
-    assert distinct_names(files) == dict(
+    assert name_flights(files) == dict(
         zip(
             files,
             ["01/flight.csv", "s/02/flight.csv", "t/02/flight.csv", "other.csv", "s.csv::20"],
@@ -460,4 +404,4 @@ def test_flights_of_one_file_name_are_told_apart_by_their_folders() -> None:
         )
     )
     many = [f"/s/{n}/flight.csv" for n in range(3000)]
-    assert distinct_names(many)[many[7]] == "7/flight.csv"
+    assert name_flights(many)[many[7]] == "7/flight.csv"

@@ -21,8 +21,8 @@ from flights_of_a_survey import lines_of, make, without_effect
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.survey import run
+from ragg_runtime.survey.examine import Record, examine, make_job
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.survey.task import Record, examine, job
 
 Flights = tuple[Path, list[Path]]
 HERE = "127.0.0.1"
@@ -40,25 +40,19 @@ def whole(flights: Flights) -> Survey:
     return api.survey(api.load(flights[0]), flights[1], jobs=1)
 
 
+def summary(s: Survey) -> str:
+    return json.dumps({k: v for k, v in s.as_json().items() if k != "flights"})
+
+
 class Cluster:
     """A scheduler and workers, each a process of its own, without nannies: a killed worker stays dead."""
 
-    def __init__(self, folder: Path, *options: object) -> None:
+    def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.options = options
         self.processes: list[subprocess.Popen[bytes]] = []
         file = folder / "scheduler.json"
-        self.scheduler = self._start(
-            "dask_scheduler",
-            "--host",
-            HERE,
-            "--port",
-            "0",
-            "--no-dashboard",
-            "--scheduler-file",
-            file,
-            *options,
-        )
+        words = ("--host", HERE, "--port", "0", "--no-dashboard", "--scheduler-file", file)
+        self.scheduler = self._start("dask_scheduler", *words)
         self.address = str(self._wait(lambda: json.loads(file.read_text())["address"]))
 
     def _start(self, module: str, *arguments: object) -> subprocess.Popen[bytes]:
@@ -75,7 +69,6 @@ class Cluster:
     def worker(self) -> subprocess.Popen[bytes]:
         return self._start(
             *("dask_worker", self.address, "--host", HERE, "--no-nanny", "--nthreads", "1", "--no-dashboard"),
-            *self.options,
         )
 
     @staticmethod
@@ -128,11 +121,11 @@ def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
         m = api.load(flights[0])
         found = api.survey(m, flights[1], scheduler=c.address, progress=kill_one)
         assert killed
-        assert json.dumps(found.summary.as_json()) == json.dumps(whole.summary.as_json())
+        assert summary(found) == summary(whole)
         for there, here in zip(found.records, whole.records, strict=True):
             if "verdict" in here:
                 assert json.dumps(there) == json.dumps(here)
-        assert [r["flight"] for r in found.failed] == ["flight-2b.parquet"]
+        assert [r["flight"] for r in found.records if "verdict" not in r] == ["flight-2b.parquet"]
 
         # A file that the workers do not see, through the command; the survey is done all the same.
         words = [sys.executable, "-m", "ragg_runtime", "survey", flights[0], "elsewhere.parquet"]
@@ -159,40 +152,28 @@ def test_a_lost_scheduler_is_one_message_and_what_is_done_is_kept(
             api.survey(m, flights[1], scheduler=c.address, resume=kept, progress=kill_scheduler)
     assert 3 <= len(lines_of(kept)) < len(flights[1]) + 1
     again = api.survey(m, flights[1], jobs=1, resume=kept)  # continued on this machine
-    assert json.dumps(again.summary.as_json()) == json.dumps(whole.summary.as_json())
-
-
-def test_a_cluster_without_workers_is_one_message(
-    flights: Flights, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(run, "PATIENCE", 1.0)
-    with running(tmp_path, 0) as c, pytest.raises(UserError, match="no workers"):
-        api.survey(api.load(flights[0]), flights[1], scheduler=c.address)
+    assert summary(again) == summary(whole)
 
 
 def test_a_record_of_another_program_is_not_taken(flights: Flights) -> None:
     toml = flights[0] / "model.toml"
-    asked = replace(job(toml.read_text(), toml), program=(("numpy", "1.0"),))
+    asked = replace(make_job(toml.read_text(), toml), program=(("numpy", "1.0"),))
     record = examine(asked, str(flights[1][0]))
     assert "another program" in record["error"]["message"]
 
 
+@pytest.mark.parametrize("address", ["free", "127.0.0.1", "tcp://", "", "scheduler.json"])
 def test_a_scheduler_that_is_not_there_is_one_message(
-    flights: Flights, monkeypatch: pytest.MonkeyPatch
+    flights: Flights, address: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("distributed", reason="Dask is an optional extra: pip install 'ragg[cluster]'")
-    m = api.load(flights[0])
-    with socket.socket() as s:
-        s.bind((HERE, 0))
-        free = s.getsockname()[1]
+    if address == "free":
+        with socket.socket() as s:
+            s.bind((HERE, 0))
+            address = f"tcp://{HERE}:{s.getsockname()[1]}"
     monkeypatch.setattr(run, "PATIENCE", 1.0)
-    start = time.monotonic()
     with pytest.raises(UserError, match="cannot be reached"):
-        api.survey(m, flights[1], scheduler=f"tcp://{HERE}:{free}")
-    assert time.monotonic() - start < 20
-    for address in ("127.0.0.1", "tcp://", "tcp://host", "tcp://host:port", "", "scheduler.json"):
-        with pytest.raises(UserError, match="cannot be reached"):
-            api.survey(m, flights[1], scheduler=address)
+        api.survey(api.load(flights[0]), flights[1], scheduler=address)
 
 
 def test_without_the_extra_it_is_one_message(flights: Flights, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -27,12 +27,7 @@ from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.estimation.scores import finite
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.diagnose import diagnose, diagnose_fitted
-from ragg_runtime.identification.parameters import (
-    SEEN,
-    ParameterValue,
-    parameter_values,
-    visible_combinations,
-)
+from ragg_runtime.identification.parameters import SEEN, parameter_values, visible_combinations
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import Instrument
@@ -61,15 +56,15 @@ BETWEEN = "::"
 
 @dataclass(frozen=True)
 class Job:
-    """The model that flights are held against: model.toml, the :func:`fingerprint` of the program that asks, and the
-    mapping (text, place, whether it is the model's own); ``cluster``: looked at on another machine.
+    """The model that flights are compared with: model.toml, where it is, and the mapping (text, place, whether it is the model's
+    own); ``program``: the :func:`fingerprint` of the program that asks; ``cluster``: examined on another machine.
     """
 
     text: str
     path: str
+    mapping: tuple[str, str, bool] | None
     program: tuple[tuple[str, str], ...]
     cluster: bool = False
-    mapping: tuple[str, str, bool] | None = None
 
     def mapped(self) -> Mapped | None:
         if self.mapping is None:
@@ -78,76 +73,40 @@ class Job:
         return replace(parse_mapping(text, Path(path)), kept=kept)
 
 
-def job(text: str, path: Path, *, cluster: bool = False, mapping: tuple[str, str, bool] | None = None) -> Job:
-    return Job(text=text, path=str(path.resolve()), program=fingerprint(), cluster=cluster, mapping=mapping)
+def make_job(
+    text: str, path: Path, *, cluster: bool = False, mapping: tuple[str, str, bool] | None = None
+) -> Job:
+    """The job of this program."""
+    return Job(str(text), str(path.resolve()), mapping, fingerprint(), cluster)
 
 
 @cache
 def fingerprint() -> tuple[tuple[str, str], ...]:
-    """(name, version) of everything that figures depend on, the program's own text included."""
-    python = ".".join(platform.python_version_tuple()[:2])
-    versions = [(n, metadata.version(n)) for n in ("numpy", "scipy", "sympy")]
-    return (("python", python), ("ragg", _program()), *versions)
-
-
-def _program() -> str:
-    """Digest of the sources of this program."""
+    """(name, version) of everything that figures depend on, with a digest of the program's own text."""
     total = hashlib.sha256()
     root = Path(str(ragg_runtime.__file__)).parents[1]
     for package in ("derive", "generated", "ragg_runtime"):
         for path in sorted((root / package).rglob("*.py")):
             text = path.read_bytes()
             total.update(f"{path.relative_to(root).as_posix()} {len(text)}\n".encode() + text)
-    return total.hexdigest()[:16]
+    python = ".".join(platform.python_version_tuple()[:2])
+    versions = [(n, metadata.version(n)) for n in ("numpy", "scipy", "sympy")]
+    return (("python", python), ("ragg", total.hexdigest()[:16]), *versions)
 
 
-def examine(given: Job, file: str) -> Record:
-    """The record of one flight, with ``error`` if it fails. Raises MemoryError and OSError, which a new attempt may mend."""
-    path, line = divided(file)
-    record: Record = {"flight": Path(file).name, "file": file}
-    try:
-        _same_program(given)
-        if given.cluster and not path.exists():
-            raise UserError(
-                "the worker does not see the flight file",
-                where=path,
-                found=f"no such file on {socket.gethostname()}",
-                expected="a file system that all workers share, under the same path",
-                remedy="put the flights where every worker can read them, or survey without --scheduler",
-            )
-        return record | _diagnosed(given, path, line)
-    except UserError as error:
-        return record | {"error": {"kind": "input", "message": error.message}}
-    except (MemoryError, OSError):
-        raise
-    except Exception as error:
-        return record | {"error": {"kind": "fault", "message": _fault(error)}}
-
-
-@one_thread
-def _diagnosed(given: Job, path: Path, line: str | None) -> Record:
-    instrument = _parsed(given.text, given.path)
-    model = derive.model_of(instrument)
-    read = read_flight(
-        path, instrument.g0, accelerometers=instrument.layout, mapping=given.mapped(), line=line
-    )
-    flight = screen(model, instrument, read)
-    return _figures(fit(model, instrument, observations_of([flight], instrument)), flight)
-
-
-def expanded(given: Job, files: Sequence[str]) -> list[str]:
+def expand_lines(job: Job, files: Sequence[str]) -> list[str]:
     """The files, and for those with several lines ``file::line`` for each; what cannot be read stays as it is."""
     found = []
     for file in files:
         try:
-            names = [r.line for r in read_recordings(Path(file), given.mapped())]
+            names = [r.line for r in read_recordings(Path(file), job.mapped())]
         except (UserError, OSError):
             names = [None]
         found += [file] if len(names) == 1 else [f"{file}{BETWEEN}{n}" for n in names]
     return found
 
 
-def divided(file: str) -> tuple[Path, str | None]:
+def split_line(file: str) -> tuple[Path, str | None]:
     """The path and the line of ``file::line``; a file of that very name comes first."""
     path, between, line = file.rpartition(BETWEEN)
     if not between or Path(file).exists():
@@ -155,8 +114,47 @@ def divided(file: str) -> tuple[Path, str | None]:
     return Path(path), line
 
 
-def _same_program(given: Job) -> None:
-    own, asked = dict(fingerprint()), dict(given.program)
+def examine(job: Job, file: str) -> Record:
+    """The record of one flight, with ``error`` if it fails. Raises MemoryError and OSError, which a new attempt may mend."""
+    record: Record = {"flight": Path(file).name, "file": file}
+    try:
+        return record | _diagnose_file(job, file)
+    except UserError as error:
+        return record | {"error": {"kind": "input", "message": error.message}}
+    except (MemoryError, OSError):
+        raise
+    except Exception as error:
+        frame = traceback.extract_tb(error.__traceback__)[-1]
+        message = f"{type(error).__name__}: {error} ({Path(frame.filename).name}, line {frame.lineno})"
+        return record | {"error": {"kind": "fault", "message": message}}
+
+
+@one_thread
+def _diagnose_file(job: Job, file: str) -> Record:
+    path, line = split_line(file)
+    _require_same_program(job)
+    if job.cluster and not path.exists():
+        raise UserError(
+            "the worker does not see the flight file",
+            where=path,
+            found=f"no such file on {socket.gethostname()}",
+            expected="a file system that all workers share, under the same path",
+            remedy="put the flights where every worker can read them, or survey without --scheduler",
+        )
+    instrument = _parse(job.text, job.path)
+    model = derive.model_of(instrument)
+    read = read_flight(path, instrument.g0, accelerometers=instrument.layout, mapping=job.mapped(), line=line)
+    flight = screen(model, instrument, read)
+    return _make_record(fit(model, instrument, observations_of([flight], instrument)), flight)
+
+
+@lru_cache(maxsize=8)
+def _parse(text: str, path: str) -> Instrument:
+    return parse_instrument(text, Path(path))
+
+
+def _require_same_program(job: Job) -> None:
+    own, asked = dict(fingerprint()), dict(job.program)
     different = [n for n in asked if own.get(n) != asked[n]]
     if different:
         raise UserError(
@@ -168,23 +166,16 @@ def _same_program(given: Job) -> None:
         )
 
 
-def _fault(error: Exception) -> str:
-    frames = traceback.extract_tb(error.__traceback__)
-    place = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
-    return f"{type(error).__name__}: {error}{place}"
-
-
-@lru_cache(maxsize=8)
-def _parsed(text: str, path: str) -> Instrument:
-    return parse_instrument(text, Path(path))
-
-
-def _figures(f: Fitted, flight: Flight) -> Record:
+def _make_record(f: Fitted, flight: Flight) -> Record:
     held_out, nominal = f.score([_held_out(f)], lambda x: comparison.nominal_residual(f, f.sheet, x)[None], 1)
     extend = partial(derive.with_effects, f.instrument)
     again = partial(diagnose, f.model, f.instrument, extend=extend)
     d = heed_flags(diagnose_fitted(f, [flight], extend), [flight], again)
     held = held_out.held_out.as_json()
+    ranking = [
+        {"effect": r.effect, "log10_p": finite(r.log_p / np.log(10.0)), "delta_bic": finite(r.delta_bic)}
+        for r in d.ranking[:RANKED]
+    ]
     record: Record = {
         "sha256": flight.digest,
         CONTENT: content(flight),
@@ -197,14 +188,7 @@ def _figures(f: Fitted, flight: Flight) -> Record:
         "indistinguishable": {
             r.effect: list(r.indistinguishable_from) for r in d.ranking if r.effect in d.found
         },
-        "ranking": [
-            {
-                "effect": r.effect,
-                "log10_p": finite(r.log_p / np.log(10.0)),
-                "delta_bic": finite(r.delta_bic),
-            }
-            for r in d.ranking[:RANKED]
-        ],
+        "ranking": ranking,
         "not_testable": [n.effect for n in d.not_testable],
         "error": {
             "nominal": nominal.whole.as_json(),
@@ -214,7 +198,7 @@ def _figures(f: Fitted, flight: Flight) -> Record:
             "after_holdout": _after_holdout(d, held),
         },
         "noise_floor": {"rms_Eo": d.noise_floor},
-        "parameters": [p.as_json() for p in _parameters(d)],
+        "parameters": _visible_parameters(d),
     }
     if d.remains:
         record["terms"] = d.terms()
@@ -234,34 +218,27 @@ def _after_holdout(d: Diagnosis, held: Mapping[str, Any]) -> Mapping[str, Any] |
         return scored.held_out.as_json()
     if not d.found:
         return held
-    single = [r.after_holdout.as_json() for r in d.ranking if d.found == (r.effect,)]
-    return single[0] if single else None
+    return next((r.after_holdout.as_json() for r in d.ranking if d.found == (r.effect,)), None)
 
 
-def _parameters(d: Diagnosis) -> list[ParameterValue]:
+def _visible_parameters(d: Diagnosis) -> list[Record]:
     """Calibrated values of what this record sees: single parameters, else combinations; effects by their id."""
     f = d.final or d.fitted
     c = f.calibration
     values = np.array([c.p[k] / q.scale for k, q in zip(c.index, c.columns, strict=True)])
     every = parameter_values(c.columns, values, c.covariance)
-    found = []
-    for k, (q, p) in enumerate(zip(c.columns, every, strict=True)):
-        if c.covariance[k, k] < SEEN**2:
-            found.append(_named(p, q.effect))
+    found = [
+        (q.effect, p)
+        for k, (q, p) in enumerate(zip(c.columns, every, strict=True))
+        if c.covariance[k, k] < SEEN**2
+    ]
     for e in dict.fromkeys(q.effect for q in c.columns):
         own = [k for k, q in enumerate(c.columns) if q.effect == e]
-        combined = visible_combinations(
-            f.model, c.p, [c.columns[k] for k in own], values[own], c.covariance[np.ix_(own, own)]
-        )
-        found += [_named(p, e) for p in combined]
+        columns, covariance = [c.columns[k] for k in own], c.covariance[np.ix_(own, own)]
+        found += [(e, p) for p in visible_combinations(f.model, c.p, columns, values[own], covariance)]
     if d.final is None:
-        found += [_named(p, r.effect) for r in d.ranking if r.effect in d.found for p in r.parameters]
-    return found
-
-
-def _named(p: ParameterValue, effect: str | None) -> ParameterValue:
-    name = f"{effect}.{p.name}" if effect else p.name
-    return replace(p, name=name)
+        found += [(r.effect, p) for r in d.ranking if r.effect in d.found for p in r.parameters]
+    return [p.as_json() | {"name": f"{e}.{p.name}" if e else p.name} for e, p in found]
 
 
 def _plain(x: Any) -> Any:
