@@ -136,15 +136,15 @@ def _preview(m: object, flight: Flight) -> list[Row]:
     """An effect predicted from R factors in memory."""
     from ragg_runtime.estimation.fitted import fit
     from ragg_runtime.estimation.observation import observations_of
-    from ragg_runtime.identification.foresee import foreseen, unwhitened
+    from ragg_runtime.identification.predict import pass_unwhitened, predict_error
     from ragg_runtime.identification.strong import with_steps
 
     field, f, _ = with_steps(fit(m.model, m.instrument, observations_of([flight], m.instrument)))  # type: ignore[attr-defined]
-    known = unwhitened(f)
+    known = pass_unwhitened(f)
     found = []
     for effect in [*field.candidates][:12]:
         begun = time.process_time()
-        foreseen(f, known, field, [effect])
+        predict_error(f, known, field, [effect])
         found.append(1e3 * (time.process_time() - begun))
     middle, note = statistics.median(found[1:]), "from R factors in memory"
     return [

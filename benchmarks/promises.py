@@ -174,7 +174,8 @@ def multisine(f: Fitted, field: Field, pairs: Sequence[tuple[str, str]]):
 
 def sinusoid(f: Fitted, field: Field, pairs: Sequence[tuple[str, str]]):
     for p in next_motion.proposals(f, field, pairs):
-        yield [(p.axis, p.frequency, p.amplitude, 0.0)], [(p.effect, p.rival, p.now, p.then)]
+        s = p.separation
+        yield [p.sinusoid], [(s.effect, s.rival, s.now, s.then)]
 
 
 DESIGNS = {"multisine": multisine, "sinusoid": sinusoid}

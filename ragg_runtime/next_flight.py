@@ -32,6 +32,7 @@ from ragg_runtime.identification.next_motion import (
     Separation,
     Sinusoid,
     moved,
+    unit_of,
 )
 from ragg_runtime.io import Flight, write_flight
 
@@ -69,7 +70,7 @@ class NextFlight:
                     "axis": axis,
                     "frequency_Hz": frequency,
                     "amplitude": amplitude,
-                    "unit": _unit(axis),
+                    "unit": unit_of(axis),
                     "phase_rad": phase,
                 }
                 for axis, frequency, amplitude, phase in self.sinusoids
@@ -151,14 +152,14 @@ class CalibrationFlight(NextFlight):
             for axis in dict.fromkeys(x[0] for x in self.sinusoids)
         }
         rows = [
-            f"| {axis} | {frequency:.6g} | {amplitude:.6g} | {_unit(axis)} | {np.degrees(phase) % 360:.1f} |"
+            f"| {axis} | {frequency:.6g} | {amplitude:.6g} | {unit_of(axis)} | {np.degrees(phase) % 360:.1f} |"
             for axis, frequency, amplitude, phase in self.sinusoids
         ]
         parameters = [
             f"| {q.name}{'' if q.accelerometer is None else f'[{q.accelerometer}]'} | {q.unit} | {q.now:.3g} | {q.then:.3g} |"
             for q in self.plan.parameters
         ]
-        largest = [f"Largest deviation of {axis}: {x:.4g} {_unit(axis)}." for axis, x in peaks.items()]
+        largest = [f"Largest deviation of {axis}: {x:.4g} {unit_of(axis)}." for axis, x in peaks.items()]
         return _RUN_SHEET.format(
             count=len(self.sinusoids),
             duration=self.duration,
@@ -189,10 +190,6 @@ About the mean motion; x(t) = amplitude sin(2 pi frequency t + phase), t from th
 Afterwards, with the flights so far and this one: `ragg calibrate MODEL FLIGHT... --plan PLAN.json`,
 PLAN.json being what `ragg next-motion ... --json PLAN.json` wrote.
 """
-
-
-def _unit(axis: str) -> str:
-    return "m/s^2" if axis.startswith("a_") else "rad/s"
 
 
 def calibration_flight(

@@ -8,7 +8,7 @@ fixes (D. MacKay, Neural Computation 4, 1992); directions that the flights do no
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -80,52 +80,37 @@ class Separation:
     spread: float
 
     def as_json(self) -> dict[str, object]:
-        return {
-            "effect": self.effect,
-            "rival": self.rival,
-            "now": self.now,
-            "then": self.then,
-            "spread": self.spread,
-        }
+        return asdict(self)
 
 
 @dataclass(frozen=True)
 class Proposal:
-    """A motion that separates ``effect`` from ``rival``.
+    """A motion that separates two effects: so much, s, of a sinusoid about one axis, and its ``ratio`` to the spin's frequency."""
 
-    ``amplitude`` in SI, m/s^2 or rad/s; ``ratio`` is its frequency over the spin's; ``now``, ``then`` and ``spread`` as in
-    :class:`Separation`, of ``duration`` s of the motion.
-    """
-
-    effect: str
-    rival: str
-    axis: str
+    separation: Separation
+    sinusoid: Sinusoid
     ratio: float
-    frequency: float
-    amplitude: float
     duration: float
-    now: float
-    then: float
-    spread: float = 0.0
 
     @property
     def separates(self) -> bool:
         """Whether the motion would separate the two."""
-        return self.then > APART
+        return self.separation.then > APART
 
     def as_json(self) -> dict[str, object]:
+        s, (axis, frequency, amplitude, _) = self.separation, self.sinusoid
         return {
-            "effect": self.effect,
-            "rival": self.rival,
-            "axis": self.axis,
+            "effect": s.effect,
+            "rival": s.rival,
+            "axis": axis,
             "frequency_over_spin": self.ratio,
-            "frequency_Hz": self.frequency,
-            "amplitude": self.amplitude,
-            "unit": "m/s^2" if self.axis.startswith("a_") else "rad/s",
+            "frequency_Hz": frequency,
+            "amplitude": amplitude,
+            "unit": unit_of(axis),
             "duration_s": self.duration,
-            "separation_now": self.now,
-            "separation_then": self.then,
-            "separation_spread": self.spread,
+            "separation_now": s.now,
+            "separation_then": s.then,
+            "separation_spread": s.spread,
             "separates": self.separates,
         }
 
@@ -315,36 +300,18 @@ def proposals(
     if not asked.pairs:
         return []
     first = f.prepared[0].observation.record
-    spin, rate = abs(first.spin_frequency) or AT_REST, first.rate
-    motions = [
-        (axis, ratio, limits[kind(axis)])
-        for axis in AXES
-        for ratio in RATIOS
-        if ratio * spin <= HIGHEST * rate
-    ]
-    flown = [(), *([(axis, ratio * spin, size, 0.0)] for axis, ratio, size in motions)]
-    still, *moving = (asked.separations(asked.rows(motion)) for motion in flown)
+    spin = abs(first.spin_frequency) or AT_REST
+    ratios = [x for x in RATIOS if x * spin <= HIGHEST * first.rate]
+    motions = [(ratio, (axis, ratio * spin, limits[kind(axis)], 0.0)) for axis in AXES for ratio in ratios]
+    still = asked.separations(asked.rows(()))
+    moving = [asked.separations(asked.rows([sinusoid])) for _, sinusoid in motions]
     found = []
     for n in range(len(asked.pairs)):
         best = max(range(len(motions)), key=lambda m: moving[m][n][0], default=None)
-        if best is None or moving[best][n][0] <= WORTHWHILE * still[n][0]:
-            continue
-        axis, ratio, size = motions[best]
-        (promise,) = asked.promises(flown[best + 1], DURATION, [n])
-        found.append(
-            Proposal(
-                effect=promise.effect,
-                rival=promise.rival,
-                axis=axis,
-                ratio=ratio,
-                frequency=ratio * spin,
-                amplitude=size,
-                duration=DURATION,
-                now=promise.now,
-                then=promise.then,
-                spread=promise.spread,
-            )
-        )
+        if best is not None and moving[best][n][0] > WORTHWHILE * still[n][0]:
+            ratio, sinusoid = motions[best]
+            (promise,) = asked.promises([sinusoid], DURATION, [n])
+            found.append(Proposal(promise, sinusoid, ratio, DURATION))
     return found
 
 
@@ -358,6 +325,11 @@ def moved(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: Array) ->
             name = axis.replace("omega_", "omegadot_")
             found[name] = found.get(name, calm[name]) + amplitude * w * np.cos(w * time + phase)
     return found
+
+
+def unit_of(axis: str) -> str:
+    """SI unit of the motion about an axis."""
+    return "m/s^2" if axis.startswith("a_") else "rad/s"
 
 
 def kind(axis: str) -> str:

@@ -191,7 +191,7 @@ READS: Mapping[str, Callable[[Session, Request], Any]] = {
     "spectrogram": lambda session, request: series.draw_spectrogram(session.state, _asked(request)),
     "heat": lambda session, request: series.draw_heat(session.state, _asked(request)),
     "panel": lambda session, request: series.draw_panel(session.state, _asked(request)),
-    "preview": lambda session, request: series.foresee_error(session.state, _asked(request)),
+    "preview": lambda session, request: series.predict_error(session.state, _asked(request)),
     "folder": lambda session, request: session.places.listing(request.query_params.get("place", "")),
     "mapping": _begun,
 }

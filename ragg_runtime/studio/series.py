@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.identification import comparison, foresee, heat
+from ragg_runtime.identification import comparison, heat, predict
 from ragg_runtime.identification import series as reported
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
@@ -161,11 +161,11 @@ def _rows_known(s: State, a: Asked, n: int) -> slice:
 def _signature(s: State, a: Asked, n: int) -> tuple[slice, Array]:
     """Samples, and what the ticked effects would take out of the residual there, V."""
     d = _tested(s)
-    rows = foresee.rows_within(d.fitted, n, (a.first, a.last))
+    rows = predict.choose_rows(d.fitted, n, (a.first, a.last))
 
     def make() -> tuple[slice, Array]:
-        return foresee.signature(
-            d.fitted, n, foresee.coefficients(d.fitted, foresee.field(d), a.effects), rows
+        return predict.compute_signature(
+            d.fitted, n, predict.fit_effects(d.fitted, predict.field_of_diagnosis(d), a.effects), rows
         )
 
     return s.cache.get(("signature", a.effects, n, rows.start, rows.stop), make)
@@ -235,24 +235,24 @@ def terms_of(s: State, effects: tuple[str, ...], n: int) -> heat.Heat:
     """Harmonic x motion term of the residual once these effects are in."""
     d = s.diagnosed
     f = _known(s).fitted if d is None else d.fitted
-    given = [] if d is None else foresee.columns_of(foresee.field(d), effects)
+    given = [] if d is None else predict.columns_of(predict.field_of_diagnosis(d), effects)
     make = lambda: heat.heat(f.prepared[n], f.triangles[n], f.n_base, given)  # noqa: E731
     return s.cache.get(("heat", effects, n, d is None), make)
 
 
-def foresee_error(s: State, a: Asked) -> dict[str, Any]:
+def predict_error(s: State, a: Asked) -> dict[str, Any]:
     """The error that the ticked effects would leave, and that without them."""
     d, unwhitened = _tested(s), s.unwhitened
     if unwhitened is None:
         raise UserError("the effects are not tested yet", remedy="wait a moment")
-    known = foresee.field(d)
+    known = predict.field_of_diagnosis(d)
 
-    def foreseen(*effects: str) -> foresee.Foreseen:
-        make = lambda: foresee.foreseen(d.fitted, unwhitened, known, effects)  # noqa: E731
-        return s.cache.get(("foreseen", effects), make)
+    def predicted(*effects: str) -> predict.Prediction:
+        make = lambda: predict.predict_error(d.fitted, unwhitened, known, effects)  # noqa: E731
+        return s.cache.get(("predicted", effects), make)
 
-    found = foreseen(*(e for e in a.effects if e in known.candidates))
-    return found.as_json() | {"before_Eo": foreseen().rms_Eo, "noise_Eo": d.noise_floor}
+    found = predicted(*(e for e in a.effects if e in known.candidates))
+    return found.as_json() | {"before_Eo": predicted().rms_Eo, "noise_Eo": d.noise_floor}
 
 
 def _window(time: Array, rate: float, a: Asked) -> slice:

@@ -21,9 +21,9 @@ from ragg_runtime.api import Added, Compensation, Loaded
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.progress import PASSES
-from ragg_runtime.identification import foresee
+from ragg_runtime.identification import predict
 from ragg_runtime.identification.comparison import Comparison
-from ragg_runtime.identification.foresee import Unwhitened
+from ragg_runtime.identification.predict import Unwhitened
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.edit_toml import add_effect, set_parameters
 from ragg_runtime.instrument.instrument import EffectSetting
@@ -165,7 +165,7 @@ class Session:
         part("testing every effect", PASSES["diagnose"] * s.samples)
         d = api.diagnose(s.model, s.flights, compared=s.compared)
         part("preparing the preview", s.samples)
-        unwhitened = foresee.unwhitened(d.fitted)
+        unwhitened = predict.pass_unwhitened(d.fitted)
         self._put(diagnosed=d, unwhitened=unwhitened)
         if s.compared is not None and s.samples <= SMALL:
             self._results[key] = s.compared, d, unwhitened

@@ -252,7 +252,7 @@ def shown_sections(sections: Sequence[Section]) -> list[Json]:
 
 
 def _linear(d: Diagnosis) -> set[str]:
-    """Effects whose columns are in the triangles, so that what they would do can be foreseen."""
+    """Effects whose columns are in the triangles, so that what they would do can be predicted."""
     return {e.id for e in d.fitted.model.candidates if e.kind in ("deterministic", "step")}
 
 

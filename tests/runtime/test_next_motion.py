@@ -46,14 +46,13 @@ def test_promises_are_kept_when_the_motion_is_flown(weak: tuple[Scenario, Fitted
     assert p.then > max(6.0, p.now)
     assert 0.0 < p.spread < p.then
     assert max(shown("arm-stretch"), promised["lag", "arm-stretch"].then) < 3.0, "they act alike"
-    sinusoids = {p.rival: p for p in next_motion.proposals(f, field, PAIRS)}
+    sinusoids = {p.separation.rival: p for p in next_motion.proposals(f, field, PAIRS)}
     best = sinusoids["time-offset"]
-    alone = flown(s, [(best.axis, best.frequency, best.amplitude, 0.0)], LAG)
-    assert alone("time-offset") == pytest.approx(best.then * np.sqrt(s.duration / best.duration), rel=0.3), (
-        "its duration is another one"
-    )
+    alone = flown(s, [best.sinusoid], LAG)
+    then = best.separation.then
+    assert alone("time-offset") == pytest.approx(then * np.sqrt(s.duration / best.duration), rel=0.3)
     small = next_motion.proposals(f, field, PAIRS[:1], {"a": 0.05, "omega": 1e-4})
-    assert all(best.then > p.then for p in small)
+    assert all(then > p.separation.then for p in small)
 
 
 def test_what_the_flight_does_not_determine_is_not_promised(weak: tuple[Scenario, Fitted, Field]) -> None:
@@ -102,9 +101,8 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     """Through the commands, and in half the time that an even multisine of the same size takes."""
     m = api.new(tmp_path / "m")
     write_flight(simulated(m.instrument, [], seed=3, duration=300.0), tmp_path / "x.csv")
-    files = {
-        n: str(tmp_path / n) for n in ("m", "x.csv", "motion.csv", "y.csv", "sheet.md", "plan.json", "c.json")
-    }
+    names = ("m", "x.csv", "motion.csv", "y.csv", "sheet.md", "plan.json", "c.json")
+    files = {n: str(tmp_path / n) for n in names}
     words = [
         "--for",
         "calibration",

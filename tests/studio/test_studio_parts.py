@@ -19,7 +19,7 @@ from serving import brief, foreign, new
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.identification import foresee, heat
+from ragg_runtime.identification import heat, predict
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import field_of
 from ragg_runtime.instrument.read_toml import parse_instrument
@@ -46,13 +46,13 @@ def diagnosis(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
 @pytest.mark.parametrize(
     "effects", [(), ("thermal-scale",), ("gain-step",), ("lag", "cubic-cross", "magnetic-bias")]
 )
-def test_what_is_foreseen_is_what_a_pass_over_the_flight_finds(
+def test_what_is_predicted_is_what_a_pass_over_the_flight_finds(
     diagnosis: Diagnosis, effects: tuple[str, ...]
 ) -> None:
     f = diagnosis.fitted
     field = field_of(f, [r.effect for r in diagnosis.ranking])
-    found = foresee.foreseen(f, foresee.unwhitened(f), field, effects)
-    vectors = [foresee.coefficients(f, field, effects, held_out=h) for h in (False, True)]
+    found = predict.predict_error(f, predict.pass_unwhitened(f), field, effects)
+    vectors = [predict.fit_effects(f, field, effects, held_out=h) for h in (False, True)]
     whole, half = f.score(vectors)
     assert found.rms_Eo == pytest.approx(whole.whole.rms_Eo, rel=1e-9)
     assert found.holdout_Eo == pytest.approx(half.held_out.rms_Eo, rel=1e-9)
@@ -60,8 +60,8 @@ def test_what_is_foreseen_is_what_a_pass_over_the_flight_finds(
 
 def test_a_signature_is_the_residual_that_goes(diagnosis: Diagnosis) -> None:
     f = diagnosis.fitted
-    v = foresee.coefficients(f, field_of(f, ["thermal-scale"]), ["thermal-scale"])
-    rows, taken = foresee.signature(f, 0, v)
+    v = predict.fit_effects(f, field_of(f, ["thermal-scale"]), ["thermal-scale"])
+    rows, taken = predict.compute_signature(f, 0, v)
     assert rows == slice(0, 1920)
     before, after = (f.residuals_of(x)[0] for x in (np.zeros(f.size), v))
     assert np.allclose(taken, before - after, atol=1e-12 * np.max(np.abs(before)))
@@ -77,7 +77,7 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
     assert h.z[at] == pytest.approx(best.z, rel=1e-6)
     assert abs(best.z) > h.level
     found = list(diagnosis.found)
-    given = heat.heat(f.prepared[0], f.triangles[0], f.n_base, foresee.columns_of(field_of(f, found), found))
+    given = heat.heat(f.prepared[0], f.triangles[0], f.n_base, predict.columns_of(field_of(f, found), found))
     assert np.nanmax(np.abs(given.z)) < h.level
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,7 +42,7 @@ class Unwhitened:
 
 
 @one_thread
-def unwhitened(f: Fitted) -> Unwhitened:
+def pass_unwhitened(f: Fitted) -> Unwhitened:
     """The triangles of the unwhitened columns, in one pass over the flights."""
     found: list[list[Array]] = [[] for _ in range(BLOCKS)]
     samples = np.zeros(BLOCKS)
@@ -66,7 +66,7 @@ def unwhitened(f: Fitted) -> Unwhitened:
 
 
 @dataclass(frozen=True)
-class Foreseen:
+class Prediction:
     """What a choice of effects would leave, if everything is linear: calibrated and held-out error before demodulation, Eo, and the
     chi-square that ``rank`` coefficients explain beyond the model.
     """
@@ -78,16 +78,10 @@ class Foreseen:
     rank: int
 
     def as_json(self) -> dict[str, object]:
-        return {
-            "effects": list(self.effects),
-            "rms_Eo": self.rms_Eo,
-            "holdout_Eo": self.holdout_Eo,
-            "chi2": self.chi2,
-            "rank": self.rank,
-        }
+        return {**asdict(self), "effects": list(self.effects)}
 
 
-def field(d: Diagnosis) -> Field:
+def field_of_diagnosis(d: Diagnosis) -> Field:
     """The testable effects, steps included, on the triangles of everything."""
     return field_of(d.fitted, [r.effect for r in d.ranking])
 
@@ -97,7 +91,7 @@ def columns_of(field: Field, effects: Sequence[str]) -> list[int]:
     return [n for e in effects if e in field.candidates for n in field.testable(e)]
 
 
-def coefficients(f: Fitted, field: Field, effects: Sequence[str], *, held_out: bool = False) -> Array:
+def fit_effects(f: Fitted, field: Field, effects: Sequence[str], *, held_out: bool = False) -> Array:
     """(size,): fitted coefficients of all columns with these effects in."""
     extra = columns_of(field, effects)
     fitted, _ = f.coefficients(extra, held_out=held_out)
@@ -105,19 +99,19 @@ def coefficients(f: Fitted, field: Field, effects: Sequence[str], *, held_out: b
 
 
 @one_thread
-def foreseen(f: Fitted, known: Unwhitened, field: Field, effects: Sequence[str]) -> Foreseen:
+def predict_error(f: Fitted, known: Unwhitened, field: Field, effects: Sequence[str]) -> Prediction:
     """The error that the flights would leave with these effects in the model."""
     chi2, rank = field.joint([columns_of(field, [e]) for e in effects]) if effects else (0.0, 0)
-    return Foreseen(
+    return Prediction(
         effects=tuple(effects),
-        rms_Eo=known.rms(coefficients(f, field, effects), range(BLOCKS)) / f.k_ggi,
-        holdout_Eo=known.rms(coefficients(f, field, effects, held_out=True), HELD_OUT_BLOCKS) / f.k_ggi,
+        rms_Eo=known.rms(fit_effects(f, field, effects), range(BLOCKS)) / f.k_ggi,
+        holdout_Eo=known.rms(fit_effects(f, field, effects, held_out=True), HELD_OUT_BLOCKS) / f.k_ggi,
         chi2=chi2,
         rank=rank,
     )
 
 
-def rows_within(f: Fitted, flight: int, window: tuple[float, float]) -> slice:
+def choose_rows(f: Fitted, flight: int, window: tuple[float, float]) -> slice:
     """Samples of which a signature is computed: of a long flight only segments that meet ``window`` (s); UserError if it is wide."""
     r = f.prepared[flight].observation.record
     n = len(r.time)
@@ -132,7 +126,7 @@ def rows_within(f: Fitted, flight: int, window: tuple[float, float]) -> slice:
     return slice(ROWS * (a // ROWS), min(n, ROWS * -(-b // ROWS)))
 
 
-def signature(f: Fitted, flight: int, v: Array, rows: slice | None = None) -> tuple[slice, Array]:
+def compute_signature(f: Fitted, flight: int, v: Array, rows: slice | None = None) -> tuple[slice, Array]:
     """(samples, V): what coefficients v (size,) take out of the calibrated residual of G_out of one flight, in the segments that
     hold ``rows`` (or all), and where these begin and end.
     """
