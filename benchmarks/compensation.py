@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.compensate import Compensated, Kind, Prepared, prepared
+from ragg_runtime.compensation.compensate import Kind, Prepared, compensate_channel, make_channel, prepare
+from ragg_runtime.compensation.segment import Channel
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -29,14 +30,14 @@ SIZE = 20.0
 
 def ready(s: Scenario, x: Flight, kind: Kind) -> Prepared:
     """The flight, calibrated."""
-    return prepared(packaged(), s.sheet, [x], kind)
+    return prepare(packaged(), s.sheet, [x], kind)
 
 
-def series(p: Prepared, name: str) -> tuple[Complex, NDArray[np.float64], Compensated]:
+def series(p: Prepared, name: str) -> tuple[Complex, NDArray[np.float64], Channel]:
     """The compensated gradient, Eo, and its uncertainties."""
-    c = Compensated(p, 0, name)
-    parts = list(c.segments())
-    return np.concatenate([p.gradient for p in parts]), np.concatenate([p.std for p in parts], axis=1), c
+    c = make_channel(p, 0, name)
+    x = compensate_channel(c)
+    return x.gradient, x.std, c
 
 
 def transfer(kind: Kind = "self", duration: float = 7200.0) -> dict[str, tuple[Complex, Complex]]:

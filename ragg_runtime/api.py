@@ -20,16 +20,18 @@ import numpy as np
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
-from ragg_runtime.compensation import calibrated as _calibrated
+from ragg_runtime.compensation import calibrate as _calibrate
+from ragg_runtime.compensation import compensate as _compensate
 from ragg_runtime.compensation import frozen as _frozen
-from ragg_runtime.compensation.calibrated import Calibrated
+from ragg_runtime.compensation import recursive as _recursive
+from ragg_runtime.compensation.calibrate import Calibrated
 from ragg_runtime.compensation.compensate import Kind
 from ragg_runtime.compensation.drift import Drift, smooth_drift
 from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.compensation.export.forms import FORMS, write_export
 from ragg_runtime.compensation.frozen import Held
-from ragg_runtime.compensation.result import QUALITY, Compensation, Compensator
-from ragg_runtime.compensation.saved import Saved, with_another
+from ragg_runtime.compensation.result import QUALITY, Compensation
+from ragg_runtime.compensation.saved import Saved, add_entry, load_saved
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
 from ragg_runtime.identification.comparison import Comparison, climb
@@ -343,9 +345,9 @@ def survey(
 
 def of_survey(m: Loaded, s: Survey, command: str) -> tuple[dict[str, object], dict[str, Any]]:
     """As :func:`origin`, of a survey made with ``m``, flights that could not be read among its files; and what its page says."""
-    from ragg_runtime.survey.run import sha256
+    from ragg_runtime.survey.journal import digest_file
 
-    files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
+    files = [(r["file"], r["sha256"] if "sha256" in r else digest_file(r["file"])) for r in s.records]
     read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
     names = [*sources(m, []), *read]
     told = origin(m, [], command, files=files) | {"sources": [{"name": n, "sha256": d} for n, d in names]}
@@ -397,21 +399,21 @@ def calibrate(
     flights = read_flights(m, flights, mapping)
     distinct(flights)
     text = None if mapping is None else mapping_text(Path(mapping))
-    c = _calibrated.calibrated(m.model, m.instrument, flights)
+    c = _calibrate.calibrate(m.model, m.instrument, flights)
     walked = smooth_drift(c.fitted, flights) if drift else None
     return Kept(_saved(m, c, flights, text) if save else m, c, save, walked)
 
 
 def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | None) -> Loaded:
     d = m.directory
-    new = _calibrated.to_save(c, flights, now())
+    new = _calibrate.make_saved(c, flights, now())
     step = Step("calibrate", new.time, after=new.error, flights=MappingProxyType(dict(new.flights)))
     directory = replace_model_dir(
         d,
         d.text,
         generated=derive.files_of(d.instrument),
         step=step,
-        calibration=lambda text: with_another(text, new, str(d.path / CALIBRATION)),
+        calibration=lambda text: add_entry(text, new, str(d.path / CALIBRATION)),
         mapping=mapping,
     )
     return Loaded(directory, m.model, m.notes)
@@ -419,19 +421,19 @@ def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | N
 
 def saved_calibration(m: Loaded) -> Saved:
     """The calibration that the model directory keeps; UserError if there is none, or if it is of another model."""
-    return _frozen.in_force(m.directory.calibration, m.directory.path / CALIBRATION, m.model, m.instrument)
+    return load_saved(m.directory.calibration, m.directory.path / CALIBRATION, m.model, m.instrument)
 
 
 def calibration_notes(m: Loaded) -> list[str]:
     """What is odd about the calibration that is kept."""
-    return _frozen.notes(saved_calibration(m), m.model, m.instrument)
+    return saved_calibration(m).find_oddities(m.model, m.instrument)
 
 
 def compare_frozen(m: Loaded, flights: Flights) -> Held:
     """How far the model is from flights with the parameters as they were kept, and how these hold."""
     flights = read_flights(m, flights)
     distinct(flights)
-    return _frozen.hold(m.model, m.instrument, flights, saved_calibration(m))
+    return _frozen.compare_frozen(m.model, m.instrument, flights, saved_calibration(m))
 
 
 # --- compensation
@@ -471,15 +473,15 @@ def compensate(
         Of ``online``: time constant, s, with which the parameters forget the flight.
     """
     flights = read_for_compensation(m, flights)
-    of = Compensator(m.name, m.model, m.instrument)
+    of = m.name, m.model, m.instrument, flights
     if calibration == "online":
         kept = None if m.directory.calibration is None else saved_calibration(m)
-        found = of.follow(flights, kept, noise, walk, forget)
+        found = _recursive.follow(*of, kept, noise=noise, walk=walk, forget=forget)
+    elif calibration == "frozen":
+        found = _compensate.compensate(*of, calibration, demodulator, saved_calibration(m))
     else:
-        if calibration != "frozen":
-            distinct(flights)
-        kept = saved_calibration(m) if calibration == "frozen" else None
-        found = of.compensate(flights, calibration, demodulator, kept)
+        distinct(flights)
+        found = _compensate.compensate(*of, calibration, demodulator)
     if output is not None:
         found.write(output)
     return found
@@ -508,8 +510,7 @@ def contents(m: Loaded) -> Contents:
         sources=folded or derive.plain_c(m.instrument),
         module=derive.chain_of(m.instrument),
         origin=of,
-        information=None if saved is None else _frozen.information(saved, m.model, m.instrument),
-        calibration=None if saved is None else saved.as_json(),
+        saved=saved,
     )
 
 

@@ -326,9 +326,10 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
             remedy="see: ragg export --help",
         )
     exported = api.contents(load(model_dir))
-    for place in api.write_export(exported, folder, form):
-        click.echo(f"written: {place}")
-    click.echo("\n".join([f"with {exported.origin}", *exported.limits()]))
+    written = api.write_export(exported, folder, form)
+    then = f" Build with: make -C {printable(str(folder))}" if form == "c" else ""
+    click.echo(f"{printable(str(folder))}: {len(written)} files.{then}")
+    click.echo("\n".join([f"Values: {exported.origin}", *exported.limits()]))
 
 
 @click.command(cls=Command, report=True)
@@ -356,24 +357,25 @@ def survey(
     mapping: Path | None,
 ) -> None:
     """Diagnose many flights, one by one."""
-    from ragg_runtime.survey import run
-    from ragg_runtime.survey.result import check_place, parquet
+    from ragg_runtime.survey.journal import keep_results
+    from ragg_runtime.survey.result import make_parquet, require_table_place
+    from ragg_runtime.survey.run import show_progress
 
     m = load(model_dir)
     if table_file is not None:
-        check_place(Path(table_file))
-    with run.results_file(resume) as file:
+        require_table_place(Path(table_file))
+    with keep_results(resume) as file:
         s = api.survey(
             m,
             flights,
             jobs=jobs,
             scheduler=scheduler,
             resume=file,
-            progress=run.show_progress(),
+            progress=show_progress(),
             mapping=mapping,
         )
     origin, about = api.of_survey(m, s, command_line())
     if table_file is not None:
-        shared.running().write(table_file, parquet(s.records))
+        shared.running().write(table_file, make_parquet(s.records))
     page = lambda _: pages.survey_page(s, Origin(**about))  # noqa: E731
     conclude(s.as_json() | origin, s.sections(model_dir), page=page)

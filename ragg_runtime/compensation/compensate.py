@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 from typing import Any, Literal
 
@@ -13,40 +13,49 @@ from numpy.typing import NDArray
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.compensation import frozen
-from ragg_runtime.compensation.calibrated import information, inverse
+from ragg_runtime.compensation.calibrate import base_triangles, fit_some, information, invert_root
 from ragg_runtime.compensation.drift import smooth_drift
+from ragg_runtime.compensation.frozen import (
+    Change,
+    as_calibration,
+    describe_saved,
+    find_other_origin,
+    retest_change,
+    warn_of_change,
+)
+from ragg_runtime.compensation.result import Compensation, without_gradients
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.compensation.series import (
-    MEANING,
+from ragg_runtime.compensation.segment import (
+    NO_VALUE,
+    Block,
+    Channel,
+    Compensated,
     Quality,
-    Series,
-    Setting,
-    Stretch,
-    basis,
-    contributions,
-    crossed,
-    series,
-    whole,
+    Segment,
+    compensate_segment,
+    keep_directions,
+    make_block,
 )
 from ragg_runtime.estimation.calibration import Calibration
-from ragg_runtime.estimation.fitted import fit
+from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.observation import ROWS, Observation, Segment, observations_of, spread
-from ragg_runtime.estimation.scores import Tally, finite
+from ragg_runtime.estimation.observation import BLOCKS, ROWS, Observation, block_edges, observations_of
+from ragg_runtime.estimation.scores import error, finite
 from ragg_runtime.estimation.spectrum import periodogram
 from ragg_runtime.estimation.unknown_gradient import spin_frequency
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import sees
-from ragg_runtime.instrument.units import EOTVOS
+from ragg_runtime.instrument.layout import column_endings, sees
+from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.instrument.units import units
 from ragg_runtime.io import Flight
-from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.evaluate import scale_factor, unit_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
 from ragg_runtime.signals.derivative import runs
+from ragg_runtime.signals.tensor import COMPONENTS, tensor
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 BAND = (0.02, 0.15)
 """Frequencies, Hz, over which a density is averaged: below, the survey's own signal is larger; above, low-passes differ."""
@@ -57,47 +66,6 @@ WINDOW = 128.0
 GRID = 4001
 """Frequencies at which the noise is integrated."""
 
-
-def of_noise(o: Observation, noise: NoiseModel, d: Demodulator, k_ggi: float) -> tuple[float, float]:
-    """Standard deviations of inline and cross, Eo, that stationary noise of G_out causes; ``k_ggi`` in V/Eo."""
-    f = np.linspace(-0.5, 0.5, GRID)
-    carrier = 2 * spin_frequency(o)
-    passed = np.abs(d.response(f)) ** 2 * noise.psd(np.abs(carrier + f), o.signs)
-    cross = float(np.sqrt(np.sum(passed) * (f[1] - f[0]))) / k_ggi
-    return 2 * cross, cross
-
-
-class Density:
-    """Mean density of a series over :data:`BAND`, from segment after segment."""
-
-    def __init__(self, rate: float) -> None:
-        self.rate = rate
-        self.total, self.windows = np.zeros(2), 0.0
-
-    def add(self, g: NDArray[np.complex128]) -> None:
-        """Count in inline + i cross; NaN: none."""
-        n = int(WINDOW * self.rate)
-        for run in runs(np.isfinite(g.real)):
-            x = g[run]
-            if len(x) < n:
-                continue
-            count = len(x) // n
-            parts = np.stack([x.real, x.imag])[:, : count * n].reshape(2 * count, n)
-            slope = np.linspace(-1.0, 1.0, n)
-            even = parts - np.outer((parts @ slope) / (slope @ slope), slope)  # what is left of a drift
-            f, density = periodogram(even, self.rate)
-            p = np.mean(density.reshape(2, count, -1), axis=1)
-            inside = (f >= BAND[0]) & (f <= BAND[1])
-            self.total += count * np.mean(p[:, inside], axis=1)
-            self.windows += count
-
-    def as_json(self) -> dict[str, float | None]:
-        if not self.windows:
-            return {"inline_Eo_per_rtHz": None, "cross_Eo_per_rtHz": None}
-        inline, cross = np.sqrt(self.total / self.windows)
-        return {"inline_Eo_per_rtHz": float(inline), "cross_Eo_per_rtHz": float(cross)}
-
-
 Kind = Literal["frozen", "self", "crossed", "smoothed"]
 KINDS: tuple[Kind, ...] = ("self", "crossed", "smoothed", "frozen")
 
@@ -105,32 +73,31 @@ NEGLECTED = 0.01
 """Share of the noise's variance that directions of the parameters may add which are left out of the uncertainty."""
 
 SEARCHED = 4
-"""Stretches of a flight, of some minutes, on which the directions that matter are sought."""
+"""Segments of a flight, of some minutes, on which the directions that matter are sought."""
 
 
-def without_gradients(flight: Flight) -> Flight:
-    """A flight without recorded gradients: nothing of them shall get into what is compensated."""
-    channels = {n: x for n, x in flight.channels.items() if n not in GRADIENT}
-    return replace(flight, channels=channels) if len(channels) < len(flight.channels) else flight
+# --- parameters ----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Prepared:
-    """Flights with the parameters that compensate them. ``seeing``: observations that see a gradient on a turning disc;
-    ``validity`` and ``change`` only if frozen.
+    """Flights with the parameters that compensate them: of every observation its ``blocks``. ``seeing``: observations that see a
+    gradient on a turning disc; ``saved`` and ``change`` only if frozen.
     """
 
-    kind: Kind
     model: Model
     instrument: Instrument
     flights: tuple[Flight, ...]
     observations: tuple[Observation, ...]
     seeing: tuple[int, ...]
     calibration: Calibration
-    stretches: tuple[tuple[Stretch, ...], ...]
-    converged: bool
-    validity: dict[str, tuple[float, float]]
-    change: frozen.Change | None
+    blocks: tuple[tuple[Block, ...], ...]
+    saved: Saved | None
+    change: Change | None
+
+    @property
+    def converged(self) -> bool:
+        return self.calibration.converged if self.saved is None else self.saved.converged
 
     def of_flight(self, k: int) -> list[int]:
         """The observations of a flight that are compensated."""
@@ -138,51 +105,46 @@ class Prepared:
 
 
 @one_thread
-def prepared(
+def prepare(
     model: Model, instrument: Instrument, flights: Sequence[Flight], kind: Kind, saved: Saved | None = None
 ) -> Prepared:
-    """Calibrate on the flights (``self``, ``crossed``, ``smoothed``), or take what was saved (``frozen``)."""
+    """Calibrate on the flights (``self``, ``crossed``, ``smoothed``), or take what was saved (``frozen``).
+
+    Raises
+    ------
+    UserError
+        If no output of the instrument sees a gradient, or there is no such kind of calibration.
+    """
     if kind not in KINDS:
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
     flights = tuple(without_gradients(x) for x in flights)
     observations = tuple(observations_of(flights, instrument))
-    sighted = seeing(instrument, observations)
-    validity: dict[str, tuple[float, float]] = {}
-    change: frozen.Change | None = None
+    seeing = find_seeing(instrument, observations)
+    change: Change | None = None
     if kind == "frozen":
         if saved is None:
             raise UserError("a frozen compensation needs a saved calibration")
-        c = frozen.calibration(saved, model, instrument, observations)
-        root = frozen.root(saved, model, instrument)
-        stretches = [whole(c, root, len(o.record.time)) for o in observations]
-        settled, validity = saved.converged, dict(saved.validity)
-        change = frozen.looked(model, instrument, observations, saved, c)
+        c = as_calibration(saved, model, instrument, observations)
+        root = invert_root(saved.information)
+        blocks = _whole_blocks(c, observations, root)
+        change = retest_change(model, instrument, observations, saved, c)
     else:
         f = fit(model, instrument, observations)
-        c, settled = f.calibration, f.calibration.converged
-        root = inverse(information(f))
-        if kind == "crossed":
-            stretches = crossed(f)
-        elif kind == "smoothed":
-            stretches = smooth_drift(f, flights).stretches()
-        else:
-            stretches = [whole(c, root, len(o.record.time)) for o in observations]
+        c, blocks = f.calibration, _fitted_blocks(f, flights, kind)
     return Prepared(
-        kind=kind,
         model=model,
         instrument=instrument,
         flights=flights,
         observations=observations,
-        seeing=sighted,
+        seeing=seeing,
         calibration=c,
-        stretches=tuple(stretches),
-        converged=settled,
-        validity=validity,
+        blocks=tuple(blocks),
+        saved=saved if kind == "frozen" else None,
         change=change,
     )
 
 
-def seeing(instrument: Instrument, observations: Sequence[Observation]) -> tuple[int, ...]:
+def find_seeing(instrument: Instrument, observations: Sequence[Observation]) -> tuple[int, ...]:
     """Those that see a gradient on a turning disc; UserError if there is none."""
     a = instrument.accelerometers
     k1, R = a["k_VI"] * a["K1"], instrument.radii + a["dR"]
@@ -201,106 +163,49 @@ def seeing(instrument: Instrument, observations: Sequence[Observation]) -> tuple
     return found
 
 
-class Compensated:
-    """One output of a flight being compensated: its series come from :meth:`segments`, once."""
-
-    def __init__(self, p: Prepared, k: int, name: str) -> None:
-        o = p.observations[k]
-        self.flight = p.flights[o.flight]
-        rate = o.record.rate
-        self.demodulator = demodulator(name, rate)
-        _long_enough(self.flight, self.demodulator)
-        k_ggi = scale_factor(p.model, p.calibration.p, o.place)
-        noise = of_noise(o, p.calibration.noise[k], self.demodulator, k_ggi)
-        self.model, self.instrument = p.model, p.instrument
-        many = len(self.flight.time) >= MANY
-        s = Setting(
-            model=p.model,
-            evaluator=p.model.compiled("auto" if many else "numpy"),
-            demodulator=self.demodulator,
-            observation=o,
-            recorded=_recorded(self.flight, o, p.instrument.scale_factor * EOTVOS / k_ggi),
-            stretches=p.stretches[k],
-            noise=noise,
-            validity=p.validity,
-            sheet=vector(p.model, p.instrument),
-        )
-        sought = self._parts(most=max(4096, 2 * len(self.demodulator.taps)))
-        U, rest = basis(s, [x.rows for x in spread(sought, SEARCHED)], NEGLECTED)
-        self.setting = replace(s, stretches=tuple(x.along(U) for x in s.stretches), rest=rest)
-        self.k_ggi, self.after = k_ggi, Density(rate / s.every)
-        self.before = Tally(1, 1, rate, turning=o.record.turning)
-        self.count = 0
-        self.holds = p.change is None or p.change.holds
-        self.bits = dict.fromkeys(Quality, 0)
-        self.squares, self.good = np.zeros(2), 0
-
-    def _rows(self) -> int:
-        return max(ROWS, 4 * len(self.demodulator.taps))
-
-    def _parts(self, most: int) -> list[Segment]:
-        n = len(self.flight.time)
-        count = max(1, -(-n // most))
-        edges = np.linspace(0, n, count + 1).astype(int)
-        return [Segment(slice(int(a), int(b)), ()) for a, b in pairwise(edges)]
-
-    def segments(self) -> Iterator[Series]:
-        """The compensated series, segment after segment, in order of time."""
-        holes = not bool(np.all(self.setting.observation.record.valid))
-        parts = [x.rows for x in self._parts(self._rows())]
-        for rows in parts:
-            x = series(self.setting, rows, holes=holes)
-            if not self.holds:
-                x = replace(x, quality=x.quality | int(Quality.CALIBRATION))
-            self._count(x)
-            progress.step(float(len(x.quality)))
-            yield x
-
-    def _count(self, x: Series) -> None:
-        self.before.join(Tally.of(x.nominal, self.demodulator.rate))
-        self.after.add(x.gradient[:: self.setting.every])
-        self.count += len(x.quality)
-        if x.quality.any():
-            for q in Quality:
-                self.bits[q] += int(np.count_nonzero(x.quality & q))
-        good = x.good
-        self.good += int(np.count_nonzero(good))
-        self.squares += np.sum(np.square(x.parameters if good.all() else x.parameters[:, good]), axis=1)
-
-    def as_json(self) -> dict[str, Any]:
-        """What was done and how good it is; after all segments."""
-        noise = dict(zip(("inline_Eo", "cross_Eo"), map(finite, self.setting.noise), strict=True))
-        rms = np.sqrt(self.squares / self.good) if self.good else np.full(2, np.nan)
-        expected = [finite(x / np.sqrt(self.demodulator.bandwidth)) for x in self.setting.noise]
-        return {
-            "flight": self.flight.name,
-            "output": self.setting.observation.output.name,
-            "samples": self.count,
-            "good": self.good,
-            "quality": {q.name: n for q, n in self.bits.items()},
-            "density": {
-                "band_Hz": list(BAND),
-                "before": {
-                    k: x for k, x in self.before.error(0, self.k_ggi).as_json().items() if k.endswith("rtHz")
-                },
-                "after": self.after.as_json(),
-                "noise": dict(zip(("inline_Eo_per_rtHz", "cross_Eo_per_rtHz"), expected, strict=True)),
-            },
-            "std": {
-                "noise": noise,
-                "parameters": dict(zip(("inline_Eo", "cross_Eo"), map(finite, rms), strict=True)),
-                "directions": len(self.setting.stretches[0].directions),
-            },
-            "contributions": contributions(
-                self.setting,
-                [x.rows for x in spread(self._parts(self._rows()), 2)],
-                self.model,
-                self.instrument,
-            ),
-        }
+def _fitted_blocks(f: Fitted, flights: Sequence[Flight], kind: Kind) -> list[tuple[Block, ...]]:
+    """Of every observation its blocks by a fit to the flights."""
+    c = f.calibration
+    if kind == "smoothed":
+        d = smooth_drift(f, flights)
+        every = [*zip(d.epochs, d.steps, d.roots, strict=True)]
+        return [
+            tuple(make_block(c, e.rows, step, root) for e, step, root in every if e.flight == o.flight)
+            for o in f.observations
+        ]
+    if kind == "crossed":
+        of_all = [base_triangles(f, k) for k in range(len(f.observations))]
+        return [tuple(_crossed_block(f, o, b, of_all) for b in range(BLOCKS)) for o in f.observations]
+    root = invert_root(information(f))
+    return _whole_blocks(c, f.observations, root)
 
 
-def _long_enough(flight: Flight, d: Demodulator) -> None:
+def _whole_blocks(
+    c: Calibration, observations: Sequence[Observation], root: Array
+) -> list[tuple[Block, ...]]:
+    """One calibration for all samples."""
+    return [(make_block(c, slice(0, len(o.record.time)), 0.0, root),) for o in observations]
+
+
+def _crossed_block(f: Fitted, o: Observation, b: int, of_all: Sequence[Sequence[Array]]) -> Block:
+    """A block of time with the calibration on everything else."""
+    others = [
+        t
+        for x, triangles in zip(f.observations, of_all, strict=True)
+        for y, t in enumerate(triangles)
+        if (x.flight, y) != (o.flight, b)
+    ]
+    edges = block_edges(len(o.record.time))
+    return make_block(f.calibration, slice(int(edges[b]), int(edges[b + 1])), *fit_some(f, others))
+
+
+# --- channels ------------------------------------------------------------------------------------------
+
+
+def make_channel(p: Prepared, k: int, name: str) -> Channel:
+    """An observation ready to be compensated; ``name``: of the demodulator. UserError if the flight is too short for it."""
+    o, c = p.observations[k], p.calibration
+    flight, d = p.flights[o.flight], demodulator(name, o.record.rate)
     least = sum(d.settling) + 1
     if len(flight.time) < least:
         raise UserError(
@@ -310,16 +215,260 @@ def _long_enough(flight: Flight, d: Demodulator) -> None:
             expected=f"at least {least / d.rate:.3g} s for {d.name}",
             remedy="give a longer recording, or choose another --demodulator",
         )
+    k_ggi = scale_factor(p.model, c.p, o.place)
+    recorded: Complex | None = None
+    if o.recorded.demodulated:  # by its recorder: put right for the calibrated scale factor
+        known: Complex = flight.outputs["inline"] + 1j * flight.outputs["cross"]
+        recorded = known * (p.instrument.scale_factor / k_ggi)
+    channel = Channel(
+        model=p.model,
+        instrument=p.instrument,
+        evaluator=p.model.compiled("auto" if len(flight.time) >= MANY else "numpy"),
+        demodulator=d,
+        observation=o,
+        recorded=recorded,
+        blocks=p.blocks[k],
+        about=c.p,
+        k_ggi=k_ggi,
+        noise=predict_noise(o, c.noise[k], d, k_ggi),
+        validity={} if p.saved is None else p.saved.validity,
+        flags=0 if p.change is None or p.change.holds else int(Quality.CALIBRATION),
+    )
+    sought = divide(len(flight.time), max(4096, 2 * len(d.taps)))
+    return keep_directions(channel, _spread(sought, SEARCHED), NEGLECTED)
 
 
-def _recorded(flight: Flight, o: Observation, factor: float) -> NDArray[np.complex128] | None:
-    """inline + i cross, Eo, of a flight that its recorder demodulated: put right for the calibrated scale factor."""
-    if not o.recorded.demodulated:
-        return None
-    g = flight.outputs["inline"] + 1j * flight.outputs["cross"]
-    return np.asarray(g * (factor / EOTVOS))
+def predict_noise(o: Observation, noise: NoiseModel, d: Demodulator, k_ggi: float) -> tuple[float, float]:
+    """Standard deviations of inline and cross, Eo, that stationary noise of G_out causes; ``k_ggi`` in V/Eo."""
+    f = np.linspace(-0.5, 0.5, GRID)
+    carrier = 2 * spin_frequency(o)
+    passed = np.abs(d.response(f)) ** 2 * noise.psd(np.abs(carrier + f), o.signs)
+    cross = float(np.sqrt(np.sum(passed) * (f[1] - f[0]))) / k_ggi
+    return 2 * cross, cross
 
 
-def meaning() -> dict[str, str]:
-    """Bit of ``quality`` -> what it says."""
-    return {str(int(q)): f"{q.name}: {text}" for q, text in MEANING.items()}
+def divide(n: int, most: int) -> list[slice]:
+    """n samples in parts of about the same length, at most so many each."""
+    edges = np.linspace(0, n, max(1, -(-n // most)) + 1).astype(int)
+    return [slice(int(a), int(b)) for a, b in pairwise(edges)]
+
+
+def _spread(parts: Sequence[slice], most: int) -> list[slice]:
+    """At most so many of them, evenly spread."""
+    count = min(most, len(parts))
+    return [parts[k] for k in np.linspace(0, len(parts) - 1, count).round().astype(int)]
+
+
+def _segments(c: Channel) -> list[slice]:
+    return divide(len(c.observation.record.time), max(ROWS, 4 * len(c.demodulator.taps)))
+
+
+def compensate_channel(c: Channel) -> Compensated:
+    """Compensate a channel, segment after segment."""
+    holes, parts = not bool(np.all(c.observation.record.valid)), []
+    for rows in _segments(c):
+        parts.append(compensate_segment(c, rows, holes=holes))
+        progress.step(float(rows.stop - rows.start))
+    return Compensated(
+        *(np.concatenate([getattr(x, q.name) for x in parts], axis=-1) for q in fields(Compensated))
+    )
+
+
+# --- what is said of them ------------------------------------------------------------------------------
+
+
+def describe_channel(c: Channel, x: Compensated) -> dict[str, Any]:
+    """What was done and how good it is, as JSON says it."""
+    o, d, names = c.observation, c.demodulator, ("inline_Eo", "cross_Eo")
+    there = np.isfinite(x.gradient.real)
+    rms = np.sqrt(np.mean(x.parameters[:, there] ** 2, axis=1)) if there.any() else np.full(2, np.nan)
+    nominal = error(x.nominal, o.record, c.k_ggi).as_json()
+    every = max(1, int(d.rate))  # the channels hold nothing above half a hertz
+    return {
+        "flight": o.flight_name,
+        "output": o.output.name,
+        "samples": len(there),
+        "values": int(np.sum(there)),
+        "good": int(np.sum(x.quality == 0)),
+        "quality": {q.name: int(np.count_nonzero(x.quality & q)) for q in Quality},
+        "density": {
+            "band_Hz": list(BAND),
+            "before": {k: v for k, v in nominal.items() if k.endswith("rtHz")},
+            "after": measure_density(x.gradient[::every], d.rate / every),
+            "noise": {
+                f"{n}_per_rtHz": finite(s / np.sqrt(d.bandwidth)) for n, s in zip(names, c.noise, strict=True)
+            },
+        },
+        "std": {
+            "noise": {n: finite(s) for n, s in zip(names, c.noise, strict=True)},
+            "parameters": {n: finite(s) for n, s in zip(names, rms, strict=True)},
+            "directions": len(c.blocks[0].directions),
+        },
+        "contributions": list_contributions(c),
+    }
+
+
+def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
+    """Mean density over :data:`BAND` of inline + i cross (n,), NaN where there is none; Eo/sqrt(Hz)."""
+    n = int(WINDOW * rate)
+    slope = np.linspace(-1.0, 1.0, n)
+    powers = []
+    for run in runs(np.isfinite(g.real)):
+        x = g[run]
+        count = len(x) // n
+        if not count:
+            continue
+        parts = np.stack([x.real, x.imag])[:, : count * n].reshape(2 * count, n)
+        even = parts - np.outer((parts @ slope) / (slope @ slope), slope)  # what is left of a drift
+        f, density = periodogram(even, rate)
+        inside = (f >= BAND[0]) & (f <= BAND[1])
+        powers.append(np.mean(density[:, inside], axis=1).reshape(2, count))
+    mean = np.sqrt(np.mean(np.concatenate(powers, axis=1), axis=1)) if powers else np.full(2, np.nan)
+    return {
+        "inline_Eo_per_rtHz": finite(mean[0]),
+        "cross_Eo_per_rtHz": finite(mean[1]),
+    }
+
+
+def list_contributions(c: Channel) -> list[dict[str, Any]]:
+    """What was removed: root mean squares of inline and cross, Eo, on two segments of the flight, largest first."""
+    totals: dict[tuple[str, str | None], Array] = {}
+    count = 0
+    p = c.blocks[0].p
+    whole = replace(c, blocks=(replace(c.blocks[0], rows=slice(0, len(c.observation.record.time))),))
+    for rows in _spread(_segments(c), 2):
+        s = Segment(whole, rows)
+        good = (s.quality()[s.own] & NO_VALUE) == 0
+        count += int(np.sum(good))
+        for name, effect, changed in [("everything", None, None), *_without_each(c, p)]:
+            e = s.bare if changed is None else s.bare - s.predict_by(changed)
+            g = s.demodulate(e)[s.own][good]
+            part = np.array([np.sum(g.real**2), np.sum(g.imag**2)])
+            totals[name, effect] = totals.get((name, effect), np.zeros(2)) + part
+    if not count:
+        return []
+    found: list[dict[str, Any]] = []
+    for (name, effect), squares in totals.items():
+        inline, cross = np.sqrt(squares / count)
+        if inline or cross:
+            found.append({"of": name, "effect": effect, "inline_Eo": float(inline), "cross_Eo": float(cross)})
+    return sorted(found, key=lambda r: -float(r["inline_Eo"] ** 2 + r["cross_Eo"] ** 2))
+
+
+def _without_each(c: Channel, p: Array) -> list[tuple[str, str | None, Array]]:
+    """(name, effect, p with it at its neutral value) of everything that the model removes."""
+    model = c.model
+    ends = np.cumsum([size for _, size in model.chain.PARAMETERS])
+    places = {n: slice(end - size, end) for (n, size), end in zip(model.chain.PARAMETERS, ends, strict=True)}
+    found: list[tuple[str, str | None, Array]] = []
+    known = units(c.instrument.g0)
+    for e in model.effects:
+        changed = p.copy()
+        for q in (q for q in e.parameters if q.fitted):
+            changed[places[q.symbol]] = (q.neutral or 0.0) * unit_factor(q.unit, known)
+        found.append((e.id, e.id, changed))
+    for own in PARAMETERS:
+        changed = p.copy()
+        # of a gain the mean carries the gradient itself: what disturbs is that the four differ
+        changed[places[own.name]] = np.mean(p[places[own.name]]) if own.required else 0.0
+        if not np.array_equal(changed, p):
+            found.append((f"imbalance of {own.name}" if own.required else own.name, None, changed))
+    return found
+
+
+# --- the command ---------------------------------------------------------------------------------------
+
+
+@one_thread
+def compensate(
+    name: str,
+    model: Model,
+    instrument: Instrument,
+    flights: Sequence[Flight],
+    kind: Kind,
+    demodulator: str,
+    saved: Saved | None = None,
+) -> Compensation:
+    """Compensate flights with a model, called ``name``.
+
+    Parameters
+    ----------
+    kind
+        Whence the parameters: fitted to these flights, or the ``saved`` ones, which only ``frozen`` takes.
+    demodulator
+        Name of the low-pass.
+
+    Raises
+    ------
+    UserError
+        If a flight cannot be compensated, or not in one table with the others.
+    """
+    p = prepare(model, instrument, flights, kind, saved)
+    every = [[make_channel(p, n, demodulator) for n in p.of_flight(k)] for k in range(len(p.flights))]
+    _require_alike(p.flights, every)
+    series, entries = [], []
+    for k, (flight, channels) in enumerate(zip(p.flights, every, strict=True), 1):
+        found = [compensate_channel(c) for c in channels]
+        columns = make_columns(instrument, channels, found)
+        number = {"flight": np.full(len(flight.time), k, dtype=np.int64)} if len(p.flights) > 1 else {}
+        series.append({"time": np.array(flight.time), **columns, **number})
+        entries += [describe_channel(c, x) for c, x in zip(channels, found, strict=True)]
+    d = every[0][0].demodulator
+    result = {
+        "calibration": kind,
+        "converged": p.converged,
+        "effects": [e.id for e in model.effects],
+        "demodulator": {
+            "name": d.name,
+            "what": d.description,
+            "latency_s": d.latency,
+            "bandwidth_Hz": d.bandwidth,
+        },
+        "flights": entries,
+    }
+    if p.saved is not None and p.change is not None:
+        result["frozen"] = describe_saved(p.saved) | p.change.as_json()
+        if not p.change.holds:
+            origin = find_other_origin(model, instrument, p.flights, p.saved, p.change)
+            result["notes"] = [warn_of_change(p.saved.time, p.change), *([] if origin is None else [origin])]
+    return Compensation.of(name, result, series)
+
+
+def _require_alike(flights: Sequence[Flight], every: Sequence[Sequence[Channel]]) -> None:
+    """UserError unless all flights have the same outputs."""
+    names = [[c.observation.output.name for c in channels] for channels in every]
+    for flight, own in zip(flights, names, strict=True):
+        if own != names[0]:
+            raise UserError(
+                "the flights do not have the same outputs",
+                where=flight.path or flight.name,
+                found=", ".join(own) or "none that sees a gradient",
+                expected=", ".join(names[0]),
+                remedy="compensate them one by one",
+            )
+
+
+def make_columns(
+    instrument: Instrument, channels: Sequence[Channel], series: Sequence[Compensated]
+) -> dict[str, NDArray[Any]]:
+    """The columns (N,) of a flight: of every output, with an ending where there are several, and the tensor where they determine it."""
+    names = instrument.layout.output_names
+    endings = dict(zip(names, column_endings(names), strict=True))
+    found: dict[str, NDArray[Any]] = {}
+    for c, x in zip(channels, series, strict=True):
+        end = endings[c.observation.output.name]
+        found |= {f"inline{end}": x.gradient.real, f"cross{end}": x.gradient.imag}
+        found |= {f"inline{end}_std": x.std[0], f"cross{end}_std": x.std[1], f"quality{end}": x.quality}
+    discs = [instrument.layout.discs[c.observation.output.disc] for c in channels]
+    noise = np.array([s for c in channels for s in c.noise])
+    try:
+        by_channels = tensor([d.across for d in discs], np.eye(2 * len(channels)), noise)
+    except UserError:  # the outputs do not determine it
+        return found
+    seen = np.concatenate([[x.gradient.real, x.gradient.imag] for x in series])
+    std = np.sqrt(by_channels.gamma**2 @ np.concatenate([x.std for x in series]) ** 2)
+    found |= {f"Gamma_{k}": v for k, v in zip(COMPONENTS, by_channels.gamma @ seen, strict=True)}
+    found |= {f"Gamma_{k}_std": v for k, v in zip(COMPONENTS, std, strict=True)}
+    checks = by_channels.closure @ seen
+    found |= {"closure" if len(checks) == 1 else f"closure_{k}": v for k, v in enumerate(checks, 1)}
+    return found

@@ -10,14 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
-from ragg_runtime.compensation.calibrated import base, inverse
-from ragg_runtime.compensation.series import Stretch, stretch_of
+from ragg_runtime.compensation.calibrate import base_triangles, invert_root, values_in_scales
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.least_squares import join
 from ragg_runtime.estimation.observation import BLOCKS, block_edges
@@ -34,66 +34,52 @@ WORTH = 4.5
 HOUR = 3600.0
 
 
+class Epoch(NamedTuple):
+    """A block of time: its flight, its samples, and its middle, s."""
+
+    flight: int
+    rows: slice
+    middle: float
+
+
 @dataclass(frozen=True)
 class Drift:
     """Parameters in blocks of time.
 
-    ``rates``: name -> standard deviation of its walk after an hour, over the sheet's error. ``time`` (k,): the middle of each block,
-    s, and ``flight`` (k,) its flight. ``steps`` (k, n): the smoothed parameters less the calibrated ones, and ``roots`` (k, n, n)
-    of their covariance, in scales.
+    ``rates``: name -> standard deviation of its walk after an hour, over the sheet's error. ``steps`` (epochs, n): the smoothed
+    parameters less the calibrated ones, and ``roots`` (epochs, n, n) of their covariance, in scales.
     """
 
     f: Fitted
     rates: Mapping[str, float]
-    flight: tuple[int, ...]
-    block: tuple[int, ...]
-    time: Array
+    epochs: tuple[Epoch, ...]
     steps: Array
     roots: Array
 
-    def stretches(self) -> list[tuple[Stretch, ...]]:
-        """Of every observation its blocks, each with its own parameters."""
-        c = self.f.calibration
-        scale = np.array([q.scale for q in c.columns])
-        found = []
-        for o in self.f.observations:
-            edges = block_edges(len(o.record.time))
-            own = []
-            for k, (flight, b) in enumerate(zip(self.flight, self.block, strict=True)):
-                if flight != o.flight:
-                    continue
-                p = c.p.copy()
-                p[c.index] += self.steps[k] * scale
-                own.append(stretch_of(c, int(edges[b]), int(edges[b + 1]), p, self.roots[k]))
-            found.append(tuple(own))
-        return found
-
     def as_json(self) -> dict[str, Any]:
         """The rates of those that walk, and their values in every block."""
-        c = self.f.calibration
+        columns = self.f.calibration.columns
         names = {o.flight: o.flight_name for o in self.f.observations}
-        walking = [(n, q) for n, q in enumerate(c.columns) if q.name in self.rates]
-        states = [
-            {
-                "flight": names[flight],
-                "time_s": float(self.time[k]),
-                "name": q.name,
-                "accelerometer": q.accelerometer,
-                "value": float((c.p[c.index[n]] + self.steps[k, n] * q.scale) / q.unit_factor),
-                "std": float(np.linalg.norm(self.roots[k, n]) * q.scale / q.unit_factor),
-                "unit": q.unit,
-            }
-            for n, q in walking
-            for k, flight in enumerate(self.flight)
-        ]
-        rates = [
-            {
-                "name": name,
-                "per_root_hour": rate * max(q.scale / q.unit_factor for q in c.columns if q.name == name),
-                "unit": next(q.unit for q in c.columns if q.name == name),
-            }
-            for name, rate in self.rates.items()
-        ]
+        values = values_in_scales(self.f) + self.steps
+        rates, states = [], []
+        for name, rate in self.rates.items():
+            own = [q for q in columns if q.name == name]
+            per_root_hour = rate * max(q.scale / q.unit_factor for q in own)
+            rates.append({"name": name, "per_root_hour": per_root_hour, "unit": own[0].unit})
+        for n, q in enumerate(columns):
+            for k, epoch in enumerate(self.epochs if q.name in self.rates else ()):
+                factor = q.scale / q.unit_factor
+                states.append(
+                    {
+                        "flight": names[epoch.flight],
+                        "time_s": epoch.middle,
+                        "name": q.name,
+                        "accelerometer": q.accelerometer,
+                        "value": float(values[k, n]) * factor,
+                        "std": float(np.linalg.norm(self.roots[k, n])) * factor,
+                        "unit": q.unit,
+                    }
+                )
         return {"rates": rates, "states": states}
 
 
@@ -105,55 +91,51 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
     f
         A fit of constant parameters to the flights, about which everything is linear.
     flights
-        The same flights, for their times: where their stamps are instants they say how long lies between flights; else one
-        flight follows the other at once.
+        The same flights, for their times: where their stamps are instants of one day they say how long lies between flights; else
+        one flight follows the other at once.
 
     Returns
     -------
     Drift
         The parameters in each block of time.
     """
-    order, start = _timeline(flights)
-    flight, block, time, elapsed, measured = [], [], [], [], []
-    for n in order:
+    epochs, measured, elapsed = [], [], []
+    for n, start in _starts(flights):
         own = [k for k, o in enumerate(f.observations) if o.flight == n]
         t = f.observations[own[0]].record.time
         edges = block_edges(len(t))
         for b in range(BLOCKS):
-            if edges[b] == edges[b + 1]:
-                continue
-            middle = float(t[edges[b]] + t[edges[b + 1] - 1]) / 2
-            flight.append(n)
-            block.append(b)
-            time.append(middle)
-            elapsed.append(start[n] + middle)
-            measured.append(join(base([f.triangles[k][b] for k in own], f.n_base)))
+            rows = slice(int(edges[b]), int(edges[b + 1]))
+            if rows.start < rows.stop:
+                epochs.append(Epoch(n, rows, float(t[rows.start] + t[rows.stop - 1]) / 2))
+                measured.append(join([base_triangles(f, k)[b] for k in own]))
+                elapsed.append(start + epochs[-1].middle)
     hours = np.maximum(np.diff(elapsed), 0.0) / HOUR
     prior = np.column_stack([np.eye(f.n_base), f.to_nominal])
     names = [q.name for q in f.calibration.columns]
     rates = _find_rates(prior, measured, hours, names)
     walk = np.array([rates.get(n, 0.0) for n in names])
     forward, _ = _filter(prior, measured, hours, walk)
-    nothing = np.zeros((0, f.n_base + 1))
-    backward, _ = _filter(nothing, measured[::-1], hours[::-1], walk, before=True)
-    steps, roots = [], []
-    for ahead, back in zip(forward, backward[::-1], strict=True):
-        R = np.asarray(np.linalg.qr(np.vstack([ahead, back]), mode="r"))[: f.n_base]
-        roots.append(inverse(R[:, :-1]))
-        steps.append(np.linalg.solve(R[:, :-1], R[:, -1]))
-    return Drift(f, rates, tuple(flight), tuple(block), np.array(time), np.array(steps), np.array(roots))
+    backward, _ = _filter(prior[:0], measured[::-1], hours[::-1], walk, before=True)
+    whole = [
+        np.asarray(np.linalg.qr(np.vstack(both), mode="r"))[: f.n_base]
+        for both in zip(forward, backward[::-1], strict=True)
+    ]
+    steps = np.array([np.linalg.solve(R[:, :-1], R[:, -1]) for R in whole])
+    return Drift(f, rates, tuple(epochs), steps, np.array([invert_root(R[:, :-1]) for R in whole]))
 
 
-def _timeline(flights: Sequence[Flight]) -> tuple[list[int], dict[int, float]]:
-    """Flights in order of time, and when the time of each is zero, s."""
-    numbers = list(range(len(flights)))
-    if all(x.instants for x in flights):
-        return sorted(numbers, key=lambda n: float(flights[n].time[0])), dict.fromkeys(numbers, 0.0)
-    start, end = {}, 0.0
-    for n, x in enumerate(flights):
-        start[n] = end - float(x.time[0])
-        end += x.duration
-    return numbers, start
+def _starts(flights: Sequence[Flight]) -> list[tuple[int, float]]:
+    """Flights in order of time, each with when it begins, s.
+
+    Instants count from a midnight: flights that overlap by them are of several days, of which nothing more is known.
+    """
+    by_clock = sorted(enumerate(flights), key=lambda x: float(x[1].time[0]))
+    overlap = any(a.time[-1] > b.time[0] for (_, a), (_, b) in pairwise(by_clock))
+    if all(x.instants for x in flights) and not overlap:
+        return [(n, float(x.time[0])) for n, x in by_clock]
+    ends = np.cumsum([0.0, *(x.duration for x in flights)])
+    return [(n, float(end)) for n, end in enumerate(ends[:-1])]
 
 
 def _find_rates(
@@ -164,7 +146,7 @@ def _find_rates(
     def evidence(rates: Mapping[str, float]) -> float:
         return _filter(prior, measured, hours, np.array([rates.get(n, 0.0) for n in names]))[1]
 
-    def fitted(name: str, others: Mapping[str, float]) -> tuple[float, float]:
+    def fit_rate(name: str, others: Mapping[str, float]) -> tuple[float, float]:
         best = optimize.minimize_scalar(
             lambda x: -evidence({**others, name: 10.0**x}),
             bounds=(SLOWEST, FASTEST),
@@ -176,14 +158,14 @@ def _find_rates(
     found: dict[str, float] = {}
     known = evidence(found)
     while True:
-        tried = {n: fitted(n, found) for n in dict.fromkeys(names) if n not in found}
+        tried = {n: fit_rate(n, found) for n in dict.fromkeys(names) if n not in found}
         name = max(tried, key=lambda n: tried[n][0], default=None)
         if name is None or tried[name][0] < known + WORTH:
             return found
         found[name] = tried[name][1]
         for n in [*found]:
             others = {k: r for k, r in found.items() if k != n}
-            known, found[n] = fitted(n, others)
+            known, found[n] = fit_rate(n, others)
             without = evidence(others)
             if known < without + WORTH:
                 known, found = without, others
@@ -204,11 +186,11 @@ def _filter(
             evidence -= float(np.sum(whole[n:, -1] ** 2)) / 2
         found.append(known if before else R)
         if k < len(hours):
-            R = _walked(R, walk * np.sqrt(max(hours[k], 1e-6)))
+            R = _walk(R, walk * np.sqrt(max(hours[k], 1e-6)))
     return found, evidence
 
 
-def _walked(R: Array, step: Array) -> Array:
+def _walk(R: Array, step: Array) -> Array:
     """The R factor after a step of the walk, of these standard deviations (n,): the parameters before it are eliminated."""
     moving = np.flatnonzero(step)
     m, n = len(moving), len(step)

@@ -1,14 +1,15 @@
 """Calibrate and compensate sample by sample: a square-root information filter of the parameters and of the gradient.
 
 A filter is of one output. Its states are the fitted parameters (steps from a point p, in their scales) and the channels
-inline and cross, a random walk. What is kept is the triangle R and the right-hand side z of R x = z; a sample is one
+inline and cross, a random walk. What is kept is the R factor and the right-hand side z of R x = z; a sample is one
 more row.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,13 +17,15 @@ from scipy import linalg
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.compensation.compensate import seeing, without_gradients
-from ragg_runtime.compensation.frozen import information
+from ragg_runtime.base.threads import one_thread, stretches
+from ragg_runtime.compensation.compensate import find_seeing
+from ragg_runtime.compensation.result import Compensation, without_gradients
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.compensation.series import Quality
+from ragg_runtime.compensation.segment import Quality
 from ragg_runtime.estimation.least_squares import of_some
 from ragg_runtime.estimation.observation import ROWS, Observation, as_output, observations_of
-from ragg_runtime.estimation.regressors import Column, Point, base_columns, linearised, own_columns, spelt
+from ragg_runtime.estimation.regressors import Column, Point, base_columns, linearised, own_columns
+from ragg_runtime.identification.parameters import parameter_values
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings
 from ragg_runtime.io import Flight
@@ -62,13 +65,7 @@ class Tuning:
     forget: float = float("inf")
 
 
-def following(density: float) -> float:
-    """Walk, Eo/sqrt(s), with which channels of a noise of so much, Eo/sqrt(Hz), are followed as the demodulators' low-pass would."""
-    return float(density / np.sqrt(2.0) * 2 * np.pi * CUTOFF)
-
-
-@dataclass(frozen=True)
-class Followed:
+class Followed(NamedTuple):
     """What a filter had found at some instants: (k,) each; channels in Eo."""
 
     time: Array
@@ -91,22 +88,19 @@ class Online:
         place: int = 0,
     ) -> None:
         """Begin at parameters ``p`` (size,) with ``root`` (all, all) of the information in scales, else at the sheet."""
-        self.model, self.instrument, self.tuning = model, instrument, tuning
-        self.nominal = vector(model, instrument)
-        self.p = self.nominal.copy() if p is None else p.copy()
-        self.place = place
+        self.model, self.instrument, self.tuning, self.place = model, instrument, tuning, place
+        nominal = vector(model, instrument)
+        self.p = nominal.copy() if p is None else p.copy()
         every = base_columns(model, instrument)
         self.own = own_columns([c for c, _ in every], instrument, place)
-        found = [every[k] for k in self.own]
-        self.columns: tuple[Column, ...] = tuple(c for c, _ in found)
-        self.index = np.array([k for _, k in found], dtype=np.intp)
+        self.columns: tuple[Column, ...] = tuple(every[k][0] for k in self.own)
+        self.index = np.array([every[k][1] for k in self.own], dtype=np.intp)
         self.scale = np.array([c.scale for c in self.columns])
-        self.to_nominal = (self.nominal[self.index] - self.p[self.index]) / self.scale
+        self.to_nominal = (nominal[self.index] - self.p[self.index]) / self.scale
         self.k_ggi = scale_factor(model, self.p, place)
         n = len(self.columns)
         self.R = np.zeros((n + 2, n + 3))
         self.R[:n, :n] = np.eye(n) if root is None else of_some(root, self.own)
-        self.R[:n, -1] = self.R[:n, :n] @ (self.to_nominal if root is None else np.zeros(n))
         self.R[n:, n : n + 2] = np.eye(2) / UNKNOWN_EO
         self._waiting: list[Array] = []
         self._before: float | None = None
@@ -148,7 +142,7 @@ class Online:
 
     def _fold(self) -> None:
         if self._waiting:
-            self.R = _triangle(np.vstack([self.R, *self._waiting]))[: len(self.R)]
+            self.R = _eliminate(np.vstack([self.R, *self._waiting]))[: len(self.R)]
             self._waiting.clear()
 
     def _walk(self) -> None:
@@ -161,7 +155,7 @@ class Online:
         whole[:2, :2] = np.diag([1.0 / STEEPER, 1.0]) / (self.tuning.walk * np.sqrt(t))
         whole[2:, :2] = -self.R[:, n : n + 2]
         whole[2:, 2:] = self.R
-        self.R = _triangle(whole)[2:, 2:]
+        self.R = _eliminate(whole)[2:, 2:]
 
     def _fade(self) -> None:
         t, self._faded = self._faded, 0.0
@@ -172,7 +166,7 @@ class Online:
         before = np.diag([1.0] * n + [1.0 / UNKNOWN_EO] * 2)
         known = np.column_stack([before, np.append(self.to_nominal, np.zeros(2))])
         whole = np.vstack([np.sqrt(kept) * self.R, np.sqrt(1.0 - kept) * known])
-        self.R = _triangle(whole)[: n + 2]
+        self.R = _eliminate(whole)[: n + 2]
 
     def gradient(self) -> tuple[float, float, float, float]:
         """inline, cross, and their standard deviations, Eo, whatever the parameters may be."""
@@ -192,25 +186,92 @@ class Online:
         return p, of_some(self.R[:, : n + 2], range(n))
 
 
-def _triangle(rows: Array) -> Array:
-    """The triangular factor of rows."""
+def _eliminate(rows: Array) -> Array:
+    """The R factor of rows."""
     return np.asarray(np.linalg.qr(rows, mode="r"))
 
 
-CHANNELS = ("inline", "cross", "inline_std", "cross_std")
+# --- the command ---------------------------------------------------------------------------------------
 
 
-def followed(
-    model: Model, instrument: Instrument, x: Flight, saved: Saved | None, asked: Tuning
+@one_thread
+def follow(
+    name: str,
+    model: Model,
+    instrument: Instrument,
+    flights: Sequence[Flight],
+    saved: Saved | None,
+    *,
+    noise: float | None = None,
+    walk: float | None = None,
+    forget: float = float("inf"),
+) -> Compensation:
+    """Calibrate and compensate flights sample by sample, with a model called ``name``.
+
+    Parameters
+    ----------
+    saved
+        The calibration to begin with; ``None``: the test sheet.
+    noise
+        Density of the noise of the cross channel, Eo/sqrt(Hz), by default what ``saved`` left.
+    walk
+        Of the cross channel, Eo/sqrt(s), by default so that channels are followed as the demodulators' low-pass would.
+    forget
+        Time constant with which parameters forget, s.
+
+    Raises
+    ------
+    UserError
+        If the noise is not known, or a flight holds no output before demodulation.
+    """
+    density = _known_noise(name, saved) if noise is None else noise
+    wander = float(density / np.sqrt(2.0) * 2 * np.pi * CUTOFF) if walk is None else walk
+    tuning = Tuning(noise=density, walk=wander, forget=forget)
+    series, entries = [], []
+    for k, x in enumerate(flights, 1):
+        columns, said = _follow_flight(model, instrument, without_gradients(x), saved, tuning)
+        if len(flights) > 1:
+            columns["flight"] = np.full(len(columns["time"]), k, dtype=np.int64)
+        series.append(columns)
+        entries += said
+    result = {
+        "calibration": "online",
+        "started": "sheet" if saved is None else f"calibration made {saved.time}",
+        "noise_Eo_per_rtHz": density,
+        "walk_Eo_per_rts": wander,
+        "follows_within_s": density / (np.sqrt(2.0) * wander) if wander > 0.0 else None,
+        "forget_s": forget if np.isfinite(forget) else None,
+        "effects": [e.id for e in model.effects],
+        "flights": entries,
+    }
+    return Compensation.of(name, result, series)
+
+
+def _known_noise(name: str, saved: Saved | None) -> float:
+    """What a kept calibration left in the cross channel, Eo/sqrt(Hz); UserError if nothing says it."""
+    left = None if saved is None else saved.error.get("calibrated", {}).get("cross_Eo_per_rtHz")
+    if not isinstance(left, float) or not left > 0.0:
+        raise UserError(
+            "the noise is not known",
+            where=name,
+            found="no saved calibration"
+            if saved is None
+            else "a saved calibration without a demodulated error",
+            remedy="give it: --noise 2 (Eo/sqrt(Hz) of the cross channel), or calibrate first: ragg calibrate ... --save",
+        )
+    return left
+
+
+def _follow_flight(
+    model: Model, instrument: Instrument, x: Flight, saved: Saved | None, tuning: Tuning
 ) -> tuple[dict[str, NDArray[Any]], list[dict[str, Any]]]:
-    """The series of a flight, and what the filter of each output says at its end; ``asked.noise`` is a density."""
-    x = without_gradients(x)
+    """The columns of a flight, and what the filter of each output says at its end; ``tuning.noise`` is a density."""
     endings = column_endings(instrument.layout.output_names)
-    root = None if saved is None else information(saved, model, instrument)
+    p, root = (vector(model, instrument), None) if saved is None else (saved.p, saved.information)
     columns: dict[str, NDArray[Any]] = {}
-    told = []
-    observed = observations_of([x], instrument)
-    for o in (observed[k] for k in seeing(instrument, observed)):
+    said = []
+    observations = observations_of([x], instrument)
+    for o in (observations[k] for k in find_seeing(instrument, observations)):
         if o.recorded.demodulated:
             raise UserError(
                 "the filter works on the output before demodulation",
@@ -218,20 +279,22 @@ def followed(
                 found="inline and cross",
                 expected=o.output.name,
             )
-        p = vector(model, instrument) if saved is None else saved.p
-        volts = asked.noise / np.sqrt(2.0) * scale_factor(model, p, o.place) * np.sqrt(o.record.rate / 2)
-        f = Online(model, instrument, replace(asked, noise=float(volts)), p, root, o.place)
-        got = _fed(f, o)
+        volts = tuning.noise / np.sqrt(2.0) * scale_factor(model, p, o.place) * np.sqrt(o.record.rate / 2)
+        f = Online(model, instrument, replace(tuning, noise=float(volts)), p, root, o.place)
+        parts = []
+        for rows in stretches(len(o.record.time), ROWS):
+            parts.append(f.feed(o.part(rows)))
+            progress.step(float(rows.stop - rows.start))
+        got, end = Followed(*np.hstack(parts)), endings[o.place]
         columns["time"] = got.time + float(x.time[0])
-        end = endings[o.place]
-        columns |= {f"inline{end}": got.inline, f"cross{end}": got.cross}
-        columns |= {f"inline{end}_std": got.inline_std, f"cross{end}_std": got.cross_std}
-        columns[f"quality{end}"] = _quality(got.time, o)
-        told.append({"flight": o.name, "samples": len(o.record.time), "parameters": _parameters(f)})
-    return columns, told
+        columns |= {f"{n}{end}": v for n, v in zip(("inline", "cross"), got[1:3], strict=True)}
+        columns |= {f"{n}{end}_std": v for n, v in zip(("inline", "cross"), got[3:], strict=True)}
+        columns[f"quality{end}"] = _flag_bridged(got.time, o)
+        said.append({"flight": o.name, "samples": len(o.record.time), "parameters": _parameters_json(f)})
+    return columns, said
 
 
-def _quality(time: Array, o: Observation) -> NDArray[np.int64]:
+def _flag_bridged(time: Array, o: Observation) -> NDArray[np.int64]:
     """Of every instant: bridged where one of the samples since the instant before is missing."""
     step = 1.0 / o.record.rate
     heard = np.searchsorted(o.record.time[o.record.valid], time, "right")
@@ -239,27 +302,8 @@ def _quality(time: Array, o: Observation) -> NDArray[np.int64]:
     return np.where(np.diff(heard, prepend=0) < due, int(Quality.BRIDGED), 0)
 
 
-def _fed(f: Online, o: Observation) -> Followed:
-    """A whole flight through the filter, in parts that fit into memory."""
-    n, parts = len(o.record.time), []
-    for first in range(0, n, ROWS):
-        some = slice(first, min(first + ROWS, n))
-        parts.append(f.feed(o.part(some)))
-        progress.step(float(some.stop - some.start))
-    return Followed(*(np.concatenate([getattr(x, n) for x in parts]) for n in ("time", *CHANNELS)))
-
-
-def _parameters(f: Online) -> list[dict[str, Any]]:
+def _parameters_json(f: Online) -> list[dict[str, Any]]:
     p, root = f.parameters()
-    std = np.linalg.norm(np.linalg.inv(root), axis=1) * f.scale
-    return [
-        {
-            "name": c.name,
-            "accelerometer": c.accelerometer,
-            **spelt(c.accelerometer, c.accelerometer_name),
-            "value": float(p[k] / c.unit_factor),
-            "std": float(s / c.unit_factor),
-            "unit": c.unit,
-        }
-        for c, k, s in zip(f.columns, f.index, std, strict=True)
-    ]
+    inverse = np.linalg.inv(root)
+    values = parameter_values(f.columns, p[f.index] / f.scale, inverse @ inverse.T)
+    return [{**q.as_json(), "name": c.name} for q, c in zip(values, f.columns, strict=True)]

@@ -1,9 +1,9 @@
-"""What ``ragg compensate`` finds: the gradient as columns of every flight, and how good they are."""
+"""What ``ragg compensate`` finds: the gradient as columns of every flight, their file, and how good they are."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -11,17 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import one_thread
-from ragg_runtime.compensation import frozen
-from ragg_runtime.compensation.compensate import Compensated, Kind, meaning, prepared
-from ragg_runtime.compensation.output import Table, joined, write_series
-from ragg_runtime.compensation.recursive import Tuning, followed, following
-from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.compensation.series import MEANING
-from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.compensation.segment import MEANING
 from ragg_runtime.io import Flight
-from ragg_runtime.model.model import Model
+from ragg_runtime.io.files import write_tables
+from ragg_runtime.io.record import GRADIENT
+from ragg_runtime.io.tables import Column, Table
 from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.sections import render_notebook
 
@@ -29,14 +23,27 @@ QUALITY: Mapping[str, str] = MappingProxyType({str(q.name): text for q, text in 
 """What the marks of samples mean, by the name under which a compensation counts them."""
 
 
+def without_gradients(flight: Flight) -> Flight:
+    """A flight without recorded gradients: nothing of them shall get into what is compensated."""
+    channels = {n: x for n, x in flight.channels.items() if n not in GRADIENT}
+    return replace(flight, channels=channels) if len(channels) < len(flight.channels) else flight
+
+
 @dataclass(frozen=True)
 class Compensation:
-    """The result of ``compensate``; ``series`` are the columns (name -> (N,)) of every flight, ``units`` theirs, in order."""
+    """The result of ``compensate``; ``series`` are the columns (name -> (N,)) of every flight."""
 
     name: str
     result: Mapping[str, Any]
     series: tuple[Mapping[str, NDArray[Any]], ...]
-    units: Mapping[str, str]
+
+    @staticmethod
+    def of(
+        name: str, result: Mapping[str, Any], series: Sequence[Mapping[str, NDArray[Any]]]
+    ) -> Compensation:
+        """The result as JSON says it, with what the bits of ``quality`` mean."""
+        meaning = {str(int(q)): f"{q.name}: {text}" for q, text in MEANING.items()}
+        return Compensation(name, {**result, "quality": meaning}, tuple(series))
 
     def __repr__(self) -> str:
         flights = ", ".join(x["flight"] for x in self.result["flights"])
@@ -46,122 +53,49 @@ class Compensation:
         online = self.result["calibration"] == "online"
         return None if online else render_notebook(describe_other.describe_compensation(self.as_json(), ""))
 
+    @property
+    def units(self) -> dict[str, str]:
+        """Columns and their units, in order."""
+        return {n: _unit_of(n) for n in self.series[0]}
+
     def as_json(self) -> dict[str, Any]:
         """As ``ragg compensate --json`` writes it."""
         return dict(self.result)
 
     def write(self, path: Path | str) -> None:
-        """The series of all flights, one after the other, into a file of the format that its ending names."""
-        write_series(Path(path), self.series, self.units)
+        """The series of all flights, one after the other, into a file of the format that its ending names.
+
+        Each begins and ends where there are values, which have the digits that their uncertainty warrants, and one more.
+        """
+        parts = [_with_values(s) for s in self.series]
+        whole = {n: np.concatenate([s[n] for s in parts]) for n in self.units}
+        columns = [Column(n, unit, _round(n, whole)) for n, unit in self.units.items()]
+        write_tables(Path(path), [Table(tuple(columns))])
 
 
-@dataclass(frozen=True)
-class Compensator:
-    """A model by its name, with which flights are compensated."""
-
-    name: str
-    model: Model
-    instrument: Instrument
-
-    def _found(
-        self, result: dict[str, Any], series: Sequence[Mapping[str, NDArray[Any]]], units: Mapping[str, str]
-    ) -> Compensation:
-        told = result | {"quality": meaning()}
-        return Compensation(self.name, told, tuple(series), MappingProxyType(dict(units)))
-
-    @one_thread
-    def compensate(
-        self, flights: Sequence[Flight], kind: Kind, demodulator: str, saved: Saved | None
-    ) -> Compensation:
-        """By a calibration on the flights themselves, or by the ``saved`` one, which only ``frozen`` takes."""
-        p = prepared(self.model, self.instrument, flights, kind, saved)
-        each = [[Compensated(p, n, demodulator) for n in p.of_flight(k)] for k in range(len(p.flights))]
-        table = _table(each, p.flights)
-        kept: list[Mapping[str, NDArray[Any]]] = []
-        for k, (flight, outputs) in enumerate(zip(p.flights, each, strict=True)):
-            rows = [
-                table.rows(np.array(flight.time[parts[0].rows]), parts, k + 1)
-                for parts in zip(*(x.segments() for x in outputs), strict=True)
-            ]
-            kept.append(joined(rows, list(table.units)))
-        d = each[0][0].demodulator
-        result = {
-            "calibration": kind,
-            "converged": p.converged,
-            "effects": [e.id for e in self.model.effects],
-            "demodulator": {
-                "name": d.name,
-                "what": d.description,
-                "latency_s": d.latency,
-                "bandwidth_Hz": d.bandwidth,
-            },
-            "flights": [x.as_json() for outputs in each for x in outputs],
-        }
-        if saved is not None and p.change is not None:
-            told = {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
-            result["frozen"] = told | p.change.as_json()
-            if not p.change.holds:
-                other = frozen.other_origin(self.model, self.instrument, p.flights, saved, p.change)
-                result["notes"] = [frozen.warning(saved.time, p.change), *([] if other is None else [other])]
-        return self._found(result, kept, table.units)
-
-    @one_thread
-    def follow(
-        self,
-        flights: Sequence[Flight],
-        saved: Saved | None,
-        noise: float | None,
-        walk: float | None,
-        forget: float,
-    ) -> Compensation:
-        """Calibrate and compensate sample by sample, from the ``saved`` calibration, else from the sheet."""
-        density = self._density(saved) if noise is None else noise
-        walk = following(density) if walk is None else walk
-        asked = Tuning(noise=density, walk=walk, forget=forget)
-        found = [followed(self.model, self.instrument, x, saved, asked) for x in flights]
-        result = {
-            "calibration": "online",
-            "started": "sheet" if saved is None else f"calibration made {saved.time}",
-            "noise_Eo_per_rtHz": density,
-            "walk_Eo_per_rts": walk,
-            "follows_within_s": density / (np.sqrt(2.0) * walk) if walk > 0.0 else None,
-            "forget_s": forget if np.isfinite(forget) else None,
-            "effects": [e.id for e in self.model.effects],
-            "flights": [entry for _, entries in found for entry in entries],
-        }
-        number = {"flight": np.int64} if len(found) > 1 else {}
-        series: list[Mapping[str, NDArray[Any]]] = [
-            {**s, **{n: np.full(len(s["time"]), k, dtype=kind) for n, kind in number.items()}}
-            for k, (s, _) in enumerate(found, 1)
-        ]
-        plain = {"time": "s", "flight": "1"}
-        units = {n: plain.get(n, "1" if n.startswith("quality") else "Eo") for n in series[0]}
-        return self._found(result, series, units)
-
-    def _density(self, saved: Saved | None) -> float:
-        """What a kept calibration left in the cross channel, Eo/sqrt(Hz)."""
-        left = None if saved is None else saved.error.get("calibrated", {}).get("cross_Eo_per_rtHz")
-        if not isinstance(left, float) or not left > 0.0:
-            raise UserError(
-                "how large the noise is cannot be known",
-                where=self.name,
-                found=f"{'no' if saved is None else 'a'} saved calibration{'' if saved is None else ' without a demodulated error'}",
-                remedy="say it: --noise 2 (Eo/sqrt(Hz) of the cross channel), or calibrate first: ragg calibrate ... --save",
-            )
-        return left
+def _unit_of(column: str) -> str:
+    if column == "time":
+        return "s"
+    return "1" if column == "flight" or column.startswith(("quality", "closure")) else "Eo"
 
 
-def _table(each: Sequence[Sequence[Compensated]], flights: Sequence[Flight]) -> Table:
-    """The columns of all flights, which must have the same outputs."""
-    tables = [Table.of(outputs, several=len(flights) > 1) for outputs in each if outputs]
-    for flight, outputs in zip(flights, each, strict=True):
-        if [x.setting.observation.place for x in outputs] != [x.setting.observation.place for x in each[0]]:
-            raise UserError(
-                "the flights do not have the same outputs",
-                where=flight.path or flight.name,
-                found=", ".join(x.setting.observation.output.name for x in outputs)
-                or "none that sees a gradient",
-                expected=", ".join(x.setting.observation.output.name for x in each[0]),
-                remedy="compensate them one by one",
-            )
-    return tables[0]
+def _with_values(series: Mapping[str, NDArray[Any]]) -> Mapping[str, NDArray[Any]]:
+    """The rows from the first to the last in which a channel has a value; all if none has."""
+    stds = [x for n, x in series.items() if n.endswith("_std")]
+    there = np.flatnonzero(np.any(np.isfinite(stds), axis=0))
+    if not len(there):
+        return series
+    return {n: x[there[0] : there[-1] + 1] for n, x in series.items()}
+
+
+def _round(name: str, columns: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
+    """A column to the second digit of the least of its standard deviations."""
+    x = columns[name]
+    if name.startswith("closure"):
+        return np.round(x, 2)
+    std = columns.get(name if name.endswith("_std") else f"{name}_std", np.zeros(0))
+    known = std[np.isfinite(std) & (std > 0.0)]
+    if not len(known):
+        return x
+    digits = 1 - int(np.floor(np.log10(np.min(known))))
+    return np.round(x, digits + name.endswith("_std"))

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError
-from ragg_runtime.estimation.regressors import Column
+from ragg_runtime.base.errors import UserError, did_you_mean
+from ragg_runtime.estimation.regressors import Column, base_columns
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
 
@@ -20,9 +24,6 @@ KEPT = 20
 
 LEAST = 1e-3
 """Least diagonal number of the square root of the information: the sheet alone, in its own units, says 1."""
-
-_FORM = '{"calibrations": [...]}, as `ragg calibrate --save` writes it'
-_REMEDY = "restore the file, or calibrate again: ragg calibrate MODEL FLIGHT... --save (after removing it)"
 
 
 @dataclass(frozen=True)
@@ -58,8 +59,8 @@ class Saved:
             "time": self.time,
             "converged": self.converged,
             "model": {"effects": list(self.effects), "form": self.form, "derivation": self.derivation},
-            "values": _by_name(self.layout, self.p),
-            "sheet": _by_name(self.layout, self.sheet),
+            "values": self._by_name(self.p),
+            "sheet": self._by_name(self.sheet),
             "fitted": [
                 {
                     "name": c.name,
@@ -80,51 +81,83 @@ class Saved:
             "error": dict(self.error),
         }
 
+    def _by_name(self, p: Array) -> dict[str, list[float]]:
+        parts = np.split(p, np.cumsum([size for _, size in self.layout])[:-1])
+        return {name: x.tolist() for (name, _), x in zip(self.layout, parts, strict=True)}
 
-def _by_name(layout: Sequence[tuple[str, int]], p: Array) -> dict[str, list[float]]:
-    found, start = {}, 0
-    for name, size in layout:
-        found[name] = [float(x) for x in p[start : start + size]]
-        start += size
-    return found
+    def find_oddities(self, model: Model, instrument: Instrument) -> list[str]:
+        """What is odd about the calibration, in sentences."""
+        found = []
+        if self.derivation != model.digest:
+            found.append("the model has been derived anew since the calibration was saved")
+        if not self.converged:
+            found.append("the saved calibration had not converged")
+        if not np.array_equal(self.sheet, vector(model, instrument)):
+            found.append(
+                "model.toml has other values than when the calibration was saved; those it saved are used"
+            )
+        return found
 
 
-def with_another(text: str | None, new: Saved, where: str) -> str:
+def add_entry(text: str | None, new: Saved, where: str) -> str:
     """The text of calibration.json with one more calibration, the oldest forgotten beyond :data:`KEPT`."""
-    before = () if text is None else read(text, where)
-    entries = [s.as_json() for s in (*before, new)[-KEPT:]]
-    lines = ",\n".join(json.dumps(e, allow_nan=False, ensure_ascii=False) for e in entries)
+    before = [] if text is None else _entries(text, where)
+    lines = ",\n".join(
+        json.dumps(e, allow_nan=False, ensure_ascii=False) for e in [*before, new.as_json()][-KEPT:]
+    )
     return f'{{"calibrations": [\n{lines}\n]}}\n'
 
 
-def read(text: str, where: str) -> tuple[Saved, ...]:
-    """The calibrations in the text of a calibration.json, oldest first; UserError if anything in it cannot be."""
+def read_saved(text: str, where: str) -> Saved:
+    """The last calibration in the text of a calibration.json; UserError if anything in it cannot be."""
+    entry = _entries(text, where)[-1]
     try:
-        content = json.loads(text)
-        found = tuple(_entry(e) for e in content["calibrations"])
-        if not found:
+        return _parse(entry)
+    except (ValueError, KeyError, TypeError, AttributeError, OverflowError) as error:
+        raise _damaged(where, f"no {error}" if isinstance(error, KeyError) else str(error)) from None
+
+
+def _entries(text: str, where: str) -> list[Any]:
+    try:
+        found = json.loads(text, parse_constant=_refuse)["calibrations"]
+        if not (isinstance(found, list) and found):
             raise ValueError("no calibration in it")
-        return found
-    except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:
-        what = f"no {error}" if isinstance(error, KeyError) else str(error)
-        raise UserError(
-            "the saved calibration is damaged", where=where, found=what[:200], expected=_FORM, remedy=_REMEDY
-        ) from None
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
+        raise _damaged(where, str(error)) from None
+    return found
 
 
-def _entry(e: Mapping[str, Any]) -> Saved:
+def _refuse(text: str) -> float:
+    raise ValueError(f"{text} is no number")
+
+
+def _damaged(where: str, found: str) -> UserError:
+    return UserError(
+        "the saved calibration is damaged",
+        where=where,
+        found=found[:200],
+        expected='{"calibrations": [...]}, as `ragg calibrate --save` writes it',
+        remedy="restore the file, or calibrate again: ragg calibrate MODEL FLIGHT... --save (after removing it)",
+    )
+
+
+def _parse(e: Mapping[str, Any]) -> Saved:
     layout = tuple((str(name), len(values)) for name, values in e["values"].items())
-    p = _numbers([x for values in e["values"].values() for x in values], "values")
-    sheet = _numbers([x for values in e["sheet"].values() for x in values], "sheet")
-    if [(str(n), len(v)) for n, v in e["sheet"].items()] != list(layout):
+    if [(str(name), len(values)) for name, values in e["sheet"].items()] != list(layout):
         raise ValueError("sheet and values name different parameters")
+    p, sheet = (np.concatenate([*e[k].values()]).astype(np.float64) for k in ("values", "sheet"))
+    columns = tuple(
+        Column(**{k: c[k] for k in ("name", "accelerometer", "scale", "unit", "unit_factor", "effect")})
+        for c in e["fitted"]
+    )
+    if not all(c.scale > 0.0 and c.unit_factor > 0.0 for c in columns):
+        raise ValueError("a scale or unit_factor is not positive")
     index = np.array([int(c["place"]) for c in e["fitted"]], dtype=np.intp)
-    if len(set(index.tolist())) != len(index):
+    if len({*index.tolist()}) != len(index):
         raise ValueError("a parameter is fitted twice")
-    columns = tuple(_column(c) for c in e["fitted"])
     return Saved(
         time=str(e["time"]),
-        effects=tuple(str(x) for x in e["model"]["effects"]),
+        effects=tuple(map(str, e["model"]["effects"])),
         form=str(e["model"]["form"]),
         derivation=str(e["model"]["derivation"]),
         layout=layout,
@@ -132,7 +165,7 @@ def _entry(e: Mapping[str, Any]) -> Saved:
         sheet=sheet,
         columns=columns,
         index=index,
-        information=_information(e["square_root_information"], len(columns)),
+        information=_square(e["square_root_information"], len(columns)),
         converged=bool(e["converged"]),
         validity={str(n): (float(low), float(high)) for n, (low, high) in e["validity"].items()},
         flights={str(n): str(d) for n, d in e["flights"].items()},
@@ -140,33 +173,80 @@ def _entry(e: Mapping[str, Any]) -> Saved:
     )
 
 
-def _column(c: Mapping[str, Any]) -> Column:
-    scale, factor = _numbers([c["scale"], c["unit_factor"]], "scale and unit_factor")
-    if not (scale > 0.0 and factor > 0.0):
-        raise ValueError("a scale or unit_factor is not positive")
-    return Column(
-        name=str(c["name"]),
-        accelerometer=None if c["accelerometer"] is None else int(c["accelerometer"]),
-        scale=float(scale),
-        unit=str(c["unit"]),
-        unit_factor=float(factor),
-        effect=None if c["effect"] is None else str(c["effect"]),
-    )
-
-
-def _information(rows: Sequence[Sequence[Any]], n: int) -> Array:
-    if len(rows) != n or any(len(row) != n - k for k, row in enumerate(rows)):
+def _square(rows: Sequence[Sequence[float]], n: int) -> Array:
+    """(n, n) of the rows of an upper triangle."""
+    if [len(row) for row in rows] != [*range(n, 0, -1)]:
         raise ValueError("the square root of the information is no upper triangle of the fitted parameters")
     R = np.zeros((n, n))
-    for k, row in enumerate(rows):
-        R[k, k:] = _numbers(row, "square_root_information")
+    R[np.triu_indices(n)] = np.concatenate([*rows])
     if n and not np.min(np.abs(np.diag(R))) > LEAST:
         raise ValueError("the square root of the information is singular")
     return R
 
 
-def _numbers(values: Sequence[Any], what: str) -> Array:
-    found = np.array(values, dtype=np.float64)
-    if not np.isfinite(found).all():
-        raise ValueError(f"{what}: a number is not finite")
-    return found
+def load_saved(kept: str | None, where: Path, model: Model, instrument: Instrument) -> Saved:
+    """The calibration in force of a model directory, in the present scales of the parameters that are fitted.
+
+    Parameters
+    ----------
+    kept
+        The text of its calibration.json, ``None`` if there is none.
+    where
+        Its path.
+
+    Raises
+    ------
+    UserError
+        If there is none, if it is damaged, or of another model.
+    """
+    again = f"calibrate: ragg calibrate {where.parent} FLIGHT... --save"
+    if kept is None:
+        raise UserError("the model has no saved calibration", where=where.parent, remedy=again)
+    saved = read_saved(kept, str(where))
+    effects, form = tuple(e.id for e in model.effects), instrument.form.words()
+    if (saved.layout, saved.effects, saved.form) != (tuple(model.chain.PARAMETERS), effects, form):
+        raise UserError(
+            "the saved calibration belongs to another model",
+            where=where,
+            found=f"{saved.form}, effects {', '.join(saved.effects) or 'none'}, made {saved.time}",
+            expected=f"{form}, effects {', '.join(effects) or 'none'}",
+            remedy=again,
+        )
+    present = base_columns(model, instrument)
+    places = {(c.name, c.accelerometer): k for c, k in present}
+    for c, k in zip(saved.columns, saved.index, strict=True):
+        if places.get((c.name, c.accelerometer)) != k:
+            raise UserError(
+                "the saved calibration names a parameter that the model does not fit",
+                where=where,
+                found=c.label,
+                remedy=did_you_mean(c.name, [name for name, _ in places]) or again,
+            )
+    nominal = vector(model, instrument)
+    given = np.setdiff1d(np.arange(len(nominal)), saved.index)
+    if not np.array_equal(saved.p[given], nominal[given]):
+        raise UserError(
+            "model.toml was changed since the calibration was saved: values that are not fitted differ",
+            where=where,
+            found=f"a calibration made {saved.time}",
+            remedy=again,
+        )
+    if not scale_factor(model, saved.p) > 0.0:
+        raise UserError("the saved calibration has no positive scale factor", where=where, remedy=again)
+    return _rescale(saved, present)
+
+
+def _rescale(saved: Saved, present: Sequence[tuple[Column, int]]) -> Saved:
+    """The same in the scales of the present columns; one that was not fitted then is as sure as the sheet."""
+    known = {int(k): n for n, k in enumerate(saved.index)}
+    rows = np.zeros((len(known), len(present)))
+    sheet = np.zeros((len(present), len(present)))
+    for n, (c, k) in enumerate(present):
+        if k in known:
+            rows[:, n] = saved.information[:, known[k]] * (c.scale / saved.columns[known[k]].scale)
+        else:
+            sheet[n, n] = 1.0
+    if sheet.any() or np.tril(rows, -1).any():
+        rows = np.asarray(np.linalg.qr(np.vstack([rows, sheet]), mode="r"))
+    columns, index = zip(*present, strict=True)
+    return replace(saved, columns=columns, index=np.array(index, dtype=np.intp), information=rows)

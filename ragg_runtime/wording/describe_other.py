@@ -87,30 +87,40 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
             Section(title="Each flight alone", table=Table(("flight", "parameter", "value"), drift, words=3))
         )
     if "drifting" in c:
-        found.append(_drifting(c["drifting"]))
+        found += _drifting(c["drifting"])
     if "certificate" in c:
         found.append(_certificate(c["certificate"]))
     return (*found, *next_section(then))
 
 
-def _drifting(d: Json) -> Section:
-    """Which parameters drift, how fast, and where they begin and end."""
+def _drifting(d: Json) -> list[Section]:
+    """Which kinds of parameter drift, and how fast; those of each accelerometer in detail."""
     if not d["rates"]:
         text = "No parameter drifts by as much as these flights could show."
-        return Section(title="Drift", sentences=(text,))
-    rates = {
-        r["name"]: numbers.with_unit(number(r["per_root_hour"], 2), f"{r['unit']}/√h") for r in d["rates"]
-    }
+        return [Section(title="Drift", sentences=(text,))]
+    rates = tuple(
+        (str(r["name"]), numbers.with_unit(number(r["per_root_hour"], 2), f"{r['unit']}/√h"))
+        for r in d["rates"]
+    )
     rows = []
     for key in dict.fromkeys((q["name"], q["accelerometer"]) for q in d["states"]):
         own = [q for q in d["states"] if (q["name"], q["accelerometer"]) == key]
-        ends = (with_uncertainty(own[0]), with_uncertainty(own[-1]))
-        rows.append((parameter_label(own[0]), rates[key[0]], *ends))
-    return Section(
-        title="Drift",
-        sentences=(f"Random walks, smoothed: {numbers.listed(list(rates))}.",),
-        table=Table(("parameter", "walk", "at the beginning", "at the end"), tuple(rows), words=2),
-    )
+        rows.append((parameter_label(own[0]), with_uncertainty(own[0]), with_uncertainty(own[-1])))
+    return [
+        Section(
+            title="Drift",
+            sentences=(
+                "These kinds of parameter follow random walks, of this standard deviation after an hour.",
+            ),
+            table=Table(("parameter", "walk"), rates),
+        ),
+        Section(
+            title="Drift of each parameter",
+            table=Table(("parameter", "at the beginning", "at the end"), tuple(rows)),
+            detail=True,
+            summary=f"{len(rows)} parameters at the beginning and at the end",
+        ),
+    ]
 
 
 def _certificate(rows: Sequence[Json]) -> Section:
@@ -148,7 +158,7 @@ def describe_compensation(r: Json, output: str) -> Sections:
     for x in r["flights"]:
         name = str(x["flight"]) + (f": {x['output']!s}" if several else "")
         counts = ", ".join(f"{k!s} {n}" for k, n in x["quality"].items() if n)
-        text = f"{x['good']} of {x['samples']} samples are good{f' ({counts})' if counts else ''}."
+        text = f"Of {x['samples']} samples {x['values']} have a value and {x['good']} are good; flags: {counts or 'none'}."
         removed = [(str(q["of"]), number(q["inline_Eo"]), number(q["cross_Eo"])) for q in x["contributions"]]
         found += [
             Section(title=name, sentences=(text,), table=_channels_table(x)),

@@ -4,14 +4,22 @@ from __future__ import annotations
 
 import dataclasses
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.compensation.compensate import Compensated, Kind, Prepared, prepared
-from ragg_runtime.compensation.output import Table, joined
+from ragg_runtime.compensation.compensate import (
+    Kind,
+    Prepared,
+    compensate_channel,
+    make_channel,
+    make_columns,
+    prepare,
+)
+from ragg_runtime.compensation.segment import Channel
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight
@@ -39,18 +47,12 @@ def flown(which: str) -> tuple[Instrument, Flight]:
 
 
 @cache
-def compensated(
-    which: str, kind: Kind
-) -> tuple[Prepared, list[Compensated], Table, dict[str, NDArray[np.generic]]]:
+def compensated(which: str, kind: Kind) -> tuple[Prepared, list[Channel], dict[str, NDArray[Any]]]:
     sheet, flight = flown(which)
     model, _ = derive.derived((), (), sheet.form, sheet.layout)
-    p = prepared(model, sheet, [flight], kind)
-    outputs = [Compensated(p, n, "fir") for n in p.of_flight(0)]
-    table = Table.of(outputs, several=False)
-    rows = [
-        table.rows(flight.time[x[0].rows], x, 1) for x in zip(*(x.segments() for x in outputs), strict=True)
-    ]
-    return p, outputs, table, joined(rows, list(table.units))
+    p = prepare(model, sheet, [flight], kind)
+    channels = [make_channel(p, n, "fir") for n in p.of_flight(0)]
+    return p, channels, make_columns(sheet, channels, [compensate_channel(c) for c in channels])
 
 
 def low_passed(d: Demodulator, x: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -67,12 +69,13 @@ def true_tensor(flight: Flight) -> NDArray[np.float64]:
 def test_channels_of_every_output_are_as_sure_as_they_say(which: str, kind: Kind) -> None:
     """Against the gradient that was flown over, by axes that are computed here."""
     _, flight = flown(which)
-    p, outputs, table, found = compensated(which, kind)
+    p, channels, found = compensated(which, kind)
     assert p.converged
     G = true_tensor(flight)
     scores = []
-    for end, x in zip(table.endings, outputs, strict=True):
-        disc = p.instrument.layout.discs[x.setting.observation.output.disc]
+    for x in channels:
+        disc = p.instrument.layout.discs[x.observation.output.disc]
+        end = f"_{disc.name}"
         first = np.array(disc.zero)
         second = np.cross(disc.axis, first)
         inline = np.einsum("i,ijn,j->n", first, G, first) - np.einsum("i,ijn,j->n", second, G, second)
@@ -89,15 +92,15 @@ def test_channels_of_every_output_are_as_sure_as_they_say(which: str, kind: Kind
 
 def test_three_discs_give_the_tensor() -> None:
     _, flight = flown("umbrella")
-    _, outputs, table, found = compensated("umbrella", "self")
-    assert [c for c in table.units if c.startswith("Gamma_x")] == [
+    _, channels, found = compensated("umbrella", "self")
+    assert [c for c in found if c.startswith("Gamma_x")] == [
         "Gamma_xx", "Gamma_xy", "Gamma_xz", "Gamma_xx_std", "Gamma_xy_std", "Gamma_xz_std",
     ]  # fmt: skip
     G = true_tensor(flight)
     good = np.isfinite(found["Gamma_xx"])
     scores = []
     for c in COMPONENTS:
-        true = low_passed(outputs[0].demodulator, G["xyz".index(c[0]), "xyz".index(c[1])])
+        true = low_passed(channels[0].demodulator, G["xyz".index(c[0]), "xyz".index(c[1])])
         scores.append(((found[f"Gamma_{c}"] - true) / found[f"Gamma_{c}_std"])[good][:: int(2 * RATE)])
     z = np.concatenate(scores)
     assert 0.6 < np.mean(np.abs(z) < 1.0) < 0.76
@@ -107,18 +110,16 @@ def test_three_discs_give_the_tensor() -> None:
 
 
 def test_two_complements_give_no_tensor() -> None:
-    _, _, table, _ = compensated("complements", "crossed")
-    assert list(table.units) == [
-        "time",
+    assert list(compensated("complements", "crossed")[2]) == [
         "inline_A", "cross_A", "inline_A_std", "cross_A_std", "quality_A",
         "inline_B", "cross_B", "inline_B_std", "cross_B_std", "quality_B",
     ]  # fmt: skip
 
 
 def test_a_disc_that_stands_still_is_left_out_and_alone_refused() -> None:
-    p, _, table, _ = compensated("odd", "self")
+    p, _, found = compensated("odd", "self")
     assert len(p.observations) == 2
-    assert table.endings == ("_A",)
+    assert [n for n in found if n.startswith("inline")] == ["inline_A", "inline_A_std"]
     still = parse_instrument(
         sheets.sheet([sheets.disc("B", [sheets.accelerometer("B1", 0.0, 1)], spin=0.0)], 1)
     )
@@ -126,4 +127,4 @@ def test_a_disc_that_stands_still_is_left_out_and_alone_refused() -> None:
     _, flight = flown("odd")
     outputs = {"G_out": flight.outputs["G_out_B"]}
     with pytest.raises(UserError, match="no output sees one"):
-        prepared(model, still, [dataclasses.replace(flight, outputs=outputs)], "self")
+        prepare(model, still, [dataclasses.replace(flight, outputs=outputs)], "self")

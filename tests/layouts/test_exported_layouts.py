@@ -6,6 +6,7 @@ import json
 import re
 import subprocess
 import sys
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -15,8 +16,7 @@ import pytest
 from ragg_runtime import api
 from ragg_runtime.api import Loaded
 from ragg_runtime.compensation.export.contents import Contents, unit_of
-from ragg_runtime.compensation.export.numpy_folder import numpy_files
-from ragg_runtime.compensation.export.program import c_program, table
+from ragg_runtime.compensation.export.forms import format_csv
 from ragg_runtime.compensation.recursive import Online, Tuning
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.io import Flight, read_flight, write_flight
@@ -37,7 +37,7 @@ def contents() -> Contents:
     model, files = derive.derived((), (), i.form, i.layout)
     return Contents(
         name="odd", model=model, instrument=i, p=vector(model, i), sources=derive.plain_c(i),
-        module=files["chain.py"], origin="values of model.toml", information=None, calibration=None,
+        module=files["chain.py"], origin="values of model.toml",
     )  # fmt: skip
 
 
@@ -67,7 +67,7 @@ def flown(path: Path, wobble: float = 0.0) -> Flight:
     return read_flight(path, i.g0, accelerometers=i.layout)
 
 
-def written(folder: Path, files: dict[str, str]) -> Path:
+def written(folder: Path, files: Mapping[str, str]) -> Path:
     for name, text in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text)
@@ -76,7 +76,7 @@ def written(folder: Path, files: dict[str, str]) -> Path:
 
 @pytest.fixture(scope="module")
 def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = written(tmp_path_factory.mktemp("odd"), c_program(contents()))
+    folder = written(tmp_path_factory.mktemp("odd"), api.FORMS["c"](contents()))
     given, derived = re.findall(r"largest difference (\S+) V", make_strictly(folder, "check"))
     assert float(given) == 0.0
     assert float(derived) < 1e-10  # the last bit of some of its 260,000 V
@@ -97,13 +97,13 @@ def test_every_output_is_what_python_gives(program: Path, tmp_path: Path) -> Non
         subprocess.run([program / "ragg_model"], input=text, capture_output=True, check=True).stdout
     )
     assert head == "time,G_out_A,G_out_B"
-    folder = written(tmp_path, numpy_files(c))
+    folder = written(tmp_path, api.FORMS["numpy"](c))
     command = [sys.executable, "-I", "-c", f"import sys, runpy; sys.path.insert(0, {str(folder)!r}); "
                f"runpy.run_path({str(folder / 'ragg_model.py')!r}, run_name='__main__')"]  # fmt: skip
     _, again = rows(subprocess.run(command, input=text, capture_output=True, check=True).stdout)
     for k, o in enumerate(c.outputs()):
         r = record(x, c.instrument, k)
-        expected = output(c.chain, r, c.p, c.instrument.layout.outputs[k])
+        expected = output(c.model.chain, r, c.p, c.instrument.layout.outputs[k])
         limit = max(1e-6 * o.scale_factor, 8 * np.finfo(float).eps * float(np.max(np.abs(expected))))
         assert np.max(np.abs(found[:, 1 + k] - expected)) < limit
         assert np.max(np.abs(again[:, 1 + k] - expected)) < limit
@@ -119,7 +119,7 @@ def test_the_filter_is_that_of_the_output_that_sees_a_gradient(program: Path, tm
     columns = {f"{n} [{unit_of(n)}]": v for n, v in {"time": o.record.time, **o.record.channels}.items()}
     done = subprocess.run(
         [program / "ragg_online", f"{sigma:.17g}", "1", "60"],
-        input=table(columns | {"G_out_A [V]": G}).encode(), capture_output=True, check=True,
+        input=format_csv(columns | {"G_out_A [V]": G}).encode(), capture_output=True, check=True,
     )  # fmt: skip
     head, found = rows(done.stdout)
     assert head == "time,inline_A,cross_A,inline_A_std,cross_A_std"

@@ -9,7 +9,7 @@ import pytest
 
 from derive.effects import catalogue
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.compensation.calibrated import calibrated
+from ragg_runtime.compensation.calibrate import calibrate
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification import several_outputs
@@ -107,8 +107,8 @@ def test_a_calibration_drifts_from_flight_to_flight_not_from_output_to_output() 
     model, _ = derive.derived((), (), sheet.form, sheet.layout)
     one = flown_by(sheet, 120.0)
     two = replace(one, name="another")
-    assert not calibrated(model, sheet, [one]).drift()
-    c = calibrated(model, sheet, [one, two])
+    assert not calibrate(model, sheet, [one]).drift()
+    c = calibrate(model, sheet, [one, two])
     rows = c.drift()
     assert {r["flight"] for r in rows} == {one.name, "another"}
     assert len(rows) == 2 * len(c.combinations)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from ragg_runtime.compensation import drift
-from ragg_runtime.compensation.compensate import Compensated, prepared
+from ragg_runtime.compensation.compensate import compensate_channel, make_channel, prepare
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.model.model import packaged
@@ -34,6 +36,15 @@ def test_the_walk_is_the_sum_of_its_steps() -> None:
     assert np.linalg.inv(R[:, :3].T @ R[:, :3])[1, 1] == pytest.approx(C[3, 3])
 
 
+def test_flights_follow_one_another_by_the_clock_where_they_have_one() -> None:
+    x = scenario(3, duration=60.0, rate=RATE).simulate({}).flight()
+    late = dataclasses.replace(x, time=x.time + 7200.0)
+    for instants, overlap, expected in ((True, False, 7200.0), (True, True, 60.0), (False, False, 60.0)):
+        both = [dataclasses.replace(y, instants=instants) for y in (x, x if overlap else late)]
+        (_, first), (_, second) = drift._starts(both)
+        assert second - first == pytest.approx(expected, abs=1.0)
+
+
 def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
     """What is compensated with them is as sure as it says; with constant parameters it is not."""
     s = scenario(3, duration=600.0, rate=RATE, gradient_rms=50e-9)
@@ -45,11 +56,9 @@ def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
     ).flight()  # 1/s: 1e-7 over the flight
     rms = {}
     for kind in ("self", "smoothed"):
-        p = prepared(packaged(), s.sheet, [x], kind)  # type: ignore[arg-type]
-        c = Compensated(p, 0, "fir")
-        parts = [(part.gradient, part.std[0]) for part in c.segments()]
-        g, std = (np.concatenate(y) for y in zip(*parts, strict=True))
-        z = ((g - truth(x, c.demodulator)).real / std)[:: int(2 * RATE)]
+        c = make_channel(prepare(packaged(), s.sheet, [x], kind), 0, "fir")  # type: ignore[arg-type]
+        found = compensate_channel(c)
+        z = ((found.gradient - truth(x, c.demodulator)).real / found.std[0])[:: int(2 * RATE)]
         rms[kind] = np.sqrt(np.nanmean(z**2))
     assert 0.7 < rms["smoothed"] < 1.4
     assert rms["self"] > 2.0

@@ -1,4 +1,4 @@
-"""What is exported of a model: its parameters, its inputs and a short motion with the model's answer to it."""
+"""What is exported of a model: its parameters, inputs and outputs, and a short motion with the model's answer to it."""
 
 from __future__ import annotations
 
@@ -10,21 +10,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, gain, sees
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.angular_acceleration import Derivative
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT, SI_UNITS, is_disc_angle
-from ragg_runtime.model.chain import Chain
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS, is_disc_angle
 from ragg_runtime.model.evaluate import named, scale_factor
 from ragg_runtime.model.lateness import late
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import SPIN, Record, phase
 
 Array = NDArray[np.float64]
-
-_DERIVATIVE = re.compile(r"d(?P<order>2?)_(?P<of>.+)")
+Json = dict[str, Any]
 
 ROWS, RATE = 400, 16.0
 """Samples and rate, Hz, of the motions that go with an export."""
@@ -32,28 +31,21 @@ ROWS, RATE = 400, 16.0
 DISC = "disc"
 """Stands for the column of an input that is the angle of the output's own disc."""
 
-
-@dataclass(frozen=True)
-class Value:
-    """A parameter of the model's chain with its places in the parameter vector; SI."""
-
-    name: str
-    unit: str
-    meaning: str
-    values: Array
-
-
-@dataclass(frozen=True)
-class Input:
-    """A series that the model reads: a column of the flight, or a time derivative of one; of :data:`DISC` there is one a disc."""
-
-    name: str
-    column: str
-    derivative: int
+SIZES: Mapping[str, tuple[float, float]] = {
+    "a": (0.1, 0.15),
+    "omega": (5e-4, 7e-4),
+    "Gamma": (1e-7, 5e-8),
+    "temperature": (293.0, 2.0),
+    "pressure": (9e4, 1e3),
+    "B": (2e-5, 1e-5),
+    "roll": (0.02, 0.05),
+    "pitch": (-0.01, 0.05),
+}
+"""Mean and amplitude of the channels of an example, SI."""
 
 
 @dataclass(frozen=True)
-class Out:
+class ExportedOutput:
     """An output of the model.
 
     ``formula``: what it is of the voltages. ``members``: its accelerometers, counted from 0, ``signs`` how each counts.
@@ -79,8 +71,7 @@ class Contents:
     """A model with its values.
 
     ``p`` (size,) SI. ``sources``: the model in C, file name -> text; ``module``: its chain in NumPy. ``origin``: where
-    the values come from. ``information`` (n, n): square root of the calibration's, in the scales of the fitted
-    parameters; ``None``: none.
+    the values come from; ``saved``: the calibration, if they come from one.
     """
 
     name: str
@@ -90,20 +81,14 @@ class Contents:
     sources: Mapping[str, str]
     module: str
     origin: str
-    information: Array | None
-    calibration: Mapping[str, Any] | None
+    saved: Saved | None = None
 
-    @property
-    def chain(self) -> Chain:
-        return self.model.chain
-
-    def outputs(self) -> tuple[Out, ...]:
+    def outputs(self) -> list[ExportedOutput]:
         """In the order of model.toml."""
-        layout, values = self.instrument.layout, named(self.chain, self.p)
+        layout, values = self.instrument.layout, named(self.model.chain, self.p)
         k1, R = values["k_VI"] * values["K1"], values["radius"] + values["dR"]
-        endings = dict(zip(layout.output_names, column_endings(layout.output_names), strict=True))
-        return tuple(
-            Out(
+        return [
+            ExportedOutput(
                 name=o.name,
                 formula=layout.formula(o, [layout.voltage_columns(j)[0] for j in o.members]),
                 members=o.members,
@@ -113,42 +98,37 @@ class Contents:
                 scale_factor=scale_factor(self.model, self.p, k),
                 phase=phase(gain(o, k1, R)),
                 sees=sees(o, k1, R) and layout.discs[o.disc].spin_frequency != 0.0,
-                ending=endings[o.name],
+                ending=ending,
             )
-            for k, o in enumerate(layout.outputs)
-        )
+            for k, (o, ending) in enumerate(
+                zip(layout.outputs, column_endings(layout.output_names), strict=True)
+            )
+        ]
 
-    def values(self) -> list[Value]:
-        """The parameters in the order of the vector."""
+    def parameters(self) -> list[Json]:
+        """The parameters in the order of the vector, SI."""
         known = units(self.instrument.g0)
-        effects = {
-            q.symbol: (known.base_unit(q.unit), f"{e.id}: {q.meaning}")
-            for e in self.model.effects
-            for q in e.parameters
-        }
-        found, start = [], 0
-        for name, size in self.chain.PARAMETERS:
-            if name in effects:
-                unit, meaning = effects[name]
-            elif name in PARAMETER:
-                unit, meaning = PARAMETER[name].si_unit, PARAMETER[name].description
-            else:
-                unit, meaning = DISC_UNITS[name], "of the disc"
-            found.append(Value(name=name, unit=unit, meaning=meaning, values=self.p[start : start + size]))
-            start += size
-        return found
+        texts = {n: (q.si_unit, q.description) for n, q in PARAMETER.items()}
+        texts |= {n: (unit, "of the disc") for n, unit in DISC_UNITS.items()}
+        for e in self.model.effects:
+            texts |= {q.symbol: (known.base_unit(q.unit), f"{e.id}: {q.meaning}") for q in e.parameters}
+        values = named(self.model.chain, self.p)
+        return [
+            {"name": n, "unit": texts[n][0], "meaning": texts[n][1], "values": x.tolist()}
+            for n, x in values.items()
+        ]
 
-    def inputs(self) -> list[Input]:
-        """The series that the model reads, in order."""
+    def inputs(self) -> list[Json]:
+        """The series that the model reads, in order: a column of the flight, or a time derivative of one; of :data:`DISC` one a disc."""
         found = []
-        for name in self.chain.INPUTS:
-            match = None if name in SI_UNITS else _DERIVATIVE.fullmatch(name)
+        for name in self.model.chain.INPUTS:
+            match = None if name in SI_UNITS else re.fullmatch(r"d(?P<order>2?)_(?P<of>.+)", name)
+            column, order = name, 0
             if name in SPIN:
-                found.append(Input(name=name, column=DISC, derivative=1 + SPIN.index(name)))
-            elif match is None:
-                found.append(Input(name=name, column=name, derivative=0))
-            else:
-                found.append(Input(name=name, column=match["of"], derivative=int(match["order"] or 1)))
+                column, order = DISC, 1 + SPIN.index(name)
+            elif match is not None:
+                column, order = match["of"], int(match["order"] or 1)
+            found.append({"name": name, "column": column, "derivative": order, "unit": unit_of(column)})
         return found
 
     def angles(self) -> list[str]:
@@ -157,7 +137,7 @@ class Contents:
 
     def columns(self) -> list[str]:
         """The columns of a flight that the model reads, beside ``time`` and the disc angles."""
-        return list(dict.fromkeys(x.column for x in self.inputs() if x.column != DISC))
+        return list(dict.fromkeys(x["column"] for x in self.inputs() if x["column"] != DISC))
 
     def limits(self) -> list[str]:
         """What is described less well than by Python, in words."""
@@ -169,32 +149,34 @@ class Contents:
         ]
 
     def example(self, *, derived: bool = False) -> tuple[dict[str, Array], dict[str, Array]]:
-        """Columns (name -> (N,), SI) of a lively motion, ``time`` first, and the outputs (N,), V, that the model makes of it."""
+        """Columns (name -> (N,), SI) of a lively motion, ``time`` first, and the outputs (N,), V, that the model makes of it.
+
+        ``derived``: without angular acceleration, but with encoders.
+        """
         t = np.arange(ROWS) / RATE
         rng = np.random.default_rng(0)
         columns: dict[str, Array] = {"time": t}
         for name in self.columns():
             if name in columns:
                 continue
-            mean, size = _SIZES.get(name.partition("_")[0], (0.1, 1.0))
+            mean, size = SIZES.get(name.partition("_")[0], (0.1, 1.0))
             f, angle = rng.uniform(0.05, 1.0), rng.uniform(0.0, 2 * np.pi)
             columns[name] = mean + size * np.sin(2 * np.pi * f * t + angle)
             if name in ANGULAR_RATE and (change := f"omegadot{name[5:]}") in self.columns():
                 columns[change] = size * 2 * np.pi * f * np.cos(2 * np.pi * f * t + angle)
         if derived:
             columns = {n: x for n, x in columns.items() if n not in ANGULAR_ACCELERATION}
-            spins = {o.angle_column: float(self.p[o.spin]) for o in self.outputs()}
-            columns |= {
-                n: np.mod(2 * np.pi * f * t + 1e-3 * np.sin(0.7 * t), 2 * np.pi) for n, f in spins.items()
-            }
-        return columns, self._answers(columns)
+            for o in self.outputs():
+                turned = 2 * np.pi * float(self.p[o.spin]) * t + 1e-3 * np.sin(0.7 * t)
+                columns[o.angle_column] = np.mod(turned, 2 * np.pi)
+        return columns, self._answer(columns)
 
-    def _answers(self, columns: Mapping[str, Array]) -> dict[str, Array]:
+    def _answer(self, columns: Mapping[str, Array]) -> dict[str, Array]:
+        """The outputs by the form that is exported."""
         t, wide = columns["time"], {n: x for n, x in columns.items() if n != "time"}
         for name, rate in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
             if name not in wide and rate in wide:
                 wide[name] = Derivative().of(wide[rate], RATE)[0]
-        # by the form that is exported
         model = self.model if "folded.c" in self.sources else replace(self.model, folded=None)
         evaluator, found = model.compiled("numpy"), {}
         for k, o in enumerate(self.outputs()):
@@ -206,28 +188,57 @@ class Contents:
                 spin_frequency=float(self.p[o.spin]),
                 angle_column=o.angle_column,
             )
-            found[o.name] = evaluator.output(t, record.inputs(self.chain), self.p, record.phi, which=k)
+            found[o.name] = evaluator.output(t, record.inputs(model.chain), self.p, record.phi, which=k)
         return found
 
-
-_SIZES: Mapping[str, tuple[float, float]] = {
-    "a": (0.1, 0.15),
-    "omega": (5e-4, 7e-4),
-    "Gamma": (1e-7, 5e-8),
-    "temperature": (293.0, 2.0),
-    "pressure": (9e4, 1e3),
-    "B": (2e-5, 1e-5),
-    "roll": (0.02, 0.05),
-    "pitch": (-0.01, 0.05),
-}
-"""Mean and amplitude of the channels of an example, SI."""
+    def document(self) -> Json:
+        """The model's description, its parameters with units, its inputs and outputs, and an example with its answer."""
+        motion, answers = self.example()
+        outputs = [
+            {
+                "name": o.name,
+                "unit": "V",
+                "is": o.formula,
+                "accelerometers": list(o.members),
+                "signs": list(o.signs),
+                "spin_angle": o.angle_column,
+                "spin_frequency": float(self.p[o.spin]),
+                "scale_factor": {"value": o.scale_factor, "unit": "V/Eo"},
+            }
+            for o in self.outputs()
+        ]
+        return {
+            "model": self.name,
+            "origin": self.origin,
+            "derivation": self.model.digest,
+            "angle_origin": self.instrument.angle_origin or "zero",
+            "g0": {"value": self.instrument.g0, "unit": "m/s^2"},
+            "effects": [
+                {
+                    "id": e.id,
+                    "title": e.title,
+                    "physics": e.physics,
+                    "equation": e.equation,
+                    "source": e.source,
+                }
+                for e in self.model.effects
+            ],
+            "parameters": self.parameters(),
+            "inputs": self.inputs(),
+            "outputs": outputs,
+            **(
+                {"output": outputs[0], "scale_factor": outputs[0]["scale_factor"]}
+                if len(outputs) == 1
+                else {}
+            ),
+            "calibration": None if self.saved is None else self.saved.as_json(),
+            "example": {
+                "columns": {n: x.tolist() for n, x in motion.items()},
+                **{n: x.tolist() for n, x in answers.items()},
+            },
+        }
 
 
 def unit_of(column: str) -> str:
     """SI unit of a column, for one of no fixed meaning ``1``."""
     return SI_UNITS.get(column, "rad" if column == DISC or is_disc_angle(column) else "1")
-
-
-def is_gradient(column: str) -> bool:
-    """Whether a column is a gravity gradient: zero where it is not recorded."""
-    return column in GRADIENT

@@ -1,65 +1,71 @@
 /* ragg_model < MOTION.csv > OUT.csv: the outputs of the gradiometer, V, from a record of its motion (see record.h).
  *
- * OUT.csv: time and the outputs with 17 digits; nan where a value that is needed is missing. Exit status: 0 done, 2 bad
- * input (one message on stderr). */
+ * OUT.csv: time and the outputs with 17 digits; nan where a value that is needed is missing. With --check TOLERANCE the record
+ * holds the outputs as well: exit status 1 if they differ by more, V. Exit status 2: bad input, one message on stderr. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "record.h"
 
 const char *const ragg_program = "ragg_model";
 
-enum { BLOCK = 4096 };
-
-/* The parameters that are built in: name, value, unit. */
-static int tell(void) {
-    for (size_t k = 0; k < PARAMETERS; ++k) {
-        printf("%s = %.17g %s\n", PARAMETER_NAME[k], PARAMETER[k], PARAMETER_UNIT[k]);
-    }
-    return fflush(stdout) == 0 ? 0 : 1;
-}
-
-/* An output at size samples from at on. */
-static void output(const ragg_record *r, size_t which, size_t at, size_t size, double *G) {
-    const double *in[INPUTS], *angle = ragg_inputs(r, which, at, in);
-    MODEL(which, size, r->seconds + at, in, PARAMETER, angle, G);
-    for (size_t i = 0; i < size; ++i) {
-        int whole = !isnan(angle[i]);
+/* The outputs of sample i, V. */
+static void predict(const ragg_record *r, size_t i, double G[OUTPUTS]) {
+    for (size_t which = 0; which < OUTPUTS; ++which) {
+        const double *in[INPUTS], *angle = ragg_inputs(r, which, i, in);
+        int whole = !isnan(*angle);
         for (size_t k = 0; k < INPUTS; ++k) {
-            whole = whole && !isnan(in[k][i]);
+            whole = whole && !isnan(*in[k]);
         }
-        G[i] = whole ? G[i] : (double)NAN;
+        MODEL(which, 1, r->seconds + i, in, PARAMETER, angle, G + which);
+        G[which] = whole ? G[which] : (double)NAN;
     }
 }
 
-int main(int count, char **arguments) {
-    if (count == 2 && strcmp(arguments[1], "--values") == 0) {
-        return tell();
-    }
-    if (count > 1) {
-        ragg_fail("unknown argument", arguments[1], "ragg_model < MOTION.csv > OUT.csv, or ragg_model --values");
-    }
-    static ragg_record r;
-    static double G[OUTPUTS][BLOCK];
-    ragg_read(&r, stdin, 0);
-    int written = fputs("time", stdout);
+static int write_outputs(const ragg_record *r) {
+    double G[OUTPUTS];
+    fputs("time", stdout);
     for (size_t k = 0; k < OUTPUTS; ++k) {
         printf(",%s", OUTPUT[k].name);
     }
-    for (size_t at = 0; at < r.n && written >= 0; at += BLOCK) {
-        const size_t size = r.n - at < BLOCK ? r.n - at : BLOCK;
+    for (size_t i = 0; i < r->n; ++i) {
+        predict(r, i, G);
+        printf("\n%.17g", r->column[TIME][i]);
         for (size_t k = 0; k < OUTPUTS; ++k) {
-            output(&r, k, at, size, G[k]);
-        }
-        for (size_t i = 0; i < size && written >= 0; ++i) {
-            written = printf("\n%.17g", r.column[TIME][at + i]);
-            for (size_t k = 0; k < OUTPUTS; ++k) {
-                printf(",%.17g", G[k][i]);
-            }
+            printf(",%.17g", G[k]);
         }
     }
-    written = written < 0 ? written : puts("");
-    ragg_free(&r);
-    return written >= 0 && fflush(stdout) == 0 ? 0 : 1;
+    puts("");
+    return fflush(stdout) == 0 && !ferror(stdout) ? 0 : 2;
+}
+
+static int check(const ragg_record *r, double tolerance) {
+    double G[OUTPUTS], largest = 0.0;
+    for (size_t i = 0; i < r->n; ++i) {
+        predict(r, i, G);
+        for (size_t k = 0; k < OUTPUTS; ++k) {
+            const double gap = fabs(G[k] - r->column[FIRST_OUTPUT + k][i]);
+            largest = gap <= largest ? largest : isnan(gap) ? (double)INFINITY : gap;
+        }
+    }
+    printf("%zu rows, largest difference %.3g V, allowed %.3g V\n", r->n, largest, tolerance);
+    return largest <= tolerance ? 0 : 1;
+}
+
+int main(int count, char **arguments) {
+    static ragg_record r;
+    if (count == 2 && strcmp(arguments[1], "--values") == 0) {
+        for (size_t k = 0; k < PARAMETERS; ++k) {
+            printf("%s = %.17g %s\n", PARAMETER_NAME[k], PARAMETER[k], PARAMETER_UNIT[k]);
+        }
+        return 0;
+    }
+    const int checks = count == 3 && strcmp(arguments[1], "--check") == 0;
+    if (count > 1 && !checks) {
+        ragg_fail("unknown argument", arguments[1], "--values, --check TOLERANCE, or none");
+    }
+    ragg_read(&r, stdin, checks);
+    return checks ? check(&r, strtod(arguments[2], NULL)) : write_outputs(&r);
 }

@@ -7,33 +7,26 @@
 #include <math.h>
 #include <string.h>
 
-enum { INLINE = 0, CROSS = 1, PARAMETER_0 = 2, END = PARAMETER_0 + FITTED_PARAMETERS };
-enum { STATES = RAGG_ONLINE_STATES, WIDTH = RAGG_ONLINE_WIDTH };
+enum { INLINE = 0, CROSS = 1, PARAMETER_0 = 2, STATES = RAGG_ONLINE_STATES, WIDTH = RAGG_ONLINE_WIDTH };
 
 static const double UPDATE = 0.25;     /* s; the gradient takes a step of its walk */
 static const double FADE = 10.0;       /* s; the parameters forget a step */
 static const double STEEPER = 2.0;     /* walk of inline over that of cross */
-static const double UNKNOWN_EO = 1e4;  /* of the gradient before anything is known */
-static const double LEAST = 1e-100;    /* information that may be left of a state: what divides by it stays a number */
+static const double UNKNOWN_EO = 1e4; /* of the gradient before anything is known */
+static const double LEAST = 1e-100;   /* information that may be left of a state: what divides by it stays a number */
 
 /* One more row of the least squares, of a right-hand side of this variance, with zeros before column first: rotations without
- * roots (Gentleman, J. Inst. Math. Appl. 12 (1973) 329) turn it into the triangle, two of its rows at a time. */
+ * roots (Gentleman, J. Inst. Math. Appl. 12 (1973) 329) turn it into the triangle. */
 static void fold(ragg_online *o, double *restrict row, double variance, int first) {
-    for (int i = first / 2 * 2; i < STATES; i += 2) {
-        double *restrict U = o->U[i], *restrict next = o->U[i + 1], *D = o->D + i;
-        const double x[2] = {row[i], row[i + 1] - row[i] * U[i + 1]};
-        double step[2];
-        for (int n = 0; n < 2; ++n) {
-            const double share = x[n] / D[n];
-            D[n] += x[n] * x[n] / variance;
-            variance += share * x[n];
-            step[n] = share / variance;
-        }
-        for (int k = i; k < WIDTH; ++k) { /* of vectors, if nothing else is in it */
-            const double y = row[k] - x[0] * U[k], z = y - x[1] * next[k];
-            U[k] += step[0] * y;
-            next[k] += step[1] * z;
-            row[k] = z;
+    for (int i = first; i < STATES; ++i) {
+        double *restrict U = o->U[i];
+        const double x = row[i], share = x / o->D[i];
+        o->D[i] += x * x / variance;
+        variance += share * x;
+        const double step = share / variance;
+        for (int k = i; k < WIDTH; ++k) {
+            row[k] -= x * U[k];
+            U[k] += step * row[k];
         }
     }
 }
@@ -60,7 +53,7 @@ static void fade(ragg_online *o, double t) {
     for (int i = 0; i < STATES; ++i) {
         o->D[i] = o->D[i] * kept + LEAST;
     }
-    for (int i = 0; i < END; ++i) {
+    for (int i = 0; i < STATES; ++i) {
         double row[WIDTH] = {0.0};
         row[i] = i < PARAMETER_0 ? 1.0 / UNKNOWN_EO : 1.0;
         row[STATES] = i < PARAMETER_0 ? 0.0 : FITTED[o->output][i - PARAMETER_0].sheet;
@@ -76,13 +69,12 @@ void ragg_online_start(ragg_online *o, int output, double noise, double walk_, d
         o->D[i] = i < PARAMETER_0 ? 1.0 / (UNKNOWN_EO * UNKNOWN_EO) : 1.0;
     }
     const double *root = START[output];
-    for (int i = PARAMETER_0; i < END; ++i) {
-        const double first = *root;
-        o->D[i] = first * first;
-        for (int k = i; k < END; ++k) {
-            o->U[i][k] = *root++ / first;
+    for (int i = PARAMETER_0; i < STATES; ++i) {
+        o->D[i] = *root * *root;
+        for (int k = STATES - 1; k >= i; --k) {
+            o->U[i][k] = root[k - i] / *root;
         }
-        o->U[i][STATES] = START_AT_SHEET ? FITTED[output][i - PARAMETER_0].sheet : 0.0;
+        root += STATES - i;
     }
 }
 
@@ -164,11 +156,11 @@ ragg_gradient ragg_online_gradient(const ragg_online *o) {
 }
 
 void ragg_online_parameters(const ragg_online *o, double p[ONLINE_PARAMETERS]) {
-    double x[END];
+    double x[STATES];
     memcpy(p, POINT, sizeof POINT);
-    for (int i = END - 1; i >= PARAMETER_0; --i) {
+    for (int i = STATES - 1; i >= PARAMETER_0; --i) {
         x[i] = o->U[i][STATES];
-        for (int k = i + 1; k < END; ++k) {
+        for (int k = i + 1; k < STATES; ++k) {
             x[i] -= o->U[i][k] * x[k];
         }
         const int n = i - PARAMETER_0;

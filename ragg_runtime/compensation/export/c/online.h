@@ -1,7 +1,7 @@
 /* Calibrate and compensate sample by sample, without allocation: a square-root information filter.
  *
- * A filter is of one output. States: the fitted parameters of its accelerometers, and the gradient's channels inline and
- * cross, which wander. Memory: one ragg_online. */
+ * A filter is of one output. States: the gradient's channels inline and cross, which wander, and the fitted parameters of its
+ * accelerometers. Memory: one ragg_online. */
 #ifndef RAGG_ONLINE_H
 #define RAGG_ONLINE_H
 
@@ -11,10 +11,7 @@
 extern "C" {
 #endif
 
-enum {
-    RAGG_ONLINE_STATES = (FITTED_PARAMETERS + 3) / 2 * 2, /* an even number: the last may be one that nothing depends on */
-    RAGG_ONLINE_WIDTH = (RAGG_ONLINE_STATES + 4) / 4 * 4  /* and the right-hand side; zeros up to a multiple of four, for vectors */
-};
+enum { RAGG_ONLINE_STATES = FITTED_PARAMETERS + 2, RAGG_ONLINE_WIDTH = RAGG_ONLINE_STATES + 1 };
 
 typedef struct {
     double U[RAGG_ONLINE_STATES][RAGG_ONLINE_WIDTH]; /* upper triangle, ones on its diagonal, and the right-hand side */
@@ -29,8 +26,9 @@ typedef struct {
     double inline_Eo, cross_Eo, inline_std, cross_std;
 } ragg_gradient;
 
-/* Begin at the calibration that is built in. output: 0 ... ONLINE_OUTPUTS - 1 (see ONLINE_OUTPUT). noise: standard deviation of a sample of G_out, V. walk: of the cross
- * channel, Eo/sqrt(s), inline twice as much; 0 if they are constant. forget: time constant, s, with which parameters forget; INFINITY: never. */
+/* Begin at the calibration that is built in. output: 0 ... ONLINE_OUTPUTS - 1 (see ONLINE_OUTPUT). noise: standard deviation of a
+ * sample of G_out, V. walk: of the cross channel, Eo/sqrt(s), inline twice as much; 0 if they are constant. forget: time constant,
+ * s, with which parameters forget; INFINITY: never. */
 void ragg_online_start(ragg_online *o, int output, double noise, double walk, double forget);
 
 /* Take a sample: t, s, since the first; in, the model's inputs (gradients zero); angle of the disc, rad, or NaN for

@@ -19,21 +19,15 @@ extern "C" {
 extern const char *const ragg_program;
 void ragg_fail(const char *what, const char *where, const char *expected);
 
-/* realloc of count things of a size, or the end. */
-void *ragg_bigger(void *old, size_t count, size_t size);
-
 typedef struct {
     size_t n;
     double *column[COLUMNS], *seconds; /* n numbers each; nan where a value is missing, 0 where a column is */
     int there[COLUMNS];
     double *series[INPUTS], *spin[DISCS][2]; /* inputs of the model; rate and acceleration of the discs' angles */
-    double *derived[2 * INPUTS + 2 * DISCS];
-    size_t count;
 } ragg_record;
 
 /* Read a record, with the columns of the outputs if they are wanted. Ends the program at bad input. */
 void ragg_read(ragg_record *r, FILE *file, int outputs);
-void ragg_free(ragg_record *r);
 
 /* The inputs of an output from sample at on; returns the angles of its disc. */
 const double *ragg_inputs(const ragg_record *r, size_t output, size_t at, const double *in[INPUTS]);

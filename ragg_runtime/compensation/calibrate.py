@@ -1,0 +1,197 @@
+"""Calibrate once: the parameters, what the record determines of them, and what the test sheet alone says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import linalg
+
+from ragg_runtime.compensation.saved import Saved
+from ragg_runtime.estimation.fitted import Fitted, fit, noise_floor
+from ragg_runtime.estimation.least_squares import Linear, join, with_prior
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.regressors import Column
+from ragg_runtime.estimation.scores import Error
+from ragg_runtime.identification import comparison
+from ragg_runtime.identification.parameters import (
+    SEEN,
+    Combination,
+    combinations_seen,
+    own_name,
+    parameter_values,
+)
+from ragg_runtime.identification.series import noise_floor_json
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io import Flight
+from ragg_runtime.model.model import Model
+
+Array = NDArray[np.float64]
+
+LEARNED = 0.5
+"""About a parameter whose standard deviation the record at least halves, the record says more than the sheet."""
+
+
+@dataclass(frozen=True)
+class Calibrated:
+    """A model calibrated on flights, and its errors."""
+
+    fitted: Fitted
+    nominal: Error
+    error: Error
+    holdout: Error
+
+    @property
+    def directions(self) -> tuple[int, int]:
+        """How many directions of the parameters the record determines, and how many there are."""
+        deviations = np.linalg.svd(invert_root(information(self.fitted)), compute_uv=False)
+        return int(np.sum(deviations < LEARNED)), len(deviations)
+
+    def as_json(self) -> dict[str, Any]:
+        """As ``ragg calibrate --json`` writes it."""
+        f, c = self.fitted, self.fitted.calibration
+        values, root = values_in_scales(f), invert_root(information(f))
+        seen = visible_combinations(f.model, c.p, c.columns, root)
+        fitted = parameter_values(c.columns, values, c.covariance)
+        parameters = []
+        for k, (q, column) in enumerate(zip(fitted, c.columns, strict=True)):
+            factor = column.scale / column.unit_factor
+            parameters.append(
+                {
+                    **q.as_json(),
+                    "effect": column.effect,
+                    "sheet": float(values[k] + f.to_nominal[k]) * factor,
+                    "sheet_sigma": factor,
+                    "said_by": "record" if c.covariance[k, k] < LEARNED**2 else "sheet",
+                }
+            )
+        flights = [*each_flight(f)]
+        return {
+            "converged": c.converged,
+            "effects": [e.id for e in f.model.effects],
+            "error": self.errors_json(),
+            "noise_floor": noise_floor_json(f, noise_floor(f)),
+            "directions": dict(zip(("seen", "fitted"), self.directions, strict=True)),
+            "parameters": parameters,
+            "combinations": [_combination_json(q, values, root) for q in seen],
+            "drift": [
+                {"flight": name, **_combination_json(q, values + step, own)}
+                for name, step, own in (flights if len(flights) > 1 else ())
+                for q in seen
+            ],
+        }
+
+    def errors_json(self) -> dict[str, Any]:
+        """The ``error`` of the JSON: nominal, calibrated, holdout."""
+        errors = {"nominal": self.nominal, "calibrated": self.error, "holdout": self.holdout}
+        return {name: e.as_json() for name, e in errors.items()}
+
+
+def _combination_json(q: Combination, values: Array, root: Array) -> dict[str, Any]:
+    value, std = q.of(values, root)
+    return {"name": q.name, "value": value, "std": std, "unit": q.unit}
+
+
+def calibrate(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Calibrated:
+    """Fit a model to flights, and score the fit on held-out time as well.
+
+    Raises
+    ------
+    UserError
+        If the flights are not of this instrument.
+    """
+    f = fit(model, instrument, observations_of(flights, instrument))
+    half, _ = f.coefficients((), held_out=True)
+    whole, held_out, nominal = comparison.errors(f, [np.zeros(f.n_base), half])
+    return Calibrated(fitted=f, nominal=nominal.whole, error=whole.whole, holdout=held_out.held_out)
+
+
+def make_saved(c: Calibrated, flights: Sequence[Flight], time: str) -> Saved:
+    """The calibration as a model directory keeps it; ``time``: now, UTC."""
+    f, q = c.fitted, c.fitted.calibration
+    return Saved(
+        time=time,
+        effects=tuple(e.id for e in f.model.effects),
+        form=f.instrument.form.words(),
+        derivation=f.model.digest,
+        layout=tuple(f.model.chain.PARAMETERS),
+        p=q.p,
+        sheet=f.sheet,
+        columns=q.columns,
+        index=q.index,
+        information=information(f),
+        converged=q.converged,
+        validity=find_ranges(flights),
+        flights={x.name: x.digest for x in flights},
+        error=c.errors_json(),
+    )
+
+
+def find_ranges(flights: Sequence[Flight]) -> Mapping[str, tuple[float, float]]:
+    """Channel -> its range, SI, over the valid samples of all flights that have it; ``time`` since the first sample."""
+    found: dict[str, tuple[float, float]] = {}
+    for x in flights:
+        for name, values in {"time": x.time - x.time[0], **x.channels}.items():
+            y = values[x.valid & np.isfinite(values)]
+            if len(y):
+                low, high = found.get(name, (np.inf, -np.inf))
+                found[name] = min(low, float(np.min(y))), max(high, float(np.max(y)))
+    return found
+
+
+# --- what a fit knows, in scales: units of the prior widths of its parameters
+
+
+def values_in_scales(f: Fitted) -> Array:
+    """(n,): the fitted parameters."""
+    c = f.calibration
+    return np.asarray(c.p[c.index] / np.array([q.scale for q in c.columns]))
+
+
+def information(f: Fitted) -> Array:
+    """(n, n) upper triangular R: square root of the information of all flights and the sheet."""
+    return np.asarray(np.triu(f.whole[: f.n_base, : f.n_base]))
+
+
+def invert_root(R: Array) -> Array:
+    """(n, n): the root R^-1 of the covariance of a square root R of the information, with a positive diagonal."""
+    return np.asarray(linalg.solve_triangular(R, np.diag(np.sign(np.diag(R)))))
+
+
+def base_triangles(f: Fitted, k: int) -> list[Array]:
+    """Of an observation the R factors [base | residual] of its blocks of time."""
+    return [t[:, [*range(f.n_base), -1]] for t in f.triangles[k]]
+
+
+def fit_some(f: Fitted, triangles: Sequence[Array]) -> tuple[Array, Array]:
+    """What some R factors [base | residual] say with the sheet: the step (n,) from here, and a root (n, n) of its covariance."""
+    whole = with_prior(join(triangles), range(f.n_base), f.to_nominal)
+    R = whole[:-1, :-1]
+    return Linear(R=R, y=whole[:-1, -1], rest=0.0).step, invert_root(R)
+
+
+def each_flight(f: Fitted) -> Iterator[tuple[str, Array, Array]]:
+    """What every flight says by itself, with the sheet: its name, the step (n,) from here, a root (n, n) of its covariance."""
+    for n in dict.fromkeys(o.flight for o in f.observations):
+        own = [k for k, o in enumerate(f.observations) if o.flight == n]
+        yield f.observations[own[0]].flight_name, *fit_some(f, [t for k in own for t in base_triangles(f, k)])
+
+
+def visible_combinations(model: Model, p: Array, columns: Sequence[Column], root: Array) -> list[Combination]:
+    """What a root (n, k) of a covariance, in scales, says to be determined: combinations of accelerometers', and single values."""
+    found = combinations_seen(model, p, columns, lambda w: float(np.linalg.norm(w @ root)))
+    single = np.linalg.norm(root, axis=1) < SEEN
+    for name in dict.fromkeys(c.name for c in columns):
+        places = [k for k, c in enumerate(columns) if c.name == name]
+        if len(places) == model.layout.size and not np.all(single[places]):
+            continue
+        for k in (k for k in places if single[k]):
+            c = columns[k]
+            label = own_name(c) if c.accelerometer is None else f"{own_name(c)}[{c.accelerometer}]"
+            w = np.zeros(len(columns))
+            w[k] = c.scale / c.unit_factor
+            found.append(Combination(name=label, weights=w, unit=c.unit))
+    return found
