@@ -39,14 +39,19 @@ def heed_flags(
     """
     d = _without_feigned(d, flights, again)
     flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind == "resolution"]
-    if not flags or d.verdict == "adequate":
+    if not flags or (d.verdict == "adequate" and not any(f.kind == "still" for _, f in flags)):
         return d
     several = len(flights) > 1
-    noted = (Reason(f"{x.name}: {f.reason}" if several else f.reason) for x, f in flags)
-    reasons = (*noted, *d.reasons)
+    noted = tuple(Reason(f"{x.name}: {f.reason}" if several else f.reason) for x, f in flags)
     odd = [f for _, f in flags if f.open]
     if not odd or (d.found and all(set(d.found) <= set(f.effects) for f in odd)):
-        return replace(d, reasons=reasons)
+        return replace(d, reasons=(*noted, *d.reasons))
+    would = (
+        (Reason(f"{', '.join(d.found)} would explain it, and is not claimed of such a record"),)
+        if d.found
+        else ()
+    )
+    reasons = (*noted, *would, *(r for r in d.reasons if not r.is_verdict))
     return replace(d, verdict="unexplained", found=(), groups=(), reasons=reasons)
 
 

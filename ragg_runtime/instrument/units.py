@@ -107,6 +107,7 @@ class Units:
 
     def to_si(self, value: Value, unit: str, si_unit: str, where: str | None = None) -> Value:
         """``value`` in ``unit``, converted to ``si_unit``; UserError if dimensions differ. rpm and rad/s become turns a second."""
+        unit = self._meant(unit, si_unit)
         source, target = self.parse(unit, where), self.parse(si_unit)
         self._same_dimension(source, unit, target, si_unit, where)
         factor = 1.0
@@ -129,6 +130,7 @@ class Units:
 
     def from_si(self, value: Value, si_unit: str, unit: str, where: str | None = None) -> Value:
         """``value`` in ``si_unit``, converted to ``unit``; the inverse of :meth:`to_si`."""
+        unit = self._meant(unit, si_unit)
         source, target = self.parse(si_unit), self.parse(unit, where)
         self._same_dimension(target, unit, source, si_unit, where)
         if self._counts(source, _CYCLES) and self._counts(target, _ANGLES):
@@ -147,6 +149,14 @@ class Units:
 
     def fits(self, unit: str, si_unit: str) -> bool:
         """Whether ``unit`` is a unit and has the dimension of ``si_unit``."""
+        return any(self._has_dimension(u, si_unit) for u in (unit, _LETTERS.get(unit.strip(), unit)))
+
+    def _meant(self, unit: str, si_unit: str) -> str:
+        """``g`` of an acceleration in G, ``degC`` of a temperature in C: no gauss or coulomb has the dimension."""
+        other = _LETTERS.get(unit.strip())
+        return unit if other is None or not self._has_dimension(other, si_unit) else other
+
+    def _has_dimension(self, unit: str, si_unit: str) -> bool:
         try:
             return bool(self.parse(unit).dimensionality == self.parse(si_unit).dimensionality)
         except UserError:
@@ -282,21 +292,26 @@ _NAMED = {
         "mGal": ("mgal", "mgals", "MGAL", "milligal", "milliGal"),
         "uGal": ("ugal", "µgal", "μgal", "microgal"),
         "deg/s": ("dps", "DPS", "°/s", "deg/sec"),
-        "deg/h": ("dph", "°/h", "°/hr"),
+        "deg/h": ("dph", "degph", "°/h", "°/hr"),
         "mdeg/s": ("mdps", "MDPS"),
         "degC": ("\u2103", "deg C", "° C", "deg.C", "Celsius", "CELSIUS", "DEGC"),
         "deg": ("DEG", "degs", "DEGREES", "Degrees"),
         "rad": ("RAD", "rads"),
         "s": ("SEC", "Seconds", "SECONDS"),
         "m": ("METRES", "METERS"),
-        "V": ("VOLT", "VOLTS", "Volts", "Volt"),
+        "V": ("VOLT", "VOLTS", "Volts", "Volt", "Vdc", "VDC"),
+        "mV": ("mVolt", "mVolts"),
+        "g": ("g's", "G's", "gs", "gee", "gees"),
         "1": ("unitless",),
     }.items()
     for spelling in spellings
 }
+_LETTERS = {"G": "g", "C": "degC", "F": "degF"}
+"""What people write G, C and F for where only this has the dimension."""
+
 _WORDS = frozenset((
-    "deg", "degs", "degree", "degrees", "rad", "rads", "radian", "radians", "s", "sec", "second", "seconds", "h", "hr",
-    "hour", "hours", "min", "minute", "volt", "volts", "m", "meter", "meters", "kelvin",
+    "deg", "degs", "degree", "degrees", "rad", "rads", "radian", "radians", "s", "sec", "secs", "second", "seconds", "h",
+    "hr", "hrs", "hour", "hours", "min", "minute", "volt", "volts", "m", "meter", "meters", "kelvin",
 ))  # fmt: skip
 """Words of units that programs write in capitals, and that mean the same then."""
 

@@ -74,7 +74,7 @@ def make_flight(
     si, si_units = _convert(made, g0, accelerometers)
     time = si.pop("time")
     grid = uniform(time, made.place)
-    notes = [*made.notes, *grid.notes]
+    notes = [*made.notes, *_leave_out_impossible(si, si_units), *grid.notes]
     slower = _find_slower(time, si, si_units, notes)
     derivative = _plan_derivative(time, si, made.place)
     _drop_empty(si, notes, made.place)
@@ -136,6 +136,20 @@ def _convert(
         with np.errstate(invalid="ignore"):
             found[c.name] = np.where(np.abs(values) < ENDLESS, values, np.nan)
     return found, si_units
+
+
+def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> list[str]:
+    """Take out temperatures that no sensor can have read, and say so."""
+    notes = []
+    for name in [n for n, u in si_units.items() if u == "K" and n in si]:
+        with np.errstate(invalid="ignore"):
+            cold = si[name] <= 0.0
+        if cold.any():
+            si[name] = np.where(cold, np.nan, si[name])
+            notes.append(
+                f"{name}: {samples_of(int(np.sum(cold)))} not above absolute zero: no readings, left out"
+            )
+    return notes
 
 
 def _require_names(made: Recording, names: Sequence[str], needed: Sequence[str], what: str) -> None:

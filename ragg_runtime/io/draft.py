@@ -114,7 +114,7 @@ def _read_numbers(table: Table) -> tuple[Table, dict[str, list[str]]]:
         if c.is_text:
             numbers = parse_numbers(c.values)
             spoiled = sorted({*c.values[find_spoiled(c.values, numbers)]})
-            if 0 < len(spoiled) <= _FEW and np.mean(np.isfinite(numbers)) > 0.5:
+            if len(spoiled) <= _FEW and np.mean(np.isfinite(numbers)) > 0.5:
                 odd[c.name] = spoiled
                 c = replace(c, values=numbers)
         columns.append(c)
@@ -143,7 +143,11 @@ def _write_file(table: Table, tables: Sequence[Table], page: _Page) -> None:
 def _write_time(table: Table, page: _Page) -> None:
     page.lines.append("[time]")
     found = _find_instants(table)
-    fits = [c for c in table.columns if c.is_number and ROLES["time"].fits(c.name)]
+    fits = [c for c in table.columns if c.is_number and (r := role_of(c.name)) and r.name == "time"]
+    if not fits:  # an index without a name, unless it counts the rows
+        fits = [
+            c for c in table.columns if c.is_number and c.name == table.index and np.any(c.values % 1 != 0)
+        ]
     if found is not None:
         names, form, sure = found
         page.used.update(names)
@@ -235,6 +239,9 @@ def _find_unit(c: Column, name: str, page: _Page, where: str) -> tuple[str, str]
     si = SI_UNITS.get(name) or (SI_UNITS.get(stem) if stem in DEMODULATED else None)
     if c.unit and is_unit(c.unit) and (si is None or units(9.8).fits(c.unit, si)):
         return _quoted(c.unit), ""
+    ending = _bare(c.name).rpartition("_")[2]
+    if not c.unit and si is not None and is_unit(ending) and units(9.8).fits(ending, si):
+        return ending, "  # likely: the end of its name"
     said = f"the file says {c.unit!r}, which is no unit of it" if c.unit else "the file gives none"
     page.questions.append(f"{where}: unit of {c.name!r} ({said})")
     return UNKNOWN, f"  # {_quoted(said)}"
@@ -289,12 +296,13 @@ _DISCS = "1234ABC"
 _PAIRS = ("xx", "xy", "xz", "yy", "yz", "zz")
 _PLAIN = (
     ("time", r"t|time|(gps|utc|unix|imu|rec)_?(time|sec(onds?)?)|time_?(s|sec|gps|utc|1980|day)|sec(onds?)?|f_?time|fid(ucial)?"),
+    ("time", r"x_?value|timestamp|elapsed(_?time)?"),
     ("line", r"line|line_?(no|num|number|id|index)|(flight_?)?line"),
     ("week", r"(gps_?)?w(ee)?k(_?no|_?number)?"),
     ("second_of_week", r"(gps_?)?(sow|tow|sec(onds?)?_?(of|in)_?week|week_?sec(onds?)?|seconds_of_gps_week)|gps_?seconds?"),
     ("date", r"date|y{2,4}m{2}d{2}|utc_?date|gps_?date|datum"),
     ("clock", r"hhmmss(_?s+)?|utc|clock|time|time_?of_?day|utc_?time|gps_?time"),
-    ("G_out", r"g_?out|sum_?(volt(age)?)?|ggi(_?(out|sum))?"),
+    ("G_out", r"g_?out|(out(put)?|sum)(_?(volt(age)?|sum))?|ggi(_?(out|sum))?"),
     ("cross", r"cross(_?raw)?"),
     ("spin_angle", r"spin_?(angle|phase)|encoder(_?angle)?|disc_?angle"),
     ("temperature", r"temp(erature)?(_?[a-z0-9]+)?"),
@@ -330,8 +338,16 @@ ROLES: Mapping[str, Role] = MappingProxyType({r.name: r for r in reversed(_ALL)}
 
 
 def role_of(column: str) -> Role | None:
-    """What a column of this name may be; its own name is certain."""
+    """What a column of this name may be, with a unit at its end or without; its own name is certain."""
     own = next((r for r in _ALL if r.name == column), None)
     if own is not None and column != "line":
         return Role(own.name, own.pattern, "certain")
-    return min((r for r in _ALL if r.fits(column)), key=lambda r: r.rank, default=None)
+    for name in dict.fromkeys((column, _bare(column), _bare(column).rpartition("_")[0])):
+        if found := [r for r in _ALL if r.fits(name)]:
+            return min(found, key=lambda r: r.rank)
+    return None
+
+
+def _bare(column: str) -> str:
+    """The name of a column without the groups that it is in: ``a_x`` of ``/'Untitled'/'a_x'``."""
+    return column.rpartition("/")[2].strip("'\"")

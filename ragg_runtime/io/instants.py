@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
+from dateutil import parser  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
@@ -36,19 +37,19 @@ WAYS: Mapping[str, tuple[int, str]] = MappingProxyType(
 )
 """The formats that a mapping may name beside plain seconds: columns that they take, and an example."""
 
-_EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
+_EPOCH = datetime(1970, 1, 1)
 _SECOND = 10**9
 _DAY = 86400 * _SECOND
 _NONE = np.iinfo(np.int64).min
 _NOTHING = ("NaT", "nan", "NaN", "None", "null", "-", "--")
-_MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
-_ISO = re.compile(r"\d{4}-\d{2}-\d{2}(?:[T ]\d.*)?")
-_INSTANT = re.compile(
-    r"(?:(?P<days>\d+) +days?,?(?: +|$))?"
-    r"(?:(?P<a>\d{1,4})(?P<sep>[-/. ])(?P<b>\d{1,2}|[A-Za-z]{3,9})(?P=sep)(?P<c>\d{1,4})(?:[T, ]+(?=\d)|$))?"
-    r"(?:(?P<h>\d{1,6}):(?P<m>\d{1,2})(?::(?P<s>\d{1,2}))?(?:[.,](?P<f>\d*))?(?: *(?P<half>[AaPp])\.?[Mm]\.?)?)?"
-    r" *(?P<zone>Z|UTC|GMT|[+-]\d{2}:?\d{2})?"
+_STAMP = re.compile(
+    r"(?:(?P<days>-?\d+) +days?,?(?: +|$))?"
+    r"(?:(?P<date>\d[\w/.-]*\d|(?=.*[A-Za-z]{3})[\w.,/ -]*?\w),?(?:[T ] *(?=\d+:)|$))?"
+    r"(?:(?P<h>\d{1,6}):(?P<m>[0-5]?\d)(?::(?P<s>[0-5]?\d|60)(?:[.,](?P<f>\d*))?)?(?: *(?P<half>[AaPp])\.?[Mm]\.?)?)?"
+    r" *(?P<zone>Z|UTC|GMT|[+-]\d{2}:?\d{2})?(?P<year> \d{4})?"
 )
+_NUMBERS = re.compile(r"(\d{1,4})([-/. ])(\d{1,2})\2(\d{1,4})")
+_YEAR_DAY = re.compile(r"(\d{4})-?(\d{3})")
 
 
 @dataclass(frozen=True)
@@ -65,17 +66,16 @@ class Seconds:
     notes: tuple[str, ...] = ()
 
 
-def _spread(text: str) -> str:
-    """A stamp without blanks at its ends; 20260301T132850.4 as 2026-03-01T13:28:50.4."""
-    return re.sub(r"^(\d{4})(\d\d)(\d\d)[T ](\d\d)(\d\d)(\d\d)", r"\1-\2-\3T\4:\5:\6", text.strip())
+def _match(text: str) -> re.Match[str] | None:
+    """A stamp taken apart; 20260301T132850.4 is 2026-03-01T13:28:50.4."""
+    return _STAMP.fullmatch(re.sub(r"^(\d{8}|\d{4}-\d\d-\d\d)[T ](\d\d)(\d\d)(\d\d)", r"\1T\2:\3:\4", text))
 
 
 def parts_of(text: str) -> tuple[bool, bool]:
     """Whether there is a date in a stamp, and whether a time."""
-    match = _INSTANT.fullmatch(_spread(text))
-    if match is None:
-        return False, False
-    return match["a"] is not None, match["h"] is not None or match["days"] is not None
+    m = _match(text.strip())
+    dated = m is not None and m["date"] is not None and _read_date(_date_in(m), "dmy") is not None
+    return dated, m is not None and (m["h"] is not None or m["days"] is not None)
 
 
 def order_of(format_: str) -> str | None:
@@ -142,7 +142,8 @@ def _count(total: Nanoseconds, dated: bool = True, notes: tuple[str, ...] = ()) 
     if not dated:
         values = values + np.cumsum(np.diff(values, prepend=values[:1]) < -(_DAY // 2)) * _DAY
     found[there] = (values - first * _DAY) / _SECOND
-    return Seconds(found, origin=_EPOCH + timedelta(days=first) if dated else None, notes=notes)
+    origin = (_EPOCH + timedelta(days=first)).replace(tzinfo=UTC) if dated else None
+    return Seconds(found, origin=origin, notes=notes)
 
 
 def _write_clock(value: Any) -> str:
@@ -154,121 +155,118 @@ def _write_clock(value: Any) -> str:
 
 
 def _write_date(value: Any) -> str:
-    """A date as text: 20260301, as number or text, as 2026-03-01."""
+    """A date as text: the number 20260301 without a point."""
     if isinstance(value, np.datetime64):
         return "" if np.isnat(value) else str(value.astype("datetime64[D]"))
-    text = (
-        str(value).strip() if not isinstance(value, float) else f"{value:.0f}" if np.isfinite(value) else ""
-    )
-    return re.sub(r"^(\d{4})(\d{2})(\d{2})$", r"\1-\2-\3", text)
+    if isinstance(value, float):
+        return f"{value:.0f}" if np.isfinite(value) else ""
+    return str(value).strip()
 
 
 def _read_iso(values: Sequence[str]) -> Nanoseconds | None:
-    """Nanoseconds since 1970 of ISO 8601 texts, all with a zone or all without; ``None`` if one is anything else."""
-    texts = [t.strip().replace("/", "-").replace(",", ".") for t in values]
-    if not _ISO.fullmatch(next(filter(None, texts), "")):
-        return None
-    texts = [re.sub(r"(\.\d{9})\d+", r"\1", t) for t in texts]
+    """Nanoseconds since 1970 of millions of ISO 8601 texts; ``None`` if one is anything else."""
+    texts = [re.sub(r"(\.\d{9})\d+", r"\1", t.replace(",", ".")) or None for t in values]
     for zone in (None, "UTC"):
         try:
-            column = pa.array([t or None for t in texts]).cast(pa.string()).cast(pa.timestamp("ns", tz=zone))
+            column = pa.array(texts, pa.string()).cast(pa.timestamp("ns", tz=zone)).cast(pa.int64())
         except pa.ArrowException:
             continue
-        return np.asarray(column.cast(pa.int64()).fill_null(_NONE).to_numpy(zero_copy_only=False), np.int64)
+        return np.asarray(column.fill_null(_NONE).to_numpy(zero_copy_only=False), np.int64)
     return None
 
 
 def _read_texts(values: Sequence[str], order: str | None, where: str, row: Callable[[int], str]) -> Seconds:
     """Dates and times as people write them."""
-    texts = ["" if t in _NOTHING else _spread(t) for t in values]
-    found = {k: _INSTANT.fullmatch(t) for k, t in enumerate(texts) if t}
-    dated = any(m is not None and m["a"] is not None for m in list(found.values())[:1])
-    matches = {k: m for k, m in found.items() if m is not None and (m["a"] is not None) == dated}
-    dates = dict.fromkeys(_date_in(m) for m in matches.values())
-    total = np.full(len(texts), _NONE)
-    days: dict[tuple[str, ...], int | None] = {}
-    if len(matches) == len(found) and dated:
-        order = order or _find_order(list(dates), where)
-        days = {d: _count_days(d, order) for d in dates}
-    for k in found:
-        day = days.get(_date_in(matches[k])) if dated and k in matches else 0
-        clock = _read_clock(matches[k]) if k in matches else None
-        if clock is None or (day is None and days):
-            raise _unreadable(where, texts[k], row(k))
-        total[k] = (day or 0) * _DAY + clock
-    leaps = [k for k, m in matches.items() if m["s"] == "60"]
+    matches = {k: _match(t) for k, t in enumerate(values) if t and t not in _NOTHING}
+    known = {k: m for k, m in matches.items() if m is not None}
+    dates = dict.fromkeys(d for m in known.values() if (d := _date_in(m)))
+    dated, days = bool(dates), dict[str, int | None]({"": 0})
+    if dated and order is None and all(m and _date_in(m) for m in matches.values()):
+        order = _find_order(list(dates), where)
+    days |= {d: _read_date(d, order or "dmy") for d in dates}
+    total = np.full(len(values), _NONE)
+    for k, m in matches.items():
+        day = None if m is None or bool(_date_in(m)) != dated else days[_date_in(m)]
+        clock = None if m is None else _read_clock(m)
+        if day is None or clock is None:
+            raise _unreadable(where, values[k], row(k))
+        total[k] = day * _DAY + clock
+    leaps = [k for k, m in known.items() if m["s"] == "60"]
     if leaps:  # the seconds after it have the numbers that they would have had without it
         after = np.arange(len(total)) > leaps[-1]
         total[after & (total != _NONE)] += _SECOND
-    if not dated and any(m["days"] or int(m["h"]) > 23 for m in matches.values()):
+    if not dated and any(m["days"] or int(m["h"]) > 23 for m in known.values()):
         return Seconds(np.where(total == _NONE, np.nan, total / _SECOND), instants=False)
     return _count(total, dated, ("a leap second (hh:mm:60) is counted",) if leaps else ())
+
+
+def _date_in(m: re.Match[str]) -> str:
+    """The date in a stamp, with a year that stands behind the time of the day; ``""``: there is none."""
+    return (m["date"] or "") + (m["year"] or "")
 
 
 def _read_clock(m: re.Match[str]) -> int | None:
     """Nanoseconds of the time in a stamp, zone and days of an elapsed time included; ``None`` if it is none."""
     days = int(m["days"] or 0) * _DAY
     if m["h"] is None:
-        return days if m["days"] or m["a"] else None
-    hours, minutes, seconds = int(m["h"]), int(m["m"]), int(m["s"] or 0)
-    if minutes > 59 or seconds > 60 or (m["a"] is not None and hours > 24) or (m["f"] and not m["s"]):
+        return days if m["days"] or m["date"] else None
+    hours = int(m["h"])
+    if hours > 24 and m["date"] is not None:
         return None
     if m["half"] is not None:
         if not 1 <= hours <= 12:
             return None
         hours = hours % 12 + (12 if m["half"] in "pP" else 0)
-    total = ((hours * 60 + minutes) * 60 + seconds) * _SECOND + int(((m["f"] or "") + "0" * 9)[:9])
+    total = ((hours * 60 + int(m["m"])) * 60 + int(m["s"] or 0)) * _SECOND + int(
+        ((m["f"] or "") + "0" * 9)[:9]
+    )
     zone = m["zone"] or ""
-    if zone[:1] in ("+", "-") and m["a"] is not None:
+    if zone[:1] in ("+", "-") and m["date"] is not None:
         total -= int(zone[0] + "1") * (int(zone[1:3]) * 60 + int(zone[-2:])) * 60 * _SECOND
     return total + days
 
 
-def _date_in(m: re.Match[str]) -> tuple[str, ...]:
-    """The three parts of the date in a stamp, and what stands between them."""
-    return m["a"], m["sep"], m["b"], m["c"]
-
-
 def find_order(values: NDArray[Any]) -> str | None:
     """``ymd``, ``dmy`` or ``mdy`` of dates (n,) as text; ``None`` where two are possible."""
-    matches = (_INSTANT.fullmatch(_spread(str(t))) for t in dict.fromkeys(values))
+    matches = (_match(str(t).strip()) for t in dict.fromkeys(values))
     try:
-        return _find_order(list(dict.fromkeys(_date_in(m) for m in matches if m and m["a"])), "")
+        return _find_order(list(dict.fromkeys(d for m in matches if m and (d := _date_in(m)))), "")
     except UserError:
         return None
 
 
-def _find_order(dates: Sequence[tuple[str, ...]], where: str) -> str:
+def _find_order(dates: Sequence[str], where: str) -> str:
     """The order of day, month and year, by all dates; UserError if two are possible."""
-    if all(len(a) == 4 for a, *_ in dates):
+    numbers = [m for d in dates if (m := _NUMBERS.fullmatch(d))]
+    if all(len(m[1]) == 4 for m in numbers):
         return "ymd"
-    if any(sep == "." or b.isalpha() for _, sep, b, _ in dates):  # with dots the day is first
+    if any(m[2] == "." or int(m[1]) > 12 for m in numbers):  # with dots the day is first
         return "dmy"
-    if any(int(a) > 12 for a, *_ in dates):
-        return "dmy"
-    if any(int(b) > 12 for _, _, b, _ in dates):
+    if any(int(m[3]) > 12 for m in numbers):
         return "mdy"
-    a, sep, b, c = dates[0]
     raise UserError(
         "a date could be day/month or month/day",
         where=where,
-        found=repr(f"{a}{sep}{b}{sep}{c}"),
+        found=repr(numbers[0][0]),
         remedy='say in a mapping which it is: [time] format = "d/m/y" or "m/d/y"; or write yyyy-mm-dd',
     )
 
 
-def _count_days(written: tuple[str, ...], order: str) -> int | None:
+def _read_date(text: str, order: str) -> int | None:
     """Days since 1970 of a date; ``None`` if there is none such."""
-    a, _, b, c = written
-    part = dict(zip(order, (a, b, c), strict=True))
-    month = part["m"]
     try:
-        number = int(month) if month.isdigit() else _MONTHS.index(month[:3].casefold()) + 1
-        year = int(part["y"])
-        if len(part["y"]) <= 2:
-            year += 1900 if year >= 70 else 2000
-        return (datetime(year, number, int(part["d"]), tzinfo=UTC) - _EPOCH).days
-    except ValueError:
+        if m := _NUMBERS.fullmatch(text):
+            part = dict(zip("ymd" if len(m[1]) == 4 else order, (m[1], m[3], m[4]), strict=True))
+            year = int(part["y"]) + (0 if len(part["y"]) > 2 else 1900 if int(part["y"]) >= 70 else 2000)
+            return (datetime(year, int(part["m"]), int(part["d"])) - _EPOCH).days
+        if m := _YEAR_DAY.fullmatch(text):  # ISO 8601, day of the year
+            return (datetime(int(m[1]), 1, 1) - _EPOCH).days + int(m[2]) - 1
+        # of a date that lacks a part the parser takes that of its default
+        both = {
+            parser.parse(text, default=datetime(year, year % 9 + 1, 3 + year % 9)) for year in (1970, 2004)
+        }
+        return (both.pop() - _EPOCH).days if len(both) == 1 else None
+    except (ValueError, OverflowError, TypeError):
         return None
 
 

@@ -79,7 +79,7 @@ class Flag:
     effects
         Ids of effects that describe the same, and may be claimed beside it.
     kind
-        ``resolution`` of motion sensors whose steps show in the output; else empty.
+        ``resolution`` of motion sensors whose steps show in the output, ``still`` where no motion was recorded; else empty.
     """
 
     columns: tuple[str, ...]
@@ -163,6 +163,12 @@ class Flight:
     def duration(self) -> float:
         """Time that the samples stand for, s: N / rate."""
         return len(self.time) / self.rate
+
+    @property
+    def present(self) -> Mask:
+        """(N,): samples that the file has, whether they can be used or not."""
+        recorded = [np.isfinite(v) for v in self.outputs.values()]
+        return np.asarray(np.any(recorded, axis=0)) if recorded else self.valid
 
     def without(self, stretches: Sequence[tuple[float, float]]) -> Flight:
         """The flight with stretches of time (from, to, s since the first sample) marked as not to be used, and said so."""

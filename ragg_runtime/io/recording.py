@@ -23,7 +23,7 @@ from ragg_runtime.io.instants import WAYS, Seconds, count_from, read_stamps
 from ragg_runtime.io.mapping import Entry, Mapped, Null
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.tables import Column, Table, choose_tables, line_name, split_lines
-from ragg_runtime.io.text_tables import MISSING
+from ragg_runtime.io.text_tables import MISSING, is_comma, write_plain
 
 Array = NDArray[np.float64]
 
@@ -43,6 +43,7 @@ counters stand still nearly always."""
 
 _VECTOR = re.compile(r"(a|omega|omegadot|B)_([xyz])")
 _TENSOR = ("xx", "xy", "xz", "yy", "yz", "zz")
+_THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:,\d{3})+\s*")
 _NINES = re.compile(r"-?9{3,}(?:\.(?:0|25|9+))?")
 
 
@@ -145,7 +146,7 @@ def _read_plain(table: Table, place: str, lenient: bool, leave: frozenset[str]) 
     notes = list(table.notes)
     time, others = _find_time(table)
     others = [c for c in others if c.name not in leave]
-    named = [c for c in others if lenient or is_column(c.name) or _lacks_unit(c)]
+    named = [c for c in others if lenient or is_column(c.name)]
     passed = tuple(c.name[:80] for c in others if c not in named)
     kept, stamps = [], None
     if time is not None:
@@ -212,11 +213,6 @@ def _finish(made: Recording, stamps: Seconds | None, nulls: Mapping[str, Null]) 
     return replace(made, columns=columns, notes=tuple(notes))
 
 
-def _lacks_unit(c: Column) -> bool:
-    """Whether a column is one of the contract but for what stands behind its name in the place of a unit."""
-    return not c.unit and c.name.partition("(")[0].strip() in SI_UNITS
-
-
 def _keep_first(columns: Iterable[Column], place: str, notes: list[str]) -> list[Column]:
     """The first column of every name; UserError if a second one has a name of the contract."""
     found: dict[str, Column] = {}
@@ -271,7 +267,10 @@ def read_numbers(c: Column, table: Table, place: str, null: Null = (), remedy: s
 
 
 def parse_numbers(texts: NDArray[np.object_]) -> Array:
-    """Numbers (n,) of texts, NaN where they are none."""
+    """Numbers (n,) of texts, NaN where they are none: with decimal commas, a minus of print or the D of Fortran, too.
+
+    Commas that may stand between thousands (1,234) are not taken for decimal ones.
+    """
 
     def parse(text: str) -> float:
         try:
@@ -279,7 +278,15 @@ def parse_numbers(texts: NDArray[np.object_]) -> Array:
         except ValueError:
             return np.nan
 
-    return np.array([parse(t) for t in texts], dtype=np.float64)
+    found = np.array([parse(t) for t in texts], dtype=np.float64)
+    odd = [k for k in np.flatnonzero(np.isnan(found)) if texts[k] not in MISSING]
+    plain = [write_plain(str(texts[k])) for k in odd]
+    commas = not any("." in str(t) for t in texts) and not all(
+        map(_THOUSANDS.fullmatch, filter(is_comma, plain))
+    )
+    for k, text in zip(odd, plain, strict=True):
+        found[k] = parse(text.replace(",", ".") if commas and is_comma(text) else text)
+    return found
 
 
 def find_spoiled(texts: NDArray[np.object_], numbers: Array) -> NDArray[np.bool_]:

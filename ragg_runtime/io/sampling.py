@@ -285,7 +285,11 @@ def _describe(
             "they are filled in and not used"
         )
     worst = int(np.argmax(deviation))
-    if deviation[worst] > JITTER_NOTED:
+    there = np.ones(len(time), dtype=np.bool_)
+    was_set = find_clock_steps(time, there) if deviation[worst] > JITTER_NOTED and not len(gaps) else []
+    for c in was_set[:3]:
+        notes.append(f"the stamps step by {c.size:.4g} s at t = {c.time:.10g} s: was the clock set?")
+    if deviation[worst] > JITTER_NOTED and not was_set:
         notes.append(
             f"sampling jitters by up to {deviation[worst]:.2g} of the step of {step:.6g} s (after t = {time[worst]:.10g} s); "
             "every sample counts at its own instant, derivatives and spectra are made on the even grid"

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at, one_line
 from ragg_runtime.instrument.units import units
+from ragg_runtime.io.record import SI_UNITS
 
 MOST_COLUMNS = 2000
 """Columns of a file beyond which it is no record of an instrument, and would take minutes."""
@@ -36,8 +37,11 @@ INDEX = "index"
 SHARE = 0.5
 """Of the free memory that a table may take: reading and fitting it take as much again."""
 
-_HEADER = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\]\s*)?")
-_PAREN = re.compile(r"\s*(?P<name>.*?\S)\s*\((?P<unit>[^()]+)\)\s*")
+_HEADER = re.compile(r"(?P<name>[^\[\]]*?)\s*\[(?P<unit>[^\[\]]*)\]")
+_OTHERWISE = re.compile(
+    r"(?P<name>.*?\S)(?:\s*\((?P<inside>[^()]+)\)|\s*[,:]\s*(?P<behind>\S+)| / (?P<over>\S+))"
+)
+"""``name (unit)``, ``name, unit``, ``name: unit`` and ``name / unit`` (ISO 80000-1)."""
 _UNIT_KEYS = ("units", "Units", "UNITS", "unit", "Unit")
 _DEFAULT_FILL = {"f4": 2.0**123 * 0.9375, "f8": 2.0**123 * 0.9375, "i4": -2147483647, "i2": -32767}
 """What NetCDF writes where nothing was written, by type (netcdf.h: NC_FILL_FLOAT ...)."""
@@ -100,14 +104,15 @@ class Table:
 
 
 def read_heading(text: str) -> tuple[str, str]:
-    """Name and unit of ``name [unit]`` or ``name (unit)``; what stands in round brackets must be a unit."""
+    """Name and unit of ``name [unit]``, or of another way in which what should be the unit is one (see above)."""
     text = " ".join(text.split())
-    match = _HEADER.fullmatch(text)
-    if match is None:
-        return one_line(text), ""
-    if match["unit"] is None and (paren := _PAREN.fullmatch(text)) and is_unit(paren["unit"]):
-        return one_line(paren["name"]), paren["unit"].strip()
-    return one_line(match["name"]), (match["unit"] or "").strip()
+    if match := _HEADER.fullmatch(text):
+        return one_line(match["name"]), match["unit"].strip()
+    if match := _OTHERWISE.fullmatch(text):
+        unit = next(filter(None, match.groups()[1:])).strip()
+        if is_unit(unit) or match["name"] in SI_UNITS:
+            return one_line(match["name"]), unit
+    return one_line(text), ""
 
 
 def read_units(cells: Sequence[str]) -> list[str] | None:

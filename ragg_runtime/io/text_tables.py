@@ -44,14 +44,32 @@ from ragg_runtime.io.tables import (
 LONGEST_LINE = 1 << 20
 """Characters of a line from which a file is no table."""
 
-MISSING = ("", "nan", "NaN", "NAN", "NaT", "NA", "N/A", "#N/A", "null", "NULL", "None", "-", "--", "*")
+_EXCEL_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
+_OF_C = tuple(f"{sign}1.#{word}" for sign in ("", "-") for word in ("IND", "QNAN", "INF"))
+_WORDS = (
+    "nan",
+    "NaN",
+    "NAN",
+    "NaT",
+    "NA",
+    "N/A",
+    "n/a",
+    "<NA>",
+    "null",
+    "NULL",
+    "None",
+    "-nan",
+    "nan(ind)",
+    "-nan(ind)",
+)
+MISSING = ("", "-", "--", "*", *_WORDS, *_OF_C, *_EXCEL_ERRORS)
 """Cells that hold nothing."""
 
-_EXCEL_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
-_LOOKED_AT = 300  # lines that are looked at to find the header and to tell numbers from text
+_LOOKED_AT = 600  # lines that are looked at to find the header and to tell numbers from text
 _CELL_OF_XML = 4  # bytes in memory for one of a sheet's XML: a cell of 25 bytes becomes an object of 100
 _NOT_CSV = "the file is not a table of comma-separated values"
 _GZIP = b"\x1f\x8b"
+_EXPONENT = re.compile(r"([\d.])[dD]([+-]?\d)")
 _COMMA = re.compile(r"\s*[+-]?\d+,\d+(?:[eE][+-]?\d+)?\s*")
 
 _NO_NUMBER = re.compile(r"In CSV column #(\d+): .*CSV conversion error", re.DOTALL)
@@ -93,7 +111,7 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
     size = max(width, *(len(r) for r in rows[begins : begins + 1])) if begins < len(rows) else width
     parts = [(p + [""] * size)[:size] for p in parts]
     units = None
-    if not any(read_heading(c)[1] for p in parts for c in p):
+    if not any(all(read_heading(c)) for p in parts for c in p):
         for k in range(len(parts) - 1, 0, -1):  # below the units there may be a row of remarks
             if (units := read_units(parts[k])) is not None:
                 parts = parts[:k]
@@ -121,17 +139,28 @@ def _is_data(row: Sequence[Any]) -> bool:
 def is_number(text: str) -> bool:
     """Whether a cell is a number, with a decimal point or a decimal comma."""
     try:
-        float(text)
+        float(write_plain(text))
     except ValueError:
-        return _COMMA.fullmatch(text) is not None
+        return is_comma(text)
     return text.strip() not in MISSING
+
+
+def write_plain(text: str) -> str:
+    """A number with the minus of print, or with the D of Fortran before its exponent, as programs read it."""
+    return _EXPONENT.sub(r"\1e\2", text.replace("\u2212", "-"))
+
+
+def is_comma(text: str) -> bool:
+    """Whether a cell is a number with a decimal comma."""
+    return _COMMA.fullmatch(text) is not None
 
 
 def _needs_a_row_above(names: Sequence[str]) -> bool:
     """Whether names are parts of names: some are missing before the last one, or stand twice."""
-    there = [n for n in names if n]
-    last = max((k for k, n in enumerate(names) if n), default=0)
-    return "" in names[:last] or len({*there}) < len(there)
+    bare = [read_heading(n)[0] for n in names]
+    there = [n for n in bare if n]
+    last = max((k for k, n in enumerate(names) if n), default=-1)
+    return "" in bare[: last + 1] or len({*there}) < len(there)
 
 
 def _joined(above: Sequence[str], below: Sequence[str]) -> list[str]:
@@ -217,7 +246,7 @@ def _look(data: bytes, path: Path) -> _Dialect:
     stream = io.TextIOWrapper(io.BytesIO(data), "utf-8", newline="")
     lines = list(itertools.islice(_lines(stream, path), _LOOKED_AT))
     best = None
-    for delimiter in "\t;,":
+    for delimiter in "\t;,|":
         try:
             rows, ends = _rows(lines, delimiter)
         except csv.Error as error:

@@ -128,7 +128,9 @@ def _still(flight: Flight) -> list[Flag]:
     text = "the motion does not change at all: a record at rest tells little about an instrument"
     if len(still) < len(names):
         text = f"{', '.join(still)} {'does' if len(still) == 1 else 'do'} not change at all: a stuck sensor?"
-    return [Flag(tuple(still), text, len(flight), open=True)]
+    return [
+        Flag(tuple(still), text, len(flight), open=True, kind="still" if len(still) == len(names) else "")
+    ]
 
 
 def _one_value(x: Array) -> float | None:

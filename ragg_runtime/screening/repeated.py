@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
+from scipy.signal import periodogram
 
 from ragg_runtime.io import Flight
 from ragg_runtime.io.angular_acceleration import planned
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag
-from ragg_runtime.signals.derivative import WINDOW
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag, is_disc_angle
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
@@ -40,6 +40,13 @@ less, and of recorded values one in a thousand bends so little."""
 BESIDE = 32
 """Pairs of neighbours on either side, at least, that tell how often a column repeats a value there."""
 
+SUDDEN = 5.0
+"""Times the usual move of a column by which it leaps to an end of its range and back in a drop-out; in saturation it moves there."""
+
+LOST = 1e-3
+"""Part of a derivative, rms, in the highest eighth of its band from which as much more is missing beyond: of 1e-3 rad/s^2 that is
+some ten times an instrument's noise (see :mod:`ragg_runtime.io.angular_acceleration`)."""
+
 RARE, RARE_ZEROS = 1e-3, 0.1
 """Number of such runs to be expected in the whole record below which one is no chance; of zeros, which recorders write."""
 
@@ -59,44 +66,49 @@ def leave_out_repeated(flight: Flight) -> Flight:
     """
     outputs, channels = dict(flight.outputs), dict(flight.channels)
     valid, found = np.array(flight.valid), []
-    for name in (*flight.outputs, *(n for n in MOTION if n in flight.written or _is_given(n, flight))):
+    angles = [n for n in flight.channels if is_disc_angle(n)]
+    for name in (
+        *flight.outputs,
+        *angles,
+        *(n for n in MOTION if n in flight.written or _is_given(n, flight)),
+    ):
         x = flight.outputs.get(name, flight.channels.get(name))
         if x is None:
             continue
         there = np.isfinite(x) & flight.valid
-        r = _repeated(np.array(x), there)
+        r = _repeated(np.array(x), there, turning=name in angles)
         if r is None:
             continue
         found.append((name, r))
         if name in outputs:
             outputs[name] = np.where(r.left_out, np.nan, x)
         else:
-            channels[name] = _interpolated(np.array(x), there & ~r.left_out, smooth=r.how != "stuck")
-            valid &= ~r.left_out
+            channels[name] = _interpolated(np.array(x), there & ~r.left_out, r.how != "stuck", name in angles)
+            if r.how == "stuck" or name not in angles:  # a disc turns smoothly between two angles
+                valid &= ~r.left_out
     if not found:
         return flight
     changed = replace(flight, outputs=outputs, channels=channels, valid=valid)
-    if any(name in ANGULAR_RATE for name, _ in found):
-        changed = with_derived_acceleration(changed)
-        stuck = [r.left_out for name, r in found if name in ANGULAR_RATE and r.how == "stuck"]
-        for mask in stuck:
-            wide = np.convolve(mask, np.ones(WINDOW), "same") > 0.5
-            changed = replace(changed, valid=changed.valid & ~wide)
+    rates = [r for name, r in found if name in ANGULAR_RATE]
+    if rates:
+        stuck = np.any([r.left_out for r in rates if r.how == "stuck"] or [~np.ones_like(valid)], axis=0)
+        changed = with_derived_acceleration(changed, stuck)
     return changed.flagged(_flags(found, flight))
 
 
-def with_derived_acceleration(x: Flight) -> Flight:
-    """The flight with its angular acceleration derived anew, unless it was recorded."""
-    if ANGULAR_ACCELERATION[0] in x.written or not all(n in x.channels for n in ANGULAR_ACCELERATION):
+def with_derived_acceleration(x: Flight, lacking: Mask | None = None) -> Flight:
+    """The flight with its angular acceleration derived anew, unless it was recorded; rates (N,) are ``lacking`` somewhere."""
+    if not x.written or ANGULAR_ACCELERATION[0] in x.written or ANGULAR_ACCELERATION[0] not in x.channels:
         return x
-    if not x.written:
-        return x
-    derivative = planned([x.channels[n] for n in ANGULAR_RATE], x.rate)
-    made = {
-        change: derivative.of(x.channels[rate], x.rate)[0]
-        for rate, change in zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True)
-    }
-    return replace(x, channels={**x.channels, **made})
+    rates = [
+        x.channels[n] if lacking is None else np.where(lacking, np.nan, x.channels[n]) for n in ANGULAR_RATE
+    ]
+    derivative, valid, made = planned(rates, x.rate), x.valid, {}
+    for change, rate in zip(ANGULAR_ACCELERATION, rates, strict=True):
+        slope, sure = derivative.of(rate, x.rate)
+        valid = valid & sure
+        made[change] = _interpolated(slope, np.isfinite(slope), False)
+    return replace(x, channels={**x.channels, **made}, valid=valid)
 
 
 def _is_given(name: str, flight: Flight) -> bool:
@@ -113,8 +125,8 @@ class _Repeated:
     every: float
 
 
-def _repeated(x: Array, there: Mask) -> _Repeated | None:
-    """What a column (N,) repeats; ``None``: nothing but what its resolution and its noise make."""
+def _repeated(x: Array, there: Mask, turning: bool = False) -> _Repeated | None:
+    """What a column (N,), or the angle of a ``turning`` disc, repeats; ``None``: no more than its resolution and noise make."""
     pairs = there[1:] & there[:-1]
     if np.sum(there) < FEWEST or not pairs.any():
         return None
@@ -124,12 +136,13 @@ def _repeated(x: Array, there: Mask) -> _Repeated | None:
     if len(moves) < FEWEST - 1:
         return None  # it does not change at all
     step = find_step(x[there]) if equal.any() else None
-    if np.sum(equal) >= HELD * np.sum(pairs) and (step is None or np.median(moves) >= COARSE * step):
+    coarse = step is not None and np.median(moves) < COARSE * step and not turning
+    if np.sum(equal) >= HELD * np.sum(pairs) and not coarse:
         runs = _runs(equal)
         if np.max(runs[:, 1] - runs[:, 0]) < HELD * len(x):
             kept = there & ~np.r_[False, equal]
             return _Repeated("repeated", there & ~kept, float(np.median(np.diff(np.flatnonzero(kept)))))
-    joined = _joined(x, there)
+    joined = None if turning else _joined(x, there)  # the angle of a disc is a line
     if joined is not None:
         return joined
     stuck = _stuck(x, there, equal, 0.0 if step is None else step)
@@ -164,12 +177,15 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
 
     The chance that two neighbours are equal is counted in the pairs before and after a run, as many as it has. Runs that a column
     enters and leaves by a ``step`` or two of its resolution are where it turns; those at an end of its range are saturation, an effect
-    of its own.
+    of its own, unless the column leaps there.
     """
     found = np.zeros(len(x), dtype=np.bool_)
     runs = _runs(equal)
     low, high = np.min(x[there]), np.max(x[there])
-    runs = runs[(runs[:, 1] - runs[:, 0] >= 4) & (x[runs[:, 0]] != low) & (x[runs[:, 0]] != high)]
+    moves = np.abs(np.diff(x, prepend=x[:1], append=x[-1:]))
+    inside = (x[runs[:, 0]] != low) & (x[runs[:, 0]] != high)
+    sudden = np.minimum(moves[runs[:, 0]], moves[runs[:, 1]]) > SUDDEN * np.median(moves[1:-1][~equal])
+    runs = runs[(runs[:, 1] - runs[:, 0] >= 4) & (inside | sudden)]
     if not len(runs):
         return found
     long = np.zeros(len(equal), dtype=np.bool_)
@@ -182,19 +198,20 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
     same = before[first] - before[left] + before[right] - before[last]
     chance = (same + 1) / (first - left + right - last + 2)
     expected = len(x) * chance ** (last - first)
-    moves = np.abs(np.diff(x, prepend=x[:1], append=x[-1:]))
     expected[np.maximum(moves[first], moves[last + 1]) <= 2.5 * step] = np.inf
     for k in np.flatnonzero(expected < np.where(x[first] == 0.0, RARE_ZEROS, RARE)):
         found[first[k] : last[k] + 1] = True
     return found
 
 
-def _interpolated(x: Array, there: Mask, *, smooth: bool) -> Array:
+def _interpolated(x: Array, there: Mask, smooth: bool, turning: bool = False) -> Array:
     """A series (N,) between the samples that are there: by a spline, or straight over a stretch that is missing."""
     at = np.flatnonzero(there)
-    k = np.arange(len(x))
-    made = CubicSpline(at, x[at])(np.clip(k, at[0], at[-1])) if smooth else np.interp(k, at, x[at])
-    return np.where(there, x, made)
+    k, known = np.arange(len(x)), np.unwrap(x[at]) if turning else x[at]
+    turn = np.polyfit(at, known, 1) if turning else np.zeros(1)  # a disc turns on beyond the ends
+    off = known - np.polyval(turn, at)
+    made = CubicSpline(at, off)(np.clip(k, at[0], at[-1])) if smooth else np.interp(k, at, off)
+    return np.where(there, x, made + np.polyval(turn, k))
 
 
 def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
@@ -210,6 +227,13 @@ def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]
 def _flag(names: Sequence[str], r: _Repeated, flight: Flight) -> Flag:
     at = np.flatnonzero(r.left_out)
     what = f"{', '.join(names)}: recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only what was recorded is used"
+    lost = (
+        r.how != "stuck"
+        and ANGULAR_ACCELERATION[0] not in flight.written
+        and any(_is_lost(n, r, flight) for n in names)
+    )
+    if lost:
+        what += "; the angular acceleration, which is derived from it, changes faster than that"
     if r.how == "stuck":
         edges = np.flatnonzero(np.diff(at) > 1)
         begins, ends = at[np.r_[0, edges + 1]], at[np.r_[edges, len(at) - 1]]
@@ -218,4 +242,14 @@ def _flag(names: Sequence[str], r: _Repeated, flight: Flight) -> Flag:
         )
         more = f" and {len(begins) - 3} times more" if len(begins) > 3 else ""
         what = f"{', '.join(names)}: the value stands still for {some}{more}, which noise does not make; {len(at)} samples not used"
-    return Flag(tuple(names), what, len(at), (float(flight.time[at[0]]), float(flight.time[at[-1]])))
+    return Flag(
+        tuple(names), what, len(at), (float(flight.time[at[0]]), float(flight.time[at[-1]])), open=lost
+    )
+
+
+def _is_lost(name: str, r: _Repeated, flight: Flight) -> bool:
+    """Whether an angular rate was recorded too seldom for its derivative: that has power near the highest frequency."""
+    if name not in ANGULAR_RATE:
+        return False
+    power = periodogram(np.diff(flight.channels[name][~r.left_out]), window="hann")[1]
+    return bool(np.sum(power[-len(power) // 8 :]) > LOST**2 * np.sum(power))

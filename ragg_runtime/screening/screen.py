@@ -152,9 +152,9 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
     x = s.flight
     if s.recorded.demodulated or len(x) < LEAST:
         return x
-    first, step = even_clock(x.time, x.valid)
-    worst = float(np.max(np.abs(x.time - first - step * np.arange(len(x)))[x.valid])) / step
-    steps = find_clock_steps(x.time, x.valid)
+    first, step = even_clock(x.time, x.present)
+    worst = float(np.max(np.abs(x.time - first - step * np.arange(len(x)))[x.present])) / step
+    steps = find_clock_steps(x.time, x.present)
     broken = [c for c in steps if abs(c.size / step - np.rint(c.size / step)) > 1e-3]
     tried: list[tuple[float, Sequence[ClockStep], Flight]] = []
     if worst > JITTER_NOTED:
@@ -188,10 +188,10 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
 
 def _evenly(x: Flight, steps: Sequence[ClockStep]) -> Flight:
     """The flight with even times; rows that lack where the clock was set are no rows."""
-    first, step = even_clock(x.time, x.valid)
+    first, step = even_clock(x.time, x.present)
     kept = np.ones(len(x), dtype=np.bool_)
     for c in steps:
-        before = np.flatnonzero(x.valid[: c.row])
+        before = np.flatnonzero(x.present[: c.row])
         kept[before[-1] + 1 : c.row] = False
     return replace(
         x,

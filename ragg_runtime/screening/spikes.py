@@ -9,7 +9,14 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from ragg_runtime.io import Flight
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, WIDEST_SPIKE, Flag
+from ragg_runtime.io.record import (
+    ANGULAR_ACCELERATION,
+    ANGULAR_RATE,
+    SPECIFIC_FORCE,
+    WIDEST_SPIKE,
+    Flag,
+    is_disc_angle,
+)
 from ragg_runtime.screening.repeated import with_derived_acceleration
 from ragg_runtime.signals.derivative import runs
 
@@ -94,10 +101,12 @@ def leave_out_glitches(flight: Flight) -> Flight:
     """The flight with spikes of its motion interpolated, their samples marked as not valid, and flags of them."""
     channels, valid = dict(flight.channels), np.array(flight.valid)
     flags: dict[str, Flag] = {}
-    for name in (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION):
+    angles = [n for n in channels if is_disc_angle(n)]
+    for name in (*angles, *SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION):
         if name not in channels:
             continue
-        mask, channels[name] = find_glitches(flight.channels[name], flight.valid)
+        find = find_lost_angles if name in angles else find_glitches
+        mask, channels[name] = find(flight.channels[name], flight.valid)
         if mask.any():
             valid &= ~mask
             flags[name] = Flag((name,), words_of(name, mask, flight.time), int(np.sum(mask)))
@@ -126,6 +135,20 @@ def find_glitches(x: Array, valid: Mask) -> tuple[Mask, Array]:
     found[there], whole = off, np.array(x)
     whole[there] = mended
     return found, whole
+
+
+def find_lost_angles(angle: Array, valid: Mask) -> tuple[Mask, Array]:
+    """The same of the angle of a disc (N,), rad: what is off an even turn, which no turn of the whole hides."""
+    turn = np.angle(np.exp(1j * np.diff(angle)))
+    line = (
+        float(np.median(turn[valid[1:] & valid[:-1]])) * np.arange(len(angle))
+        if np.any(valid[1:] & valid[:-1])
+        else angle
+    )
+    mean = np.angle(np.mean(np.exp(1j * (angle - line)[valid]))) if valid.any() else 0.0
+    off = np.angle(np.exp(1j * (angle - line - mean)))
+    mask, mended = find_glitches(off, valid)
+    return mask, np.where(mask, mended + line + mean, angle)
 
 
 def _glitches(x: Array) -> tuple[Mask, Array]:

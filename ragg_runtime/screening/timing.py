@@ -108,18 +108,22 @@ def _spin(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
             options={"xatol": 1e-9 * abs(f0)},
         ).x
     )
-    percent, shown = 100 * (best / f0 - 1), in_digits(best, f0, x.duration)
-    what = f"the spin rate is {shown} Hz, not the model's {f0:.9g} Hz ({percent:+.2g} %)"
+    shown, remedy = in_digits(best, x.duration), "record spin_angle"
+    what = f"the spin rate is {shown} Hz, not the model's {f0:.9g} Hz ({100 * (best / f0 - 1):+.2g} %)"
     if s.has_encoder:
-        what = f"the spin rate is {shown} Hz, from angle 0 at the first sample; spin_angle says otherwise"
+        what = f"{s.disc.angle_column} is not the angle of the disc, which turns at {shown} Hz from angle 0 at the first sample"
+        remedy = f"check the encoder and its zero, or leave {s.disc.angle_column} out"
+    if float(shown) != float(in_digits(f0, x.duration)):
+        remedy = f'write spin_frequency = "{shown} Hz" in model.toml, or {remedy}'
+    elif not s.has_encoder:
+        return [backwards]
     fitted = explain(model, instrument, s.take(s.rows(), spin_frequency=best))
-    remedy = f'write spin_frequency = "{shown} Hz" in model.toml, or record spin_angle'
     return [Hypothesis(what, remedy, fitted, COST, effects=("spin-rate-offset",), calming=False), backwards]
 
 
-def in_digits(f: float, f0: float, duration: float) -> str:
-    """A spin rate, Hz, with the fewest digits that this record does not tell from it, and that tell it from the model's ``f0``."""
-    near = min(TELLING_PHASE / (2 * np.pi * duration), abs(f - f0) / 10)
+def in_digits(f: float, duration: float) -> str:
+    """A spin rate, Hz, with the fewest digits that this record does not tell from it."""
+    near = TELLING_PHASE / (2 * np.pi * duration)
     texts = (f"{f:.{n}g}" for n in range(3, 18))  # seventeen are the number itself
     return next(x for x in texts if abs(float(x) - f) <= near)
 
@@ -196,7 +200,8 @@ def _jump(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
         return pairs[int(np.argmin(_misfits(model, instrument, many)))]
 
     everywhere = spacing * np.arange(1, INSTANTS + 1)
-    at, jump = best_of(rows, everywhere, np.deg2rad(np.arange(30.0, 360.0, 30.0)))
+    small = np.array([2.0, 4.0, 8.0, 15.0])
+    at, jump = best_of(rows, everywhere, np.deg2rad([*-small, *small, *np.arange(30.0, 360.0, 30.0)]))
     for _ in range(2):  # where the jump is wrong the instant is not told, and the other way round
         for step in np.deg2rad([8.0, 2.0, 0.5, 0.125]):
             _, jump = best_of(rows, at, jump + step * np.arange(-3, 4))
@@ -216,7 +221,7 @@ def _jump(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
 def _jump_in_words(s: Sampler, at: int, jump: float) -> tuple[str, str]:
     x, turn = s.flight, 1.0 / abs(s.disc.spin_frequency)
     lost = float(np.mod(np.sign(s.disc.spin_frequency) * jump, 2 * np.pi)) / (2 * np.pi) * turn
-    near = [c for c in find_clock_steps(x.time, x.valid) if abs(c.row - at) < 64]
+    near = [c for c in find_clock_steps(x.time, x.present) if abs(c.row - at) < 64]
     gaps = [c for c in near if abs((c.size + lost + turn / 2) % turn - turn / 2) < 2 / x.rate]
     if gaps:
         return (
@@ -224,7 +229,9 @@ def _jump_in_words(s: Sampler, at: int, jump: float) -> tuple[str, str]:
             f"give the times by the sample count: time = row / {x.rate:.6g} Hz",
         )
     rows, repeated = round(lost * x.rate), round((turn - lost) * x.rate)
-    some = f"{rows} rows ({lost:.4g} s) are missing" if rows <= repeated else f"{repeated} rows are doubled"
+    count = min(rows, repeated)
+    some = f"{count} row{'s are' if count != 1 else ' is'} "
+    some += f"missing ({lost:.4g} s)" if rows <= repeated else "doubled"
     return (
         f"some rows were lost at t = {x.time[at]:.5g} s: {some} there, or whole turns of the disc ({turn:.4g} s) more",
         "let time be that of the recorder, not of the row number; or split the record there, or record spin_angle",

@@ -9,9 +9,10 @@ import pytest
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.io.sampling import even_clock, find_clock_steps, uniform
 from ragg_runtime.screening.repeated import leave_out_repeated
-from ragg_runtime.screening.spikes import find_glitches, find_spikes
+from ragg_runtime.screening.spikes import find_glitches, find_spikes, leave_out_glitches
 from ragg_runtime.signals.resolution import find_step
 
 N = 9600
@@ -52,6 +53,42 @@ def test_motion_that_is_held_at_another_rate_is_interpolated() -> None:
     found = screened(SMOOTH[k], "a_x")
     assert np.mean(found.valid) == pytest.approx(1 / 3.2, abs=0.01)
     assert found.flags[0].columns == ("a_x",) and not found.flags[0].open
+
+
+@pytest.mark.parametrize("fast", [False, True])
+def test_an_angular_acceleration_faster_than_the_held_rate_is_said(fast: bool) -> None:
+    x = (SMOOTH + 0.1 * NOISE * fast)[np.arange(N) // 2 * 2]
+    columns = dict.fromkeys(ANGULAR_RATE, x) | dict.fromkeys(ANGULAR_ACCELERATION, np.gradient(x, 1 / 16))
+    flight = Flight(time=TIME, channels=columns, outputs={}, written=dict.fromkeys(ANGULAR_RATE, "rad/s"))
+    (flag,) = leave_out_repeated(flight).flags
+    assert flag.open == fast and ("derived from it, changes faster" in flag.reason) == fast
+
+
+ANGLE = np.mod(2 * np.pi * 0.25 * TIME + 1, 2 * np.pi)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "lost"),
+    [
+        (ANGLE[np.arange(N) // 4 * 4], 0),
+        (np.where((TIME > 100) & (TIME < 102), ANGLE[1601], ANGLE), 30),
+        (np.where((TIME > 100) & (TIME < 101), 0.0, ANGLE), 15),
+        (np.where(np.arange(N) % 97 == 5, 0.0, ANGLE), 99),
+        (np.where(np.arange(N) == 5000, 1e4, ANGLE), 1),
+    ],
+    ids=["held", "stuck", "zero", "zeros here and there", "spike"],
+)
+def test_an_encoder_is_mended(wrong: np.ndarray, lost: int) -> None:
+    found = leave_out_glitches(screened(wrong, "spin_angle"))
+    off = np.angle(np.exp(1j * (found.channels["spin_angle"] - ANGLE)))
+    assert np.max(np.abs(off)) < 1e-9
+    assert np.sum(~found.valid) == pytest.approx(lost, abs=3)
+
+
+def test_a_drop_out_at_an_end_of_the_range_is_no_saturation() -> None:
+    x = 2 + SMOOTH
+    x[1000:1008] = 0.0
+    assert np.flatnonzero(np.isnan(screened(x).outputs["G_out"])).tolist() == list(range(1000, 1008))
 
 
 @pytest.mark.parametrize("name", ["G_out", "a_x"])

@@ -113,10 +113,10 @@ def test_the_spin_rate_is_measured(error: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("measured", "shown"), [(0.2500000158, "0.250000016"), (0.250012503, "0.2500125"), (0.25, "0.25")]
+    ("measured", "shown"), [(0.25000001, "0.25"), (0.250012503, "0.2500125"), (0.25, "0.25")]
 )
-def test_a_spin_rate_that_differs_is_never_told_as_the_models_own(measured: float, shown: str) -> None:
-    assert timing.in_digits(measured, 0.25, 300.0) == shown
+def test_a_spin_rate_has_the_digits_that_the_record_tells(measured: float, shown: str) -> None:
+    assert timing.in_digits(measured, 300.0) == shown
 
 
 @pytest.mark.parametrize(("samples", "of"), [(1, ("a_", "om")), (-200, ("a_", "om")), (32, ("a_",))])
@@ -129,9 +129,10 @@ def test_what_is_late_is_measured_and_flagged(samples: int, of: tuple[str, ...])
     assert ("the motion record" if len(of) == 2 else "a_x, a_y, a_z are 2 s") in flag.reason
 
 
-def test_lost_rows_are_said_before_the_disc_is_blamed() -> None:
+@pytest.mark.parametrize(("count", "words"), [(21, "21 rows are missing"), (1, "1 row is missing")])
+def test_lost_rows_are_said_before_the_disc_is_blamed(count: int, words: str) -> None:
     x = flown(12)
-    kept = np.r_[0:1088, 1109 : len(x)]
+    kept = np.r_[0:1088, 1088 + count : len(x)]
     lost = replace(
         x,
         time=x.time[: len(kept)],
@@ -139,7 +140,7 @@ def test_lost_rows_are_said_before_the_disc_is_blamed() -> None:
         channels={n: v[kept] for n, v in x.channels.items()},
         outputs={n: v[kept] for n, v in x.outputs.items()},
     )
-    with pytest.raises(UserError, match=r"rows were lost at t = 68(\.\d+)? s: 21 rows") as caught:
+    with pytest.raises(UserError, match=rf"rows were lost at t = 6[78](\.\d+)? s: {words}") as caught:
         screen(MODEL, drawn(12).sheet, lost)
     assert "write spin_frequency" not in str(caught.value)
 
@@ -158,7 +159,7 @@ def test_a_clock_that_was_set_is_said_with_its_time(size: float) -> None:
     wrong = replace(
         x,
         time=np.arange(wide) / 16 if gap else x.time + size * late,
-        valid=spread(np.ones(len(x)), 0.0) > 0,
+        valid=(spread(np.ones(len(x)), 0.0) > 0) & (np.abs(np.arange(wide) - 2400) > 40 * (gap > 0)),
         channels={n: spread(v, v[2400]) for n, v in x.channels.items()},
         outputs={n: spread(v, np.nan) for n, v in x.outputs.items()},
     )

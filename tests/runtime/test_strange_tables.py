@@ -67,6 +67,12 @@ CSV = {
     "units in a row of their own": text(",".join(UNITS) + "\n" + ",".join(UNITS.values()), rows()),
     "units in round brackets": text(PLAIN.replace("[", "(").replace("]", ")"), rows()),
     "a header over two rows": text("time [s],a [g],,,omega [deg/h],,,G_out [V]\n,x,y,z,x,y,z,", rows()),
+    "units in the second of two rows": text("time,a,,,omega,,,G_out\n[s],x [g],y [g],z [g],x [deg/h],y [deg/h],z [deg/h],[V]", rows()),
+    "units as in ISO 80000": text(",".join(f"{n} / {u}" for n, u in UNITS.items()), rows()),
+    "units behind a comma": text(";".join(f"{n}, {u}" for n, u in UNITS.items()), rows(), ";"),
+    "bars between columns": text(PLAIN.replace(",", "|"), rows(), "|"),
+    "numbers of Fortran": text(PLAIN, [[f"{c:.9E}".replace("E", "D") for c in r] for r in rows()]),
+    "the minus of print": text(PLAIN, [[str(c).replace("-", "\u2212") for c in r] for r in rows()]),
     "line ends of a Macintosh": text(PLAIN, rows(), end="\r"),
     "another alphabet": text(PLAIN + ",T [°C]", [[*r, 1.0] for r in rows()]).encode("cp1252"),
     "another alphabet late": text(PLAIN + ",remark", [[*r, "böig" if k == N - 1 else "ruhig"] for k, r in enumerate(rows())])
@@ -97,6 +103,9 @@ DATES: dict[str, tuple[list[Any], bool]] = {
     "day first": (stamps("2026-03-13 23:59:58", "%d/%m/%Y %H:%M:%S.%f"), True),
     "month first, in the afternoon": (stamps("2026-03-13 11:59:58", "%m/%d/%y %I:%M:%S.%f %p"), True),
     "month by name": (stamps("2026-03-01 10:00:00", "%d-%b-%Y %H:%M:%S.%f"), True),
+    "month by name, first": ([t.replace(",", "") for t in stamps("2026-03-01 10:00:00", "%b %d %Y %H:%M:%S.%f")], True),
+    "day of the week": (stamps("2026-03-01 10:00:00", "%a %b %d %H:%M:%S.%f %Y"), True),
+    "day of the year": (stamps("2026-03-01 10:00:00", "%Y-%jT%H:%M:%S.%f"), True),
     "time of the day over midnight": (stamps("2026-03-01 23:59:58", "%H:%M:%S.%f"), True),
     "more than a day": ([f"{23 + k // 32}:{59 - k // 32 * 59:02d}:{k % 32 / 16 + 58 - k // 32 * 58:09.6f}" for k in range(N)], False),
     "days of Python": ([f"1 days 0:00:{k / 16:09.6f}" for k in range(N)], False),
@@ -294,6 +303,29 @@ def test_a_map_is_written_whatever_is_odd(tmp_path: Path) -> None:
     assert any("2 rows without the name of a line left out" in n for n in found[0].notes)
 
 
+def test_a_map_of_names_in_groups_and_with_units(tmp_path: Path) -> None:
+    """Channels of TDMS keep the names of their groups; many people write units at the end of a name, and text for numbers."""
+    names = [f"/'Untitled'/'{n}_{u}'" if u != "deg/h" else f"/'imu'/'{n}_dph'" for n, u in UNITS.items()]
+    pd.DataFrame({n: v.astype(str) for n, v in zip(names, VALUES.values(), strict=True)}).to_parquet(
+        tmp_path / "x.parquet"
+    )
+    made = draft_mapping(tmp_path / "x.parquet")
+    assert not made.questions and not made.notes, made
+    same(read_flight(tmp_path / "x.parquet", G0, mapping=parse_mapping(made.text, tmp_path)))
+    (tmp_path / "x.csv").write_text(text("X_Value,u,v", [[*r[:3]] for r in rows()]))
+    made = draft_mapping(tmp_path / "x.csv")
+    assert (
+        "[time]: unit of 'X_Value'" in made.questions[0] and "no column is recognised as a_x" in made.notes[0]
+    )
+
+
+def test_temperatures_below_absolute_zero_are_no_readings() -> None:
+    cold = np.where(np.arange(N) == 7, -300.0, 20.0 + VALUES["a_x"])
+    found = read_flight(dict(zip(HEADER, VALUES.values(), strict=True)) | {"temperature [C]": cold}, G0)
+    assert np.min(found.channels["temperature"]) > 280
+    assert "temperature: 1 sample not above absolute zero: no readings, left out" in found.notes
+
+
 def test_a_file_name_that_is_no_unicode(tmp_path: Path) -> None:
     if sys.platform != "linux":
         pytest.skip("file systems that take any bytes")
@@ -349,10 +381,12 @@ def test_what_a_file_holds(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("spelling", "unit"),
-    [("Volt", "V"), ("DEG/S", "deg/s"), ("mdps", "mdeg/s"), ("\u2103", "degC"), ("m/s²", "m/s^2"), ("Deg/Hr", "deg/h"), ("volts", "V")],
+    [("Volt", "V"), ("DEG/S", "deg/s"), ("mdps", "mdeg/s"), ("\u2103", "degC"), ("m/s²", "m/s^2"), ("Deg/Hr", "deg/h"), ("volts", "V"),
+     ("mVolt", "mV"), ("G", "g"), ("C", "degC")],
 )  # fmt: skip
 def test_spellings(spelling: str, unit: str) -> None:
-    assert units(G0).to_si(1.0, spelling, unit) == pytest.approx(1.0)
+    si = units(G0).base_unit(unit)
+    assert units(G0).to_si(1.0, spelling, si) == pytest.approx(units(G0).to_si(1.0, unit, si))
 
 
 def test_a_decimal_comma_in_a_quantity() -> None:
