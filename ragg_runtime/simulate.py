@@ -246,7 +246,7 @@ def _profile(profile: str, text: str) -> Turning:
             where="--spin",
             found=repr(text),
             expected=FORM,
-            remedy="0.25,0.4@0.05 swings by 0.4 rad every 20 s about 0.25 Hz; 0 stands still",
+            remedy="0.25,0.4@0.05 swings by 0.4 rad every 20 s about 0.25 Hz; 0: it does not spin",
         ) from None
     swung = tuple((s[0], s[1], s[2] if len(s) == 3 else 0.0) for s in parts)
     return Turning(frequency=numbers[0], swings=swung)

@@ -224,4 +224,4 @@ def _taken(handle: int) -> bool:
 
 @cache
 def _say_once() -> None:
-    progress.remark("this file system knows no locks: let one command at a time change things here")
+    progress.remark("this file system has no locks: run one command at a time on this model")

@@ -13,6 +13,9 @@ LIBRARIES = ("numpy", "scipy", "sympy", "pint", "pandas", "pyarrow", "xarray", "
 """What the numbers of a result depend on, beside this package."""
 
 
+MISSING = "not installed"
+
+
 @cache
 def versions() -> dict[str, str]:
     """Name -> version of this package, Python and the libraries that results depend on."""
@@ -24,7 +27,7 @@ def _installed(name: str) -> str:
     try:
         return metadata.version(name)
     except metadata.PackageNotFoundError:
-        return "not installed"
+        return MISSING
 
 
 def command() -> str:

@@ -48,7 +48,7 @@ else:
 @mapping_option
 @click.option("--ladder", is_flag=True, help="Show what each simplification of the model costs, too.")
 @click.option("--calibration", type=click.Choice(["frozen", "self"]), default="self", show_default=True,
-              help="As `ragg calibrate --save` kept it; fitted to these flights.")  # fmt: skip
+              help="frozen: as `ragg calibrate --save` saved it; self: fitted to these flights.")  # fmt: skip
 @click.option("--frozen", is_flag=True, help="The same as --calibration frozen.")
 def compare(
     model_dir: Path,
@@ -166,11 +166,11 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
 @click.option("--duration", type=click.FloatRange(60.0, 86400.0), default=600.0, show_default=True, help="s")
 @click.option("--rate", type=click.FloatRange(1.0, 1000.0), default=None, help="Hz (default: the flights').")
 @click.option("--for", "purpose", type=click.Choice(["effects", "calibration"]), default="effects", show_default=True,
-              help="Separate effects, or calibrate what the compensated channels need.")  # fmt: skip
+              help="Separate effects, or calibrate what the channels need.")  # fmt: skip
 @click.option("--criterion", type=click.Choice(["A", "D"]), default="A", show_default=True,
-              help="calibration: least mean variance of the channels, or least volume.")  # fmt: skip
+              help="calibration: A: least mean variance of the channels; D: least volume.")  # fmt: skip
 @click.option("--run-sheet", type=OutputFile(), metavar="FILE.md",
-              help="calibration: what whoever flies it reads.")  # fmt: skip
+              help="calibration: instructions for the crew.")  # fmt: skip
 @mapping_option
 def next_motion(
     model_dir: Path,
@@ -244,8 +244,8 @@ def calibrate(
     type=click.Choice(["frozen", "self", "crossed", "smoothed", "online"]),
     default="self",
     show_default=True,
-    help="As `ragg calibrate --save` kept it; fitted to these flights; each block of time fitted to all others; drifting "
-    "from block to block; sample by sample, as on board (`export --c` is the same filter in C).",
+    help="frozen: as `ragg calibrate --save` saved it; self: fitted to these flights; crossed: each block of time fitted to "
+    "all others; smoothed: drifting from block to block; online: sample by sample, the filter of `export --c`.",
 )
 @click.option("--frozen", is_flag=True, help="The same as --calibration frozen.")
 @click.option(
@@ -253,14 +253,14 @@ def calibrate(
     type=click.Choice(["fir", "butterworth", "causal"]),
     default="fir",
     show_default=True,
-    help="FIR 0.2 Hz; order 6, 0.18 Hz, forward and backward; the same forward alone.",
+    help="fir: 0.2 Hz, no delay; butterworth: order 6, 0.18 Hz, forward and backward; causal: forward only.",
 )
-@click.option("--noise", type=Finite(0.0, min_open=True),
-              help="online: Eo/sqrt(Hz) of the cross channel (default: from the saved calibration).")  # fmt: skip
-@click.option("--walk", type=Finite(0.0),
-              help="online: how fast the gradient may wander, Eo/sqrt(s) (default: as a low-pass of 0.2 Hz).")  # fmt: skip
-@click.option("--forget", type=Finite(0.0, min_open=True),
-              help="online: time constant of forgetting, s (default: nothing is forgotten).")  # fmt: skip
+@click.option("--noise", type=Finite(0.0, min_open=True), metavar="EO/SQRT(HZ)",
+              help="online: noise of the cross channel (default: from the saved calibration).")  # fmt: skip
+@click.option("--walk", type=Finite(0.0), metavar="EO/SQRT(S)",
+              help="online: how fast the gradient may wander (default: as a low-pass of 0.2 Hz).")  # fmt: skip
+@click.option("--forget", type=Finite(0.0, min_open=True), metavar="S",
+              help="online: time constant of forgetting (default: nothing is forgotten).")  # fmt: skip
 @mapping_option
 def compensate(
     model_dir: Path,

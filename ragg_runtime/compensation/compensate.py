@@ -154,7 +154,7 @@ def find_seeing(instrument: Instrument, observations: Sequence[Observation]) -> 
             "there is no gradient to compensate: no output sees one on a disc that turns",
             where=instrument.path,
             found=", ".join(
-                f"{o.output.name}: disc {'turns' if o.record.turning else 'stands still'}"
+                f"{o.output.name}: disc {'spins' if o.record.turning else 'does not spin'}"
                 for o in observations
             ),
             expected="a turning disc with accelerometers whose sum does not cancel the gradient",

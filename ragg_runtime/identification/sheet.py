@@ -22,7 +22,7 @@ def doubtful(f: Fitted, effect: str) -> str | None:
     if e is None:
         return None
     if e.turning and not any(o.record.turning for o in f.observations):
-        return "the disc stands still: what would turn with it is a constant"
+        return "the disc does not spin: what would turn with it is a constant"
     if not e.told_from and e.common_of is None:
         return None
     own = [n for n, c in enumerate(f.candidates) if c.effect == effect]
@@ -30,12 +30,12 @@ def doubtful(f: Fitted, effect: str) -> str | None:
     known = float(np.linalg.norm(P[:, own]))
     for name in e.told_from:
         if float(np.linalg.norm(_freed(f, name, own)[:, :-1])) < MOST * known:
-            return f"only the sheet's word about {name} tells it from an error of {name}"
+            return f"degenerate with {name}: only the prior of {name} separates them"
     if e.common_of is not None:
         by_each = float(np.sum(P[:, -1] ** 2) - np.sum(_freed(f, e.common_of, own)[:, -1] ** 2))
         by_all, _ = likelihood_ratio.explained(P, own, np.zeros(P.shape[1]))
         if by_all < MOST * by_each:
-            return f"what the record says of {e.common_of} is not what all accelerometers have in common"
+            return f"the errors of {e.common_of} in this record are not common to all accelerometers"
     return None
 
 

@@ -115,7 +115,7 @@ class Units:
             factor = 1 / (2 * math.pi)
         elif self._counts(source, _CYCLES) and self._counts(target, _ANGLES):
             raise UserError(
-                "a frequency stands where an angular rate is needed",
+                "a frequency is given where an angular rate is needed",
                 where=where,
                 found=repr(unit),
                 expected=si_unit,

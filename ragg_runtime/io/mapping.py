@@ -180,7 +180,7 @@ def _time(raw: Mapping[str, Any], null: Null, where: str) -> Time:
     both = order_of(written) is not None and len(names) == 2  # the date and the time of the day
     if (len(names) != count and not both) or not all(isinstance(n, str) and n for n in names):
         how, example = ("two columns", '["DATE", "CLOCK"]') if count == 2 else ("one column", '"..."')
-        raise _refuse(f"time as {written!r} stands in {how}", where, columns, f"column = {example}")
+        raise _refuse(f"time as {written!r} needs {how}", where, columns, f"column = {example}")
     origin = raw.get("origin")
     if origin is not None and (not isinstance(origin, datetime) or written != "seconds"):
         raise _refuse("origin is the instant of second 0", where, origin, "2026-03-01T00:00:00Z, of seconds")

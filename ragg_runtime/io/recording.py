@@ -261,7 +261,7 @@ def read_numbers(c: Column, table: Table, place: str, null: Null = (), remedy: s
             where=at(place, table.row(int(spoiled[0])), f"column {c.name!r}"),
             found=repr(str(texts[spoiled[0]]))[:60],
             expected="a number with a decimal point, or nothing where it is missing",
-            remedy=remedy or "what stands for missing values can be named in a mapping: null = [...]",
+            remedy=remedy or "codes of missing values can be named in a mapping: null = [...]",
         )
     return replace(c, values=numbers)
 

@@ -281,7 +281,7 @@ def _describe(
         longest = gaps[np.argmax(steps[gaps])]
         notes.append(
             f"{len(gaps)} gap{'s' * (len(gaps) > 1)}: {missing} of {len(time) + missing} samples missing, "
-            f"the longest stretch {steps[longest]:.6g} s from t = {time[longest]:.10g} s; "
+            f"the longest lasts {steps[longest]:.6g} s from t = {time[longest]:.10g} s; "
             "they are filled in and not used"
         )
     worst = int(np.argmax(deviation))
@@ -322,7 +322,10 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Arr
     if np.all(steps < 0):
         what, remedy = "the time runs backwards", "sort the rows by time"
     elif np.all(steps == 0) and single is None:
-        what, remedy = "the time stands still", "check the clock or the format in which the time was written"
+        what, remedy = (
+            "the time does not increase",
+            "check the clock or the format in which the time was written",
+        )
     elif np.mean(steps == 0) > SHARED:
         what = "the stamps are too coarse for the rate"
         found, remedy = _describe_coarse(time, steps, single)

@@ -89,7 +89,7 @@ def _compile(command: Sequence[str], work: str) -> None:
         if status == 0:
             return
         told = told or next((x for x in said.splitlines() if "error" in x), "")
-    raise BuildError(f"the C compiler {command[0]} fails: {told or 'it says nothing'}")
+    raise BuildError(f"the C compiler {command[0]} fails: {told or 'without a message'}")
 
 
 def find_compiler() -> list[str]:
@@ -128,7 +128,7 @@ def _run(command: Sequence[str], folder: str | None = None) -> tuple[int, str]:
         except subprocess.TimeoutExpired:
             told = f"the C compiler {command[0]} does not answer within {patience:g} s"
             _given_up[command[0]] = told
-            progress.remark(f"{told}; the slower NumPy code serves")
+            progress.remark(f"{told}; the slower NumPy code is used")
             raise BuildError(told) from None
         except OSError as error:
             raise BuildError(f"the C compiler {command[0]} cannot be run: {error}") from None

@@ -64,7 +64,7 @@ class Voltages(Recorded):
     """The voltage of every accelerometer of the output: m = 4 in the paper's instrument."""
 
     kind = "voltages"
-    words = "V_1 … V_4, each by itself"
+    words = "V_1 … V_4"
     separate = True
 
     def columns(self, layout: Layout, o: Output, held: Container[str]) -> tuple[str, ...] | None:

@@ -9,7 +9,8 @@ import re
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, cast
+from importlib import resources
+from typing import Any
 
 import matplotlib
 from matplotlib.axes import Axes
@@ -48,54 +49,6 @@ NAMES = {
 WIDTH = 9.6
 """Width of every figure, inches: at the page's width a point is a little more than a pixel."""
 
-_STYLE = {
-    "svg.fonttype": "none",  # text stays text: small, sharp, searchable
-    "text.parse_math": False,  # a name from a file may hold a dollar sign
-    "text.usetex": False,
-    "font.family": "sans-serif",
-    "font.sans-serif": ["DejaVu Sans"],
-    "font.size": 9.0,
-    "axes.titlesize": 9.5,
-    "axes.titlelocation": "left",
-    "axes.titlecolor": INK,
-    "axes.labelsize": 9.0,
-    "axes.labelcolor": INK,
-    "axes.edgecolor": LINE,
-    "axes.linewidth": 0.6,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.axisbelow": True,
-    "axes.grid": True,
-    "axes.unicode_minus": True,
-    "axes.formatter.use_mathtext": False,
-    "axes.formatter.useoffset": False,
-    "grid.color": GRID,
-    "grid.linewidth": 0.6,
-    "xtick.color": LINE,
-    "ytick.color": LINE,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "xtick.major.size": 3.0,
-    "ytick.major.size": 3.0,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "xtick.minor.size": 1.5,
-    "ytick.minor.size": 1.5,
-    "xtick.minor.width": 0.4,
-    "ytick.minor.width": 0.4,
-    "lines.linewidth": 1.1,
-    "lines.solid_joinstyle": "round",
-    "legend.frameon": False,
-    "legend.fontsize": 9.0,
-    "legend.handlelength": 1.8,
-    "path.simplify": True,
-    "path.simplify_threshold": 0.2,
-    "figure.dpi": 72.0,
-    "savefig.dpi": 72.0,
-    "savefig.bbox": None,
-    "savefig.transparent": True,
-}
-
 
 @contextmanager
 def style() -> Iterator[None]:
@@ -105,7 +58,8 @@ def style() -> Iterator[None]:
         warnings.filterwarnings("ignore", message=r"Glyph .* missing from")
         with matplotlib.rc_context():
             matplotlib.rcdefaults()
-            matplotlib.rcParams.update(cast("Any", _STYLE))
+            sheet = resources.files("ragg_runtime.report").joinpath("templates", "report.mplstyle")
+            matplotlib.rcParams.update(matplotlib.rc_params_from_file(str(sheet), use_default_template=False))
             yield
 
 

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import platform
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib import metadata, resources
+from importlib import resources
 
 from ragg_runtime.base.errors import missing_package
+from ragg_runtime.base.provenance import MISSING, versions
 from ragg_runtime.wording import numbers
 from ragg_runtime.wording.sections import Plot, Section, escape, render_html
-
-LIBRARIES = ("ragg", "numpy", "scipy", "sympy", "matplotlib")
-"""What a report's numbers and looks depend on."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +98,7 @@ def _footer(origin: Origin, facts: Sequence[tuple[str, str]]) -> str:
     rows = [
         *facts,
         ("derived model", origin.digest),
-        ("versions", ", ".join(f"{n} {v}" for n, v in versions())),
+        ("versions", ", ".join(f"{n} {v}" for n, v in versions().items() if v != MISSING)),
     ]
     listed = "".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in rows if value)
     files = "".join(
@@ -121,17 +118,6 @@ def _anchored(text: str) -> tuple[str, str]:
 
     text = re.sub(r"<h2>(.*?)</h2>", anchor, text, flags=re.DOTALL)
     return text, "\n".join(found)
-
-
-def versions() -> list[tuple[str, str]]:
-    """(name, version) of Python, this package and the libraries that a report depends on."""
-    found = [("Python", platform.python_version())]
-    for name in LIBRARIES:
-        try:
-            found.append((name, metadata.version(name)))
-        except metadata.PackageNotFoundError:
-            continue
-    return found
 
 
 @cache

@@ -261,7 +261,7 @@ def plot_errors(s: Survey) -> Plot:
         for before, after in [[r["error"][k]["rms_Eo"] for k in ("calibrated", "after")]]
     )
     every = [b.value for b in bars] + [b.dots[0] for b in bars]
-    caption = "Error before demodulation of every flight, calibrated by itself. Bars: with the effects found in it; grey: unexplained."
+    caption = "Error before demodulation of every flight, calibrated alone. Bars: with the effects found in it; grey: unexplained."
     return Bars(
         "errors",
         "error of every flight",

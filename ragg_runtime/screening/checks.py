@@ -74,7 +74,7 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
             "the flight is sampled too slowly for the disc",
             where=where,
             found=f"{flight.rate:.6g} Hz",
-            expected=f"more than {4 * f:.6g} Hz: the gradient stands at twice the spin rate of {f:.6g} Hz",
+            expected=f"more than {4 * f:.6g} Hz: the gradient appears at twice the spin rate of {f:.6g} Hz",
             remedy="give the record at its full rate; check the unit of time (s, ms, min) and spin_frequency",
         )
     for name, values in flight.outputs.items():
@@ -107,7 +107,7 @@ def _fast_enough(name: str, flight: Flight, usable: NDArray[np.bool_], f: float)
             "the output is sampled too slowly for the disc",
             where=at(flight.path or flight.name, f"column {name!r}"),
             found=f"{rate:.6g} Hz, beside motion at {flight.rate:.6g} Hz",
-            expected=f"more than {4 * f:.6g} Hz: the gradient stands at twice the spin rate of {f:.6g} Hz",
+            expected=f"more than {4 * f:.6g} Hz: the gradient appears at twice the spin rate of {f:.6g} Hz",
             remedy="give the output at its full rate, or demodulated (inline and cross) before it is thinned out",
         )
 
@@ -125,7 +125,7 @@ def _still(flight: Flight) -> list[Flag]:
     still = [n for n in names if _one_value(flight.channels[n][flight.valid]) is not None]
     if not still:
         return []
-    text = "the motion does not change at all: a record at rest tells little about an instrument"
+    text = "the motion does not change at all: a record at rest determines little of an instrument"
     if len(still) < len(names):
         text = f"{', '.join(still)} {'does' if len(still) == 1 else 'do'} not change at all: a stuck sensor?"
     return [

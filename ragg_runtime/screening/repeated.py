@@ -241,7 +241,7 @@ def _flag(names: Sequence[str], r: _Repeated, flight: Flight) -> Flag:
             f"{b - a + 1} from {flight.time[a]:.5g} s" for a, b in zip(begins[:3], ends[:3], strict=True)
         )
         more = f" and {len(begins) - 3} times more" if len(begins) > 3 else ""
-        what = f"{', '.join(names)}: the value stands still for {some}{more}, which noise does not make; {len(at)} samples not used"
+        what = f"{', '.join(names)}: the value is stuck for {some}{more}, which noise does not make; {len(at)} samples not used"
     return Flag(
         tuple(names), what, len(at), (float(flight.time[at[0]]), float(flight.time[at[-1]])), open=lost
     )

@@ -53,8 +53,8 @@ def coarse_sensors(model: Model, known: Units, s: Sampler, fitted: Explained) ->
         unit = x.written.get(names[0], x.units[names[0]])
         size = step / float(known.to_si(1.0, unit, x.units[names[0]]))
         size, unit = (1e3 * size, f"m{unit}") if unit == "g" else (size, unit)
-        verb = "stands" if len(names) == 1 else "stand"
-        text = f"{', '.join(names)} {verb} in steps of {size:.3g} {unit}, which make about {made:.2g} Eo of the output"
+        verb = "is" if len(names) == 1 else "are"
+        text = f"{', '.join(names)} {verb} recorded in steps of {size:.3g} {unit}, which make about {made:.2g} Eo of the output"
         found.append(Flag(tuple(names), text, len(x), kind="resolution"))
     return found
 

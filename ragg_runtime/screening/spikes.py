@@ -190,7 +190,7 @@ def words_of(name: str, mask: Mask, time: Array) -> str:
     places = np.flatnonzero(mask)
     instants = ", ".join(f"{time[k]:.10g}" for k in places[:3])
     more = ", ..." if len(places) > 3 else ""
-    count = f"{len(places)} sample" + ("s stand" if len(places) > 1 else " stands")
+    count = f"{len(places)} sample" + ("s are" if len(places) > 1 else " is")
     return (
         f"{name}: {count} far off the neighbours (spikes, {100 * np.mean(mask):.2g} %; t = {instants}{more} s);"
         " not used"

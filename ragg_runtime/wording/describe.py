@@ -583,7 +583,7 @@ def history_table(steps: Sequence[Json]) -> Table:
     """The error before and after every step."""
     rows = [
         (
-            str(s["time"]),
+            str(s["time"])[:16].replace("T", " "),
             str(s["action"]),
             str(s["effect"] or numbers.ABSENT),
             *(
@@ -593,7 +593,9 @@ def history_table(steps: Sequence[Json]) -> Table:
         )
         for s in steps
     ]
-    return Table(("when", "step", "effect", "before, Eo", "after, Eo", "held out, Eo"), tuple(rows), words=3)
+    return Table(
+        ("when, UTC", "step", "effect", "before, Eo", "after, Eo", "held out, Eo"), tuple(rows), words=3
+    )
 
 
 def describe_history(steps: Sequence[Json]) -> Sections:

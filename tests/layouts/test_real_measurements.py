@@ -119,7 +119,7 @@ def test_the_length_of_one_arm_alone_is_no_arm_length() -> None:
     i = parse_instrument(text.replace("dR = { value = 0,", "dR = { value = [-3, 0, 0, 0],"))
     f = calibrated_beside(i)
     assert "not what all accelerometers have in common" in str(doubtful(f, "arm-length"))
-    assert "stands still" in str(doubtful(f, "bearing-run-out"))
+    assert "does not spin" in str(doubtful(f, "bearing-run-out"))
 
 
 def test_the_grade_of_a_sheet_is_that_of_its_sigmas() -> None:

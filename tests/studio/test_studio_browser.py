@@ -167,7 +167,7 @@ def test_04_a_cell_of_the_map_lays_its_term_over_the_residual(page: Page) -> Non
     cell = page.locator(".heat tbody button").first
     expect(cell).to_be_visible(timeout=PATIENCE)
     cell.click()
-    expect(page.locator("figure.residual .legend")).to_contain_text("term, fitted by itself")
+    expect(page.locator("figure.residual .legend")).to_contain_text("term, fitted alone")
     page.locator(".heat button[aria-pressed=true]").click()
     box = in_view(page, ".plot.spectrum .u-over")
     y = box["y"] + box["height"] / 2

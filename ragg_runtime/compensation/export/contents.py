@@ -143,7 +143,7 @@ class Contents:
         """What is described less well than by Python, in words."""
         return [
             f"{q.symbol} makes motion late: a series of second order in it, good while it is far below the time scale of the "
-            "motion (ragg itself takes the motion from where it stands in the record)"
+            "motion (ragg itself reads the motion at the delayed instants of the record)"
             for k, q in late(self.model)
             if self.p[k]
         ]

@@ -119,7 +119,7 @@ def resolve(effects: EffectValues | None, count: int = 4) -> Injected:
     for effect, given in (effects or {}).items():
         if effect not in CATALOGUE:
             raise UserError(
-                f"the simulator knows no effect {effect!r}",
+                f"the simulator has no effect {effect!r}",
                 expected=", ".join(CATALOGUE),
                 remedy=did_you_mean(effect, CATALOGUE),
             )

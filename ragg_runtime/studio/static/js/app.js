@@ -188,7 +188,7 @@ const HELP = [
   ["u, r", "undo, redo"],
   ["d", "light or dark"],
   ["wheel", "zoom about the pointer; with Shift: move"],
-  ["drag", "choose a stretch of time, a band of frequencies; double click: all"],
+  ["drag", "choose a segment of time, a band of frequencies; double click: all"],
 ];
 
 export function help() {

@@ -13,7 +13,7 @@ function laid() {
   const tested = server.state.effects.length > 0; // until then nothing is known of what they would do
   if (tested && pointedAt()) return { what: "effect", effects: pointedAt(), words: "predicted signature" };
   if (view.low !== null) return { what: `band:${view.low}:${view.high}`, words: `residual of ${number(view.low)} – ${number(view.high)} Hz` };
-  if (view.term) return { what: `term:${view.term.replace("|", ":")}`, words: "term, fitted by itself" };
+  if (view.term) return { what: `term:${view.term.replace("|", ":")}`, words: "term, fitted alone" };
   if (tested && view.ticked.length) return { what: "effect", effects: view.ticked.join(","), words: "predicted signature" };
   return null;
 }
