@@ -213,12 +213,7 @@ def next_motion(
 @click.option("--drift", is_flag=True, help="Follow the parameters that drift through the flights.")
 @mapping_option
 def calibrate(
-    model_dir: Path,
-    flights: Sequence[Path],
-    save: bool,
-    plan: Path | None,
-    drift: bool,
-    mapping: Path | None,
+    model_dir: Path, flights: Sequence[Path], save: bool, plan: Path | None, drift: bool, mapping: Path | None
 ) -> None:
     """Fit the parameters, with their uncertainty."""
     m = load(model_dir)

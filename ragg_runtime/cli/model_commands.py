@@ -156,12 +156,7 @@ def history(model_dir: Path) -> None:
 )
 @click.option("--voltages", is_flag=True, help="Record V_1 ... V_4 too.")
 def simulate(
-    model_dir: Path,
-    output: str,
-    hidden: Sequence[str],
-    mapping: Path | None,
-    gradient: bool,
-    **options: Any,
+    model_dir: Path, output: str, hidden: Sequence[str], mapping: Path | None, gradient: bool, **options: Any
 ) -> None:
     """Simulate a flight, hidden effects on request."""
     from ragg_runtime.io import write_flight

@@ -228,25 +228,34 @@ def plot_evidence(ranking: Sequence[Mapping[str, Any]], found: Sequence[str], le
     )
 
 
+def error_steps(steps: Sequence[Mapping[str, Any]], now: float | None = None) -> list[Bar]:
+    """The error after every step of a history, held out as dots, and ``now``: pale where the flights, not the model, are others."""
+    bars: list[Bar] = []
+    made = ""
+
+    def begin(value: float | None, held: float | None) -> None:
+        if value is not None and not (bars and abs(value - bars[-1].value) <= 0.02 * value):
+            label = made or ("other flights" if bars else "at first")
+            bars.append(Bar(label, value, strong=bool(made), dots=(np.nan if held is None else held,)))
+
+    for s in steps:
+        begin(describe.rms_of(s.get("before")), describe.rms_of(s.get("before"), "holdout"))
+        after, held = (describe.rms_of(s.get("after"), k) for k in ("calibrated", "holdout"))
+        if after is not None:
+            label = f"+ {s['effect']}" if s["action"] == "add" else str(s.get("effect") or s["action"])
+            bars.append(Bar(label, after, dots=(np.nan if held is None else held,)))
+        removed = {"remove": f"{numbers.MINUS} {s.get('effect')}", "edit": "sheet edited"}
+        made = removed.get(str(s["action"]), "")
+    begin(now, None)
+    return bars
+
+
 def plot_history(steps: Sequence[Mapping[str, Any]], noise: float) -> Bars | None:
     """The error after every step of a history against the noise floor, held out as dots."""
-    bars: list[Bar] = []
-    last = float("nan")
-    for entry in steps:
-        start, end = (describe.rms_of(entry.get(k)) for k in ("before", "after"))
-        if start is not None and not abs(start - last) <= 0.02 * start:
-            label = "at first" if not bars else "same model,\nother flights"
-            held = describe.rms_of(entry.get("before"), "holdout")
-            bars.append(Bar(label, start, strong=False, dots=(np.nan if held is None else held,)))
-        if end is not None:
-            sign = {"add": "+", "remove": numbers.MINUS}.get(str(entry.get("action", "")), "")
-            label = f"{sign} {entry.get('effect') or entry.get('action', '')}".strip()
-            held = describe.rms_of(entry.get("after"), "holdout")
-            bars.append(Bar(label, end, dots=(np.nan if held is None else held,)))
-            last = end
+    bars, known = error_steps(steps)[-STEPS:], np.isfinite(noise)
     if not bars:
         return None
-    top, known = max(b.value for b in bars), np.isfinite(noise)
+    top = max(b.value for b in bars)
     caption = "Calibrated error before demodulation after every step." + (
         " Dashed: the noise floor." if known else ""
     )
@@ -254,7 +263,7 @@ def plot_history(steps: Sequence[Mapping[str, Any]], noise: float) -> Bars | Non
         "loop",
         "error after every step",
         caption,
-        tuple(bars[-STEPS:]),
+        tuple(bars),
         "calibrated error, Eo rms",
         upright=True,
         log=bool(known and top > 8.0 * noise > 0.0),

@@ -21,12 +21,7 @@ NEEDED = ("starlette", "uvicorn", "latex2mathml")
     "--port", type=click.IntRange(0, 65535), default=0, help="Port on 127.0.0.1 (default: a free one)."
 )
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
-def studio(
-    model_dir: Path | None,
-    flights: Sequence[Path],
-    port: int,
-    no_browser: bool,
-) -> None:
+def studio(model_dir: Path | None, flights: Sequence[Path], port: int, no_browser: bool) -> None:
     """Work in a browser: compare, diagnose, add, apply.
 
     Prints the address and serves until interrupted, to this machine only. Files are read and written below the

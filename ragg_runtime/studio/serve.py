@@ -33,12 +33,7 @@ CLOSING = 1
 
 
 def serve(
-    model: Path | None,
-    flights: Sequence[Path],
-    port: int,
-    say: Callable[[str], None],
-    *,
-    browser: bool,
+    model: Path | None, flights: Sequence[Path], port: int, say: Callable[[str], None], *, browser: bool
 ) -> None:
     """Open model and flights and serve the page; ``say`` is called with its address once."""
     for path in (*([model] if model else []), *flights):

@@ -58,6 +58,7 @@ def overview(s: State) -> Json:
         else shown_sections(parameters.describe_parameters(s.compared.fitted)),
         "sheet": None if s.loaded is None else shown_sheet(s.loaded.instrument) | {"discs": _discs(s.loaded)},
         "history": None if s.loaded is None else _history(s.loaded),
+        "error_steps": _error_steps(s),
         "compensated": None if s.compensated is None else _compensation(s.compensated),
         "beside": None if s.beside is None else _beside(*s.beside),
         "trial": None if s.trial is None else _trial(s),
@@ -150,11 +151,7 @@ def _about(e: Any) -> Json:
         "equation": mathml(e.equation, block=True),
         "channels": list(e.channels),
         "parameters": [
-            {
-                "symbol": mathml(q.latex),
-                "unit": numbers.unit(q.unit),
-                "meaning": numbers.clean(q.meaning),
-            }
+            {"symbol": mathml(q.latex), "unit": numbers.unit(q.unit), "meaning": numbers.clean(q.meaning)}
             for q in e.parameters
         ],
     }
@@ -306,6 +303,16 @@ def _history(m: Loaded) -> Json:
         "can_undo": len(past) > 1 and bool(history[past[-2]].text),
         "can_redo": bool(future),
     }
+
+
+def _error_steps(s: State) -> list[Json]:
+    """The error after every step of the present branch, ending with what the flights that are open show now."""
+    if s.compared is None:
+        return []
+    history = s.model.directory.history
+    bars = panels.error_steps([history[n].as_json() for n in lineage(history)], s.compared.calibrated.rms_Eo)
+    kinds = {True: "step", False: "start"}
+    return [{"label": numbers.clean(b.label), "value": b.value, "kind": kinds[b.strong]} for b in bars]
 
 
 def _compensation(c: Compensation) -> Json:

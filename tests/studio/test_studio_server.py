@@ -120,23 +120,14 @@ def test_no_command_line_holds_the_token(tmp_path: Path, monkeypatch: pytest.Mon
             assert other.get(f"/?token={token}").status_code == 403
 
 
-@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM])
-def test_the_page_goes_with_the_server(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, end: signal.Signals
-) -> None:
+def test_the_page_goes_with_the_server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with opened(tmp_path, monkeypatch) as (server, _, page):
         with httpx.Client(base_url=server.origin, timeout=60) as c:
             assert c.get("/").status_code == 403  # it serves
         assert page.exists()
-        server.process.send_signal(end)
+        server.process.send_signal(signal.SIGTERM)
         server.process.wait(20)
         assert not page.parent.exists()
-
-
-def test_the_printed_address_serves_beside_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with opened(tmp_path, monkeypatch) as (server, _, page), server.client() as c:
-        assert c.get("/").status_code == 200
-        assert not page.exists()
 
 
 def test_it_listens_to_this_machine_alone(server: Served) -> None:

@@ -60,7 +60,7 @@ export function banner(box) {
     const { state } = server;
     const place = box.querySelector(".bars");
     if (!place || !state || !state.banner) return;
-    const steps = present(state);
+    const steps = [...state.error_steps];
     const now = foreseen();
     if (now && view.ticked.length) {
       steps.push({ label: view.ticked.length > 1 ? `${view.ticked.length} effects?` : `${view.ticked[0]}?`, value: now.rms_Eo, kind: "foreseen" });
@@ -71,21 +71,6 @@ export function banner(box) {
   };
   const off = on("foreseen", bars);
   return { known, gone: off };
-}
-
-/** The error after every step of the present branch, ending with what the flights that are open show now. */
-function present(state) {
-  const steps = [];
-  const far = (value) => !steps.length || Math.abs(steps.at(-1).value - value) > 0.02 * value;
-  let removed = "";
-  const start = (value) => far(value) && steps.push({ label: removed || (steps.length ? "other flights" : "as it was"), value, kind: removed ? "step" : "start" });
-  for (const s of state.history ? state.history.steps.filter((x) => x.present) : []) {
-    if (s.before !== null) start(s.before);
-    if (s.after !== null) steps.push({ label: `+ ${s.effect}`, value: s.after, kind: "step" });
-    removed = s.action === "remove" ? `− ${s.effect}` : s.action === "edit" ? "sheet edited" : "";
-  }
-  start(state.banner.errors[1].rms_Eo);
-  return steps;
 }
 
 // What no known effect explains: a term, or an expression of one's own, tried and kept.
