@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ragg_runtime.wording import numbers
 from ragg_runtime.wording.numbers import listed, number
-from ragg_runtime.wording.sections import Section, Table
+from ragg_runtime.wording.sections import Section, Table, tabulate
 
 Json = Mapping[str, Any]
 Sections = tuple[Section, ...]
+Columns = dict[str, Callable[[Json], str]]
 
 ERROR_KEYS = ("rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz")
 ERROR_HEADS = ("error", "rms, Eo", "inline, Eo", "cross, Eo", "inline, Eo/√Hz", "cross, Eo/√Hz")
@@ -104,18 +105,14 @@ def term_label(t: Json) -> str:
 
 def terms_table(terms: Sequence[Json]) -> Table:
     """Generic terms of a residual, the most significant first."""
-    rows = [
-        (
-            term_label(t),
-            numbers.plus_minus(float(t["coefficient"]), float(t["std"])),
-            numbers.unit_of_term(str(t["unit"])),
-            number(abs(float(t["z"]))),
-            numbers.percent(float(t["share"])),
-        )
-        for t in terms
-    ]
-    heads = ("harmonic × motion term", "coefficient", "unit", "σ", "share of the power")
-    return Table(heads=heads, rows=tuple(rows), brief=5)
+    columns: Columns = {
+        "harmonic × motion term": term_label,
+        "coefficient": lambda t: numbers.plus_minus(float(t["coefficient"]), float(t["std"])),
+        "unit": lambda t: numbers.unit_of_term(str(t["unit"])),
+        "σ": lambda t: number(abs(float(t["z"]))),
+        "share of the power": lambda t: numbers.percent(float(t["share"])),
+    }
+    return tabulate(terms, columns, brief=5)
 
 
 def _off_sheet(found: Sequence[Json]) -> Section:
@@ -125,12 +122,8 @@ def _off_sheet(found: Sequence[Json]) -> Section:
         f" {numbers.with_unit(numbers.plain(x['sheet']), x['unit'])}"
         for x in found
     ]
-    return Section(
-        title="Far from the test sheet",
-        sentences=tuple(lines),
-        detail=len(lines) > 3,
-        summary=f"{len(lines)} parameters are far from their test sheet",
-    )
+    summary = f"{len(lines)} parameters are far from their test sheet"
+    return Section("Far from the test sheet", tuple(lines), detail=len(lines) > 3, summary=summary)
 
 
 def excess(error: float, noise: float) -> float:
@@ -161,11 +154,7 @@ def describe_comparison(
     ]
     where = c["where"]
     if where["motion"]:
-        found.append(
-            Section(
-                title="Where it fails", table=terms_table(where["motion"]), sentences=tuple(_worst(where))
-            )
-        )
+        found.append(Section("Where it fails", tuple(_worst(where)), terms_table(where["motion"])))
     if c["off_sheet"]:
         found.append(_off_sheet(c["off_sheet"]))
     found += _ladder(c.get("ladder", ()))
@@ -203,20 +192,20 @@ def _worst(where: Json) -> list[str]:
 def _ladder(rungs: Sequence[Json]) -> list[Section]:
     if not rungs:
         return []
-    rows = [
-        (
-            str(r["words"]),
-            eotvos(r["nominal"]),
-            eotvos(r["calibrated"]),
-            *(number(None if r["step"] is None else r["step"][k]) for k in ERROR_KEYS[:3]),
-        )
-        for r in rungs
-    ]
-    heads = ("form of the model", "nominal, Eo", "calibrated, Eo", "step, Eo", "inline, Eo", "cross, Eo")
+
+    def step(key: str) -> Callable[[Json], str]:
+        return lambda r: number((r["step"] or {}).get(key))
+
+    columns: Columns = {
+        "form of the model": lambda r: str(r["words"]),
+        "nominal, Eo": lambda r: eotvos(r["nominal"]),
+        "calibrated, Eo": lambda r: eotvos(r["calibrated"]),
+        "step, Eo": step("rms_Eo"),
+        "inline, Eo": step("inline_Eo"),
+        "cross, Eo": step("cross_Eo"),
+    }
     note = "step: what a form changes in the prediction of the one above it"
-    return [
-        Section(title="What each simplification costs", table=Table(heads=heads, rows=tuple(rows), note=note))
-    ]
+    return [Section("What each simplification costs", table=tabulate(rungs, columns, note=note))]
 
 
 def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = "") -> Sections:
@@ -232,42 +221,28 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     )
     rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))
     first, *others = describe_comparison(c, flights, then, rows, judged=False)
-    moved = [
-        (
-            str(r["flight"]),
-            parameter_label(r),
-            numbers.plus_minus(r["frozen"], r["frozen_std"]),
-            numbers.plus_minus(r["value"], r["std"]),
-            numbers.unit(r["unit"]),
-            number(r["z"], 2),
-        )
-        for r in sorted(h["drift"], key=lambda r: -abs(r["z"]))
-        if abs(r["z"]) > 3.0
-    ]
-    heads = ("flight", "parameter", "frozen", "now", "unit", "σ")
+    moved = [r for r in sorted(h["drift"], key=lambda r: -abs(r["z"])) if abs(r["z"]) > 3.0]
+    columns: Columns = {
+        "flight": lambda r: str(r["flight"]),
+        "parameter": parameter_label,
+        "frozen": lambda r: numbers.plus_minus(r["frozen"], r["frozen_std"]),
+        "now": lambda r: numbers.plus_minus(r["value"], r["std"]),
+        "unit": lambda r: numbers.unit(r["unit"]),
+        "σ": lambda r: number(r["z"], 2),
+    }
     found = [Section(sentences=(*head, *first.sentences), state="good" if h["holds"] else "bad"), *others]
     if moved:
-        found.append(
-            Section(title="What moved", table=Table(heads=heads, rows=tuple(moved), words=2, brief=8))
-        )
+        found.append(Section("What moved", table=tabulate(moved, columns, words=2, brief=8)))
     if h["suspects"]:
-        single = [
-            (
-                str(x["name"]),
-                numbers.with_unit(number(x["change"], 3), x["unit"]),
-                numbers.percent(x["share"]),
-            )
-            for x in h["suspects"]
-        ]
+        single: Columns = {
+            "parameter": lambda x: str(x["name"]),
+            "change": lambda x: numbers.with_unit(number(x["change"], 3), x["unit"]),
+            "explains": lambda x: numbers.percent(x["share"]),
+        }
         title = "Single parameters whose change would explain it"
-        table = Table(heads=("parameter", "change", "explains"), rows=tuple(single))
-        found.append(Section(title=title, table=table))
-    return (
-        *found,
-        *next_section(
-            "" if h["holds"] or not again else f"if the instrument may have changed: {again} --save"
-        ),
-    )
+        found.append(Section(title, table=tabulate(h["suspects"], single)))
+    save = "" if h["holds"] or not again else f"if the instrument may have changed: {again} --save"
+    return (*found, *next_section(save))
 
 
 def _equals(log10_p: float | None) -> str:
@@ -360,18 +335,18 @@ def values_sections(effects: Sequence[Json]) -> Sections:
     every = [(e, p) for e in effects for p in (*e["combinations"], *e["parameters"])]
     if not every:
         return ()
-    rows = [(str(e["effect"]), parameter_label(p), with_uncertainty(p)) for e, p in every]
-    clear = [row for row, (e, p) in zip(rows, every, strict=True) if _is_clear(p, e)]
-    heads = ("effect", "parameter", "value")
-    hidden = len(rows) - len(clear)
-    shown = Section(title="Values", table=Table(heads=heads, rows=tuple(clear), words=3)) if clear else None
-    rest = Section(
-        title="All values",
-        table=Table(heads=heads, rows=tuple(rows), words=3),
-        detail=True,
-        summary=f"{counted(hidden, 'value')} of little significance",
-    )
-    return tuple(s for s in (shown, rest if hidden else None) if s is not None)
+    clear = [(e, p) for e, p in every if _is_clear(p, e)]
+    columns: dict[str, Callable[[tuple[Json, Json]], str]] = {
+        "effect": lambda x: str(x[0]["effect"]),
+        "parameter": lambda x: parameter_label(x[1]),
+        "value": lambda x: with_uncertainty(x[1]),
+    }
+    found = [Section("Values", table=tabulate(clear, columns, words=3))] if clear else []
+    if hidden := len(every) - len(clear):
+        summary = f"{counted(hidden, 'value')} of little significance"
+        table = tabulate(every, columns, words=3)
+        found.append(Section("All values", table=table, detail=True, summary=summary))
+    return tuple(found)
 
 
 def describe_diagnosis(d: Json, then: str = "") -> Sections:
@@ -436,24 +411,17 @@ def _remarks(d: Json) -> list[str]:
 def _evidence(d: Json) -> Sections:
     if not d["ranking"]:
         return plain_section("No effect of the catalogue could be tested on this record.")
-    rows = [
-        (
-            str(r["effect"]),
-            numbers.probability(r["log10_p"]),
-            chance(r["probability"]),
-            eotvos(r["error_after"]),
-            eotvos(r["error_after_holdout"]),
-        )
-        for r in d["ranking"]
-    ]
-    heads = ("effect", "p-value", "probability", "error with it, Eo", "held out, Eo")
+    columns: Columns = {
+        "effect": lambda r: str(r["effect"]),
+        "p-value": lambda r: numbers.probability(r["log10_p"]),
+        "probability": lambda r: chance(r["probability"]),
+        "error with it, Eo": lambda r: eotvos(r["error_after"]),
+        "held out, Eo": lambda r: eotvos(r["error_after_holdout"]),
+    }
     note = "p-value: chance of so much evidence without the effect; probability: among the effects of the catalogue."
-    brief = max(RANKED, len(d["found"]))
+    brief, strong = max(RANKED, len(d["found"])), frozenset(d["found"])
     return (
-        Section(
-            title="Evidence",
-            table=Table(heads=heads, rows=tuple(rows), strong=frozenset(d["found"]), brief=brief, note=note),
-        ),
+        Section("Evidence", table=tabulate(d["ranking"], columns, strong=strong, brief=brief, note=note)),
     )
 
 
@@ -504,24 +472,16 @@ def _untestable(d: Json) -> Sections:
     sizes: dict[str, list[str]] = {}
     for s in d["detectable"]:
         sizes.setdefault(s["effect"], []).append(str(s["three_sigma"]))
-    count = f"{len(silent)} effect{'s' if len(silent) != 1 else ''} of the catalogue cannot be tested on this record"
     found = []
     if silent:
-        found.append(
-            Section(
-                title="Not testable",
-                table=Table(("effect", "why"), silent, words=2),
-                detail=True,
-                summary=count,
-            )
-        )
+        count = f"{counted(len(silent), 'effect')} of the catalogue cannot be tested on this record"
+        table = Table(("effect", "why"), silent, words=2)
+        found.append(Section("Not testable", table=table, detail=True, summary=count))
     if sizes:
         rows = tuple((str(e), ", ".join(v)) for e, v in sizes.items())
-        note = (
-            "Size that would stand out at three standard deviations, in the accelerometer that shows it best."
-        )
+        note = "Size that would be significant at three standard deviations, in the accelerometer that shows it best."
         table = Table(("effect", "detection limit (3 σ)"), rows, words=2, note=note)
-        found.append(Section(title="Detection limits", table=table, detail=True))
+        found.append(Section("Detection limits", table=table, detail=True))
     return tuple(found)
 
 
@@ -581,21 +541,15 @@ def rms_of(entry: Json | None, which: str = "calibrated") -> float | None:
 
 def history_table(steps: Sequence[Json]) -> Table:
     """The error before and after every step."""
-    rows = [
-        (
-            str(s["time"])[:16].replace("T", " "),
-            str(s["action"]),
-            str(s["effect"] or numbers.ABSENT),
-            *(
-                number(rms_of(s.get(entry), which))
-                for entry, which in (("before", "calibrated"), ("after", "calibrated"), ("after", "holdout"))
-            ),
-        )
-        for s in steps
-    ]
-    return Table(
-        ("when, UTC", "step", "effect", "before, Eo", "after, Eo", "held out, Eo"), tuple(rows), words=3
-    )
+    columns: Columns = {
+        "when, UTC": lambda s: str(s["time"])[:16].replace("T", " "),
+        "step": lambda s: str(s["action"]),
+        "effect": lambda s: str(s["effect"] or numbers.ABSENT),
+        "before, Eo": lambda s: number(rms_of(s.get("before"))),
+        "after, Eo": lambda s: number(rms_of(s.get("after"))),
+        "held out, Eo": lambda s: number(rms_of(s.get("after"), "holdout")),
+    }
+    return tabulate(steps, columns, words=3)
 
 
 def describe_history(steps: Sequence[Json]) -> Sections:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from ragg_runtime.wording import numbers
 from ragg_runtime.wording.describe import (
     CLEAR,
+    Columns,
     Json,
     Sections,
     counted,
@@ -26,7 +27,7 @@ from ragg_runtime.wording.describe import (
     with_uncertainty,
 )
 from ragg_runtime.wording.numbers import number
-from ragg_runtime.wording.sections import Section, Table
+from ragg_runtime.wording.sections import Section, Table, tabulate
 
 LISTED = 60
 """Flights of a survey that are listed one by one."""
@@ -61,31 +62,27 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
         floor_row(c),
     ]
     clear = [p for p in c["combinations"] if significance(p) > CLEAR]
-    combined = tuple((parameter_label(p), with_uncertainty(p)) for p in clear)
+    every = (*c["combinations"], *c["parameters"])
+    value: Columns = {"parameter": parameter_label, "value": with_uncertainty}
+    sheet: Columns = {
+        "test sheet": lambda p: number(p.get("sheet"), 4),
+        "its uncertainty": lambda p: number(p.get("sheet_sigma"), 4),
+    }
     note = " ".join(patterns_note(clear))
-    single = tuple(
-        (parameter_label(p), with_uncertainty(p), *(number(p.get(k), 4) for k in ("sheet", "sheet_sigma")))
-        for p in (*c["combinations"], *c["parameters"])
-    )
     found = [
         Section(sentences=(head, text), state="good" if c["converged"] else "bad"),
         errors_section(rows),
+        Section("Best-determined combinations", table=tabulate(clear, value, words=2, note=note)),
         Section(
-            title="Best-determined combinations",
-            table=Table(("parameter", "value"), combined, words=2, note=note),
-        ),
-        Section(
-            title="Every parameter",
-            table=Table(("parameter", "value", "test sheet", "its uncertainty"), single, words=2),
+            "Every parameter",
+            table=tabulate(every, value | sheet, words=2),
             detail=True,
-            summary=f"all {len(single)} combinations and parameters",
+            summary=f"all {len(every)} combinations and parameters",
         ),
     ]
     if c["drift"]:
-        drift = tuple((str(q["flight"]), parameter_label(q), with_uncertainty(q)) for q in c["drift"])
-        found.append(
-            Section(title="Each flight alone", table=Table(("flight", "parameter", "value"), drift, words=3))
-        )
+        flight: Columns = {"flight": lambda q: str(q["flight"])}
+        found.append(Section("Each flight alone", table=tabulate(c["drift"], flight | value, words=3)))
     if "drifting" in c:
         found += _drifting(c["drifting"])
     if "certificate" in c:
@@ -126,20 +123,17 @@ def _drifting(d: Json) -> list[Section]:
 def _certificate(rows: Sequence[Json]) -> Section:
     """Each parameter as planned and as reached, those that were not reached first."""
     reached = sum(q["reached"] for q in rows)
-    table = tuple(
-        (
-            parameter_label(q),
-            numbers.with_unit(number(q["value"], 6), q["unit"]),
-            *(number(q[f"std_{k}"], 2) for k in ("before", "planned", "reached")),
-            "" if q["reached"] else "NOT reached",
-        )
-        for q in sorted(rows, key=lambda q: q["reached"])
-    )
-    return Section(
-        title="Certificate",
-        sentences=(f"{reached} of {len(rows)} parameters are as certain as planned (standard uncertainty).",),
-        table=Table(("parameter", "value", "before", "planned", "reached", ""), table, words=2),
-    )
+    columns: Columns = {
+        "parameter": parameter_label,
+        "value": lambda q: numbers.with_unit(number(q["value"], 6), q["unit"]),
+        "before": lambda q: number(q["std_before"], 2),
+        "planned": lambda q: number(q["std_planned"], 2),
+        "reached": lambda q: number(q["std_reached"], 2),
+        "": lambda q: "" if q["reached"] else "NOT reached",
+    }
+    text = f"{reached} of {len(rows)} parameters are as certain as planned (standard uncertainty)."
+    ordered = sorted(rows, key=lambda q: q["reached"])
+    return Section("Certificate", (text,), tabulate(ordered, columns, words=2))
 
 
 def describe_compensation(r: Json, output: str) -> Sections:
@@ -172,20 +166,18 @@ def describe_compensation(r: Json, output: str) -> Sections:
 
 
 def _channels_table(x: Json) -> Table:
-    rows = []
-    for channel in ("inline", "cross"):
-        density = [x["density"][k].get(f"{channel}_Eo_per_rtHz") for k in ("before", "after", "noise")]
-        sizes = [x["std"][k][f"{channel}_Eo"] for k in ("noise", "parameters")]
-        rows.append((channel, *map(number, (*density, *sizes))))
-    heads = (
-        "channel",
-        "nominal, Eo/√Hz",
-        "compensated, Eo/√Hz",
-        "noise, Eo/√Hz",
-        "std by noise, Eo",
-        "std by parameters, Eo",
+    density, std = x["density"], x["std"]
+    return tabulate(
+        ("inline", "cross"),
+        {
+            "channel": str,
+            "nominal, Eo/√Hz": lambda k: number(density["before"].get(f"{k}_Eo_per_rtHz")),
+            "compensated, Eo/√Hz": lambda k: number(density["after"].get(f"{k}_Eo_per_rtHz")),
+            "noise, Eo/√Hz": lambda k: number(density["noise"].get(f"{k}_Eo_per_rtHz")),
+            "std by noise, Eo": lambda k: number(std["noise"][f"{k}_Eo"]),
+            "std by parameters, Eo": lambda k: number(std["parameters"][f"{k}_Eo"]),
+        },
     )
-    return Table(heads, tuple(rows))
 
 
 def describe_online(r: Json, output: str) -> Sections:
@@ -202,22 +194,23 @@ def describe_online(r: Json, output: str) -> Sections:
 
 def describe_catalogue(entries: Sequence[Json]) -> Sections:
     """The catalogue of effects."""
-    rows = tuple((str(e["id"]), str(e["title"]), ", ".join(e["channels"])) for e in entries)
-    return (Section(table=Table(("effect", "what it is", "channels it needs"), rows, words=3)),)
+    columns: Columns = {
+        "effect": lambda e: str(e["id"]),
+        "what it is": lambda e: str(e["title"]),
+        "channels it needs": lambda e: ", ".join(e["channels"]),
+    }
+    return (Section(table=tabulate(entries, columns, words=3)),)
 
 
 def describe_effect(e: Json) -> Sections:
     """One effect in full."""
-    rows = tuple(
-        (
-            q["name"],
-            q["unit"],
-            f"{q['plausible']:g}",
-            "one value" if q["shared"] else "each accelerometer",
-            q["meaning"],
-        )
-        for q in e["parameters"]
-    )
+    columns: Columns = {
+        "name": lambda q: str(q["name"]),
+        "unit": lambda q: str(q["unit"]),
+        "prior (1 σ)": lambda q: f"{q['plausible']:g}",
+        "for": lambda q: "one value" if q["shared"] else "each accelerometer",
+        "meaning": lambda q: str(q["meaning"]),
+    }
     facts = (
         ("needs", ", ".join(e["channels"]) or "the motion alone"),
         ("limits", e["limits"] or "none stated"),
@@ -225,9 +218,7 @@ def describe_effect(e: Json) -> Sections:
     )
     return (
         Section(sentences=(f"{e['id']}: {e['title']}", e["physics"]), code=(e["equation"],)),
-        Section(
-            title="Parameters", table=Table(("name", "unit", "prior (1 σ)", "for", "meaning"), rows, words=5)
-        ),
+        Section("Parameters", table=tabulate(e["parameters"], columns, words=5)),
         Section(table=Table(("", ""), facts, words=2)),
     )
 
@@ -236,35 +227,26 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
     """The result of ``survey``; ``headline`` counts the verdicts, ``advice`` says what to do, in sentences."""
     done = [r for r in s["flights"] if "verdict" in r]
     failed = [r for r in s["flights"] if "verdict" not in r]
-    rows = [
-        (
-            str(r["flight"]),
-            r["verdict"],
-            *(
-                number((r["error"][k] or {}).get("rms_Eo"))
-                for k in ("nominal", "calibrated", "holdout", "after")
-            ),
-            number(r["noise_floor"]["rms_Eo"]),
-            " ".join(map(str, r["found"])),
-        )
-        for r in done[:LISTED]
-    ]
-    heads = (
-        "flight",
-        "verdict",
-        "nominal, Eo",
-        "calibrated, Eo",
-        "held out, Eo",
-        "after, Eo",
-        "noise, Eo",
-        "found",
-    )
+
+    def error(key: str) -> Callable[[Json], str]:
+        return lambda r: eotvos(r["error"][key])
+
+    columns: Columns = {
+        "flight": lambda r: str(r["flight"]),
+        "verdict": lambda r: str(r["verdict"]),
+        "nominal, Eo": error("nominal"),
+        "calibrated, Eo": error("calibrated"),
+        "held out, Eo": error("holdout"),
+        "after, Eo": error("after"),
+        "noise, Eo": lambda r: eotvos(r["noise_floor"]),
+        "found": lambda r: " ".join(map(str, r["found"])),
+    }
     bad = s["counts"]["error"] or s["counts"]["unexplained"]
     state = "bad" if bad else "good" if s["counts"]["adequate"] == len(done) else "found"
     found = [Section(sentences=(headline, *advice), state=state)]
-    if rows:
+    if done:
         more = f"and {len(done) - LISTED} more" if len(done) > LISTED else ""
-        found.append(Section(title="Flights", table=Table(heads, tuple(rows), words=2, note=more)))
+        found.append(Section("Flights", table=tabulate(done[:LISTED], columns, words=2, note=more)))
     about: dict[str, list[str]] = {}
     for r in done:
         for note in r["notes"]:
@@ -275,58 +257,43 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
         summary = f"{counted(len(noted), 'note')} on the flights"
         found.append(Section(title="Notes", table=table, detail=True, summary=summary))
     if s["effects"]:
-        counts = tuple(
-            (str(e["effect"]), str(e["found"]), str(e["perhaps"]), str(e["testable"])) for e in s["effects"]
-        )
+        heads = ("effect", "found", "perhaps", "testable")
+        counts = tuple(tuple(str(e[k]) for k in heads) for e in s["effects"])
         note = "found: claimed; perhaps: explains as much as what is claimed; testable: the record could have shown it"
-        found.append(
-            Section(
-                title="Effects", table=Table(("effect", "found", "perhaps", "testable"), counts, note=note)
-            )
-        )
+        found.append(Section("Effects", table=Table(heads, counts, note=note)))
     if s["unexplained_terms"]:
-        terms = tuple((term_label(t), str(t["flights"])) for t in s["unexplained_terms"])
+        terms: Columns = {"harmonic × motion term": term_label, "flights": lambda t: str(t["flights"])}
         found.append(
-            Section(
-                title="What no effect explains",
-                table=Table(("harmonic × motion term", "flights"), terms, brief=8),
-            )
+            Section("What no effect explains", table=tabulate(s["unexplained_terms"], terms, brief=8))
         )
     if s["parameters"]:
         found.append(_trends(s["parameters"]))
     if failed:
-        rows_ = tuple((str(r["flight"]), " ".join(str(r["error"]["message"]).split())) for r in failed)
-        text = ("The other flights are not affected.",)
-        found.append(
-            Section(
-                title="Flights in error",
-                sentences=text,
-                table=Table(("flight", "what is wrong"), rows_, words=2),
-            )
-        )
+        wrong: Columns = {
+            "flight": lambda r: str(r["flight"]),
+            "what is wrong": lambda r: " ".join(str(r["error"]["message"]).split()),
+        }
+        text = "The other flights are not affected."
+        found.append(Section("Flights in error", (text,), tabulate(failed, wrong, words=2)))
     return tuple(found)
 
 
 def _trends(parameters: Sequence[Json]) -> Section:
-    rows = []
-    for t in parameters:
+    def mean(t: Json) -> str:
         std = min(s for s in t["stds"] if s is not None)
-        label = t["name"] if t["accelerometer"] is None else f"{t['name']}[{t['accelerometer']}]"
-        mean = numbers.with_unit(numbers.rounded(t["mean"], std), t["unit"])
-        cells = (
-            str(t["dof"] + 1),
-            mean,
-            number(t["scatter"], 2),
-            number(t["chi2"] / t["dof"], 2),
-            number(t["slope_z"], 2),
-        )
-        rows.append((str(label), *cells))
+        return numbers.with_unit(numbers.rounded(t["mean"], std), t["unit"])
+
+    columns: Columns = {
+        "parameter": parameter_label,
+        "flights": lambda t: str(t["dof"] + 1),
+        "mean": mean,
+        "scatter": lambda t: number(t["scatter"], 2),
+        "χ²/dof": lambda t: number(t["chi2"] / t["dof"], 2),
+        "slope/sd": lambda t: number(t["slope_z"], 2),
+    }
     varying = sum(bool(t["varies"]) for t in parameters)
-    heads = ("parameter", "flights", "mean", "scatter", "χ²/dof", "slope/sd")
-    text = f"{varying} of {len(rows)} calibrated parameters differ from flight to flight; the least constant first."
-    return Section(
-        title="Parameters from flight to flight", sentences=(text,), table=Table(heads, tuple(rows), brief=12)
-    )
+    text = f"{varying} of {len(parameters)} calibrated parameters differ from flight to flight; the least constant first."
+    return Section("Parameters from flight to flight", (text,), tabulate(parameters, columns, brief=12))
 
 
 def describe_next_motion(r: Json, output: str) -> Sections:
@@ -384,22 +351,20 @@ def _record_sections(r: Json) -> list[Section]:
     if r["refused"]:
         why = "; ".join(line.strip() for line in str(r["refused"]).splitlines())
         text.append(f"This record cannot be used as it is: {why}.")
-    rows = [
-        (
-            str(c["name"]),
-            numbers.unit(c["unit"]) or "1",
-            *(number(c[k], 4) for k in ("minimum", "mean", "maximum")),
-            str(c["missing"]),
-        )
-        for c in r["columns"]
-    ]
-    table = Table(("column", "unit", "minimum", "mean", "maximum", "missing"), tuple(rows), words=2)
-    gaps = [(number(g["from_s"], 6), number(g["to_s"], 6), str(g["samples"])) for g in r["gaps"]]
-    found = [Section(title=str(r["name"]), sentences=tuple(text), table=table)]
-    if gaps:
-        found.append(
-            Section(
-                title="Gaps", table=Table(("from, s", "to, s", "samples"), tuple(gaps), words=0), detail=True
-            )
-        )
+    columns: Columns = {
+        "column": lambda c: str(c["name"]),
+        "unit": lambda c: numbers.unit(c["unit"]) or "1",
+        "minimum": lambda c: number(c["minimum"], 4),
+        "mean": lambda c: number(c["mean"], 4),
+        "maximum": lambda c: number(c["maximum"], 4),
+        "missing": lambda c: str(c["missing"]),
+    }
+    gaps: Columns = {
+        "from, s": lambda g: number(g["from_s"], 6),
+        "to, s": lambda g: number(g["to_s"], 6),
+        "samples": lambda g: str(g["samples"]),
+    }
+    found = [Section(str(r["name"]), tuple(text), tabulate(r["columns"], columns, words=2))]
+    if r["gaps"]:
+        found.append(Section("Gaps", table=tabulate(r["gaps"], gaps, words=0), detail=True))
     return found

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from ragg_runtime.base.errors import one_line
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,11 @@ class Table:
     strong: frozenset[str] = frozenset()
     brief: int | None = None
     note: str = ""
+
+
+def tabulate(items: Iterable[T], columns: Mapping[str, Callable[[T], str]], **more: Any) -> Table:
+    """A table with a row for each item: the head of every column and what makes its cell."""
+    return Table(tuple(columns), tuple(tuple(f(x) for f in columns.values()) for x in items), **more)
 
 
 @dataclass(frozen=True)

@@ -242,7 +242,7 @@ def test_07_compensated_channels_and_files(page: Page) -> None:
     expect(page.locator(".channels .u-over")).to_have_count(2, timeout=PATIENCE)
     expect(page.locator(".view-apply tbody tr", has_text="inline").first).to_be_visible()
     with page.expect_download() as got:
-        page.get_by_role("link", name="Take it as CSV").click()
+        page.get_by_role("link", name="Save as CSV").click()
     rows = Path(got.value.path()).read_text().splitlines()
     assert rows[0] == "time [s],inline [Eo],cross [Eo],inline_std [Eo],cross_std [Eo],quality [1]"
     idle(page)

@@ -18,7 +18,7 @@ const VIEWS = [
   ["history", "History", historyView],
   ["files", "Files", filesView],
   ["apply", "Apply", applyView],
-  ["take", "Take away", takeView],
+  ["take", "Save", takeView],
 ];
 const $ = (id) => document.getElementById(id);
 let leave = null;

@@ -35,7 +35,7 @@ export function applyView(main) {
         h("button", { type: "button", disabled: busy || !flown(state), onclick: () => doing("calibrate") }, "Save the parameters of these flights"),
         h("p.note", {}, state.model.calibrated ? `The model has a saved calibration ${state.model.calibrated}.` : "The model has no saved calibration yet.")),
       c ? c.sections.map(sectionNode) : null,
-      c ? h("p.row", {}, ["csv", "parquet"].map((e) => h("a", { href: `/api/take/compensated.${e}`, download: `compensated.${e}` }, `Take it as ${e === "csv" ? "CSV" : "Parquet"}`))) : null);
+      c ? h("p.row", {}, ["csv", "parquet"].map((e) => h("a", { href: `/api/take/compensated.${e}`, download: `compensated.${e}` }, `Save as ${e === "csv" ? "CSV" : "Parquet"}`))) : null);
   };
 
   const drop = () => (plots.forEach((p) => p.made.gone()), (plots = []));
