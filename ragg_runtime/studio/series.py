@@ -17,7 +17,7 @@ from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.report import parameters, whiteness
 from ragg_runtime.report.plots import draw_file
-from ragg_runtime.studio.pyramid import Pyramid, pyramid, pyramid_with_gaps
+from ragg_runtime.studio.sampled import Sampled
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
 
@@ -92,16 +92,16 @@ def _place(s: State, a: Asked) -> int:
     return known[a.output]
 
 
-def _unexamined(s: State, flight: int) -> Pyramid:
+def _unexamined(s: State, flight: int) -> Sampled:
     """The output of a flight as it was read, before it is compared."""
     x = s.flights[flight]
     if not x.outputs or not len(x):
         raise UserError("the flight holds no output", where=x.name)
     values = next(iter(x.outputs.values()))
-    return s.cache.get(("read", flight), lambda: pyramid(0.0, 1.0 / x.rate, values))
+    return s.cache.get(("read", flight), lambda: Sampled.of(0.0, 1.0 / x.rate, values))
 
 
-def _compensated(s: State, what: str, flight: int) -> Pyramid:
+def _compensated(s: State, what: str, flight: int) -> Sampled:
     """``inline`` and such, or ``inline:low`` and ``inline:high``: one standard uncertainty below and above it, Eo."""
     c = s.compensated
     name, _, edge = what.partition(":")
@@ -116,28 +116,28 @@ def _compensated(s: State, what: str, flight: int) -> Pyramid:
     start, end = (float(x["time"][k]) for k in (0, -1))
     y = x[name] + sign * x[f"{name}_std"] if sign else x[name]
     key = ("compensated", c.result["calibration"], c.result["demodulator"]["name"], what, flight)
-    return s.cache.get(key, lambda: pyramid(start, (end - start) / max(1, len(y) - 1), y))
+    return s.cache.get(key, lambda: Sampled.of(start, (end - start) / max(1, len(y) - 1), y))
 
 
-def _channel(s: State, name: str, n: int) -> Pyramid:
+def _channel(s: State, name: str, n: int) -> Sampled:
     """A recorded channel in its own unit."""
     r = _known(s).fitted.prepared[n].observation.record
     if name not in r.wide:
         raise UserError("the flight has no such channel", found=repr(name[:40]))
     y = np.where(r.valid, r.wide[name], np.nan)
-    return s.cache.get(("channel", name, n), lambda: pyramid(float(r.time[0]), 1.0 / r.rate, y))
+    return s.cache.get(("channel", name, n), lambda: Sampled.of(float(r.time[0]), 1.0 / r.rate, y))
 
 
-def _drawn(s: State, a: Asked, n: int) -> Pyramid:
+def _drawn(s: State, a: Asked, n: int) -> Sampled:
     """A series in V, Eo, or demodulated (``inline``, ``cross``, Eo)."""
     f = _known(s).fitted
     r, rows = f.prepared[n].observation.record, _rows_known(s, a, n)
 
-    def make() -> Pyramid:
+    def make() -> Sampled:
         x, time = _volts(s, a, n, a.what, rows), r.time[rows]
         if a.unit not in DEMODULATED:
             y = np.where(r.valid[rows], x / (1.0 if a.unit == "V" else f.scales[n]), np.nan)
-            return pyramid(float(time[0]), 1.0 / r.rate, y)
+            return Sampled.of(float(time[0]), 1.0 / r.rate, y)
         if not r.turning:
             raise UserError("disc not spinning: no demodulation")
         if len(x) < len(r.time):
@@ -145,7 +145,7 @@ def _drawn(s: State, a: Asked, n: int) -> Pyramid:
         found = comparison.demodulated_one(f, n, x)
         if not len(found[0]):
             raise UserError("the flight is too short to be demodulated", where=f.observations[n].name)
-        return pyramid_with_gaps(found[0], found[1 + DEMODULATED.index(a.unit)], 1.0 / r.rate)
+        return Sampled.with_gaps(found[0], found[1 + DEMODULATED.index(a.unit)], 1.0 / r.rate)
 
     effects = a.effects if a.what in ("effect", "left") else ()
     return s.cache.get(("drawn", a.what, a.unit, n, effects, rows.start, rows.stop), make)

@@ -33,7 +33,7 @@ from ragg_runtime.io.draft import draft_mapping
 from ragg_runtime.io.files import ENDINGS, ending_of
 from ragg_runtime.model import derive
 from ragg_runtime.model.directory import Step, load_model_dir
-from ragg_runtime.studio.pyramid import Cache
+from ragg_runtime.studio.sampled import Cache
 
 Part = Callable[[str, float], None]
 Edit = tuple[RawQuantity, tuple[float, ...] | None]

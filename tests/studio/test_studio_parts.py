@@ -27,8 +27,8 @@ from ragg_runtime.io import write_flight
 from ragg_runtime.model.directory import Step
 from ragg_runtime.simulate import simulated
 from ragg_runtime.studio import mapping, session, views
-from ragg_runtime.studio.pyramid import HEAD, pyramid
 from ragg_runtime.studio.routes import ACTIONS
+from ragg_runtime.studio.sampled import HEAD, Sampled
 from ragg_runtime.studio.session import Places, Session, branches, lineage
 from ragg_runtime.studio.views import mathml, missing
 from tests.layouts import sheets
@@ -81,12 +81,12 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
     assert np.nanmax(np.abs(given.z)) < h.level
 
 
-def test_a_pyramid_loses_no_extreme_and_no_gap() -> None:
+def test_a_window_of_a_series_loses_no_extreme_and_no_gap() -> None:
     n = 200_003
     x = np.random.default_rng(3).normal(size=n)
     x[77_777], x[123_456] = 50.0, -60.0
     x[10_000:11_000] = np.nan
-    p = pyramid(5.0, 0.01, x)
+    p = Sampled.of(5.0, 0.01, x)
     for first, last, points in (
         (5.0, 2005.03, 700),
         (700.0, 1300.0, 300),
