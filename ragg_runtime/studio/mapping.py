@@ -208,7 +208,7 @@ def check_upload(path: Path, seconds: float | None = None) -> None:
     A damaged file can bring down the library that reads it: then that process ends, and not the studio. A file with columns of
     other names is kept: what they are is asked on the page.
     """
-    limit = 30.0 + path.stat().st_size / 2e6 if seconds is None else seconds
+    limit = 120.0 + path.stat().st_size / 2e6 if seconds is None else seconds
     command = [sys.executable, "-m", "ragg_runtime", "info", str(path)]
     found = "it ends with a fault"
     try:
