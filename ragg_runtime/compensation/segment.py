@@ -69,8 +69,8 @@ MEANING = {
     Quality.EDGE: "the low-pass has not heard enough at this end of the record: no value",
     Quality.GAP: "more than 5 % of what the low-pass hears is missing: no value",
     Quality.BRIDGED: "a missing or saturated sample within reach was bridged",
-    Quality.MOTION: "a motion channel is beyond the range that the calibration knows",
-    Quality.AUXILIARY: "an auxiliary channel is beyond the range that the calibration knows",
+    Quality.MOTION: "a motion channel is outside the range of the calibration",
+    Quality.AUXILIARY: "an auxiliary channel is outside the range of the calibration",
     Quality.CALIBRATION: "the frozen calibration does not hold for this flight",
 }
 """What each bit says."""
