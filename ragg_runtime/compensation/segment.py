@@ -66,14 +66,14 @@ NO_VALUE = Quality.EDGE | Quality.GAP
 """Bits of samples without a value."""
 
 MEANING = {
-    Quality.EDGE: "the low-pass has not heard enough at this end of the record: no value",
-    Quality.GAP: "more than 5 % of what the low-pass hears is missing: no value",
-    Quality.BRIDGED: "a missing or saturated sample within reach was bridged",
-    Quality.MOTION: "a motion channel is outside the range of the calibration",
-    Quality.AUXILIARY: "an auxiliary channel is outside the range of the calibration",
-    Quality.CALIBRATION: "the frozen calibration does not hold for this flight",
+    Quality.EDGE: "too near an end of the record for the low-pass: no value",
+    Quality.GAP: "with more than 5 % of the samples missing under the low-pass: no value",
+    Quality.BRIDGED: "with a missing or saturated sample that was bridged",
+    Quality.MOTION: "with a motion channel outside its range in the saved calibration",
+    Quality.AUXILIARY: "with another channel outside its range in the saved calibration",
+    Quality.CALIBRATION: "by a calibration that does not hold for this flight",
 }
-"""What each bit says."""
+"""What each bit says of samples."""
 
 
 @dataclass(frozen=True)

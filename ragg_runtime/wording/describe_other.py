@@ -81,13 +81,44 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
         ),
     ]
     if c["drift"]:
-        flight: Columns = {"flight": lambda q: str(q["flight"])}
-        found.append(Section("Each flight alone", table=tabulate(c["drift"], flight | value, words=3)))
+        found += _flight_by_flight(c["drift"])
     if "drifting" in c:
         found += _drifting(c["drifting"])
     if "certificate" in c:
         found.append(_certificate(c["certificate"]))
     return (*found, *next_section(then))
+
+
+DIFFERENT = 3.0
+"""Standard deviations from the mean of all flights beyond which the value of a flight is listed."""
+
+
+def _flight_by_flight(rows: Sequence[Json]) -> list[Section]:
+    """The combinations as each flight alone has them: those in which flights differ, and every one in detail."""
+    names = list(dict.fromkeys(str(q["name"]) for q in rows))
+    different: list[Json] = []
+    for name in names:
+        own = [q for q in rows if q["name"] == name]
+        weights = [q["std"] ** -2 for q in own]
+        mean = sum(w * q["value"] for w, q in zip(weights, own, strict=True)) / sum(weights)
+        if any(abs(q["value"] - mean) > DIFFERENT * q["std"] for q in own):
+            different += own
+    count = len({q["name"] for q in different})
+    text = f"The flights differ by more than {DIFFERENT:g} σ in {count} of {len(names)} combinations."
+    columns: Columns = {
+        "flight": lambda q: str(q["flight"]),
+        "parameter": parameter_label,
+        "value": with_uncertainty,
+    }
+    return [
+        Section("Flight by flight", (text,), tabulate(different, columns, words=3) if count else None),
+        Section(
+            "Each flight alone",
+            table=tabulate(rows, columns, words=3),
+            detail=True,
+            summary="every combination by each flight alone",
+        ),
+    ]
 
 
 def _drifting(d: Json) -> list[Section]:
@@ -149,13 +180,14 @@ def describe_compensation(r: Json, output: str) -> Sections:
         Section(sentences=(*head, *map(str, r.get("notes", ()))), state="good" if r["converged"] else "bad")
     ]
     several = len({x["output"] for x in r["flights"]}) > 1
+    meanings = [str(x).split(": ", 1) for x in r["quality"].values()]
     for x in r["flights"]:
         name = str(x["flight"]) + (f": {x['output']!s}" if several else "")
-        counts = ", ".join(f"{k!s} {n}" for k, n in x["quality"].items() if n)
-        text = f"Of {x['samples']} samples {x['values']} have a value and {x['good']} are good; flags: {counts or 'none'}."
+        text = f"Of {x['samples']} samples {x['values']} have a value and {x['good']} are good."
+        flags = [f"{x['quality'][flag]} {said}." for flag, said in meanings if x["quality"][flag]]
         removed = [(str(q["of"]), number(q["inline_Eo"]), number(q["cross_Eo"])) for q in x["contributions"]]
         found += [
-            Section(title=name, sentences=(text,), table=_channels_table(x)),
+            Section(title=name, sentences=(text, *flags), table=_channels_table(x)),
             Section(
                 title="What was removed, rms",
                 table=Table(("", "inline, Eo", "cross, Eo"), tuple(removed), brief=8),

@@ -135,7 +135,7 @@ def to_ascii(text: str) -> str:
     text = re.sub(rf"({THIN}×{THIN})?(?<![\d.])10([⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)", exponent, text)
     text = re.sub(rf"(?<=\d){THIN}(?=\d{{3}}(?!\d))", "", text)
     text = (
-        text.replace("Eo/√Hz", "Eo/sqrt(Hz)").replace("Ωt", "Ω t").replace(f"{THIN}σ", "σ").replace(" σ", "σ")
+        re.sub(r"√(\w+)", r"sqrt(\1)", text).replace("Ωt", "Ω t").replace(f"{THIN}σ", "σ").replace(" σ", "σ")
     )
     return re.sub(r"(?<=\d)(?=Ω)", " ", text).translate(_ASCII)
 

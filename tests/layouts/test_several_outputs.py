@@ -111,7 +111,7 @@ def test_a_calibration_drifts_from_flight_to_flight_not_from_output_to_output() 
     c = calibrate(model, sheet, [one, two])
     rows = c.drift()
     assert {r["flight"] for r in rows} == {one.name, "another"}
-    assert len(rows) == 2 * len(c.combinations)
+    assert len(rows) == 2 * len(c.as_json()["combinations"])
     for r in rows:  # every flight alone sees, with all its outputs, what both see
         (joint,) = (q for q in c.as_json()["combinations"] if q["name"] == r["name"])
         assert r["std"] < 1.6 * joint["std"]

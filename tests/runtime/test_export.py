@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -194,25 +195,6 @@ def test_the_headers_serve_a_program_in_cpp(base: tuple[Path, Path, Path], tmp_p
     assert float(done.stdout) == pytest.approx(first, rel=1e-12)
 
 
-def test_missing_values_and_gaps(extended: tuple[Path, Path, Path]) -> None:
-    _, folder, flight = extended
-    lines = flight.read_text().splitlines()
-    whole = answer(program(folder, flight.read_bytes()).stdout)[1]
-    cells = lines[101].split(",")
-    cells[1] = ""
-    rows = [*lines[:101], ",".join(cells), *lines[102:300], *lines[400:]]
-    _, G = answer(program(folder, ("\ufeff# a note\n\n" + "\n".join(rows)).encode()).stdout)
-    assert np.isnan(G[100])
-    assert np.isfinite(np.delete(G, 100)).all()
-    assert np.array_equal(G[:80], whole[:80])
-    # after the gap the derivatives begin anew
-    assert np.max(np.abs(G[312:] - whole[412:])) < 1e-9 * np.std(whole)
-
-
-def header(flight: Path) -> list[str]:
-    return flight.read_text().splitlines()[:40]
-
-
 BAD = {
     "a_x [m/s^2]": ("a_x [g]", "a_x: the column is not in SI units"),
     "omega_y [rad/s]": ("omega_y [deg/h]", "omega_y: the column is not in SI units"),
@@ -224,9 +206,9 @@ BAD = {
 }
 
 
-def test_a_wrong_header_is_one_message(extended: tuple[Path, Path, Path]) -> None:
-    _, folder, flight = extended
-    lines = header(flight)
+def test_a_wrong_header_or_row_is_one_message(base: tuple[Path, Path, Path]) -> None:
+    _, folder, flight = base
+    lines = flight.read_text().splitlines()[:40]
     for what, (wrong, message) in BAD.items():
         assert what in lines[0]
         done = program(folder, "\n".join([lines[0].replace(what, wrong), *lines[1:]]).encode())
@@ -234,20 +216,20 @@ def test_a_wrong_header_is_one_message(extended: tuple[Path, Path, Path]) -> Non
         said = done.stderr.decode()
         assert message in said
         assert said.count("ragg_model:") == 1
+    rows = {
+        "row 3 after the header, column time": [*lines[:3], "x" + lines[3]],
+        "wrong number of values": [*lines[:3], "1,2"],
+        "no rows": lines[:1],
+    }
+    for message, text in rows.items():
+        done = program(folder, "\n".join(text).encode())
+        assert (done.returncode, message in done.stderr.decode()) == (2, True)
+    missing = [*lines[:5], re.sub(",[^,]*,", ",,", lines[5], count=1), *lines[6:]]
+    G = answer(program(folder, ("\ufeff# a note\n\n" + "\n".join(missing)).encode()).stdout)[1]
+    assert np.flatnonzero(np.isnan(G)).tolist() == [4]
     quoted = '"' + lines[0].replace(",", '";"') + '"'
     done = program(folder, "\n".join([quoted, *(x.replace(",", ";") for x in lines[1:])]).encode())
     assert (done.returncode, done.stdout.count(b"\n")) == (0, len(lines))
-
-
-def test_rows_that_are_no_numbers(extended: tuple[Path, Path, Path]) -> None:
-    _, folder, flight = extended
-    lines = header(flight)
-    done = program(folder, "\n".join([*lines[:3], "x" + lines[3]]).encode())
-    assert (done.returncode, b"row 3 after the header, column time" in done.stderr) == (2, True)
-    done = program(folder, "\n".join([*lines[:3], "1,2"]).encode())
-    assert (done.returncode, b"wrong number of values" in done.stderr) == (2, True)
-    done = program(folder, lines[0].encode())
-    assert (done.returncode, b"no rows" in done.stderr) == (2, True)
 
 
 def test_numpy_alone_gives_the_same(extended: tuple[Path, Path, Path], tmp_path: Path) -> None:
@@ -315,14 +297,3 @@ def test_a_calibration_of_another_model_is_not_exported(
     (copy / "calibration.json").write_text(text)
     told = run("export", copy, tmp_path / "c", "--c")
     assert "values of model.toml: the saved calibration belongs to another model" in told
-
-
-def test_numpy_of_the_models_own_kinematics_gives_its_answers(tmp_path: Path) -> None:
-    """`ragg new` makes a model of full kinematics, which no folder of its own derives."""
-    run("new", tmp_path / "m")
-    run("export", tmp_path / "m", tmp_path / "n", "--numpy")
-    motion = (tmp_path / "n" / "test" / "motion.csv").read_bytes()
-    done = subprocess.run(
-        [sys.executable, "ragg_model.py"], cwd=tmp_path / "n", input=motion, capture_output=True, check=True
-    )
-    assert np.max(np.abs(answer(done.stdout)[1] - answered(tmp_path / "n"))) < 1e-9

@@ -64,22 +64,9 @@ def test_with_nothing_forgotten_it_is_the_batch_fit_to_rounding() -> None:
     assert std == pytest.approx(whole[:n], rel=1e-4)
 
 
-def test_the_gradient_is_followed_within_its_uncertainty() -> None:
-    s, o = flown(900.0, 30.0)
-    size = 2 * np.pi / 150.0 * 30.0 * np.sqrt(2)  # Eo/s: the largest slope of the terms that were drawn
-    f = Online(load.packaged(), s.sheet, Tuning(noise=noise(s), walk=1.5))
-    got = f.feed(o)
-    c = s.simulate({}).flight().channels
-    true = np.interp(got.time, o.record.time, (c["Gamma_xx"] - c["Gamma_yy"]) / 1e-9)
-    late = got.time > 400
-    error = (got.inline - true)[late]
-    assert np.std(error) < 2.0 * np.mean(got.inline_std[late]) + size
-    assert abs(np.mean(error)) < 3.0
-
-
 def test_a_drift_is_followed_with_the_stated_lag() -> None:
     """A scale factor that grows steadily: what the filter believes lags by the time constant of its memory."""
-    s, o = flown(1200.0)
+    s, o = flown(700.0)
     forget, rate = 100.0, 1e-8  # s; of A1's own, a second
     model = load.packaged()
     filters = [Online(model, s.sheet, Tuning(noise=noise(s), walk=0.3, forget=forget)) for _ in range(2)]

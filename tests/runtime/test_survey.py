@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import io
 import json
 import os
@@ -20,16 +19,14 @@ import pytest
 from flights_of_a_survey import COUNT, WITH_EFFECT, lines_of, make, without_effect
 
 from ragg_runtime import api
-from ragg_runtime.base import files
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.io import write_flight
 from ragg_runtime.io.tables import Column, Table
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.pages import survey_page
 from ragg_runtime.simulate import simulated
 from ragg_runtime.survey import run
 from ragg_runtime.survey.examine import Record, examine, expand_lines, make_job, split_line
-from ragg_runtime.survey.journal import digest_file, make_head, open_journal
+from ragg_runtime.survey.journal import digest_file, make_head
 from ragg_runtime.survey.result import Survey, make_parquet
 from ragg_runtime.survey.run import name_flights, order_files
 from ragg_runtime.wording.sections import render_text
@@ -92,30 +89,6 @@ def test_a_flight_that_cannot_be_read_is_reported_and_stops_nothing(flights: Fli
     assert (advice["effect"], advice["firm"]) == ("thermal-scale", True)
     assert set(WITH_EFFECT) <= set(advice["flights"])
     assert "ragg add" in said
-
-
-def test_a_flight_with_a_likely_mistake_is_told_as_elsewhere(flights: Flights, tmp_path: Path) -> None:
-    """Where a flight is diagnosed, here or on a cluster, ``examine`` is what looks at it."""
-    m = api.load(flights[0])
-    (good,) = api.read_flights(m, flights[1][1:2])
-    bad = dataclasses.replace(good, outputs={"G_out": 1e3 * good.outputs["G_out"]})
-    write_flight(bad, tmp_path / "millivolts.parquet")
-    toml = flights[0] / "model.toml"
-    error = examine(make_job(toml.read_text(), toml), str(tmp_path / "millivolts.parquet"))["error"]
-    assert error["kind"] == "input"
-    assert "G_out is in mV, not in V" in error["message"]
-
-
-def test_a_file_system_without_locks_is_noted_once(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> None:
-    def refuse(*_: object) -> None:
-        raise OSError(37, "No locks available")
-
-    monkeypatch.setattr("fcntl.flock", refuse)
-    files._say_once.cache_clear()
-    with open_journal(tmp_path / "kept.jsonl", make_job("", tmp_path)):
-        assert capfd.readouterr().err.count("knows no locks") == 1
 
 
 def test_a_flight_that_kills_every_worker_is_given_up(
