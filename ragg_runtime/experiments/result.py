@@ -33,18 +33,17 @@ class Row:
     reason: str
 
     def as_json(self) -> Json:
-        """The row as JSON."""
-        return {
-            "quantity": self.quantity,
-            "where": self.printed.where,
-            "unit": self.printed.unit,
-            "paper": self.printed.value,
-            "paper_gives_order_only": self.printed.order,
-            "ours": self.ours,
-            "spread": None if self.spread is None else list(self.spread),
-            "verdict": self.verdict,
-            "reason": self.reason,
-        }
+        p = self.printed
+        paper = {"where": p.where, "unit": p.unit, "paper": p.value, "paper_gives_order_only": p.order}
+        own = {k: v for k, v in asdict(self).items() if k not in ("quantity", "printed")}
+        return {"quantity": self.quantity, **paper, **own}
+
+    def cells(self) -> tuple[Cell, ...]:
+        """The row under :data:`COLUMNS`."""
+        p = self.printed
+        spread = "" if self.spread is None else " ... ".join(map(format_number, self.spread))
+        paper = ("order of " if p.order else "") + p.text
+        return self.quantity, paper, self.ours, spread, p.unit, self.verdict
 
 
 def judge(
@@ -104,22 +103,6 @@ class Result:
 COLUMNS = ("quantity", "paper", "ours", "runs from ... to", "unit", "verdict")
 
 
-def list_cells(row: Row) -> tuple[Cell, ...]:
-    """A row under ``COLUMNS``."""
-    p = row.printed
-    spread = "" if row.spread is None else " ... ".join(map(format_number, row.spread))
-    return row.quantity, ("order of " if p.order else "") + p.text, row.ours, spread, p.unit, row.verdict
-
-
-def list_reasons(rows: Sequence[Row]) -> list[str]:
-    """Every reason once, with the quantities that it is for."""
-    named: dict[str, list[str]] = {}
-    for r in rows:
-        if r.reason:
-            named.setdefault(f"({r.verdict}) {r.reason}", []).append(r.quantity)
-    return [f"{'; '.join(quantities)}: {reason}" for reason, quantities in named.items()]
-
-
 def format_number(value: float) -> str:
     """Three significant digits; the same text on any machine but for the last of them."""
     if value == 0:
@@ -142,7 +125,7 @@ our numbers beside the printed ones (`python -m ragg_runtime.experiments`, as JS
 The numerical model of Eq. 49 to 53 stands for the instrument; the analytical (Eq. 17 to 19) and the
 simplified model (Eq. 42 to 47) are the derived ones. The misprints of the printed equations cost too little to show here.
 
-Of {rows} printed numbers, **{agree} agree**, **{open} hang on an input that the paper does not state**, and
+Of {rows} printed numbers, **{agrees} agree**, **{open} hang on an input that the paper does not state**, and
 **{unexplained} are unexplained**.
 
 - *agrees*: ours has the printed digits, or the printed order of magnitude, or the printed number lies between
@@ -161,19 +144,18 @@ sampling of the turbulence, on which the simplified model's sigmas in experiment
 def page(results: Sequence[Result]) -> str:
     """The page of some experiments."""
     verdicts = Counter(row.verdict for r in results for row in r.rows)
-    head = _HEAD.format(
-        rows=sum(verdicts.values()),
-        agree=verdicts["agrees"],
-        open=verdicts["open input"],
-        unexplained=verdicts["unexplained"],
-    )
-    return "\n".join([head, *(_section(r) for r in results)])
+    counts = {k.split()[0]: verdicts[k] for k in ("agrees", "open input", "unexplained")}
+    return "\n".join([_HEAD.format(rows=sum(verdicts.values()), **counts), *map(_section, results)])
 
 
 def _section(r: Result) -> str:
     parts = [f"## {r.title}", "\n".join(f"- {name}: {value}" for name, value in r.settings.items())]
-    parts.append(write_markdown(COLUMNS, [list_cells(row) for row in r.rows]))
-    parts += [f"- {text}" for text in list_reasons(r.rows)]
+    parts.append(write_markdown(COLUMNS, [row.cells() for row in r.rows]))
+    reasons: dict[str, list[str]] = {}  # each once, with the quantities that it is for
+    for row in r.rows:
+        if row.reason:
+            reasons.setdefault(f"({row.verdict}) {row.reason}", []).append(row.quantity)
+    parts += [f"- {'; '.join(quantities)}: {reason}" for reason, quantities in reasons.items()]
     for t in r.tables:
         parts += [f"### {t.title}", write_markdown(t.columns, t.rows), t.finding]
     return "\n\n".join(parts) + "\n"

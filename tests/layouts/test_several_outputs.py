@@ -107,9 +107,9 @@ def test_a_calibration_drifts_from_flight_to_flight_not_from_output_to_output() 
     model, _ = derive.derived((), (), sheet.form, sheet.layout)
     one = flown_by(sheet, 120.0)
     two = replace(one, name="another")
-    assert not calibrate(model, sheet, [one]).drift()
+    assert not calibrate(model, sheet, [one]).as_json()["drift"]
     c = calibrate(model, sheet, [one, two])
-    rows = c.drift()
+    rows = c.as_json()["drift"]
     assert {r["flight"] for r in rows} == {one.name, "another"}
     assert len(rows) == 2 * len(c.as_json()["combinations"])
     for r in rows:  # every flight alone sees, with all its outputs, what both see

@@ -165,7 +165,7 @@ def test_holes_are_bridged_or_flagged() -> None:
 
 def test_the_instruments_own_response_to_the_gradient_is_undone() -> None:
     """Mounted 200 arcsec off in phase, an instrument mixes inline and cross; what it is known to do is put right."""
-    s = scenario(31, duration=DURATION, rate=RATE, noise_density=0.0, perturbation=0.0, gradient_rms=1e-6)
+    s = scenario(31, duration=400.0, rate=RATE, noise_density=0.0, perturbation=0.0, gradient_rms=1e-6)
     sheet = s.sheet.replace(beta_z=s.sheet.accelerometers["beta_z"] + 200 * np.pi / 648000)
     s = dataclasses.replace(s, sheet=sheet, instrument=sheet)
     x = s.simulate({}).flight()
@@ -211,13 +211,12 @@ def test_motion_beyond_what_the_calibration_knows_is_flagged(tmp_path: Path) -> 
 
 def test_formats_and_several_flights(tmp_path: Path) -> None:
     model, places = new_model(tmp_path), files(tmp_path, rows=BRIEF)
-    run("compensate", model, *places, "-o", tmp_path / "o.nc", "--demodulator", "butterworth")
+    m = api.load(model)
+    c = api.compensate(m, places, demodulator="butterworth", output=tmp_path / "o.nc")
     with xarray.open_dataset(tmp_path / "o.nc", engine="h5netcdf", decode_times=False) as found:
         assert found["inline"].attrs["units"] == "Eo"
         assert set(np.unique(found["flight"])) == {1, 2}
         inline = found["inline"].values
-    m = api.load(model)
-    c = api.compensate(m, api.read_for_compensation(m, places), demodulator="butterworth")
     valued = [np.isfinite(s["inline_std"]) for s in c.series]
     kept, std = (
         np.concatenate([s[n][v] for s, v in zip(c.series, valued, strict=True)])
