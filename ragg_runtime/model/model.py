@@ -7,21 +7,39 @@ import json
 import sys
 from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from importlib import resources
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.layout import PAPER, Layout
-from ragg_runtime.model.chain import Chain
 
 if TYPE_CHECKING:
-    from ragg_runtime.model.evaluator import Evaluator
+    from ragg_runtime.model.evaluate import Backend, Evaluator
 
 Array = NDArray[np.float64]
+
+
+class Chain(Protocol):
+    """A generated module: one accelerometer's V_j and its derivatives (see ``generated/chain.py``)."""
+
+    INPUTS: tuple[str, ...]
+    PARAMETERS: tuple[tuple[str, int], ...]
+    ROWS: tuple[tuple[str, bool], ...]
+    SIZE: int
+
+    def accelerometer(
+        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
+    ) -> Array: ...
+
+    def derivatives(
+        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
+    ) -> Array: ...
+
+    def values_of(self, j: int, p: Array) -> Array: ...
 
 
 class Recogniser(Protocol):
@@ -107,9 +125,8 @@ class Model:
     """A derived model.
 
     ``effects``: in the model beyond the paper's instrument; ``candidates``: not in it, with ``signatures``. ``chain``,
-    ``signatures``, ``folded``: generated modules. ``sources``, ``fitting``: C, file name -> text; the latter of what
-    fits evaluate. ``layout``: whose accelerometers the chain is. ``own_recognisers``: of a model directory's effects,
-    by id. ``lasting``: it comes with the program and is compiled once for all flights.
+    ``signatures``, ``folded``: generated modules. ``c``: their C, file name -> text. ``layout``: whose accelerometers the
+    chain is. ``own_recognisers``: of a model directory's effects, by id. ``lasting``: it comes with the program.
     """
 
     effects: tuple[Effect, ...]
@@ -117,10 +134,9 @@ class Model:
     chain: Chain
     signatures: Chain
     digest: str
-    sources: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
+    c: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     folded: ModuleType | None = field(default=None, repr=False, compare=False)
     layout: Layout = PAPER
-    fitting: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     lasting: bool = field(default=False, compare=False)
     own_recognisers: Mapping[str, Recogniser] = field(default_factory=dict, repr=False, compare=False)
 
@@ -132,19 +148,23 @@ class Model:
         every = {**cast(Mapping[str, Recogniser], RECOGNISERS), **self.own_recognisers}
         return {i: every[i] for i in sorted(e.id for e in self.candidates if e.kind == "output")}
 
+    @property
+    def sources(self) -> Mapping[str, str]:
+        """The C of the model itself, without that of the candidates."""
+        return {name: text for name, text in self.c.items() if not name.startswith("signatures")}
+
     @cached_property
     def evaluators(self) -> Callable[[str], Evaluator]:
         """``chain`` and ``signatures``, as fits evaluate them."""
-        from ragg_runtime.model.evaluator import for_fits
+        from ragg_runtime.model.evaluate import compiled_module
 
-        modules = {"chain": self.chain, "signatures": self.signatures}
-        return for_fits(modules, self.fitting, self.layout, quick=not self.lasting)
+        return cache(partial(compiled_module, self))
 
-    def compiled(self, backend: Literal["auto", "c", "numpy"] = "auto") -> Evaluator:
+    def compiled(self, backend: Backend = "auto") -> Evaluator:
         """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
-        from ragg_runtime.model.evaluator import evaluator
+        from ragg_runtime.model.evaluate import compiled_model
 
-        return evaluator(self.chain, self.sources, self.folded, backend, self.layout)
+        return compiled_model(self, backend)
 
     def effect(self, identifier: str) -> Effect | None:
         """The effect of this id, in the model or not; ``None`` if unknown."""
@@ -167,9 +187,7 @@ def _packaged(kinematics: str) -> Model:
     )
     names = (f"{n}.{kind}" for n in ("chain", "folded", "signatures") for kind in ("c", "h"))
     c = {name: root.joinpath("c", name).read_text("utf-8") for name in names}
-    model = _model(manifest, chain, signatures, c)
-    sources = {name: c[name] for name in c if not name.startswith("signatures")}
-    return replace(model, sources=sources, folded=folded, lasting=True)
+    return replace(_model(manifest, chain, signatures), c=c, folded=folded, lasting=True)
 
 
 def from_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
@@ -193,15 +211,11 @@ def from_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
         if "/" in stem
     }
     c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith(("c/", "fits/"))}
-    model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"), c)
-    sources = {name: c[name] for name in c if not name.startswith("signatures")}
-    folded = modules.get("folded")
-    return replace(model, sources=sources, folded=folded, layout=layout, own_recognisers=own)
+    model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"))
+    return replace(model, c=c, folded=modules.get("folded"), layout=layout, own_recognisers=own)
 
 
-def _model(
-    manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleType | None, c: Mapping[str, str]
-) -> Model:
+def _model(manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleType | None) -> Model:
     effects = tuple(_effect(e) for e in manifest["catalogue"])
     present = list(manifest["effects"])
     by_id = {e.id: e for e in effects}
@@ -211,7 +225,6 @@ def _model(
         chain=cast(Chain, chain),
         signatures=cast(Chain, signatures or chain),
         digest=manifest["digest"],
-        fitting={n: text for n, text in c.items() if n.partition(".")[0] in ("chain", "signatures")},
     )
 
 

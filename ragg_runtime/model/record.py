@@ -15,8 +15,8 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Vector3, gain
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import RATES, SPECIFIC_FORCE
-from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
+from ragg_runtime.model.model import Chain
 from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.derivative import (
     DEGREES,

@@ -15,8 +15,8 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
+from ragg_runtime.model.model import Chain
 from ragg_runtime.model.record import SPIN, differentiated, disc_angle, lateness, spin, spin_degree, start_of
 from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.derivative import differentiate

@@ -16,9 +16,8 @@ from derive.pipeline import derive_model
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import observation
 from ragg_runtime.estimation.regressors import Point, linearised
-from ragg_runtime.model.compiler import BuildError, build, find_compiler, load
-from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model.evaluator import Evaluator, NativeWarning, _warn_once, changes
+from ragg_runtime.model.compile import BuildError, build, find_compiler, load
+from ragg_runtime.model.evaluate import Evaluator, NativeWarning, _warn_once, vector
 from ragg_runtime.model.model import Model, from_files, packaged
 from ragg_runtime.reference.scenario import scenario
 from tests.generated import draws
@@ -91,8 +90,7 @@ def test_changes_of_parameters_are_those_of_numpy(few: int, case: tuple[Array, A
     steps = 1e-3 * p * draw.standard_normal((18, len(p)))
     weights, angle = draw.standard_normal((2, LENGTH)), np.mod(t, 7.0)
     found, expected = (
-        changes(packaged().compiled(kind), t, inputs, p, steps, angle, few, weights)
-        for kind in ("c", "numpy")
+        packaged().compiled(kind).changes(t, inputs, p, steps, angle, few, weights) for kind in ("c", "numpy")
     )
     assert found.shape == (18, 2, LENGTH // few)
     rows = np.max(np.abs(expected), axis=2, keepdims=True)

@@ -1,4 +1,4 @@
-"""Generated C -> shared library, in a cache of the user under the digest of source, compiler, options and processor.
+"""Generated C -> shared library, in a cache of the user under the digest of source, command and processor.
 
 The compiler is ``CC``, else ``cc``, ``gcc`` or ``clang``, else that of the package ``ziglang`` (``pip install 'ragg[compiler]'``).
 ``RAGG_NATIVE=off``: never compile. Compiled is only text that this program has derived or that comes with it.
@@ -17,13 +17,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
 import platformdirs
-
-from ragg_runtime.base import progress
 
 VARIABLE = "RAGG_NATIVE"
 
@@ -39,19 +37,12 @@ FOR_PROCESSOR: tuple[tuple[str, ...], ...] = (
 )
 """Tried in turn: not every compiler knows every processor."""
 
-HANGING = 30.0
-"""How long a compiler is waited for, s: half a second is usual, on a busy machine ten. NumPy serves after that."""
-
-SLOW = 4.0
-"""Times as long that of ziglang is waited for, which compiles its own library first."""
+PATIENCE = 60.0
+"""How long a compiler is waited for, s: half a second is usual, and half a minute for ziglang, which compiles its own library first."""
 
 
 class BuildError(Exception):
     """The C cannot be compiled or loaded; the message says why."""
-
-
-_given_up: dict[str, str] = {}
-"""Compilers that did not answer, and what was said of them: they are not waited for again."""
 
 
 def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool = False) -> Path:
@@ -62,34 +53,46 @@ def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool
     BuildError
         If there is no compiler, or if it fails.
     """
-    compiler, place = find_compiler(), private_folder(folder)
-    if compiler[0] in _given_up:
-        raise BuildError(_given_up[compiler[0]])
-    command = [*compiler, "-O1" if quick else "-O3", *OPTIONS]
+    command, place = [*find_compiler(), "-O1" if quick else "-O3", *OPTIONS], private_folder(folder)
     text = [f"{name}\0{sources[name]}" for name in sorted(sources)]
-    identity = "\0".join((*text, _version(tuple(compiler)), *command, repr(FOR_PROCESSOR), processor()))
+    identity = "\0".join((*text, *command, repr(FOR_PROCESSOR), describe_processor()))
     library = place / f"{hashlib.sha256(identity.encode()).hexdigest()[:32]}.so"
     if library.exists():
         return library
+    command += ["-o", "library.so", *(n for n in sorted(sources) if n.endswith(".c")), "-lm"]
     try:
         with tempfile.TemporaryDirectory(prefix=".", dir=place) as work:
             for name, content in sources.items():
                 (Path(work) / name).write_text(content, "utf-8")
-            _compile([*command, *(n for n in sorted(sources) if n.endswith(".c")), "-lm"], work)
-            os.replace(Path(work) / "library.so", library)
-    except OSError as error:
-        raise BuildError(f"the cache {place} cannot be written: {error.strerror}") from None
-    return library
+            errors = []
+            for options in FOR_PROCESSOR:
+                error = _compile([*command, *options], Path(work))
+                if error is None:
+                    os.replace(Path(work) / "library.so", library)
+                    return library
+                errors.append(error)
+    except OSError as refused:
+        raise BuildError(f"{command[0]} or the cache {place} cannot be used: {refused.strerror}") from None
+    raise BuildError(f"the C compiler {command[0]} fails: {errors[0] or 'without a message'}")
 
 
-def _compile(command: Sequence[str], work: str) -> None:
-    told = ""
-    for options in FOR_PROCESSOR:
-        status, said = _run([*command, *options, "-o", "library.so"], work)
-        if status == 0:
-            return
-        told = told or next((x for x in said.splitlines() if "error" in x), "")
-    raise BuildError(f"the C compiler {command[0]} fails: {told or 'without a message'}")
+def _compile(command: list[str], work: Path) -> str | None:
+    """``None`` once it is done, else the compiler's first error."""
+    with (work / "said").open("w+", errors="replace") as said:  # a child that hangs would keep a pipe open
+        try:
+            done = subprocess.run(
+                command,
+                cwd=work,
+                stdin=subprocess.DEVNULL,
+                stdout=said,
+                stderr=said,
+                timeout=PATIENCE,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            raise BuildError(f"the C compiler {command[0]} does not answer within {PATIENCE:g} s") from None
+        said.seek(0)
+        return None if done.returncode == 0 else next((line.strip() for line in said if "error" in line), "")
 
 
 def find_compiler() -> list[str]:
@@ -111,46 +114,15 @@ def find_compiler() -> list[str]:
     raise BuildError(f"there is no C compiler ({looked}): {remedy}")
 
 
-def _run(command: Sequence[str], folder: str | None = None) -> tuple[int, str]:
-    """Exit status, and what was said: to a file, as children of a compiler that hangs would keep a pipe open."""
-    patience = HANGING * (SLOW if "ziglang" in command else 1.0)
-    with tempfile.TemporaryFile("w+", errors="replace") as said:
-        try:
-            done = subprocess.run(
-                command,
-                cwd=folder,
-                stdin=subprocess.DEVNULL,
-                stdout=said,
-                stderr=said,
-                timeout=patience,
-                check=False,
-            )
-        except subprocess.TimeoutExpired:
-            told = f"the C compiler {command[0]} does not answer within {patience:g} s"
-            _given_up[command[0]] = told
-            progress.remark(f"{told}; the slower NumPy code is used")
-            raise BuildError(told) from None
-        except OSError as error:
-            raise BuildError(f"the C compiler {command[0]} cannot be run: {error}") from None
-        said.seek(0)
-        return done.returncode, said.read()
-
-
 @cache
-def _version(compiler: tuple[str, ...]) -> str:
-    status, said = _run([*compiler, "--version"])
-    return said if status == 0 else ""
-
-
-@cache
-def processor() -> str:
+def describe_processor() -> str:
     """What ``native`` means here: caches are shared between machines where home directories are."""
     try:
         lines = Path("/proc/cpuinfo").read_text("utf-8").splitlines()
     except OSError:
         lines = []
-    found = [x for x in lines if x.startswith(("model name", "flags", "Features", "CPU part"))]
-    return "\n".join((platform.system(), platform.machine(), platform.processor(), *dict.fromkeys(found)))
+    own = (x for x in lines if x.startswith(("model name", "flags", "Features", "CPU part")))
+    return "\n".join((platform.system(), platform.machine(), platform.processor(), *dict.fromkeys(own)))
 
 
 def private_folder(folder: Path | None = None) -> Path:
