@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.least_squares import Linear, Minimum, join, minimise, with_prior
 from ragg_runtime.estimation.noise import NoiseModel
+from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.regressors import Column, Point, spelt
 from ragg_runtime.estimation.whitening import Piece, excerpt, heard, passed
@@ -158,7 +159,7 @@ class _Task:
     def noise(self, x: Array) -> list[NoiseModel]:
         """NoiseModel of every flight from what nothing explains about x."""
         everything = Point(self.model, self.instrument, self.vector(x), with_candidates=True)
-        return [NoiseModel.fit(everything, o) for o in self.observations]
+        return [estimate_noise(everything, o) for o in self.observations]
 
     def size(self, noise: Sequence[NoiseModel]) -> float:
         """Root of the mean power of what no column explains, V, lines included."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,9 @@ from ragg_runtime.estimation.least_squares import fold, prior, with_prior
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, Observation
 from ragg_runtime.estimation.regressors import Column
-from ragg_runtime.estimation.scores import Error, Stretch, Tally, pooled
+from ragg_runtime.estimation.scores import Error, Tally, pooled
 from ragg_runtime.estimation.thinning import beyond, certain
-from ragg_runtime.estimation.whitening import Piece, PreparedFlight
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight, prepare_flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
@@ -50,40 +50,6 @@ class Scored:
     held_out: Error
     mean_square: tuple[float, ...]
     blocks: Array
-
-
-@dataclass(frozen=True)
-class _Counted:
-    """Of one segment: its tally, and sums in the blocks of time."""
-
-    tally: Tally
-    squares: Array
-    samples: Array
-
-
-def _left(v: Array, piece: Piece) -> Array:
-    return np.asarray(piece.left(v)[0])
-
-
-def _counted(piece: Piece, V: Array, further: Callable[[Piece], Array] | None) -> _Counted:
-    r = piece.observation.record
-    e = piece.left(V)
-    if further is not None:
-        e = np.concatenate([e, further(piece)])
-    squares, samples = np.zeros((BLOCKS, len(e))), np.zeros(BLOCKS)
-    scored = np.zeros(len(r.time), dtype=np.bool_)
-    for b, rows in piece.segment.blocks:
-        here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
-        scored[here] = b in HELD_OUT_BLOCKS
-        v = r.valid[here]
-        squares[b] = np.sum(e[:, here][:, v] ** 2, axis=1)
-        samples[b] = np.sum(v)
-    selected = np.stack([np.ones(len(scored), dtype=np.bool_), scored])
-    return _Counted(
-        Tally.of(Stretch(e, r.demodulation_angle, selected, r.valid), r.rate, turning=r.turning),
-        squares,
-        samples,
-    )
 
 
 @dataclass(frozen=True)
@@ -146,9 +112,9 @@ class Fitted:
         """Whether the noise changes its level in any observation."""
         return any(n.uneven for n in self.calibration.noise)
 
-    @property
+    @cached_property
     def beyond(self) -> tuple[float, ...]:
-        """Mean square, V^2, of what thinning took of each observation, which remembers it: no column reaches there, it is noise."""
+        """Mean square, V^2, of what thinning took of each observation: no column reaches there, it is noise."""
         return tuple(beyond(self.model, self.instrument, self.calibration.p, o) for o in self.observations)
 
     @cached_property
@@ -217,7 +183,10 @@ class Fitted:
     def residuals_of(self, v: Array) -> list[Array]:
         """The same with the coefficients of all regressors, (size,)."""
         flights = [x.for_residuals(v[None]) for x in self.prepared]
-        return [np.concatenate([*lean.each(partial(_left, w), whitened=False)]) for lean, w in flights]
+        return [
+            np.concatenate([*lean.each(lambda piece, w=w: piece.left(w)[0], whitened=False)])  # type: ignore[misc]
+            for lean, w in flights
+        ]
 
     def score(
         self, vectors: Sequence[Array], further: Callable[[Piece], Array] | None = None, count: int = 0
@@ -232,16 +201,22 @@ class Fitted:
         for n, x in enumerate(self.prepared):
             r = x.observation.record
             tally = Tally(k, 2, r.rate, turning=r.turning, beyond=self.beyond[n])
-            squares, samples = np.zeros((BLOCKS, k)), np.zeros(BLOCKS)
+            of_block = np.repeat(np.arange(BLOCKS), np.diff(x.edges))
+            squares, samples = np.zeros((BLOCKS, k)), np.bincount(of_block[r.valid], minlength=BLOCKS)
             lean, W = x.for_residuals(V)
 
-            def counted(piece: Piece, W: Array = W) -> _Counted:
-                return _counted(piece, W, further)
+            def residuals(piece: Piece, W: Array = W) -> tuple[Piece, Array]:
+                e = piece.left(W)
+                return piece, e if further is None else np.concatenate([e, further(piece)])
 
-            for part in lean.each(counted, whitened=False):
-                squares += part.squares
-                samples += part.samples
-                tally.join(part.tally)
+            for piece, e in lean.each(residuals, whitened=False):
+                part, own = piece.observation.record, of_block[piece.segment.rows]
+                e[:, ~part.valid] = 0.0
+                for b in np.unique(own):
+                    squares[b] += np.sum(e[:, own == b] ** 2, axis=1)
+                held_out = np.isin(own, HELD_OUT_BLOCKS)
+                selected = np.stack([np.ones_like(held_out), held_out])
+                tally.add(e, part.demodulation_angle, selected, part.valid)
             tallies.append(tally)
             some = samples > 0
             blocks[n, some] = np.sqrt(squares[some] / samples[some, None] + self.beyond[n])
@@ -326,7 +301,7 @@ def about(
 ) -> Fitted:
     """The evidence about a calibration, however it was found; of its parameters alone without ``candidates``."""
     at = regressors.Point(model, instrument, c.p, with_candidates=candidates)
-    prepared = tuple(PreparedFlight(o, own, at) for o, own in zip(observations, c.noise, strict=True))
+    prepared = tuple(prepare_flight(o, own, at) for o, own in zip(observations, c.noise, strict=True))
     triangles, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
     return Fitted(
         model=model,

@@ -2,29 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import lru_cache, partial
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError
-from ragg_runtime.estimation import noise_level, unknown_gradient
+from ragg_runtime.estimation import noise_level
 from ragg_runtime.estimation.noise_level import Level
-from ragg_runtime.estimation.observation import (
-    ROWS,
-    THINNER,
-    Observation,
-    Segment,
-    beginnings,
-    spread,
-    telling,
-)
-from ragg_runtime.estimation.regressors import Point
-from ragg_runtime.estimation.residual import Disturbance, Left, in_words, left_over, placed
-from ragg_runtime.estimation.spectrum import LOWEST, Averages, Spectrum, estimate, periodogram, without_lines
-from ragg_runtime.estimation.whitening import Piece, flight_segments, longer, passed
+from ragg_runtime.estimation.residual import Disturbance
+from ragg_runtime.estimation.spectrum import Spectrum
 from ragg_runtime.io.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
@@ -32,27 +20,10 @@ from ragg_runtime.io.record import (
     SPECIFIC_FORCE,
     is_disc_angle,
 )
-from ragg_runtime.model.record import Record, quantities_of
-from ragg_runtime.signals import combinations
+from ragg_runtime.model.record import Record
 from ragg_runtime.signals.fir import filtered
 
 Array = NDArray[np.float64]
-
-TAPS = 24576
-"""Greatest length of the whitening filter, samples: red noise needs as much memory as it has power."""
-
-NOISE_SEGMENTS = 8
-"""Most segments of a flight of which the noise is estimated: 260,000 samples tell a smooth spectrum."""
-
-COLOURED = 3
-"""Times that what columns have taken of noise that is not white is computed anew, with the spectrum that it led to."""
-
-RED = 1.5
-"""Density at the lowest frequencies over that in the middle from which that is done."""
-
-SHORTEST = 128
-"""Least number of samples of which noise can be estimated."""
-
 
 MOTION = frozenset((*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION, *GRADIENT))
 """Channels whose own values are no quantity for a level, but their sizes."""
@@ -69,7 +40,7 @@ class Line:
 
 @dataclass(frozen=True)
 class NoiseModel:
-    """The noise of an observation of m series, estimated by :meth:`fit`; :meth:`whiten` makes it white, of unit variance.
+    """The noise of an observation of m series (:mod:`noise_estimate`); :meth:`whiten` makes it white, of unit variance.
 
     It is stationary noise of a spectrum for every whitened series, times a level that may follow what is known from sample to sample
     (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965), and lines. The filters are causal and finite: linear, hence
@@ -223,231 +194,6 @@ class NoiseModel:
         """What the filter k takes of series (n, m, N): (n, N)."""
         return x[:, k] if self.combinations is None else np.tensordot(self.combinations[k], x, (0, 1))
 
-    @staticmethod
-    def fit(
-        at: Point,
-        o: Observation,
-        *,
-        most: int = NOISE_SEGMENTS,
-        samples: int = NOISE_SEGMENTS * ROWS,
-        slow: bool = True,
-    ) -> NoiseModel:
-        """The noise of an observation, from what no column and no unknown gradient explains about a point.
-
-        Parameters
-        ----------
-        at
-            Parameters, and the columns that are fitted: base and candidates.
-        most, samples
-            Most samples of which it is estimated, in all: of ``most`` segments the beginnings.
-        slow
-            Whether means over all of a flight that is longer than one segment are looked at, too.
-
-        Raises
-        ------
-        UserError
-            If the record is too short.
-        """
-        if np.sum(o.record.valid) < SHORTEST:
-            raise UserError(
-                "the record is too short to estimate its noise",
-                where=o.name,
-                found=f"{int(np.sum(o.record.valid))} valid samples",
-                expected=f"at least {SHORTEST}",
-                remedy="give a longer or cleaner recording",
-            )
-        chosen = _chosen(o, most, samples)
-        parts = _parts(at, o, None, chosen)
-        if o.recorded.demodulated:
-            return _of_channels(parts, o)
-        rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
-        apart = combinations.telling(rests, o.signs)
-        if apart is not None:
-            parts = _parts(at, o, apart, chosen)
-        means = averages(at, o, _unwhitened(o, apart)) if slow else None
-        noise = _of_level(parts, o, Level(), means)
-        level = _level(parts, o, noise)
-        if level.parts:
-            noise = _of_level(parts, o, level, means)
-        said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
-        words = "; ".join(w for w in said if w is not None) or None
-        free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
-        return replace(noise, disturbed=words, freedom=free, combinations=apart, lines=_lines(parts, o))
-
-
-@dataclass(frozen=True)
-class _Part:
-    """What is left of a segment: of every output, at its ``rows``; ``taken`` are degrees of freedom of an unknown gradient.
-
-    ``random``: variance (valid,) that each random effect would add to every output, by its id.
-    """
-
-    rows: slice
-    valid: NDArray[np.bool_]
-    outputs: tuple[Left, ...]
-    taken: float
-    random: Mapping[str, tuple[Array, ...]]
-
-    def rest(self, m: int) -> Array:
-        """(N,): of an output, zero where a sample is not valid."""
-        return placed(self.outputs[m].rest, self.valid)
-
-
-RESOLVED = 4.0
-"""Widths of a line, one over the length of a window, from which on it is told from a multiple of the spin rate: one nearer
-is left to the search beside those, for what is fitted to it would take of what turns with the disc."""
-
-TURNS = 4
-"""Multiples up to which that is so (``line_rival.MULTIPLES``)."""
-
-
-def line_width(o: Observation) -> float:
-    """Hz on either side of a line within which another is the same one, which wanders."""
-    seconds = float(o.record.time[-1] - o.record.time[0])
-    return RESOLVED / min(seconds, unknown_gradient.WINDOW_SECONDS)
-
-
-def _lines(parts: Sequence[_Part], o: Observation) -> tuple[Line, ...]:
-    """The lines of the output that are none of the motion's: where that has lines itself, they may be."""
-    r, width = o.record, line_width(o)
-    spin = unknown_gradient.spin_frequency(o) if r.turning else np.inf
-    found: list[Line] = []
-    for p in parts:
-        for m, x in enumerate(p.outputs):
-            lines = np.array([d.at if d.kind == "line" else np.inf for d in x.found])
-            for f in lines[np.isfinite(lines)]:
-                near = [q for q in found if q.output == m and abs(f - q.frequency) < width]
-                turns = int(np.rint(f / spin))
-                if 1 <= turns <= TURNS and abs(f - turns * spin) < width:
-                    continue
-                # several beside each other are one that wanders
-                own = np.sum(x.shapes[np.abs(lines - f) < width], axis=0)
-                found.append(Line(m, float(f), 0.0 if near else float(np.sqrt(2 * np.mean(own**2)))))
-    return () if found and any(_has_lines(o, p) for p in parts) else tuple(found)
-
-
-LOUD = 1e-3
-"""Share of the power of a channel of the motion from which a line counts: by a smaller one an effect that is missing would show less
-than a thirtieth of what it shows by the rest of the motion."""
-
-
-def _has_lines(o: Observation, p: _Part) -> bool:
-    """Whether any channel of the motion has a line, over a part."""
-    for name in (*SPECIFIC_FORCE, *ANGULAR_RATE):
-        if name not in o.record.wide:
-            continue
-        x = o.record.wide[name][p.rows]
-        power = periodogram(np.where(p.valid, x - np.mean(x[p.valid]), 0.0), o.record.rate)[1][LOWEST:-1]
-        if np.sum(power - without_lines(power)) > LOUD * np.sum(power):
-            return True
-    return False
-
-
-def _of_level(
-    parts: Sequence[_Part], o: Observation, level: Level, means: Sequence[Averages] | None
-) -> NoiseModel:
-    """The noise's spectra, given how its level changes."""
-    rate, band = o.record.rate, unknown_gradient.band(o)
-    spin = unknown_gradient.spin_frequency(o) if o.record.turning else None
-    loud = [level.of(quantities_of(o.record, p.rows)) for p in parts]
-    mean = float(np.sqrt(np.mean([np.mean(np.square(x)) for x in loud])))
-    models, filters = [], []
-    for m in range(len(o.series)):
-        rest = [p.rest(m) / x for p, x in zip(parts, loud, strict=True)]
-        slow = None if means is None else replace(means[m], rest=means[m].rest / mean)
-        model = estimate(rest, rate, band, [p.outputs[m].kept for p in parts], slow, spin)
-        for _ in range(COLOURED if parts[0].outputs[m].columns.size else 0):
-            if model.red < RED:
-                break
-            kept = [p.outputs[m].kept_of(model) for p in parts]
-            model = estimate(rest, rate, band, kept, slow, spin)
-        models.append(model)
-        taps = TAPS if o.thin is None else TAPS // THINNER
-        filters.append(model.whitening_filter(int(min(taps, len(o.record.time)))))
-    return NoiseModel(spectra=tuple(models), filters=tuple(filters), level=level)
-
-
-def _chosen(o: Observation, most: int, samples: int) -> list[Segment]:
-    """The beginnings of at ``most`` so many segments, spread over the flight, with at most so many ``samples`` in all."""
-    found = spread(flight_segments(o), most)
-    if not o.recorded.demodulated:  # their columns pass a two-sided filter and are not divided
-        found = beginnings(found, samples)
-    return [s for s in found if np.sum(o.record.valid[s.rows]) >= SHORTEST]
-
-
-def _parts(at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segment]) -> list[_Part]:
-    """What is left of some segments of the flight, of the series as they are or in combinations."""
-    band = unknown_gradient.band(o)
-    rate = None if o.recorded.demodulated else o.record.rate
-    random = {e.id for e in at.model.candidates if e.kind == "random"}
-    shown = [(n, c.effect) for n, c in enumerate(at.candidates, len(at.base)) if c.effect in random]
-
-    def kept(x: Left) -> Left:
-        # of several segments only the means know what is slow
-        return x if len(chosen) == 1 else replace(x, columns=np.empty(0), directions=np.empty(0))
-
-    def part(piece: Piece) -> _Part:
-        valid = piece.observation.record.valid
-        each = np.split(piece.white[piece.heard], len(o.series), axis=1)
-        known = [partial(_through, piece, m, len(each)) for m in range(len(each))]
-        return _Part(
-            rows=piece.segment.rows,
-            valid=valid,
-            outputs=tuple(kept(left_over(x, valid, rate, band, t)) for x, t in zip(each, known, strict=True)),
-            taken=sum(w.white.shape[1] for w in piece.windows) / len(o.series),
-            random={
-                e: tuple(piece.white[place].reshape(len(o.series), -1) ** 2)
-                for place, e in shown
-                if e is not None
-            },
-        )
-
-    return list(passed(at, o, _unwhitened(o, apart), part, chosen=chosen))
-
-
-def _unwhitened(o: Observation, apart: Array | None) -> NoiseModel:
-    """What leaves the series as they are, or in combinations."""
-    plain = NoiseModel.white(o.record.rate, len(o.series))
-    return plain if apart is None else replace(plain, combinations=apart)
-
-
-def _through(piece: Piece, m: int, outputs: int, columns: Array) -> Array:
-    """Columns (k, rows) of one output without what an unknown gradient spans."""
-    if not piece.windows:
-        return columns
-    wide = np.zeros((len(columns), outputs, columns.shape[1]))
-    wide[:, m] = columns
-    flat = wide.reshape(len(columns), -1)
-    unknown_gradient.project(flat, piece.windows)
-    return np.asarray(flat.reshape(wide.shape)[:, m])
-
-
-def _of_channels(parts: Sequence[_Part], o: Observation) -> NoiseModel:
-    """Within the demodulator's band the noise of G_out is taken as white; a sample of a seldom recorded channel counts for more."""
-    gain, more = o.recorded.noise_share(o.record), telling(o.record)
-    squares = free = 0.0
-    for p in parts:
-        (x,) = p.outputs
-        squares += float(np.sum(x.rest**2)) / gain
-        # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
-        free += len(x.rest) * max(0.1, 1 - (x.rank + p.taken) / (gain * more * len(x.rest)))
-    sigma = float(np.sqrt(squares / free))
-    density = np.full(2, np.log(2 * sigma**2 / o.record.rate))
-    model = Spectrum(o.record.rate, np.array([-20.0, 20.0]), density, np.zeros(2))
-    freedom = max(1.0, gain * more * free)
-    return NoiseModel(spectra=(model,), filters=(np.array([np.sqrt(more) / sigma]),), freedom=freedom)
-
-
-def _disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:
-    """Lines and jumps of all segments, in order."""
-    found = [
-        replace(d, at=d.at + p.rows.start / rate) if d.kind == "jump" else d
-        for p in parts
-        for x in p.outputs
-        for d in x.found
-    ]
-    return sorted(found, key=lambda d: d.at)
-
 
 def level_quantities(r: Record) -> list[str]:
     """Names of what a level of noise may follow in a record."""
@@ -459,81 +205,3 @@ def level_quantities(r: Record) -> list[str]:
     names += ["phi"] if r.turning else []
     names += [] if r.valid.all() else ["gap"]
     return names
-
-
-def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
-    """How loud the noise is from sample to sample."""
-    names = level_quantities(o.record)
-    white: list[Array] = []
-    quantities: dict[str, list[Array]] = {n: [] for n in names}
-    rivals: dict[str, list[Array]] = {}
-    for p in parts:
-        r = o.record.part(p.rows)
-        for m, taps in enumerate(noise.filters):
-            white.append(filtered(p.rest(m)[None], taps)[0][p.valid])
-            for n in names:
-                quantities[n].append(r.quantity(n)[p.valid])
-            for e, variance in p.random.items():
-                rivals.setdefault(e, []).append(variance[m])
-    return noise_level.estimated(
-        np.concatenate(white),
-        {n: np.concatenate(x) for n, x in quantities.items()},
-        {e: np.concatenate(x) for e, x in rivals.items()},
-    )
-
-
-MEANS = 8192
-"""Most means of a flight."""
-
-PERIODS = 16.0
-"""In a segment, up to which means tell the noise."""
-
-MEANS_A_PERIOD = 8.0
-"""Means a period, at least, of the noise that they tell: what is faster they show weaker, and something else in its place."""
-
-FULL = 0.9
-"""Share of its samples that must be valid for a mean to count: of fewer it has more white noise."""
-
-ENOUGH = 2
-"""Means for every column, at least."""
-
-
-def averages(at: Point, o: Observation, unwhitened: NoiseModel) -> list[Averages] | None:
-    """What all columns leave of each output's means; ``None`` of a flight seen in one piece, or in too few means.
-
-    ``unwhitened``: the noise that makes the columns as they are, or in combinations.
-    """
-    if not longer(o):
-        return None
-    n, m = len(o.record.time), len(o.series)
-    every = -(-n // MEANS)
-    count = np.bincount(np.flatnonzero(o.record.valid) // every, minlength=-(-n // every))
-    sums: Array | None = None
-
-    def summed(piece: Piece) -> tuple[int, Array]:
-        boxes = piece.sample[: len(piece.sample) // m] // every
-        each = piece.white.reshape(len(piece.white), m, -1)
-        if not len(boxes):
-            return 0, np.zeros((len(each), m, 0))
-        starts = np.searchsorted(boxes, np.arange(boxes[0], boxes[-1] + 1))
-        ends = np.append(starts[1:], len(boxes))
-        found = np.add.reduceat(each, starts, axis=2)
-        found[:, :, starts == ends] = 0.0  # of no sample
-        return int(boxes[0]), found
-
-    for first, part in passed(at, o, unwhitened, summed):
-        if sums is None:
-            sums = np.zeros((len(part), m, len(count)))
-        sums[:, :, first : first + part.shape[2]] += part
-    valid = count >= FULL * every
-    if sums is None or np.sum(valid) < ENOUGH * len(sums):
-        return None
-    rate = o.record.rate / every
-    longest = max(s.rows.stop - s.rows.start for s in flight_segments(o)) / o.record.rate
-    below = min(PERIODS / longest, rate / MEANS_A_PERIOD)
-    found = []
-    for k in range(m):
-        flat = sums[:, k, valid] / count[valid]
-        left = left_over(flat, valid, rate, None)
-        found.append(Averages(rest=placed(left.rest, valid), kept=left.kept, rate=rate, below=below))
-    return found

@@ -6,7 +6,6 @@ from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +18,6 @@ from ragg_runtime.io import Flight
 from ragg_runtime.model.record import Record, record
 from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.fir import thinned
-
-if TYPE_CHECKING:
-    from ragg_runtime.estimation.noise import NoiseModel
 
 BLOCKS = 24
 """Stretches of time of which each keeps a triangle of its own."""
@@ -157,8 +153,6 @@ class Observation:
     flight: int = 0
     gains: Array = field(default_factory=lambda: np.ones(1))
     thin: Thin | None = None
-    memo: list[tuple[NoiseModel, list[Any]]] = field(default_factory=list, compare=False, repr=False)
-    """What :mod:`ragg_runtime.estimation.unknown_gradient` has found for some noise."""
 
     @cached_property
     def data(self) -> Array:
@@ -189,17 +183,10 @@ class Observation:
         """Some of the samples; ``only`` some of their channels."""
         if (rows.start, rows.stop) == (0, len(self.record.time)):
             return self
-        series = tuple(np.array(x[rows]) for x in self.series)
-        record = self.record.part(rows, only)
-        return Observation(
-            recorded=self.recorded,
-            record=record,
-            series=series,
-            name=self.name,
-            output=self.output,
-            place=self.place,
-            flight=self.flight,
-            gains=self.gains,
+        return replace(
+            self,
+            record=self.record.part(rows, only),
+            series=tuple(np.array(x[rows]) for x in self.series),
             thin=None if self.thin is None else self.thin.part(rows),
         )
 
@@ -214,10 +201,6 @@ class Thin:
     every: int
     taps: Array
     rows: slice
-    memo: dict[Any, dict[tuple[int, int], Array]] = field(default_factory=dict, compare=False, repr=False)
-    """What the whole leaves about the last few points (:mod:`ragg_runtime.estimation.regressors`): point -> rows -> residuals."""
-    taken: dict[Any, float] = field(default_factory=dict, compare=False, repr=False)
-    """What thinning took of it about points (:mod:`ragg_runtime.estimation.thinning`)."""
 
     def part(self, rows: slice) -> Thin:
         """Some of the samples."""

@@ -4,22 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
+from ragg_runtime.base.threads import stretches
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.demodulate import CUTOFF, demodulate, low_pass
 from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
-
-
-def least(rate: float) -> float:
-    """Shortest stretch without a gap that the demodulator can take, s."""
-    return len(low_pass(rate)) / rate
 
 
 @dataclass(frozen=True)
@@ -119,88 +116,50 @@ def pooled(errors: list[Error], weights: list[float]) -> Error:
         return Error(*(float(v) for v in np.sqrt(squares / total)))
 
 
-@dataclass(frozen=True)
-class Stretch:
-    """Residual series of some successive samples: e (k, N), V, zero where not valid (N,); disc angle (N,); and
-    selections of samples (groups, N).
-    """
-
-    e: Array
-    phi: Array
-    selected: NDArray[np.bool_]
-    valid: NDArray[np.bool_]
-
-    def __getitem__(self, some: slice) -> Stretch:
-        e = np.array(self.e[:, some])  # a copy, lest a few samples keep a whole segment in memory
-        return Stretch(e, self.phi[some], self.selected[:, some], self.valid[some])
-
-    def before(self, other: Stretch) -> Stretch:
-        """This stretch and the one that follows it."""
-        return Stretch(
-            np.concatenate([self.e, other.e], axis=1),
-            np.concatenate([self.phi, other.phi]),
-            np.concatenate([self.selected, other.selected], axis=1),
-            np.concatenate([self.valid, other.valid]),
-        )
-
-
 SERIES = 8
 """Series that are demodulated at a time: they stay in the cache."""
 
 
 class Tally:
-    """Sums of squares of k residual series over the segments of a flight, before and after demodulation, for ``groups`` of samples.
+    """Sums of squares of k residual series of a flight, before and after demodulation, for ``groups`` of samples.
 
-    ``beyond`` is a mean square, V^2, that each of the series has lost before (:mod:`fit.thinning`).
+    ``beyond`` is a mean square, V^2, that each of the series has lost before (:mod:`ragg_runtime.estimation.thinning`). Of a disc that
+    stands still (not ``turning``) there is nothing to demodulate.
     """
 
     def __init__(
         self, k: int, groups: int, rate: float, *, turning: bool = True, beyond: float = 0.0
     ) -> None:
         self._beyond = beyond
-        self._turning = turning  # of a disc that stands still there is nothing to demodulate
-        self._taps = low_pass(rate) if turning else np.ones(1)
+        self._taps = low_pass(rate) if turning else np.empty(0)
         self.samples = np.zeros(groups)
         self.squares = np.zeros((groups, k))
         self.demodulated = np.zeros(groups)
         self._sums = np.zeros((2, groups, 2, k))  # first and second moment, group, channel, series
-        nothing = np.empty((groups, 0), dtype=np.bool_)
-        self._head = self._tail = Stretch(np.empty((k, 0)), np.empty(0), nothing, nothing[0])
-        """What the low-pass of the neighbours will hear besides their own."""
+        none = np.empty((groups, 0), dtype=np.bool_)
+        self._tail: tuple[NDArray[Any], ...] = (np.empty((k, 0)), np.empty(0), none, none[0])
 
-    @staticmethod
-    def of(s: Stretch, rate: float, *, turning: bool = True) -> Tally:
-        """The tally of one segment."""
-        tally = Tally(len(s.e), len(s.selected), rate, turning=turning)
-        counted = s.selected & s.valid
-        tally.samples += np.sum(counted, axis=1)
-        tally.squares += np.where(counted, 1.0, 0.0) @ (s.e**2).T
-        tally._demodulate(s)
-        reach = len(tally._taps) - 1
-        tally._head, tally._tail = s[:reach], s[max(0, len(s.phi) - reach) :]
-        return tally
+    def add(self, e: Array, phi: Array, selected: NDArray[np.bool_], valid: NDArray[np.bool_]) -> None:
+        """Count in the samples that follow those before: e (k, N) V, zero where not valid (N,); phi (N,) rad; selected (groups, N)."""
+        counted = selected & valid
+        self.samples += np.sum(counted, axis=1)
+        self.squares += np.where(counted, 1.0, 0.0) @ (e**2).T
+        if self._taps.size:
+            new = (e, phi, selected, valid)
+            joined = tuple(np.concatenate(x, axis=-1) for x in zip(self._tail, new, strict=True))
+            self._demodulate(*joined)
+            self._tail = tuple(x[..., 1 - len(self._taps) :].copy() for x in joined)
 
-    def join(self, other: Tally) -> None:
-        """Count in the segment that follows."""
-        self.samples += other.samples
-        self.squares += other.squares
-        self.demodulated += other.demodulated
-        self._sums += other._sums
-        self._demodulate(self._tail.before(other._head))
-        reach = len(self._taps) - 1
-        longer = self._tail.before(other._tail) if len(other._tail.phi) < reach else other._tail
-        self._tail = longer[max(0, len(longer.phi) - reach) :]
-
-    def _demodulate(self, s: Stretch) -> None:
-        n = len(self._taps)
-        if len(s.phi) < n or not self._turning:
+    def _demodulate(
+        self, e: Array, phi: Array, selected: NDArray[np.bool_], valid: NDArray[np.bool_]
+    ) -> None:
+        if len(phi) < len(self._taps):
             return
-        whole = np.where(supported(s.selected, s.valid, n), 1.0, 0.0)
+        whole = np.where(supported(selected, valid, len(self._taps)), 1.0, 0.0)
         self.demodulated += np.sum(whole, axis=1)
-        for c, carrier in enumerate((4 * np.sin(2 * s.phi), -2 * np.cos(2 * s.phi))):
-            for k in range(0, len(s.e), SERIES):
-                some = slice(k, k + SERIES)
-                x = convolved(s.e[some] * carrier, self._taps)
+        for c, carrier in enumerate((4 * np.sin(2 * phi), -2 * np.cos(2 * phi))):
+            for some in stretches(len(e), SERIES):
+                x = convolved(e[some] * carrier, self._taps)
                 self._sums[0, :, c, some] += whole @ x.T
                 self._sums[1, :, c, some] += whole @ (x**2).T
 

@@ -17,7 +17,7 @@ from scipy import ndimage
 from ragg_runtime.base.threads import stretches
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.observation import Observation, Segment, Thin, bridged, segments, spread
-from ragg_runtime.estimation.regressors import Point, left, linearised
+from ragg_runtime.estimation.regressors import Point, linearised, residual_of
 from ragg_runtime.estimation.residual import disturbances
 from ragg_runtime.estimation.whitening import heard, longer
 from ragg_runtime.instrument.instrument import Instrument
@@ -66,7 +66,7 @@ def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation
     kept = r.valid & inside
     if np.array_equal(kept, r.valid) or np.sum(kept) < (1.0 - MOST_LEFT_OUT) * np.sum(r.valid):
         return o
-    return replace(o, record=replace(r, valid=kept), memo=[])
+    return replace(o, record=replace(r, valid=kept))
 
 
 def _certain(model: Model, instrument: Instrument, o: Observation) -> Observation:
@@ -75,7 +75,7 @@ def _certain(model: Model, instrument: Instrument, o: Observation) -> Observatio
         valid[s.rows] &= ~_open(model, instrument, o.part(s.rows))
     if np.sum(valid) < (1.0 - MOST_LEFT_OUT) * np.sum(o.record.valid):
         return o
-    return replace(o, record=replace(o.record, valid=valid), memo=[])
+    return replace(o, record=replace(o.record, valid=valid))
 
 
 def _open(model: Model, instrument: Instrument, o: Observation) -> NDArray[np.bool_]:
@@ -162,7 +162,7 @@ def _most(at: Point, o: Observation) -> int:
 
 def _everywhere(o: Observation) -> Observation:
     """An observation all of whose samples count: of its motion alone something is asked."""
-    return replace(o, record=replace(o.record, valid=np.ones_like(o.record.valid)), memo=[])
+    return replace(o, record=replace(o.record, valid=np.ones_like(o.record.valid)))
 
 
 def _thin(o: Observation, every: int) -> Thin:
@@ -183,22 +183,18 @@ def beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> fl
     if o.thin is None:
         return 0.0
     at = Point(model, instrument, p, with_candidates=False)
-    if at.name in o.thin.taken:
-        return o.thin.taken[at.name]
     whole, taps = o.thin.whole, o.thin.taps
 
     def taken(s: Segment) -> Array:
         part = whole.part(s.rows, at.channels)
-        e = part.signs @ left(at, part)
+        e = part.signs @ residual_of(at, part)
         slow, inner = convolved(e, taps), slice(len(taps) // 2, len(e) - len(taps) // 2)
         # the whole less the slow, one sample at a time: what both hold, an unknown gradient say, cancels
         square = ((e[inner] - slow) * (e[inner] + slow))[part.record.valid[inner]]
         return np.array([np.sum(square), len(square)])
 
     square, count = sum(map(taken, heard(whole)), np.zeros(2))
-    found = max(0.0, float(square) / max(float(count), 1.0))
-    o.thin.taken[at.name] = found
-    return found
+    return max(0.0, float(square) / max(float(count), 1.0))
 
 
 def _alike(at: Point, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
@@ -220,7 +216,7 @@ def _alike(at: Point, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
 
 def _has_line(at: Point, thin: Thin) -> bool:
     """Whether what the low-pass takes of a piece's residual has a line, which must be told."""
-    r, half, e = thin.whole.record, len(thin.taps) // 2, left(at, thin.whole)
+    r, half, e = thin.whole.record, len(thin.taps) // 2, residual_of(at, thin.whole)
     fast = e[:, half:-half] - convolved(e, thin.taps)
     told = (0.0, STOPPED * r.rate / (2 * thin.every))
     found = (d for x in fast for d in disturbances(x, r.valid[half:-half], r.rate, told))
@@ -264,7 +260,7 @@ def _kept(o: Observation, thin: Thin) -> Observation:
         whole=None,
         instants=None,
     )
-    return replace(o, record=record, series=tuple(series), thin=thin, memo=[])
+    return replace(o, record=record, series=tuple(series), thin=thin)
 
 
 def _whole(x: Array, valid: NDArray[np.bool_]) -> Array:

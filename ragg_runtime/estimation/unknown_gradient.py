@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,13 +15,11 @@ from scipy import interpolate
 
 from ragg_runtime.base.threads import stretches
 from ragg_runtime.estimation.least_squares import orthonormal
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.record import quantities_of
 from ragg_runtime.signals.fir import Floats
-
-if TYPE_CHECKING:
-    from ragg_runtime.estimation.noise import NoiseModel
 
 Array = NDArray[np.float64]
 
@@ -102,18 +99,6 @@ def windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
     """The windows of one segment of a flight, whitened; none if the gradient is known and the output has no lines."""
     if not unknown(o) and not noise.lines:
         return []
-    if (rows.start, rows.stop) != (0, len(o.record.time)):
-        return _windows(o, rows, noise)
-    # a short flight asks the same in every pass
-    for known, found in o.memo:
-        if known is noise:
-            return found
-    found = _windows(o, rows, noise)
-    o.memo[:] = [*o.memo[-2:], (noise, found)]
-    return found
-
-
-def _windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
     r = o.record
     level = np.ones(rows.stop - rows.start) * noise.level_of(quantities_of(r, rows))
     valid = np.array(r.valid[rows])

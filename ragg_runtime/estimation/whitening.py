@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from ragg_runtime.base import progress
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.least_squares import join, triangle
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import (
     BLOCKS,
     ROWS,
@@ -24,12 +25,9 @@ from ragg_runtime.estimation.observation import (
     segments,
     spread,
 )
-from ragg_runtime.estimation.regressors import Point, linearised
+from ragg_runtime.estimation.regressors import Point, linearised, thinned_residual
 from ragg_runtime.estimation.unknown_gradient import Window
 from ragg_runtime.model.record import Record
-
-if TYPE_CHECKING:
-    from ragg_runtime.estimation.noise import NoiseModel
 
 Array = NDArray[np.float64]
 R = TypeVar("R")
@@ -118,7 +116,7 @@ def excerpt(o: Observation) -> Observation:
     valid = np.zeros(len(o.record.time), dtype=np.bool_)
     for s in spread(found, EXCERPT):
         valid[s.rows] = o.record.valid[s.rows]
-    return replace(o, record=replace(o.record, valid=valid, whole=o.record.whole or o.record), memo=[])
+    return replace(o, record=replace(o.record, valid=valid, whole=o.record.whole or o.record))
 
 
 def passed(
@@ -129,11 +127,11 @@ def passed(
     *,
     chosen: Sequence[Segment] | None = None,
     whitened: bool = True,
-    effort: float = 0.0,
+    residual: Array | None = None,
 ) -> Iterator[R]:
     """What ``work`` makes of every segment of a flight (or of the ``chosen``, in order); it must not keep a piece of several.
 
-    ``effort``: how many times as long ``work`` takes as making the piece. Unless ``whitened``, the columns alone are made.
+    Unless ``whitened``, the columns alone are made. ``residual`` (m, N) V: that of a thinned flight, if it is known.
     """
     n_base = len(at.base)
     heard = design.heard([*at.base, *at.candidates], at.instrument, o.place)
@@ -141,10 +139,10 @@ def passed(
     memory = noise.memory if whitened else 0
     tail: Array | None = None
     before = 0
-    share = (1.0 if at.with_candidates else 0.4) * (1.0 if whitened else 0.5) * (1.0 + effort)
+    share = (1.0 if at.with_candidates else 0.4) * (1.0 if whitened else 0.5)
     for s in found:
         part = o.part(s.rows)
-        columns = linearised(at, part)
+        columns = linearised(at, part, None if residual is None else residual[:, s.rows])
         flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
         windows = unknown_gradient.windows(o, s.rows, noise)
         if whitened:
@@ -215,13 +213,19 @@ def _carried(tail: Array | None, columns: Array, memory: int) -> Array | None:
 class PreparedFlight:
     """One flight about the calibrated parameters.
 
-    A short flight keeps its columns in memory; those of a longer one are computed anew in every pass.
+    Attributes
+    ----------
+    pieces
+        Of a short flight its columns; those of a longer one (``None``) are computed anew in every pass.
+    residual
+        Of a thinned flight that of the whole record, thinned, (m, N) V.
     """
 
     observation: Observation
     noise: NoiseModel
     at: Point
-    _kept: list[Piece] = field(default_factory=list, repr=False)
+    residual: Array | None = field(default=None, repr=False)
+    pieces: tuple[Piece, ...] | None = field(default=None, repr=False)
 
     @property
     def edges(self) -> NDArray[np.intp]:
@@ -232,24 +236,31 @@ class PreparedFlight:
         """One-sided density of the noise of the output before demodulation at frequencies f, V^2/Hz."""
         return self.noise.psd(f, self.observation.signs)
 
-    def each(self, work: Callable[[Piece], R], *, whitened: bool = True, effort: float = 0.0) -> Iterator[R]:
-        """What ``work`` makes of every segment, in order: one pass over the flight. It must not keep a segment."""
-        if self._kept:
-            return map(work, self._kept)
-        if not whitened or len(self.observation.record.time) > ROWS:
-            return passed(self.at, self.observation, self.noise, work, whitened=whitened, effort=effort)
-        self._kept.extend(passed(self.at, self.observation, self.noise, lambda piece: piece))
-        return map(work, self._kept)
+    def each(
+        self, work: Callable[[Piece], R], *, chosen: Sequence[Segment] | None = None, whitened: bool = True
+    ) -> Iterator[R]:
+        """What ``work`` makes of every segment (or of the ``chosen``), in order: one pass over the flight. It must not keep one."""
+        if self.pieces is not None:
+            return map(work, self.pieces)
+        return passed(
+            self.at,
+            self.observation,
+            self.noise,
+            work,
+            chosen=chosen,
+            whitened=whitened,
+            residual=self.residual,
+        )
 
     def lean(self, places: Sequence[int]) -> tuple[PreparedFlight, list[int]]:
         """What makes the columns of the base and those at ``places`` at least cost, and where it puts the latter."""
-        if self._kept:
+        if self.pieces is not None:
             return self, list(places)
         n = len(self.at.base)
         further = sorted({k - n for k in places if k >= n})
         known = range(len(self.at.candidates)) if self.at.only is None else self.at.only
         at = replace(self.at, with_candidates=bool(further), only=tuple(known[k] for k in further))
-        return replace(self, at=at, _kept=[]), [k if k < n else n + further.index(k - n) for k in places]
+        return replace(self, at=at), [k if k < n else n + further.index(k - n) for k in places]
 
     def for_residuals(self, v: Array) -> tuple[PreparedFlight, Array]:
         """What yields residuals for coefficients v (k, size) at least cost, and these coefficients of its columns."""
@@ -260,29 +271,23 @@ class PreparedFlight:
         w[:, own] = v[:, places]
         return lean, w
 
-    def with_steps(
-        self, instants: Mapping[str, float], places: Mapping[str, Sequence[int]]
-    ) -> PreparedFlight:
-        """The same with steps (effect -> instant, s; effect -> places of its columns). Kept columns move to it."""
-        moved = [k for e in instants for k in places[e]]
-        kept = list(self._kept)
-        self._kept.clear()
-        for piece in kept:  # a flight that is kept is one segment: the filter starts from rest
-            record = piece.observation.record
-            for e, instant in instants.items():
-                piece.columns[places[e], :, : int(np.searchsorted(record.time, instant))] = 0.0
-            part = whitened_columns(piece.columns[moved], self.noise, None, record)
-            unknown_gradient.project(part, piece.windows)
-            piece.white[moved] = part
-        return replace(self, at=replace(self.at, instants=instants), _kept=kept)
+    def with_steps(self, instants: Mapping[str, float]) -> PreparedFlight:
+        """The same with steps (effect -> instant, s)."""
+        return prepare_flight(
+            self.observation, self.noise, replace(self.at, instants=instants), self.residual
+        )
 
-    def released(self) -> PreparedFlight:
-        """The same without the columns."""
-        return replace(self, _kept=[])
 
-    def release(self) -> None:
-        """Free the memory of kept columns; should this flight be asked again, it computes them anew."""
-        self._kept.clear()
+def prepare_flight(
+    o: Observation, noise: NoiseModel, at: Point, residual: Array | None = None
+) -> PreparedFlight:
+    """A flight about a point; ``residual`` is known of a thinned flight that was prepared about the same parameters."""
+    if residual is None and o.thin is not None:
+        residual = thinned_residual(at, o.thin)
+    if len(o.record.time) > ROWS:
+        return PreparedFlight(o, noise, at, residual)
+    pieces = passed(at, o, noise, lambda piece: piece, residual=residual)
+    return PreparedFlight(o, noise, at, residual, tuple(pieces))
 
 
 def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:

@@ -44,7 +44,7 @@ def heat(
         Q = projector.basis(piece)
         return scores.of(piece, projector.left(piece, Q), Q)
 
-    for sums in prepared.each(own, effort=omnibus.EFFORT):
+    for sums in prepared.each(own):
         scores.sums.join(sums)
     return _table(scores)
 

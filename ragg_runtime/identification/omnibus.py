@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.noise import line_width
+from ragg_runtime.estimation.noise_estimate import line_width
 from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, flight_segments
@@ -46,9 +46,6 @@ APART = 0.05
 """Share of a term's square that must be left of it beside the terms taken before, for its score to count."""
 
 MOST_TERMS = 8
-
-EFFORT = 3.0
-"""How much longer the search of a segment takes than making it."""
 
 SHORTLIST = 400
 """Terms among which several are sought: those with the largest scores."""
@@ -264,7 +261,7 @@ def search(
         return scores.of(piece, y, Q), further(piece, y)
 
     found = []
-    for sums, more in prepared.each(both, effort=EFFORT):
+    for sums, more in prepared.each(both):
         scores.sums.join(sums)
         found.append(more)
     return choose(scores), found

@@ -14,7 +14,7 @@ from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import HELD_OUT_BLOCKS, Fitted
 from ragg_runtime.estimation.least_squares import join, triangle
 from ragg_runtime.estimation.observation import BLOCKS, ROWS, as_output
-from ragg_runtime.estimation.whitening import Piece, flight_segments, passed
+from ragg_runtime.estimation.whitening import Piece, flight_segments
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import Field, field_of
 
@@ -141,8 +141,5 @@ def compute_signature(f: Fitted, flight: int, v: Array, rows: slice | None = Non
         after, before = piece.left(both)
         return np.asarray(before - after)
 
-    if len(flight_segments(x.observation)) == 1:
-        parts = [*x.each(taken, whitened=False)]
-    else:
-        parts = [*passed(x.at, x.observation, x.noise, taken, chosen=chosen, whitened=False)]
+    parts = [*x.each(taken, chosen=chosen, whitened=False)]
     return slice(chosen[0].rows.start, chosen[-1].rows.stop), np.concatenate(parts)

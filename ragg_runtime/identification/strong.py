@@ -17,7 +17,7 @@ from ragg_runtime.estimation import whitening
 from ragg_runtime.estimation.calibration import QUIET
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.least_squares import below, fold, prior
-from ragg_runtime.estimation.noise import NoiseModel
+from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
@@ -198,8 +198,6 @@ def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend
     """An effect of a stage derived into the model, and everything fitted anew."""
     f = stage.fitted
     model, instrument = contenders.derived(f, [effect], stage.instants, extend, candidates=True)
-    for x in f.prepared:
-        x.release()  # what is made now takes its place
     return Taken(
         effect=effect,
         test=stage.choice.tests[effect],
@@ -271,7 +269,7 @@ def with_steps(
             root = _root(f, edges, samples, places)
     if found and not known:
         instants = {e: float(time[x.sample]) for e, x in found.items()}
-        noise = [NoiseModel.fit(replace(x.at, instants=instants), x.observation) for x in f.prepared]
+        noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
         calmer = fit(f.model, f.instrument, f.observations, noise, f.calibration.p)
         return with_steps(calmer, found)
     if found:  # the columns themselves, to the sample, and through the filter
@@ -280,7 +278,7 @@ def with_steps(
     rest = {e: k for e, k in samples.items() if e not in exact}
     instants = {e: float(time[k]) for e, k in (exact | rest).items()}
     f = _begun(f, edges, rest, places)
-    f = replace(f, prepared=tuple(x.with_steps(instants, places) for x in f.prepared))
+    f = replace(f, prepared=tuple(x.with_steps(instants) for x in f.prepared))
     return _with_penalty(f, [*available, *instants], within=plain), f, instants
 
 
@@ -294,7 +292,7 @@ def _from(f: Fitted, exact: Mapping[str, int]) -> Fitted:
     """The same with the columns of steps from these samples on, made anew and put through the filter."""
     time = f.observations[0].record.time
     instants = {e: float(time[k]) for e, k in exact.items()}
-    prepared = [replace(x.released(), at=replace(x.at, instants=instants)) for x in f.prepared]
+    prepared = [x.with_steps(instants) for x in f.prepared]
     triangles, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
     return replace(f, prepared=tuple(prepared), triangles=triangles, sums=sums)
 

@@ -141,16 +141,11 @@ class Record:
 
     def inputs(self, chain: Chain) -> Array:
         """(n_inputs, N) in the order of the module's INPUTS; channels that were not recorded are zero."""
-        if chain.INPUTS in self._inputs:
-            return self._inputs[chain.INPUTS]
         x = np.zeros((len(chain.INPUTS), len(self.time)))
         for n, name in enumerate(chain.INPUTS):
             series = self.series(name)
             if series is not None:
                 x[n] = series
-        if len(self.time) <= REMEMBERED:
-            x.flags.writeable = False
-            self._inputs[chain.INPUTS] = x
         return x
 
     def series(self, name: str) -> Array | None:
@@ -215,20 +210,14 @@ class Record:
 
     def moved(self, moves: Mapping[str, tuple[float, float]]) -> Record:
         """The record with motion taken from later in it: quantity (``a`` ...) -> lateness, s, at time 0 and per second."""
-        key = tuple(sorted(moves.items()))
-        found = self._moved.get(key)
-        if found is None:
-            wide, samples = dict(self.wide), len(self.time) + sum(self.halo)
-            at = np.arange(samples, dtype=np.float64)
-            time = float(self.time[0]) + (at - self.halo[0]) / self.rate
-            for quantity, (offset, drift) in moves.items():
-                names = [n for k in "xyz" if (n := f"{quantity}_{k}") in wide]
-                there = np.clip(at + (offset + drift * time) * self.rate, -1.0, samples)
-                wide |= dict(zip(names, interpolated([wide[n] for n in names], there), strict=True))
-            found = replace(self, wide=wide)
-            self._moved.clear()
-            self._moved[key] = found
-        return found
+        wide, samples = dict(self.wide), len(self.time) + sum(self.halo)
+        at = np.arange(samples, dtype=np.float64)
+        time = float(self.time[0]) + (at - self.halo[0]) / self.rate
+        for quantity, (offset, drift) in moves.items():
+            names = [n for k in "xyz" if (n := f"{quantity}_{k}") in wide]
+            there = np.clip(at + (offset + drift * time) * self.rate, -1.0, samples)
+            wide |= dict(zip(names, interpolated([wide[n] for n in names], there), strict=True))
+        return replace(self, wide=wide)
 
     def carried(self, rows: slice) -> tuple[Array, Array, Array]:
         """Time, s, of some samples alone, and cosine and sine of its carriers in what is fitted."""
@@ -246,33 +235,8 @@ class Record:
     def _wide(self, name: str) -> Array | None:
         if name in self.wide:
             return self.wide[name]
-        found = self._made.get(name)
-        if found is None:
-            found = self._differentiated(name)
-            if found is not None and len(found) <= REMEMBERED:
-                found.flags.writeable = False
-                self._made[name] = found
-        return found
-
-    @cached_property
-    def _made(self) -> dict[str, Array]:
-        """Derivatives that were asked for: fits and the search of what is left ask for the same again and again."""
-        return {}
-
-    @cached_property
-    def _moved(self) -> dict[tuple[tuple[str, tuple[float, float]], ...], Record]:
-        """The record as it was moved last: a fit that has come near its end asks for the same again."""
-        return {}
-
-    @cached_property
-    def _inputs(self) -> dict[tuple[str, ...], Array]:
-        """Inputs that were asked for: every point at which a fit is linearised has the same."""
-        return {}
-
-    def _differentiated(self, name: str) -> Array | None:
         if name in SPIN:
-            encoder = self.wide.get(self.angle_column)
-            length = len(self.time) + sum(self.halo)
+            encoder, length = self.wide.get(self.angle_column), len(self.time) + sum(self.halo)
             return spin(
                 name, encoder, length, self.rate, self.spin_frequency, self.spin_degree, self._lateness
             )
@@ -342,9 +306,6 @@ def disc_angle(time: Array, spin_frequency: float, start: float = 0.0) -> Array:
     phi = folded.disc_angle(time, spin_frequency)
     return phi + folded.disc_angle(np.array([start]), spin_frequency) if start else phi
 
-
-REMEMBERED = 1 << 16
-"""Samples of a record up to which its derivatives are kept: a segment's, not those of a long flight."""
 
 STANDING = 1e-3
 """Range of a recorded disc angle, rad, below which the disc stands still."""

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ragg_runtime.estimation import calibration, fitted, noise, observation, scores, whitening
+from ragg_runtime.estimation import calibration, fitted, noise_estimate, observation, scores, whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, beginnings, segments, spread
@@ -129,18 +129,18 @@ def test_a_long_flight_with_gaps_everywhere_has_no_means(
     """One output sample of three, or a third of the flight: the density is that of the segments, or of the means that are left."""
     s, flight = flown
     monkeypatch.setattr(whitening, "ROWS", 1700)
-    monkeypatch.setattr(noise, "MEANS", 2400)
+    monkeypatch.setattr(noise_estimate, "MEANS", 2400)
     every, third = np.zeros((2, len(flight.time)), dtype=bool)
     every[::3] = third[3000:6200] = True
     for valid, there in ((every, False), (third, True), (np.ones_like(third), True)):
         x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
         o = observation.observe(x, s.sheet)
         at = Point(model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=True)
-        found = noise.averages(at, o, NoiseModel.white(o.record.rate, len(o.series)))
+        found = noise_estimate.averages(at, o, NoiseModel.white(o.record.rate, len(o.series)))
         assert (found is not None) == there
         if found is not None:
             assert np.array_equal(found[0].rest != 0.0, valid.reshape(-1, 4).all(axis=1))
-        assert NoiseModel.fit(at, o).spectra[0].rms > 0.0
+        assert noise_estimate.estimate_noise(at, o).spectra[0].rms > 0.0
 
 
 def test_contenders_of_a_long_flight_are_told_apart_on_an_excerpt(
