@@ -133,7 +133,7 @@ class Online:
         """(N, n + 3): every sample as a row of the least squares, over the noise."""
         r = o.record
         wide = {name: x for name, x in r.wide.items() if name not in GRADIENT}
-        bare = replace(o, record=replace(r, wide=wide), memo=[])
+        bare = replace(o, record=replace(r, wide=wide))
         columns = as_output(bare, linearised(Point(self.model, self.instrument, self.p, False), bare))
         columns = columns[[*self.own, len(columns) - 1]]
         zero, one = np.zeros(len(r.time)), np.ones(len(r.time))

@@ -273,9 +273,10 @@ class PreparedFlight:
 
     def with_steps(self, instants: Mapping[str, float]) -> PreparedFlight:
         """The same with steps (effect -> instant, s)."""
-        return prepare_flight(
-            self.observation, self.noise, replace(self.at, instants=instants), self.residual
-        )
+        if dict(instants) == dict(self.at.instants):
+            return self
+        at = replace(self.at, instants=instants)
+        return prepare_flight(self.observation, self.noise, at, self.residual)
 
 
 def prepare_flight(

@@ -264,7 +264,7 @@ def whitened_motion(f: Fitted, at: Point, motion: Sequence[Sinusoid], simulated:
     channels |= moved(channels, motion, time)
     r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
     series = (np.zeros(n),) * len(o.series)
-    made = replace(o, record=r, series=series, name="motion", thin=None, memo=[])
+    made = replace(o, record=r, series=series, name="motion", thin=None)
 
     white = noise.whiten(linearised(at, made)[:-1])
     if not unknown_gradient.unknown(o):
