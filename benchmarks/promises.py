@@ -152,7 +152,7 @@ def flown(s: Scenario, sinusoids: Sequence[Sinusoid], effects: EffectValues) -> 
             for q in (with_it, without)
         )
         rest = left(at, b)
-        clean.append(replace(a, series=tuple(np.atleast_2d(a.data - rest)), flight=k, memo=[]))
+        clean.append(replace(a, series=tuple(np.atleast_2d(a.data - rest)), flight=k))
     signal = about(both.model, both.instrument, clean, both.calibration)
     n = both.n_base
     columns = grouped(both.candidates)
