@@ -58,7 +58,7 @@ def quiet(*names: str) -> Kinds:
 
 @dataclass(frozen=True)
 class Patch:
-    """A name of the runtime (``estimation.noise:_level``), and what takes its place.
+    """A name of the runtime (``estimation.noise_estimate:_level``), and what takes its place.
 
     ``neutral`` is called with what the function is called with; if ``constant``, it is the value. ``acts``: whether what the function
     returned is not neutral (default: it differs from what ``neutral`` returns).
@@ -200,8 +200,8 @@ RULES: tuple[Rule, ...] = (
          (Patch("estimation.residual:_lines", _empty),)),
     Rule("noise-level", "the noise's level follows time, motion, angle or gaps",
          (*quiet("ramp", "along-axes", "with-ax", "with-size", "cyclic"), ("ten", "along-axes"), ("ten", "ramp")),
-         ("estimation/noise_level.py", "estimation/noise.py:_level"),
-         (Patch("estimation.noise:_level", _level, acts=lambda r: bool(r.parts)),)),
+         ("estimation/noise_level.py", "estimation/noise_estimate.py:_level"),
+         (Patch("estimation.noise_estimate:_level", _level, acts=lambda r: bool(r.parts)),)),
     Rule("uneven", "where the level changes, tests are tempered by the spread of scores in blocks of time",
          (*quiet("ramp", "along-axes", "with-ax", "with-size"), ("ten", "along-axes"), ("five", "with-size")),
          ("identification/uneven.py", "identification/omnibus.py:inflation"),
@@ -246,7 +246,7 @@ RULES: tuple[Rule, ...] = (
           Patch("identification.steps:sharpened", lambda prepared, sample, *a: sample),)),
     Rule("shared-noise", "noise that all voltages share stands in a combination of its own",
          (("ten", "voltages"), ("quiet", "voltages"), ("pair", "voltages")), ("signals/combinations.py",),
-         (Patch("estimation.noise:combinations.telling", _nothing),)),
+         (Patch("estimation.noise_estimate:combinations.telling", _nothing),)),
     Rule("loud", "a residual that is louder than its noise is unexplained",
          (*OUTSIDE, *quiet("sensors-1-mg", "clock-set")), ("identification/comparison.py:loud",),
          (Patch("identification.comparison:loud", _false, acts=bool),)),

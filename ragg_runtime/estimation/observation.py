@@ -17,7 +17,7 @@ from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.io import Flight
 from ragg_runtime.model.record import Record, record
 from ragg_runtime.model.recorded import Recorded, recorded
-from ragg_runtime.signals.fir import thinned
+from ragg_runtime.signals.fir import convolved
 
 BLOCKS = 24
 """Stretches of time of which each keeps a triangle of its own."""
@@ -218,7 +218,7 @@ class Thin:
 
     def kept(self, x: Array) -> Array:
         """Series (..., N) over the :attr:`span`, thinned: (..., n)."""
-        return thinned(x, self.taps, self.every)
+        return convolved(x, self.taps)[..., :: self.every]
 
 
 def bridged(x: Array, valid: NDArray[np.bool_]) -> Array:

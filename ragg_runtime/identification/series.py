@@ -13,8 +13,8 @@ from ragg_runtime.estimation.fitted import Fitted, estimated
 from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.scores import finite
 from ragg_runtime.estimation.whitening import PreparedFlight
+from ragg_runtime.signals import derivative
 from ragg_runtime.signals.demodulate import CUTOFF, WIDTH, low_pass
-from ragg_runtime.signals.derivative import stretches
 
 Array = NDArray[np.float64]
 
@@ -76,12 +76,12 @@ def spectrum(x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260)
     """Welch spectrum over the valid stretches of 32 samples and more, averaged to ``points`` steps of log frequency, or ``None``."""
     from scipy import signal  # half a second to import, which a command that draws nothing need not wait for
 
-    runs = stretches(valid, 32)
-    if not runs:
+    parts = derivative.runs(valid, 32)
+    if not parts:
         return None
-    longest = max(r.stop - r.start for r in runs)
+    longest = max(r.stop - r.start for r in parts)
     size = min(int(SEGMENT * rate), max(32, longest // 3))
-    used = [r for r in runs if r.stop - r.start >= size]
+    used = [r for r in parts if r.stop - r.start >= size]
     total = np.zeros(size // 2 + 1)
     for r in used:
         f, p = signal.welch(x[r], rate, nperseg=size, detrend="constant")
@@ -201,7 +201,7 @@ def broken(time: Array, x: Array) -> tuple[Array, Array]:
 
 def runs(x: Array) -> list[slice]:
     """Stretches of a series between its NaNs."""
-    return stretches(np.isfinite(x), 1)
+    return derivative.runs(np.isfinite(x))
 
 
 def worst(f: Fitted, residuals: Sequence[Array], most: int) -> list[int]:

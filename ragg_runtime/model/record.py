@@ -23,9 +23,9 @@ from ragg_runtime.signals.derivative import (
     best_degree,
     differentiate,
     interpolated,
+    runs,
     smooth_slope,
     steady_and_swing,
-    stretches,
 )
 
 Array = NDArray[np.float64]
@@ -271,7 +271,7 @@ def spin(
     if encoder is None:
         return np.full(samples, 2 * np.pi * spin_frequency if order == 1 else 0.0)
     found = np.full(samples, np.nan)
-    for run in stretches(np.isfinite(encoder), DEGREES[0] + 2):
+    for run in runs(np.isfinite(encoder), DEGREES[0] + 2):
         half = min(_half(rate), (run.stop - run.start - 1) // 2)
         steady, swing = steady_and_swing(encoder[run], None if late is None else late[run])
         bearable = max(d for d in DEGREES if d == DEGREES[0] or d <= min(degree, 2 * half - 1))
@@ -290,7 +290,7 @@ def spin_degree(encoder: Array | None, rate: float, late: Array | None = None) -
         for a in range(0, len(encoder), CHUNK):
             rows = slice(max(0, a - half), a + CHUNK + half)
             angle = np.array(encoder[rows])
-            for run in stretches(np.isfinite(angle), 2):
+            for run in runs(np.isfinite(angle), 2):
                 yield steady_and_swing(angle[run], None if late is None else late[rows][run])[1]
 
     return best_degree(angles(), half)

@@ -43,19 +43,14 @@ class Demodulated:
         (M,) s^-2: Gamma_xx - Gamma_yy and Gamma_xy.
     valid
         Samples of the input to which they belong: ``time[valid]``.
-    trimmed
-        Samples dropped at each end; the filter's delay, already compensated.
     """
 
     inline: Array
     cross: Array
     valid: slice
-    trimmed: int
 
 
-def low_pass(
-    rate: float, *, cutoff: float = CUTOFF, width: float = WIDTH, attenuation: float = ATTENUATION
-) -> Array:
+def low_pass(rate: float, *, cutoff: float = CUTOFF, attenuation: float = ATTENUATION) -> Array:
     """Linear-phase FIR low-pass of odd length, unit gain at zero frequency (Kaiser window).
 
     Samples of one function of time, whatever the rate: channels that were made at one and thinned out to another have
@@ -64,19 +59,19 @@ def low_pass(
 
     Parameters
     ----------
-    rate, cutoff, width
+    rate, cutoff
         Hz.
     attenuation
         dB.
     """
-    if not (np.isfinite(rate) and 0 < cutoff - width / 2 < cutoff + width / 2 < rate / 2):
+    if not (np.isfinite(rate) and 0 < cutoff - WIDTH / 2 < cutoff + WIDTH / 2 < rate / 2):
         raise UserError(
             "the low-pass does not fit the sampling rate",
-            found=f"cutoff {cutoff:g} Hz, transition {width:g} Hz, rate {rate:g} Hz",
+            found=f"cutoff {cutoff:g} Hz, transition {WIDTH:g} Hz, rate {rate:g} Hz",
             expected="a pass band above zero and a stop band below half of the rate",
         )
     # Kaiser's rules (1974): the length for the transition, the window's shape for the attenuation
-    length = int(np.ceil((attenuation - 7.95) / 2.285 / (np.pi * width / (REFERENCE / 2)) + 1))
+    length = int(np.ceil((attenuation - 7.95) / 2.285 / (np.pi * WIDTH / (REFERENCE / 2)) + 1))
     above = max(0.0, attenuation - 21.0)
     beta = 0.1102 * (attenuation - 8.7) if attenuation > 50 else 0.5842 * above**0.4 + 0.07886 * above
     half = (length // 2) / REFERENCE
@@ -97,8 +92,6 @@ def demodulate(
     rate: float,
     k_ggi: float,
     *,
-    cutoff: float = CUTOFF,
-    width: float = WIDTH,
     attenuation: float = ATTENUATION,
 ) -> Demodulated:
     """Inline and cross channels of an output before demodulation, or of a residual of it.
@@ -113,8 +106,8 @@ def demodulate(
         Sampling rate, Hz.
     k_ggi
         Sum of k_VI K1 R, V per s^-2 (in SI; 4.54e-4 V/Eo is 4.54e5).
-    cutoff, width, attenuation
-        Of the low-pass: half-amplitude frequency and transition width in Hz, stop band in dB.
+    attenuation
+        Of the low-pass's stop band, dB.
 
     Raises
     ------
@@ -128,15 +121,15 @@ def demodulate(
             "the output and the disc angle must be series of one length",
             found=f"shapes {G.shape} and {angle.shape}",
         )
-    taps = low_pass(rate, cutoff=cutoff, width=width, attenuation=attenuation)
+    taps = low_pass(rate, attenuation=attenuation)
     if G.size < taps.size:
         raise UserError(
             "the record is shorter than the demodulator's low-pass",
             found=f"{G.size / rate:.3g} s",
             expected=f"at least {taps.size / rate:.3g} s",
-            remedy="record longer, or widen the filter's transition",
+            remedy="record longer",
         )
     half = taps.size // 2
     inline = convolved(4 * G * np.sin(2 * angle), taps) / k_ggi
     cross = -convolved(2 * G * np.cos(2 * angle), taps) / k_ggi
-    return Demodulated(inline, cross, slice(half, G.size - half), half)
+    return Demodulated(inline, cross, slice(half, G.size - half))

@@ -65,10 +65,10 @@ def differentiate(x: Array, rate: float, valid: NDArray[np.bool_] | None = None)
     return result
 
 
-def runs(present: NDArray[np.bool_]) -> list[slice]:
-    """The contiguous runs of True, in order."""
+def runs(present: NDArray[np.bool_], shortest: int = 1) -> list[slice]:
+    """The contiguous runs of True at least ``shortest`` long, in order."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], present.astype(np.int8), [0]])))
-    return [slice(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+    return [slice(int(a), int(b)) for a, b in edges.reshape(-1, 2) if b - a >= shortest]
 
 
 def _derivative(x: Array) -> Array:
@@ -238,9 +238,3 @@ def _gram(half: int, t: Array, degree: int) -> list[list[Array]]:
         slopes = [one[0] * 0.0, one[0], 2.0 * one[1]]
         found.append([a * (t * one[s] + slopes[s]) - b * two[s] for s in range(3)])
     return found
-
-
-def stretches(valid: NDArray[np.bool_], shortest: int) -> list[slice]:
-    """Contiguous runs of valid samples, at least ``shortest`` long."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], valid.astype(np.int8), [0]])))
-    return [slice(int(a), int(b)) for a, b in edges.reshape(-1, 2) if b - a >= shortest]

@@ -71,9 +71,6 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
     return result
 
 
-ROWS = 32
-"""Samples that :func:`thinned` makes of a stretch at a time: more spend work on zeros, fewer on copies of the stretch."""
-
 TOGETHER = 8
 """Blocks of :func:`convolved` that are transformed together: two of them in one go of the processor, all in cache."""
 
@@ -110,24 +107,3 @@ def convolved(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "
         y = backward(forward(x[..., whole:], size) * gain, size)
         found[..., whole:] = y[..., k - 1 : k - 1 + n - whole]
     return found
-
-
-def thinned(x: Series, taps: Array, every: int) -> Series:
-    """Of :func:`convolved` (``valid``) the first sample and every so many further, as matrix products."""
-    k = len(taps)
-    n = -(-(x.shape[-1] - k + 1) // every)
-    if n < 1:
-        return np.empty((*x.shape[:-1], 0), dtype=x.dtype)
-    reach, step = (ROWS - 1) * every + k, ROWS * every
-    kernels = np.zeros((reach, ROWS), dtype=x.real.dtype)
-    for row in range(ROWS):
-        kernels[row * every : row * every + k, row] = taps[::-1]
-    long = np.zeros((*x.shape[:-1], (n - 1) // ROWS * step + reach), dtype=x.dtype)
-    there = min(x.shape[-1], long.shape[-1])
-    long[..., :there] = x[..., :there]
-    blocks: Series = np.lib.stride_tricks.sliding_window_view(long, reach, axis=-1)[..., ::step, :]
-    found: Series = np.empty((*blocks.shape[:-1], ROWS), dtype=x.dtype)
-    found.real = np.ascontiguousarray(blocks.real) @ kernels
-    if np.iscomplexobj(x):
-        found.imag = np.ascontiguousarray(blocks.imag) @ kernels
-    return found.reshape(*x.shape[:-1], -1)[..., :n]
