@@ -23,7 +23,6 @@ from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, about
 from ragg_runtime.estimation.least_squares import join
-from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation, observations_of, segments, spread
 from ragg_runtime.estimation.regressors import Column, Point

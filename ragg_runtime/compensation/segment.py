@@ -20,8 +20,7 @@ from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model import lateness
-from ragg_runtime.model.evaluate import scale_factor, vector
-from ragg_runtime.model.evaluate import Evaluator
+from ragg_runtime.model.evaluate import Evaluator, scale_factor, vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
 from ragg_runtime.signals.means import between
@@ -241,7 +240,8 @@ class Segment:
             own = slice(first * few, last * few)
             if first >= last:
                 continue
-            found = self.c.evaluator.changes(self.record.time[own],
+            found = self.c.evaluator.changes(
+                self.record.time[own],
                 self._inputs(own),
                 self.c.about - self.late,
                 STEP * b.directions,

@@ -19,7 +19,7 @@ from ragg_runtime.io.angular_acceleration import Derivative
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS, is_disc_angle
 from ragg_runtime.model.evaluate import named, scale_factor
 from ragg_runtime.model.lateness import late
-from ragg_runtime.model.model import Chain, Model
+from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import SPIN, Record, phase
 
 Array = NDArray[np.float64]
