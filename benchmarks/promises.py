@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation.fitted import Fitted, about, fit
 from ragg_runtime.estimation.observation import Observation, observations_of
-from ragg_runtime.estimation.regressors import EFFECT_PRIOR, Point, grouped, left
+from ragg_runtime.estimation.regressors import EFFECT_PRIOR, Point, grouped, residual_of
 from ragg_runtime.identification import motion_design, next_motion
 from ragg_runtime.identification.selection import Field, field_of, testable_effects
 from ragg_runtime.io import Flight
@@ -151,7 +151,7 @@ def flown(s: Scenario, sinusoids: Sequence[Sinusoid], effects: EffectValues) -> 
             observations_of([replace(q.flight(), outputs=dict(q.outputs_noise_free))], s.sheet)[0]
             for q in (with_it, without)
         )
-        rest = left(at, b)
+        rest = residual_of(at, b)
         clean.append(replace(a, series=tuple(np.atleast_2d(a.data - rest)), flight=k))
     signal = about(both.model, both.instrument, clean, both.calibration)
     n = both.n_base
