@@ -105,7 +105,8 @@ def _footer(origin: Origin, facts: Sequence[tuple[str, str]]) -> str:
         f"<tr><td>{escape(name)}</td><td><code>{escape(sha)}</code></td></tr>" for name, sha in origin.sources
     )
     table = f'<div class="wide"><table><tbody>{files}</tbody></table></div>' if files else ""
-    return f'<footer><h2>How this was made</h2><pre>{escape(origin.command)}</pre><dl class="facts">{listed}</dl>{table}</footer>'
+    facts_ = f'<details><summary>Record, versions and digests</summary><dl class="facts">{listed}</dl>{table}</details>'
+    return f"<footer><h2>How this was made</h2><pre>{escape(origin.command)}</pre>{facts_}</footer>"
 
 
 def _anchored(text: str) -> tuple[str, str]:

@@ -202,13 +202,13 @@ def _given_back(path: Path) -> Iterator[None]:
             path.unlink()
 
 
-def check_upload(path: Path, seconds: float | None = None) -> None:
+def check_upload(path: Path) -> None:
     """Read an uploaded file in a process of its own; UserError, and the file is gone, if that fails or takes too long.
 
     A damaged file can bring down the library that reads it: then that process ends, and not the studio. A file with columns of
     other names is kept: what they are is asked on the page.
     """
-    limit = 120.0 + path.stat().st_size / 2e6 if seconds is None else seconds
+    limit = 120.0 + path.stat().st_size / 2e6
     command = [sys.executable, "-m", "ragg_runtime", "info", str(path)]
     found = "it ends with a fault"
     try:

@@ -69,15 +69,11 @@ function job(status) {
 }
 
 function darker() {
-  const dark = document.documentElement.dataset.theme
-    ? document.documentElement.dataset.theme === "dark"
-    : matchMedia("(prefers-color-scheme: dark)").matches;
-  look({ theme: dark ? "light" : "dark" });
+  look({ theme: document.documentElement.dataset.theme === "dark" ? "light" : "dark" });
 }
 
 function themed() {
-  if (view.theme) document.documentElement.dataset.theme = view.theme;
-  else delete document.documentElement.dataset.theme;
+  document.documentElement.dataset.theme = view.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   document.dispatchEvent(new Event("themed"));
 }
 

@@ -35,7 +35,7 @@ export function figures(box) {
     spectrogram: panel("spectrogram", "Spectrogram", () => curvesText(plots.spectrogram.plot, { image: plots.spectrogram.image() })),
     heat: frame({ id: "terms", title: "Where it fails: harmonic of the spin × motion term", body: heat, name: () => fileName(flight() && flight().name, "terms"), text: () => tableText(heat.querySelector("table")) }),
   };
-  fill(panels.heat.legend, "σ, of what the model leaves");
+  fill(panels.heat.legend, "significance in the residual, σ");
   const { strip, measured, residual, spectrum, spectrogram: gram } = panels;
   strip.body.title = "Drag to choose a segment of time; drag its middle to move it";
   fill(box, head, strip.element, measured.element, residual.element, h("div.pair", {}, spectrum.element, gram.element), panels.heat.element);
