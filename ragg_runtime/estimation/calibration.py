@@ -395,17 +395,18 @@ def as_said(instrument: Instrument) -> Instrument:
 def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, float]:
     """How many times less sure than it says the sheet is of each parameter, at least 1.
 
-    Those of one unit are a kind; all with a sigma on the sheet are another one, doubted only where nothing speaks for an effect.
+    Those of one unit are a kind; all with a sigma on the sheet are another one, doubted only where nothing speaks for an effect. Each
+    parameter of an effect is one: how large a fault may be is not known beforehand.
     """
     kinds = {q.name: STATED if q.name in instrument.sigmas else q.si_unit for q in PARAMETERS}
+    kinds |= {q.name: q.name for q in c.columns if q.effect is not None}
     squares = dict.fromkeys(kinds.values(), 0.0)
     told = dict.fromkeys(kinds.values(), 0.0)
     sheet = vector(model, instrument)
     for q, k, variance in zip(c.columns, c.index, np.diag(c.covariance), strict=True):
-        if q.effect is None:
-            x = float((c.p[k] - sheet[k]) / q.scale) * instrument.widths.get(q.name, 1.0)
-            squares[kinds[q.name]] += x**2
-            told[kinds[q.name]] += max(0.0, 1.0 - float(variance))
+        x = float((c.p[k] - sheet[k]) / q.scale) * instrument.widths.get(q.name, 1.0)
+        squares[kinds[q.name]] += x**2
+        told[kinds[q.name]] += max(0.0, 1.0 - float(variance))
     width = {k: float(np.sqrt(x / max(told[k], 1.0))) for k, x in squares.items()}
     wide = {k: w >= WIDE and squares[k] >= FAR**2 for k, w in width.items()}
     wide[STATED] = wide.get(STATED, False) and c.excess <= QUIET
@@ -414,5 +415,5 @@ def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, f
 
 def room_taken(instrument: Instrument, c: Calibration) -> float:
     """What wider priors cost, in chi-square: the logarithm of the volume that they add to, of every parameter that the record tells."""
-    width = np.array([instrument.widths.get(q.name, 1.0) if q.effect is None else 1.0 for q in c.columns])
+    width = np.array([instrument.widths.get(q.name, 1.0) for q in c.columns])
     return float(2.0 * np.log(width) @ np.maximum(0.0, 1.0 - np.diag(c.covariance)))

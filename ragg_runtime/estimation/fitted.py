@@ -107,11 +107,6 @@ class Fitted:
         """Number of regressors, base and candidates."""
         return int(self.triangles[0][0].shape[1]) - 1
 
-    @property
-    def uneven(self) -> bool:
-        """Whether the noise changes its level in any observation."""
-        return any(n.uneven for n in self.calibration.noise)
-
     @cached_property
     def beyond(self) -> tuple[float, ...]:
         """Mean square, V^2, of what thinning took of each observation: no column reaches there, it is noise."""

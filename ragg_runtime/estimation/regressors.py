@@ -87,7 +87,8 @@ def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int
             found.append((column, start[q.name] + j))
     for e in model.effects:
         if e.kind in ("deterministic", "step"):
-            found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in _of_effect(e, known, instrument)]
+            own = ((c, s) for c, s in _of_effect(e, known, instrument) if c.label not in instrument.held)
+            found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in own]
     return found
 
 
@@ -111,6 +112,7 @@ def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Co
             continue
         factor = unit_factor(q.unit, known)
         scale = EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like)
+        scale *= instrument.widths.get(f"{e.id}.{q.name}", 1.0)
         for j in (None,) if q.shared else range(1, instrument.layout.size + 1):
             column = Column(
                 name=f"{e.id}.{q.name}",

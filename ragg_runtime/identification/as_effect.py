@@ -9,6 +9,7 @@ from math import comb
 from ragg_runtime.base import series_name
 from ragg_runtime.base.series_name import Channel, Derivative, Function, Relaxation, Series
 from ragg_runtime.identification.dictionary import Term
+from ragg_runtime.identification.features import OUTPUT
 from ragg_runtime.io.record import RATES
 
 _FUNCTIONS = {"abs": "absolute value", "sign": "sign", "square": "square"}
@@ -16,11 +17,13 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 
 
 def line(term: Term, centre: Mapping[str, float], unit: str) -> str | None:
-    """The effect as one line of model.toml; ``None`` if a channel's name cannot stand in an expression.
+    """The effect as one line of model.toml; ``None`` if a channel's name cannot stand in an expression, or it is made of the output.
 
     ``centre`` are the means that auxiliary channels enter less; ``unit`` is that of the term's channels.
     """
     factors: list[str] = []
+    if any(series_name.channel(series_name.series(n)) == OUTPUT for n in term.channels):
+        return None  # no stage sees the output
     for name in dict.fromkeys(term.channels):
         text = _written(series_name.series(name))
         if text is None:

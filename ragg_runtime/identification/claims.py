@@ -7,7 +7,7 @@ A model is never complete: y = h(theta) + d + n, with d what no effect explains.
     significant its generic terms have Gaussian coefficients of one fitted variance, and the claims must be ahead plainly;
 (b) its coefficients are significant with a variance that their scores, block of time by block, tell (P. Huber 1967; H. White, Econometrica
     48, 1980), of few blocks with the correction CR2 (R. Bell and D. McCaffrey, Survey Methodology 28, 2002);
-(c) where d is significant, the error falls on held-out, interleaved blocks.
+(c) held-out, interleaved blocks of time do not speak against it, by their predictive density.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtri
 
-from ragg_runtime.estimation.fitted import FITTED_BLOCKS, HELD_OUT_BLOCKS, Fitted
+from ragg_runtime.estimation.fitted import FITTED_BLOCKS, Fitted
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf, log_sf_f
 from ragg_runtime.identification.likelihood_ratio import TESTABLE, log_bayes
 from ragg_runtime.identification.omnibus import Found, Omnibus, Remainder
@@ -39,11 +39,6 @@ catalogue.
 NEARLY = 0.8
 """Share of what several claims explain that a single generic term must explain for them to be suspected of feigning it. Measured: 0.66 to
 0.92 outside the catalogue, up to 0.75 of two effects of 10 sigma; of unequal pairs, where it is more, the evidence decides.
-"""
-
-WORSE = 16.0
-"""Chi-square by which a claim must not raise the error on held-out blocks. Of one that is right and changes their prediction by x sigma
-the gain is x^2 with a standard deviation of 2x: above -z^2 but for z sigma, whatever x; z is 4.
 """
 
 SEEN = 1.0 / (1.0 + TESTABLE**2)
@@ -93,17 +88,29 @@ class Regression:
     def fit(self, some: Sequence[int] | None = None, without: Sequence[int] = ()) -> tuple[Array, Array]:
         """Coefficients (n,), those of columns ``without`` as they are where nothing is, and a root of their covariance (n, n)."""
         n = len(self.centre)
-        kept = [k for k in range(n) if k not in set(without)]
+        kept, R = self._factor(some, without)
         fixed = np.zeros(n)
         fixed[list(without)] = self.absent[list(without)]
-        blocks = self.blocks(some)
-        rows = [np.column_stack([t[:, kept], t[:, -1] - t[:, :n] @ fixed]) for t in blocks]
-        sheet = np.column_stack([np.eye(len(kept)), self.centre[kept]])
-        R = np.asarray(np.linalg.qr(np.vstack([*rows, sheet]), mode="r"))
         k = len(kept)
         root = np.linalg.inv(R[:k, :k])
         fixed[kept] = root @ R[:k, k]
-        return fixed, root
+        return fixed, np.asarray(root)
+
+    def log_evidence(self, some: Sequence[int] | None = None, without: Sequence[int] = ()) -> float:
+        """Of some blocks, but for a constant of these: log of the Gaussian integral over the coefficients that are fitted."""
+        kept, R = self._factor(some, without)
+        k = len(kept)
+        return -0.5 * float(np.sum(R[k:, k] ** 2)) - float(np.sum(np.log(np.abs(np.diag(R)[:k]))))
+
+    def _factor(self, some: Sequence[int] | None, without: Sequence[int]) -> tuple[list[int], Array]:
+        """The columns that are fitted, and the R factor of [them | data], the prior in it."""
+        n = len(self.centre)
+        kept = [k for k in range(n) if k not in set(without)]
+        fixed = np.zeros(n)
+        fixed[list(without)] = self.absent[list(without)]
+        rows = [np.column_stack([t[:, kept], t[:, -1] - t[:, :n] @ fixed]) for t in self.blocks(some)]
+        sheet = np.column_stack([np.eye(len(kept)), self.centre[kept]])
+        return kept, np.asarray(np.linalg.qr(np.vstack([*rows, sheet]), mode="r"))
 
 
 def _absent(f: Fitted) -> Array:
@@ -187,14 +194,14 @@ class Significance:
         return max(log_p, log_sf_f(self.chi2 / by / self.rank, self.rank, freedom))
 
 
-def held_out_gain(x: Regression, effect: str) -> float:
-    """Chi-square by which an effect lowers what is left of the blocks that a fit does not see."""
-    n, E = len(x.centre), x.columns(effect)
-    left = []
-    for without in (E, []):
-        value, _ = x.fit(FITTED_BLOCKS, without)
-        left.append(sum(float(np.sum((t[:, -1] - t[:, :n] @ value) ** 2)) for t in x.blocks(HELD_OUT_BLOCKS)))
-    return left[0] - left[1]
+def held_out_evidence(x: Regression, effect: str) -> float:
+    """Log of the ratio of the predictive densities of the blocks that a fit does not see, with an effect and without it.
+
+    That is what its log evidence gains from them: of an effect that the others do not determine nothing is held against it.
+    """
+    E = x.columns(effect)
+    every, fitted = (x.log_evidence(some) - x.log_evidence(some, E) for some in (None, FITTED_BLOCKS))
+    return every - fitted
 
 
 def generic_evidence(
@@ -210,15 +217,15 @@ def generic_evidence(
     return found[best] - float(np.log(len(bases))), bases[best]
 
 
-PERIODIC = 0.02
-"""Share by which the periodic filter may be off what a term explains (0.7 % of a converter's step at 380 sigma)."""
+SECOND_ORDER = 0.05
+"""Share by which second orders, and the filter that generic terms pass, may change what an explanation explains."""
 
 
 def _of_terms(s: Omnibus, claimed: float, most: int, spread: float) -> list[float]:
     charge = float(np.log(max(1, s.tried)))
 
     def explained(chi2: float, rank: int) -> float:
-        return min(chi2, claimed + rank) if chi2 < (1.0 + PERIODIC) * claimed + rank else chi2
+        return min(chi2, claimed + rank) if chi2 < (1.0 + SECOND_ORDER) * claimed + rank else chi2
 
     sets = [
         (float(np.sum([t.chi2 for t in s.steady[:n]])), n) for n in range(1, min(most, len(s.steady)) + 1)

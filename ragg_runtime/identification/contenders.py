@@ -36,16 +36,28 @@ class Extend(Protocol):
 
 
 def derived(
-    f: Fitted, ids: Sequence[str], instants: Mapping[str, float], extend: Extend, candidates: bool = False
+    f: Fitted,
+    ids: Sequence[str],
+    instants: Mapping[str, float],
+    extend: Extend,
+    *,
+    candidates: bool = False,
+    held: frozenset[str] = frozenset(),
 ) -> tuple[Model, Instrument]:
-    """The model of some flights with further effects in it, and the sheet, as sure as it says, with the instants of steps."""
+    """The model of some flights with further effects in it, and the sheet, as sure as it says, with the instants of steps.
+
+    Coefficients labelled in ``held`` are not fitted.
+    """
     model = extend(f.model, ids, candidates=candidates)
     steps = tuple(
         EffectSetting(e, MappingProxyType({"t_step": RawQuantity(instants[e], "s")}))
         for e in ids
         if e in instants
     )
-    return model, replace(as_said(f.instrument), effects=(*f.instrument.effects, *steps))
+    sheet = replace(
+        as_said(f.instrument), effects=(*f.instrument.effects, *steps), held=f.instrument.held | held
+    )
+    return model, sheet
 
 
 @dataclass(frozen=True)
@@ -56,36 +68,22 @@ class Left:
     arrived: bool
 
 
-def left(
-    f: Fitted,
-    noise: Sequence[NoiseModel],
-    held: frozenset[str],
-    extended: tuple[Model, Instrument],
-) -> Left:
-    """What a nonlinear fit leaves with effects in the model; coefficients labelled in ``held`` stay at zero, to second order.
+def left(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: Instrument) -> Left:
+    """What a nonlinear fit leaves with effects in the model.
 
     Every parameter that only the sheet knew before, and the record does now, costs 2 (AIC).
     """
-    model, sheet = extended
     observations = certain(model, sheet, f.observations)
     instrument, c = calibrated(model, sheet, observations, noise=noise)
-    others = [n for n, q in enumerate(c.columns) if q.label in held]
     x = -to_nominal(model, instrument, c)
-    cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
-    if others:
-        # of a Gaussian: the variances once some of its variables are given
-        C = c.covariance[:, others]
-        given = np.linalg.solve(C[others], C.T)
-        cost = float(x[others] @ np.linalg.solve(C[others], x[others]))
-        x -= x[others] @ given
-        known += float(np.sum(given * C.T)) - len(others)
+    known = len(c.columns) - float(np.trace(c.covariance))
     left_out = f.calibration.rows - c.rows  # each would have its share of the noise
     own = x[[n for n, q in enumerate(c.columns) if q.effect is not None]]
     # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
     # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
     tails = float(np.sum(np.log1p(own**2) - own**2))
     return Left(
-        chi2=c.chi2 + left_out + cost + 2.0 * known + tails + room_taken(instrument, c),
+        chi2=c.chi2 + left_out + 2.0 * known + tails + room_taken(instrument, c),
         arrived=c.converged,
     )
 
@@ -94,11 +92,11 @@ def left(
 class Contest:
     """What contenders leave of the flights of the fit ``f`` without them, each fitted once; of long ones first an excerpt.
 
-    ``entered``: of a contender what of it is ``held``, and its model and sheet, as for :func:`left`.
+    ``entered``: of a contender its model and sheet, as for :func:`left`.
     """
 
     f: Fitted
-    entered: Callable[[str], tuple[frozenset[str], tuple[Model, Instrument]]]
+    entered: Callable[[str], tuple[Model, Instrument]]
     _of_all: dict[str, Left] = field(default_factory=dict)
     _of_some: dict[str, Left] = field(default_factory=dict)
 

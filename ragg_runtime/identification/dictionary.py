@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base import series_name
 from ragg_runtime.estimation.observation import segments
 from ragg_runtime.identification import features
-from ragg_runtime.identification.features import Relaxations
+from ragg_runtime.identification.features import OUTPUT, Relaxations
 from ragg_runtime.io.record import GRADIENT, is_disc_angle
 from ragg_runtime.model.record import Record
 
@@ -52,6 +52,9 @@ FRICTION = (0.2, 0.5, 1)
 WARMTH = (5, 20, 60)
 """The same of squares: what the power that a motion dissipates warms."""
 
+OF_OUTPUT = ((OUTPUT, OUTPUT), (OUTPUT, OUTPUT, OUTPUT), (f"abs({OUTPUT})",), (f"sign({OUTPUT})",))
+"""Terms of the output itself."""
+
 
 @dataclass(frozen=True)
 class Term:
@@ -75,10 +78,12 @@ class Dictionary:
     """The terms that a flight allows, and their series over the flight or a part of it.
 
     Of auxiliary channels and of time only the changes are physics here (their means are in the base), so
-    these enter less their means.
+    these enter less their means. ``output`` (N,), V: what the model predicts, where one output is recorded (``None``: several are).
     """
 
-    def __init__(self, r: Record) -> None:
+    def __init__(self, r: Record, output: Array | None = None) -> None:
+        self._time = r.time
+        self._of_output = {} if output is None else _functions_of(output)
         centred = sorted(n for n in r.wide if n not in _MOTION and _is_channel(n))
         rates = [n for n in _RATES if n.partition("_")[2] in r.wide]
         names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
@@ -88,6 +93,7 @@ class Dictionary:
         found = _statistics(r, [*names, *made], self._slow)
         self.centre = {n: found[n].mean for n in (*centred, "time")}
         self._size = {n: s.rms if n not in self.centre else s.spread for n, s in found.items() if s.varies}
+        self._size |= {n: _rms(x[r.valid]) or 1.0 for n, x in self._of_output.items()}
         names = [n for n in names if n in self._size]
         motion = [n for n in names if n in _MOTION]
         other = [n for n in names if n not in _MOTION]
@@ -102,7 +108,7 @@ class Dictionary:
         alone = [Term(h, c) for c in products if len(c) <= 1 for h in of_one]
         alone += [Term("const", (f,)) for f in features.FORCES if f in self._size]
         several = [Term(h, c) for c in products if len(c) > 1 for h in of_several]
-        made_of = [c for c in further if all(n in self._size for n in c)]
+        made_of = [c for c in (*further, *OF_OUTPUT) if all(n in self._size for n in c)]
         trends = [any(n in self.centre or features.is_slow(n) for n in c) for c in made_of]
         lasting = [t for t in several if t.harmonic == "const"]
         lasting += [Term("const", c) for c, trend in zip(made_of, trends, strict=True) if trend]
@@ -138,6 +144,9 @@ class Dictionary:
         return Chunks(terms=chosen, most=most, carriers=carriers, channels=channels, one=nothing)
 
     def _channel(self, name: str, r: Record) -> Array:
+        if name in self._of_output:
+            first = int(np.searchsorted(self._time, r.time[0]))
+            return self._of_output[name][first : first + len(r.time)]
         x = self._slow.series(name, r) if features.is_slow(name) else features.series(name, r)
         return np.asarray(x - self.centre.get(name, 0.0))
 
@@ -171,6 +180,14 @@ class Chunks(Sequence[tuple[slice, Singles]]):
                     product = product * self.channels[name]
             np.multiply(product, self.carriers[t.harmonic], out=x[n])
         return slice(k * self.most, k * self.most + len(part)), x
+
+
+def _functions_of(output: Array) -> dict[str, Array]:
+    return {OUTPUT: output, f"abs({OUTPUT})": np.abs(output), f"sign({OUTPUT})": np.sign(output)}
+
+
+def _rms(x: Array) -> float:
+    return float(np.sqrt(np.mean(x**2))) if len(x) else 0.0
 
 
 def _is_channel(name: str) -> bool:

@@ -23,6 +23,9 @@ Array = NDArray[np.float64]
 FORCES = ("f_i", "f_o")
 """Forces that turn with the disc."""
 
+OUTPUT = "G_out"
+"""The output as the model predicts it: what a converter or an amplifier bends, whatever it is made of."""
+
 GRID = 1000
 """Samples between the places from which relaxations can be taken up."""
 

@@ -41,7 +41,7 @@ class LineRival:
     def words(self) -> str:
         return (
             f"the output has a line at about {self.line.frequency:.5g} Hz, beside a multiple of the spin rate: it explains as much"
-            f" as {self.effect} would, so that none is named"
+            f" as {self.effect} would, so that this is not named"
         )
 
     def better(self, rem: Remainder) -> bool:

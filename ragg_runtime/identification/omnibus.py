@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.estimation import unknown_gradient, whitening
+from ragg_runtime.estimation import regressors, unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise_estimate import line_width
 from ragg_runtime.estimation.observation import BLOCKS
@@ -27,6 +27,8 @@ from ragg_runtime.identification.features import term_unit
 from ragg_runtime.identification.spectral_line import Periodogram
 from ragg_runtime.identification.time_varying import BlockScores
 from ragg_runtime.identification.whitened_terms import Directions, products, squares
+from ragg_runtime.model.evaluate import voltages
+from ragg_runtime.model.lateness import about
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -151,7 +153,7 @@ class Scores:
     def __init__(self, prepared: PreparedFlight, projector: Projector, only: int | None = None) -> None:
         self.prepared, self.projector, self.only = prepared, projector, only
         o = prepared.observation
-        self.dictionary = Dictionary(o.record)
+        self.dictionary = Dictionary(o.record, _predicted(prepared))
         self._excluded = None
         if unknown_gradient.unknown(o):  # there nothing is left of the noise either
             double, width = 2 * o.record.spin_frequency, 2 / unknown_gradient.KNOT_SECONDS
@@ -223,7 +225,7 @@ class Scores:
         return G[np.ix_(row, row)] - A @ A.T
 
     def inflation(self, places: Sequence[int]) -> Array:
-        """How much more than they should the scores of some terms vary between blocks of time, at least 1 (see ``uneven``)."""
+        """How much more than they should the scores of some terms vary between blocks of time, at least 1."""
         edges, order = self.prepared.edges, np.sort(places)
         along = self.sums.along[order]
 
@@ -242,6 +244,19 @@ class Scores:
         left = score - square * (np.sum(score, axis=0) / np.sum(square, axis=0))  # beside the term itself
         by = np.maximum(np.sum(left**2, axis=0) / np.sum(square, axis=0), 1.0)
         return np.asarray(by[np.argsort(np.argsort(places))])
+
+
+def _predicted(x: PreparedFlight) -> Array | None:
+    """(N,), V: G_out as the model has it, which holds none of the record's noise; ``None`` of several outputs, or of channels."""
+    o = x.observation
+    if o.recorded.demodulated or len(o.series) != 1:
+        return None
+    found = np.zeros(len(o.record.time))
+    for s in flight_segments(o):
+        part = o.part(s.rows)
+        record, p = about(x.at.model, part.record, x.at.p)
+        found[s.rows] = regressors.observed(part, voltages(x.at.model.chain, record, p, o.output), None)[0]
+    return found
 
 
 def search(

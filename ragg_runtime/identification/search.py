@@ -15,12 +15,13 @@ from ragg_runtime.estimation import whitening
 from ragg_runtime.estimation.fitted import Fitted, Scored, fit
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import comparison, contenders, omnibus, selection, strong
-from ragg_runtime.identification.claims import Regression, Robust
+from ragg_runtime.identification.claims import SECOND_ORDER, Regression, Robust, Significance
 from ragg_runtime.identification.comparison import Explained, explained
 from ragg_runtime.identification.contenders import Extend
 from ragg_runtime.identification.likelihood_ratio import Test, Variance, pooled
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.strong import Stage, Taken
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 
@@ -83,9 +84,9 @@ class Outcome:
     def loud(self) -> bool:
         return comparison.loud(self.target, self.scored, self.noise_floor)
 
-    def significance(self, effect: str, log_p: float | None, *, doubted: bool) -> float:
-        """Logarithm of the p-value of an effect beside the others (see ``claims.Significance.log_p``)."""
-        return self.robust.significance(effect).log_p(log_p, doubted=doubted)
+    def significance(self, effect: str) -> Significance:
+        """Of an effect beside the others, with the variance that its scores tell."""
+        return self.robust.significance(effect)
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,11 +133,21 @@ class Evidence:
         if not kept:
             return Outcome.of(first.fitted, (), ())
         if self.extend is None or not (self.steps or o.target is not last.fitted):
-            given = [n for e in kept for n, _ in last.field.candidates[e]]
-            return Outcome.of(last.fitted, kept, given)
+            return Outcome.of(last.fitted, kept, _given(last, kept))
         instants = dict(last.instants) | {t.effect: t.instant for t in self.steps if t.instant is not None}
-        model, instrument = contenders.derived(first.fitted, kept, instants, self.extend)
+        held = last.fitted.instrument.held | _held(last, [e for e in kept if e in last.choice.blocks])
+        model, instrument = contenders.derived(first.fitted, kept, instants, self.extend, held=held)
         return Outcome.of(fit(model, instrument, first.fitted.observations), kept, ())
+
+
+def _held(last: Stage, chosen: Sequence[str]) -> frozenset[str]:
+    """Coefficients of the chosen effects that their tests do not need: free, those that a record does not tell would wander."""
+    return frozenset[str]().union(*(strong.unneeded(last.field, e, last.choice.blocks[e]) for e in chosen))
+
+
+def _given(last: Stage, chosen: Sequence[str]) -> list[int]:
+    """The candidate columns that the tests of the chosen effects need."""
+    return [n for e in chosen for n in last.choice.blocks[e]]
 
 
 def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
@@ -145,10 +156,6 @@ def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
     steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend, budget)
     last, outcome = confirmed(steps, last, extend)
     return Evidence(first, steps, last, outcome, extend, budget.spent)
-
-
-SECOND_ORDER = 0.05
-"""Share by which second orders may change what an effect explains: more is not its doing, but that of a base that has moved."""
 
 
 def explained_by(first: Stage, o: Outcome) -> float:
@@ -160,42 +167,44 @@ def explained_by(first: Stage, o: Outcome) -> float:
         return linear
     # second orders of strong effects: what is left once they are derived into the model, with a noise that is estimated anew
     fitted = float(np.sum(field.P[:, -1] ** 2) - o.target.whole[-1, -1] ** 2)
-    return max(linear, min(fitted, (1.0 + SECOND_ORDER) * linear))
+    return max(linear, min(fitted, (1.0 + SECOND_ORDER) * linear) if o.remains else fitted)
 
 
 def confirmed(steps: Sequence[Taken], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:
     """The chosen effects fitted in the model; and the last stage without those that then have an impossible size."""
     f = last.fitted
-    final = _derived(f, last.choice.chosen, extend)
+    final = _derived(last, extend)
     while final is not None and (wrong := strong.impossible(final, last.choice.chosen)):
         kept = {e: c for e, c in last.field.candidates.items() if e not in wrong}
         field = replace(last.field, candidates=kept)
         last = replace(last, field=field, choice=selection.choose(field))
-        final = _derived(f, last.choice.chosen, extend)
+        final = _derived(last, extend)
     chosen = [*(t.effect for t in steps), *last.choice.chosen]
-    given = [n for e in last.choice.chosen for n, _ in last.field.candidates[e]]
+    given = _given(last, last.choice.chosen)
     return last, Outcome.of(f, chosen, given) if final is None else Outcome.of(final, chosen, ())
 
 
-def _derived(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:
+def _derived(last: Stage, extend: Extend | None) -> Fitted | None:
     """The chosen effects derived into the model and everything fitted again, if that can be done."""
+    f, chosen = last.fitted, last.choice.chosen
     steps = {e.id for e in f.model.candidates if e.kind == "step"}
     if not chosen or extend is None or (steps & set(chosen)):
         return None
     extended = extend(f.model, chosen)
-    start = _linear(f, chosen, extended)
-    return fit(extended, f.instrument, f.observations, f.calibration.noise, start)
+    instrument = replace(f.instrument, held=f.instrument.held | _held(last, chosen))
+    start = _linear(f, _given(last, chosen), extended, instrument)
+    return fit(extended, instrument, f.observations, f.calibration.noise, start)
 
 
-def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:
+def _linear(f: Fitted, given: Sequence[int], extended: Model, instrument: Instrument) -> Array:
     """Parameter vector of the extended model as the linear fit has it, SI."""
-    own = [(n, c) for n, c in enumerate(f.candidates) if c.effect in chosen]
-    fitted, _ = f.coefficients([n for n, _ in own])
-    columns = (*f.calibration.columns, *(c for _, c in own))
+    own = [f.candidates[n] for n in given]
+    fitted, _ = f.coefficients(given)
+    columns = (*f.calibration.columns, *own)
     before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
     value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
     p = vector(extended, f.instrument)
-    for c, place in design.base_columns(extended, f.instrument):
+    for c, place in design.base_columns(extended, instrument):
         p[place] = value[c.label]
     return p
 

@@ -114,9 +114,9 @@ def taken(first: Stage, extend: Extend | None, budget: Budget) -> tuple[list[Tak
     return found, stage
 
 
-def _unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
+def unneeded(field: Field, effect: str, which: Sequence[int]) -> frozenset[str]:
     """Labels of an effect's columns that its test does not need."""
-    return [c.label for n, c in field.candidates[effect] if n not in which]
+    return frozenset(c.label for n, c in field.candidates[effect] if n not in which)
 
 
 def _strongest(stage: Stage, extend: Extend, budget: Budget) -> Taken | None:
@@ -126,9 +126,9 @@ def _strongest(stage: Stage, extend: Extend, budget: Budget) -> Taken | None:
     """
     f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
 
-    def entered(e: str) -> tuple[frozenset[str], tuple[Model, Instrument]]:
-        held = frozenset(_unneeded(stage.field, e, tests[e].which))
-        return held, contenders.derived(f, [e], stage.instants, extend)
+    def entered(e: str) -> tuple[Model, Instrument]:
+        held = unneeded(stage.field, e, tests[e].which)
+        return contenders.derived(f, [e], stage.instants, extend, held=held)
 
     def left(ids: Sequence[str]) -> dict[str, float]:
         budget.left -= len(ids)
@@ -173,7 +173,6 @@ def _best(
     total = float(np.sum(stage.field.P[:, -1] ** 2))
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
-    # not tempered: second orders make scores uneven
     near = sorted(near, key=lambda e: (-_evidence(tests[e], len(stage.field.candidates[e])), e))
     tried = near[:CONTENDERS]
     left = score(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
@@ -195,9 +194,10 @@ def _evidence(t: Test, columns: int) -> float:
 
 
 def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend) -> Taken:
-    """An effect of a stage derived into the model, and everything fitted anew."""
+    """An effect of a stage derived into the model, with the coefficients that its test needs, and everything fitted anew."""
     f = stage.fitted
-    model, instrument = contenders.derived(f, [effect], stage.instants, extend, candidates=True)
+    held = unneeded(stage.field, effect, stage.choice.tests[effect].which)
+    model, instrument = contenders.derived(f, [effect], stage.instants, extend, candidates=True, held=held)
     return Taken(
         effect=effect,
         test=stage.choice.tests[effect],
@@ -257,12 +257,10 @@ def with_steps(
     scanned = {e: places[e] for e in samples}
     found: dict[str, _Found] = {}
     root = _root(f, edges, samples, places)
-    # blocks of time do not judge a step yet: one that is in the noise makes it uneven
-    unjudged = replace(plain, blocks=()) if plain.blocks else plain
     for n, (e, (step, given)) in enumerate(scans.items()):
         so_far = [*samples][: n + 1]
-        field = _with_penalty(f, [*available, *exact, *so_far], _picked(root, f, so_far, scanned), unjudged)
-        if e in selection.choose(replace(field, blocks=())).chosen:
+        field = _with_penalty(f, [*available, *exact, *so_far], _picked(root, f, so_far, scanned), plain)
+        if e in selection.choose(field).chosen:
             step = special.refined(f.prepared, step, f.n_base, given, owned[e], f.to_nominal)
             found[e] = _Found(_sharpened(f, _Found(step.sample, given), places[e]), given)
             samples[e] = found[e].sample

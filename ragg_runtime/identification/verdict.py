@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import expit
@@ -15,7 +15,7 @@ from ragg_runtime.identification.line_rival import LineRival, Steady, line_rival
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.result import Reason
 from ragg_runtime.identification.search import Evidence, Outcome, explained_by
-from ragg_runtime.identification.selection import Field
+from ragg_runtime.identification.strong import Stage
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,13 +47,20 @@ class Conclusion:
         line, steady = line_rival(found.steps, last)
         if line is not None and not line.better(outcome.remainder):
             line = None
+        if line is not None and line.effect in outcome.effects:
+            outcome = found.without(outcome, line.effect)
         count = first.field.count + len(outcome.random)
         base = omnibus.remainders(first.fitted) if outcome.effects else None
         share = 1.0 if base is None else float(expit(_ahead(found, outcome, count, base)))
         weak: list[str] = []
-        while not (line or apart) and (e := _weakest(outcome, found.log_p, first.field)):
+        needed: list[str] = []
+        while not apart and (e := _weakest(found, outcome, needed) or _contradicted(outcome, first)):
+            fewer = found.without(outcome, e)
+            if e not in needed and _is_needed(found, outcome, fewer, e):
+                needed.append(e)
+                continue
             weak.append(e)
-            outcome = found.without(outcome, e)
+            outcome = fewer
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         # beside the noise model, whose level has shapes of its own
         tests = outcome.random.items()
@@ -63,15 +70,15 @@ class Conclusion:
         remains = remains or (outcome.loud and not random)
         claimed: tuple[str, ...] = ()
         doubted = apart or outcome.explained.complaint is not None
-        if not (line or doubted):
-            claimed = () if base is None else _claims(found, outcome, count, base)
+        if base is not None and not doubted:
+            claimed = _claims(found, outcome, count, base)
         rival = bool(outcome.effects) and not claimed and not remains
         if rival and base is not None:  # generic terms do as well as what was chosen: they are what is left
             _, left = claims.generic_evidence(base, np.inf, found.rank(outcome))
         remains = remains or rival or doubted
         if not remains:
             claimed = (*claimed, *(e for _, e in random[:1]))
-        if not (line or doubted):  # what the recorder did stands in the record, whatever else does
+        if not doubted:  # what the recorder did stands in the record, whatever else does
             claimed = (*claimed, *output)
         verdict = ("partly-explained" if claimed else "unexplained") if remains else "missing-effect"
         verdict = verdict if remains or claimed else "adequate"
@@ -100,17 +107,16 @@ class Conclusion:
         doubt = apart or self.outcome.explained.complaint
         if doubt is not None:
             return [doubt]
-        if self.line is not None:
-            return [self.line.words]
         disturbed = comparison.disturbed(self.outcome.target)
-        said = [s.words for s in self.steady]
+        said = [] if self.line is None else [self.line.words]
+        said += [s.words for s in self.steady]
         said += [f"the search was ended after {strong.FITS} fits"] if spent and self.remains else []
         return [*said, *([] if disturbed is None else [disturbed])]
 
     def reasons(self, apart: str | None, spent: bool) -> list[Reason]:
         """Why the verdict is not ``adequate``, and what is odd about the record."""
         remarks = [Reason(text) for text in self.remarks(apart, spent)]
-        if self.verdict == "adequate" or apart or self.line or self.outcome.explained.complaint:
+        if self.verdict == "adequate" or apart or self.outcome.explained.complaint:
             return remarks
         found = []
         if self.claims:
@@ -148,24 +154,40 @@ def listed(names: Sequence[str], word: str = "and") -> str:
     return f" {word} ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
-def _weakest(o: Outcome, log_p: Mapping[str, float], field: Field) -> str | None:
+def _weakest(found: Evidence, o: Outcome, needed: Sequence[str]) -> str | None:
     """The effect that is not significant with a variance that its own scores tell, the least significant of several."""
-    doubted = o.remainder.significant
-    level = selection.FAMILY if len(o.effects) == 1 else selection.FURTHER
-    p = {e: o.significance(e, log_p.get(e), doubted=doubted) for e in o.effects}
+    doubted, log_p = o.remainder.significant, found.log_p
+    p = {e: o.significance(e).log_p(log_p.get(e), doubted=doubted) for e in o.effects if e not in needed}
     weakest = max(p, key=lambda e: (p[e], e), default=None)
-    if weakest is None or field.significant(Test(0.0, 1, p[weakest], ()), level):
-        return None
-    return weakest
+    return None if weakest is None or _is_significant(found, o, p[weakest]) else weakest
+
+
+def _is_significant(found: Evidence, o: Outcome, log_p: float) -> bool:
+    level = selection.FAMILY if len(o.effects) == 1 else selection.FURTHER
+    return found.first.field.significant(Test(0.0, 1, log_p, ()), level)
+
+
+def _is_needed(found: Evidence, o: Outcome, fewer: Outcome, effect: str) -> bool:
+    """Whether the fit without an effect says that it is significant: coefficients that wander far in directions that the record does not
+    tell say nothing about where nothing is.
+    """
+    by_ratio = float(fewer.target.whole[-1, -1] ** 2 - o.target.whole[-1, -1] ** 2)
+    test = o.significance(effect)
+    log_p = replace(test, chi2=max(test.chi2, by_ratio)).log_p(None, doubted=True)
+    return _is_significant(found, o, log_p)
+
+
+def _contradicted(o: Outcome, first: Stage) -> str | None:
+    """The effect that held-out blocks of time speak against most, if plainly; the instant of a step is from all of the record."""
+    instants = {e.id for e in first.fitted.model.candidates if e.kind == "step"}
+    speaks = {e: claims.held_out_evidence(o.robust.regression, e) for e in o.effects if e not in instants}
+    worst = min(speaks, key=lambda e: (speaks[e], e), default=None)
+    return worst if worst is not None and speaks[worst] < -claims.PLAINLY else None
 
 
 def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> tuple[str, ...]:
     """What of an outcome's effects may be claimed (``claims``)."""
     if not o.effects:
-        return ()
-    instants = {e.id for e in found.first.fitted.model.candidates if e.kind == "step"}
-    lasting = [e for e in o.effects if e not in instants]  # the instant of a step is from all of the record
-    if any(claims.held_out_gain(o.robust.regression, e) < -claims.WORSE for e in lasting):
         return ()
     chi2, single = explained_by(found.first, o) - found.rank(o), claims.best_single(base)
     ahead = _ahead(found, o, count, base)

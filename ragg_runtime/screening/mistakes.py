@@ -47,21 +47,14 @@ COST = 5.0
 WIDE, WIDE_K1 = 10.0, 100.0
 """Times the usual errors of a test sheet that a sheet may be off; scale factors, of another range or instrument, by 10 %."""
 
-SHEET_SURE = 10.0
-"""Difference in log evidence by which a mistake must be better than any wider sheet before the record is refused."""
-
 
 @dataclass(frozen=True)
 class Finding:
-    """The hypothesis that explains a record best, ``others`` that do as well, and the model as the record stands.
-
-    ``rival``: the wider sheet that would explain it nearly as well, if there is one.
-    """
+    """The hypothesis that explains a record best, ``others`` that do as well, and the model as the record stands."""
 
     best: Hypothesis
     others: tuple[str, ...]
     before: Explained
-    rival: Hypothesis | None
 
     @property
     def factor(self) -> float:
@@ -93,14 +86,20 @@ def find_mistake(model: Model, instrument: Instrument, s: Sampler) -> Finding | 
 
 
 def _chosen(before: Explained, tried: Sequence[Hypothesis]) -> Finding | None:
-    """The best hypothesis, if it is plainly better than the record as it stands and than a model that says nothing."""
+    """The best hypothesis that is plainly better than the record as it stands and than a model that says nothing.
+
+    A record is not taken to be wrong where a sheet that is less sure explains it as it stands.
+    """
+    sheets = [h.fitted.score + h.cost for h in tried if h.kind == "sheet"]
+    stands = min(before.score, 0.0) - NAMED
+    limit = min([stands, *(score - AS_GOOD for score in sheets)])
     order = sorted(((h.score(before), h) for h in tried), key=lambda x: x[0])
-    least, best = order[0]
-    if least > min(before.score, 0.0) - NAMED:
+    order = [(score, h) for score, h in order if score <= (stands if h.kind == "sheet" else limit)]
+    if not order:
         return None
+    least, best = order[0]
     near = [h.what for score, h in order[1:] if score < least + AS_GOOD and h.kind != "sheet"]
-    rival = next((h for score, h in order[1:] if h.kind == "sheet" and score < least + SHEET_SURE), None)
-    return Finding(best, tuple(near[:2]), before, rival)
+    return Finding(best, tuple(near[:2]), before)
 
 
 # --- a sheet that is less sure than it says ------------------------------------------------------------

@@ -89,12 +89,12 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
 
 
 def _is_senseless(f: Finding, instrument: Instrument) -> bool:
-    """Whether going on with a record makes no sense: a mistake explains it, and no sheet that is less sure than it says."""
+    """Whether going on with a record makes no sense: a mistake explains it, and nothing else does."""
     if f.best.kind == "origin" and instrument.angle_origin is None:
         return True  # nobody has answered yet
     if f.best.kind in ("sheet", "shift", "origin"):
         return False
-    return f.factor > SENSELESS and f.rival is None
+    return f.factor > SENSELESS
 
 
 def _refuse(flight: Flight, f: Finding) -> UserError:
@@ -109,8 +109,7 @@ def _refuse(flight: Flight, f: Finding) -> UserError:
 
 
 def _others(f: Finding) -> str:
-    others = [*f.others, *([f.rival.what] if f.rival is not None else [])]
-    return f" (or: {'; or: '.join(others)})" if others else ""
+    return f" (or: {'; or: '.join(f.others)})" if f.others else ""
 
 
 def _left(e: Explained) -> str:

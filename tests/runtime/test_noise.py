@@ -8,6 +8,7 @@ from scipy import stats
 from scipy.signal import welch
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.model.record import Record
 from ragg_runtime.reference import disc_angle, simulate, still
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.instruments import perfect
@@ -77,3 +78,12 @@ def test_noise_of_the_demodulated_channels() -> None:
 def test_bad_densities_are_refused(alpha: float, b: float, omega_T: float) -> None:
     with pytest.raises(UserError):
         Noise(alpha, b, omega_T)
+
+
+def test_the_level_of_a_noise_may_follow_the_length_of_a_vector() -> None:
+    rng = np.random.default_rng(4)
+    omega = rng.normal(size=(3, 50))
+    wide = {f"omega_{k}": x for k, x in zip("xyz", omega, strict=True)}
+    r = Record(np.arange(50.0), wide, 1.0, np.ones(50, dtype=np.bool_), 0.0)
+    assert r.quantity("abs(omega)") == pytest.approx(np.linalg.norm(omega, axis=0))
+    assert r.quantity("abs(omega_x)") == pytest.approx(np.abs(omega[0]))

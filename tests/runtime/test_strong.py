@@ -231,7 +231,7 @@ def test_a_term_like_an_effect_of_one_size_alone_is_searched_for_at_no_length(
     tried: list[list[str]] = []
 
     def scored(*arguments: Any) -> contenders.Left:
-        tried.append([e.id for e in arguments[3][0].effects])
+        tried.append([e.id for e in arguments[2].effects])
         return left(*arguments)
 
     left = contenders.left
