@@ -256,7 +256,7 @@ RULES: tuple[Rule, ...] = (
          quiet("stuck", "coarse", "digits"), ("screening/repeated.py",),
          (Patch("screening.screen:leave_out_repeated", _first),)),
     Rule("resolution", "what the resolution of the motion columns does to the output is part of the noise",
-         quiet("sensors-1-mg", "sensors-0.5-mg", "digits"), ("screening/resolution.py",),
+         quiet("sensors-1-mg", "sensors-0.5-mg", "digits"), ("screening/screen.py:_coarse_sensors",),
          (Patch("screening.screen:resolution_of", lambda flight: {}, acts=bool),)),
     Rule("clock", "steps of the recorder's clock are found and undone",
          quiet("rounded-stamps", "uneven-stamps", "clock-set", "from-2-s", "from-10-s"),

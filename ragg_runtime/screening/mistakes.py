@@ -19,8 +19,7 @@ from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening import other_demodulator, timing
-from ragg_runtime.screening.hypothesis import Hypothesis
-from ragg_runtime.screening.linear_fit import INDEPENDENT, Explained, explain, explain_all
+from ragg_runtime.screening.linear_fit import INDEPENDENT, Explained, Hypothesis, explain, explain_all
 from ragg_runtime.screening.sampler import Rows, Sampler, stem_of
 from ragg_runtime.signals.derivative import differentiate
 

@@ -14,8 +14,7 @@ from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.model import Model
-from ragg_runtime.screening.hypothesis import Hypothesis
-from ragg_runtime.screening.linear_fit import Explained, low_passes
+from ragg_runtime.screening.linear_fit import Explained, Hypothesis, low_passes
 from ragg_runtime.screening.sampler import Sampler
 
 Array = NDArray[np.float64]
@@ -28,26 +27,20 @@ CORNERS = (0.02, 0.04, 0.07, 0.12, 0.2, 0.35)
 ORDERS = (1, 2, 3, 4, 6, 8)
 """Of Butterworth filters, causal, or in each direction."""
 
-THINNED = (2, 4, 8, 16)
-"""Times the record's rate at which the channels may have been made before they were thinned out."""
-
 FLAT = 0.443
 """Half-power frequency of a moving average times its length."""
 
 ROUGH, FINE = 1e-2, 1e-4
 """Relative precision of a corner that is searched for: of each kind of low-pass, and of the best ``PROMISING`` of them."""
 
-PROMISING, LATE_TRIED = 6, 3
-"""Low-passes that are looked at finely, and those of which it is asked whether they fit better with a delay."""
+PROMISING = 6
+"""Low-passes that are looked at finely."""
 
 HIGHEST = 0.45
 """Times the sampling rate: no low-pass is sought beyond, for half the rate is what a digital one can have at most."""
 
-NO_DELAY = 1e-3
-"""s: less is none, but what else the low-pass is not quite."""
-
-PLAINLY, CLEARLY = 2.0, 1.1
-"""Factors by which less must be left for a delay to be said, which is fitted, and for channels to be taken for thinned out."""
+CLEARLY = 1.1
+"""Factor by which less must be left than without any low-pass."""
 
 COST = 8.0
 """Minus the logarithm of the probability that channels were made otherwise than is said."""
@@ -80,19 +73,20 @@ def families() -> Iterator[Family]:
 
 def _left(explained: Callable[[Array], Explained], rate: float, half: int, how: Demodulation) -> Explained:
     """What is left with a low-pass, of which at most so many samples on either side count."""
-    highest = HIGHEST * (how.rate or rate)
-    if how.cutoff is not None and how.cutoff > highest:
-        how = replace(how, cutoff=highest)
+    if how.cutoff is not None and how.cutoff > HIGHEST * rate:
+        how = replace(how, cutoff=HIGHEST * rate)
     taps = kernel(how, rate).centred
     spare = len(taps) // 2 - half
     return explained(taps[spare:-spare] if spare > 0 else np.pad(taps, -spare))
 
 
 def _best(left: Callable[[Demodulation], Explained], rate: float) -> tuple[Demodulation, Explained]:
+    """The low-pass that leaves least: the best corner of every family, then a finer one of those that promise most."""
+
     def share(how: Demodulation) -> float:
         return left(how).share
 
-    none = Demodulation(kind="none")
+    best = none = Demodulation(kind="none")
     corners = np.array([f for f in CORNERS if f < rate / 4])
     found: list[tuple[Family, Demodulation]] = []
     for family in families() if len(corners) else ():
@@ -100,37 +94,11 @@ def _best(left: Callable[[Demodulation], Explained], rate: float) -> tuple[Demod
         low, high = corners[max(k - 1, 0)], corners[min(k + 1, len(corners) - 1)]
         found.append((family, _refined(family, share, (low, high), ROUGH)))
     found.sort(key=lambda x: share(x[1]))
-    found = [(family, _refined(family, share, _about(how), FINE)) for family, how in found[:PROMISING]]
-    found.sort(key=lambda x: share(x[1]))
-    if not found:
-        return none, left(none)
-    family, best = found[0]
-    for other, how in found[:LATE_TRIED]:
-        late = _delayed(other, share, how)
-        if share(late) * PLAINLY < share(best):
-            family, best = partial(_with_delay, other, late.delay), late
-    # where they were thinned out the corner is another one by a little: a digital low-pass bends its frequencies
-    for every in THINNED:
-        faster = _refined(partial(_at_rate, family, every * rate), share, _about(best), FINE)
-        best = faster if share(faster) * CLEARLY < share(best) else best
-    best = best if share(best) * CLEARLY < share(none) else none
+    for family, how in found[:PROMISING]:
+        corner = how.cutoff if how.cutoff is not None else FLAT / (how.length or 1.0)
+        fine = _refined(family, share, (corner / 1.05, corner * 1.05), FINE)
+        best = fine if share(fine) * (CLEARLY if best is none else 1.0) < share(best) else best
     return best, left(best)
-
-
-def _with_delay(family: Family, delay: float, corner: float) -> Demodulation:
-    return replace(family(corner), delay=delay)
-
-
-def _at_rate(family: Family, rate: float, corner: float) -> Demodulation:
-    return replace(family(corner), rate=rate)
-
-
-def _corner(how: Demodulation) -> float:
-    return how.cutoff if how.cutoff is not None else FLAT / (how.length or 1.0)
-
-
-def _about(how: Demodulation) -> tuple[float, float]:
-    return _corner(how) / 1.05, _corner(how) * 1.05
 
 
 def _refined(
@@ -144,25 +112,3 @@ def _refined(
         options={"xatol": precision},
     ).x
     return family(float(np.exp(x)))
-
-
-def _delayed(family: Family, share: Callable[[Demodulation], float], made: Demodulation) -> Demodulation:
-    """The same low-pass with a delay, s, or without some of its own: corner and delay at which least is left."""
-
-    def at(x: Array) -> Demodulation:
-        return _with_delay(family, float(x[1]), float(np.exp(x[0])))
-
-    first = np.array([np.log(_corner(made)), made.delay])
-
-    def cost(x: Array) -> float:
-        return float(np.log(max(share(at(x)), 1e-300)))
-
-    x = optimize.fmin(
-        cost,
-        first,
-        initial_simplex=first + np.array([[0.0, 0.0], [0.1, 0.0], [0.0, 0.3]]),
-        xtol=FINE,
-        maxfun=120,
-        disp=False,
-    )
-    return at(x) if abs(x[1]) >= NO_DELAY else replace(at(x), delay=0.0)

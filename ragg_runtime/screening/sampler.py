@@ -17,9 +17,8 @@ from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.model import Chain
-from ragg_runtime.model.record import SPIN, differentiated, disc_angle, lateness, spin, spin_degree, start_of
+from ragg_runtime.model.record import SPIN, differentiated, disc_angle, record, spin, start_of
 from ragg_runtime.model.recorded import Recorded, recorded
-from ragg_runtime.signals.derivative import differentiate
 from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
@@ -231,33 +230,15 @@ def sampler_of(
     if output.name in flight.outputs and usable.any():
         usable &= ~clipped(flight.outputs[output.name], usable)
     how = flight.demodulation or instrument.demodulation or OURS
+    whole = record(flight, instrument, place)
+    rates = {n: x for n in inputs if differentiated(n) != n and (x := whole.series(n)) is not None}
     return Sampler(
         flight=flight,
         instrument=instrument,
         recorded=form,
         usable=usable,
-        derived=_derived(flight, layout.discs[output.disc], inputs),
+        derived=rates,
         taps=kernel(how, flight.rate).centred if form.demodulated else np.zeros(0),
         columns=columns,
         place=place,
     )
-
-
-def _derived(flight: Flight, disc: Disc, inputs: Sequence[str]) -> dict[str, Array]:
-    """Series that a model asks for and the flight does not hold: time derivatives, and the rate of the disc angle."""
-    derived: dict[str, Array] = {}
-    for name in inputs:
-        base = differentiated(name)
-        if name in SPIN:
-            encoder = flight.channels.get(disc.angle_column)
-            samples = 1 if encoder is None else len(flight)  # without an encoder it is a constant
-            late = None if encoder is None else lateness(flight.time, flight.rate)
-            degree = spin_degree(encoder, flight.rate, late)
-            one = spin(name, encoder, samples, flight.rate, disc.spin_frequency, degree, late)
-            derived[name] = np.broadcast_to(one, len(flight))
-        elif base != name and base in flight.channels:
-            series = flight.channels[base]
-            for _ in range(2 if name.startswith("d2_") else 1):
-                series = differentiate(series, flight.rate)
-            derived[name] = series
-    return derived

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.units import Units
 from ragg_runtime.io import Flight
-from ragg_runtime.io.record import Flag
+from ragg_runtime.io.angular_acceleration import wide_weights
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag
 from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, even_clock, find_clock_steps
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
@@ -21,9 +23,9 @@ from ragg_runtime.screening import checks
 from ragg_runtime.screening.linear_fit import Explained, explain
 from ragg_runtime.screening.mistakes import Finding, find_mistake
 from ragg_runtime.screening.repeated import leave_out_repeated, with_derived_acceleration
-from ragg_runtime.screening.resolution import coarse_sensors, resolution_of
-from ragg_runtime.screening.sampler import Sampler, sampler_of
+from ragg_runtime.screening.sampler import Rows, Sampler, sampler_of
 from ragg_runtime.screening.spikes import find_spikes, leave_out_glitches, words_of
+from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -39,6 +41,9 @@ BETTER = 1.1
 
 PLAINLY = 5.0
 """The same for a clock that was set: the rows that seem to lack are none, and the rest is earlier."""
+
+STEPS_TOLD = 0.5
+"""Share of what a model leaves that the steps of motion sensors must make for a note."""
 
 LEAST = 64
 """Samples of a record from which its clock is looked at: with fewer the model fits any."""
@@ -80,7 +85,7 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
             raise _refuse(flight, finding)
         flight = flight.flagged([_remark(finding)])
     fitted = explain(model, instrument, s.take(s.rows()))
-    flight = flight.flagged(coarse_sensors(model, instrument.units, s, fitted))
+    flight = flight.flagged(_coarse_sensors(model, instrument.units, s, fitted))
     for place in places:
         s = sampler_of(flight, instrument, inputs, place)
         flight = flight.flagged(_saturated(s))
@@ -241,3 +246,53 @@ def _residual(model: Model, s: Sampler, fitted: Array) -> Array:
             predicted = evaluator.output(some.time, x, fitted, some.phi, which=s.place)[None]
         left[:, start : start + CHUNK] = some.data - predicted
     return left / scale_factor(model, fitted, s.place)
+
+
+# --- the steps of motion sensors -----------------------------------------------------------------------
+
+
+def resolution_of(flight: Flight) -> Mapping[str, float]:
+    """Step of every recorded motion column, SI; of the angular acceleration only where the file has it."""
+    names = [*SPECIFIC_FORCE, *ANGULAR_RATE]
+    names += [n for n in ANGULAR_ACCELERATION if n in flight.written]
+    found = {n: find_step(flight.channels[n][flight.valid]) for n in names if n in flight.channels}
+    return {n: step for n, step in found.items() if step is not None}
+
+
+def _coarse_sensors(model: Model, known: Units, s: Sampler, fitted: Explained) -> list[Flag]:
+    """Flags of motion sensors whose steps make a good part of what the fitted model leaves of the output."""
+    x, rows = s.flight, s.take(s.rows())
+    groups: dict[tuple[str, str], list[str]] = {}
+    for name, step in x.resolution.items():
+        groups.setdefault((name.rsplit("_", 1)[0], f"{step:.3g}"), []).append(name)
+    found = []
+    for (stem, _), names in groups.items():
+        step = x.resolution[names[0]]
+        errors = {n: step / np.sqrt(12.0) for n in names}
+        if (
+            stem == "omega" and ANGULAR_ACCELERATION[0] not in x.written
+        ):  # derived from the rate, with its steps
+            gain = float(np.linalg.norm(wide_weights())) * x.rate
+            errors |= {n.replace("omega", "omegadot"): gain * e for n, e in errors.items()}
+        made = _made_of(model, s, rows, errors, fitted)
+        if s.recorded.demodulated or made < STEPS_TOLD * fitted.rms:
+            continue
+        unit = x.written.get(names[0], x.units[names[0]])
+        size = step / float(known.to_si(1.0, unit, x.units[names[0]]))
+        size, unit = (1e3 * size, f"m{unit}") if unit == "g" else (size, unit)
+        verb = "is" if len(names) == 1 else "are"
+        text = f"{', '.join(names)} {verb} recorded in steps of {size:.3g} {unit}, which make about {made:.2g} Eo of the output"
+        found.append(Flag(tuple(names), text, len(x), kind="resolution"))
+    return found
+
+
+def _made_of(model: Model, s: Sampler, rows: Rows, errors: Mapping[str, float], fitted: Explained) -> float:
+    """Eo rms: what random errors of this size, SI, of some channels make of the output."""
+    rng = np.random.default_rng(0)
+    moved = {n: rows.channels[n] + e * rng.standard_normal(len(rows.time)) for n, e in errors.items()}
+    evaluate = model.compiled("numpy").output
+    both = [
+        evaluate(r.time, r.inputs(model.chain), fitted.p, r.phi, which=s.place)
+        for r in (rows, replace(rows, channels={**rows.channels, **moved}))
+    ]
+    return float(np.std(both[1] - both[0])) / abs(scale_factor(model, fitted.p, s.place))

@@ -13,8 +13,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.sampling import find_clock_steps
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import disc_angle, start_of
-from ragg_runtime.screening.hypothesis import Hypothesis
-from ragg_runtime.screening.linear_fit import explain, explain_all
+from ragg_runtime.screening.linear_fit import Hypothesis, explain, explain_all
 from ragg_runtime.screening.sampler import Index, Rows, Sampler
 from ragg_runtime.signals.demodulate import demodulable, low_pass
 
