@@ -39,7 +39,9 @@ def heed_flags(
     """
     d = _without_feigned(d, flights, again)
     flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind == "resolution"]
-    if not flags or (d.verdict == "adequate" and not any(f.kind == "still" for _, f in flags)):
+    # an output that is more than even noise, beside motion that was not recorded, is not explained
+    unknown = bool(d.reasons) and any(f.kind == "still" for _, f in flags)
+    if not flags or (d.verdict == "adequate" and not unknown):
         return d
     several = len(flights) > 1
     noted = tuple(Reason(f"{x.name}: {f.reason}" if several else f.reason) for x, f in flags)

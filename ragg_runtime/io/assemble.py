@@ -12,7 +12,7 @@ from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.angular_acceleration import HEAD, Derivative, planned
+from ragg_runtime.io.angular_acceleration import planned
 from ragg_runtime.io.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
@@ -76,7 +76,6 @@ def make_flight(
     grid = uniform(time, made.place)
     notes = [*made.notes, *_leave_out_impossible(si, si_units), *grid.notes]
     slower = _find_slower(time, si, si_units, notes)
-    derivative = _plan_derivative(time, si, made.place)
     _drop_empty(si, notes, made.place)
     if need_output:  # once more: of the columns that hold anything
         _require_output(made, list(si), accelerometers)
@@ -87,7 +86,7 @@ def make_flight(
     _derive_outputs(outputs, notes, accelerometers)
     channels = {c: _filled(v, c) for c, v in placed.items()}
     if ANGULAR_ACCELERATION[0] not in channels:
-        _derive_acceleration(channels, placed, grid, valid, notes, derivative)
+        _derive_acceleration(channels, placed, grid, valid, notes)
     _check_gradient(channels, notes)
     if not valid.any():
         raise UserError("no sample of the flight is complete", where=made.place, found="; ".join(notes))
@@ -274,27 +273,15 @@ def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Acceleromete
 
 
 def _derive_acceleration(
-    channels: dict[str, Array],
-    placed: Mapping[str, Array],
-    grid: Grid,
-    valid: Mask,
-    notes: list[str],
-    derivative: Derivative,
+    channels: dict[str, Array], placed: Mapping[str, Array], grid: Grid, valid: Mask, notes: list[str]
 ) -> None:
-    for name, rate_name in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
-        derived, sure = _differentiate(placed[rate_name], grid, derivative)
-        # A sample that stands alone between two gaps has no derivative.
-        valid &= sure
-        channels[name] = _filled(derived, name)
+    even = [_evenly(placed[n], grid) for n in ANGULAR_RATE]
+    derivative = planned(even, 1 / grid.step)
+    for name, rate in zip(ANGULAR_ACCELERATION, even, strict=True):
+        slope, sure = derivative.of(rate, 1 / grid.step)
+        valid &= sure  # a sample that stands alone between two gaps has no derivative
+        channels[name] = _filled(_at_own_instants(slope, grid), name)
     notes.append(derivative.note)
-
-
-def _plan_derivative(time: Array, si: Mapping[str, Array], place: str) -> Derivative:
-    """How to differentiate the rates, by the first rows of the file."""
-    if ANGULAR_ACCELERATION[0] in si:
-        return Derivative()
-    grid = uniform(time[:HEAD], place)
-    return planned([_evenly(_placed(si[n][:HEAD], grid), grid) for n in ANGULAR_RATE], 1 / grid.step)
 
 
 def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:
@@ -311,15 +298,12 @@ DEGREE = 5
 """Of the splines: their derivative is as good as the finite differences'."""
 
 
-def _differentiate(x: Array, grid: Grid, derivative: Derivative) -> tuple[Array, Mask]:
-    """Time derivative at the samples' own instants, and where it is good; where they jitter, by way of the even grid."""
-    resampled = _evenly(x, grid)
-    slope, sure = derivative.of(resampled, 1 / grid.step)
-    there = np.isfinite(slope)
-    if resampled is x or np.sum(there) < DEGREE + 3:
-        return slope, sure
-    even = _even(grid)
-    return np.where(there, make_interp_spline(even[there], slope[there], DEGREE)(grid.time), np.nan), sure
+def _at_own_instants(x: Array, grid: Grid) -> Array:
+    """A series of the even grid at the samples' own instants; itself where they do not jitter."""
+    there = np.isfinite(x)
+    if not grid.jitters or np.sum(there) < DEGREE + 3:
+        return x
+    return np.where(there, make_interp_spline(_even(grid)[there], x[there], DEGREE)(grid.time), np.nan)
 
 
 def _evenly(x: Array, grid: Grid) -> Array:
