@@ -42,7 +42,7 @@ def series(p: Prepared, name: str) -> tuple[Complex, NDArray[np.float64], Channe
 
 def transfer(kind: Kind = "self", duration: float = 7200.0) -> dict[str, tuple[Complex, Complex]]:
     """Demodulator -> gains of compensation and of the low-pass alone over :data:`PERIODS`."""
-    s = scenario(21, duration=duration)
+    s = scenario(21, duration=duration, rate=4.0)  # the motion ends at 1.8 Hz
     x = s.simulate({}).flight()
     t = x.time
     basis = np.exp(2j * np.pi * (t[:, None] / PERIODS + np.arange(len(PERIODS)) / 7))

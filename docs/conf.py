@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import shutil
 import sys
 import tempfile
 from pathlib import Path
@@ -71,7 +70,6 @@ def _made(app: Sphinx, config: Any) -> None:
     from derive import audit
     from derive.simplify.page import page as simplified
     from docs import made as build
-    from ragg_runtime.cli import demo
     from ragg_runtime.experiments.dynamic import dynamic
     from ragg_runtime.experiments.multifrequency import multifrequency
     from ragg_runtime.experiments.result import page
@@ -88,20 +86,17 @@ def _made(app: Sphinx, config: Any) -> None:
         "commands.md": build.commands(),
         "model-toml.md": build.model_toml(),
     }
+    reports = made / "extra" / "reports"
     if not (made / "json.md").exists():
+        reports.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-            texts["json.md"] = build.json_page(build.documents())
+            shown = build.demonstration(reports)
+        build.loop_figure(made / "loop.png", shown)
+        texts["json.md"] = build.json_page(shown.documents)
     for name, text in texts.items():
         _written(made / name, text.encode())
-    for name, draw in (("loop.png", build.loop_figure), ("transfer.png", draw_transfer)):
-        if not (made / name).exists():
-            draw(made / name)
-    reports = made / "extra" / "reports"
-    if not (reports / "report.html").exists():
-        shutil.rmtree(made / "extra", ignore_errors=True)
-        reports.parent.mkdir(parents=True)
-        demo.run_demo(reports, build.FLIGHT)
-        shutil.rmtree(reports / "model")
+    if not (made / "transfer.png").exists():
+        draw_transfer(made / "transfer.png")
 
 
 def _written(target: Path, content: bytes) -> None:

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import io
 import json
+import shutil
 import tomllib
 from collections.abc import Iterator
 from contextlib import redirect_stdout
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
+
+if TYPE_CHECKING:
+    from ragg_runtime.identification.comparison import Comparison
 
 HERE = Path(__file__).parent
 FLIGHT = HERE.parent / "examples" / "demo-flight.parquet"
@@ -79,27 +84,49 @@ def keys(value: Any, path: str = "") -> Iterator[tuple[str, str]]:
         yield path, kind
 
 
-def documents() -> dict[str, Any]:
-    """Command -> what it writes with ``--json`` about the shipped flight."""
-    from ragg_runtime.cli.main import cli
+@dataclass(frozen=True)
+class Demonstration:
+    """The loop on the shipped flight: what each command writes with ``--json``, and what the figure needs."""
 
-    found = {}
-    lines = {
-        "compare": "compare model FLIGHT",
-        "diagnose": "diagnose model FLIGHT",
-        "add": "add model thermal-scale FLIGHT",
+    documents: dict[str, Any]
+    before: Comparison
+    after: Comparison
+
+
+def demonstration(reports: Path) -> Demonstration:
+    """Go through the loop in the current folder, once for all pages; the reports of diagnosis and addition go to ``reports``."""
+    from ragg_runtime import api
+    from ragg_runtime.cli.main import cli
+    from ragg_runtime.report.page import Origin
+    from ragg_runtime.report.pages import add_page, diagnose_page
+
+    shutil.copy(FLIGHT, FLIGHT.name)
+    m = api.new(Path("model"))
+    flights = api.read_flights(m, [Path(FLIGHT.name)])
+    c = api.compare(m, flights)
+    d = api.diagnose(m, flights, compared=c)
+    step = api.add(m, d.found[0], flights)
+    assert step.after is not None
+    origin = Origin("Demonstration: diagnosis", "ragg demo", api.sources(m, flights))
+    (reports / "diagnosis.html").write_text(diagnose_page(d, origin), "utf-8")
+    origin = Origin("Demonstration: the effect added", "ragg demo", api.sources(step.loaded, flights))
+    steps = [s.as_json() for s in step.loaded.directory.history]
+    (reports / "report.html").write_text(add_page(steps, c, step.after, origin, d), "utf-8")
+    documents = {
+        name: x.as_json() | api.origin(m, flights, f"ragg {name} model")
+        for name, x in {"compare": c, "diagnose": d}.items()
+    }
+    documents["add"] = step.as_json() | api.origin(step.loaded, flights, "ragg add model", before=m)
+    for name, line in {
         "calibrate": "calibrate model FLIGHT --save",
         "compensate": "compensate model FLIGHT -o gradient.parquet --calibration frozen",
         "history": "history model",
-    }
-    cli.main(["new", "model"], standalone_mode=False)
-    for name, line in lines.items():
-        said = io.StringIO()
-        with redirect_stdout(said):
-            words = line.replace("FLIGHT", str(FLIGHT)).split()
+    }.items():
+        with redirect_stdout(io.StringIO()):
+            words = line.replace("FLIGHT", FLIGHT.name).split()
             cli.main([*words, "--json", f"{name}.json"], standalone_mode=False)
-        found[name] = json.loads(Path(f"{name}.json").read_text("utf-8"))
-    return found
+        documents[name] = json.loads(Path(f"{name}.json").read_text("utf-8"))
+    return Demonstration(json.loads(json.dumps(documents)), c, step.after)
 
 
 def json_page(found: dict[str, Any]) -> str:
@@ -129,28 +156,20 @@ def meaning(path: str, meanings: dict[str, Any]) -> str:
     raise KeyError(f"docs/reference/json.toml has no meaning of {path}")
 
 
-def loop_figure(target: Path) -> None:
+def loop_figure(target: Path, shown: Demonstration) -> None:
     """Residual and its spectrum before and after the missing effect is added."""
     import matplotlib
 
     matplotlib.use("agg")
-    import tempfile
-
     import matplotlib.pyplot as plt
     from scipy import signal
 
-    import ragg
-
-    with tempfile.TemporaryDirectory() as folder:
-        m = ragg.new(Path(folder) / "model")
-        flights = ragg.read_flights(m, [FLIGHT])
-        before, step = ragg.compare(m, flights), ragg.add(m, "thermal-scale", flights)
     fig, (left, right) = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained")
-    for c, label in ((before, "before"), (step.after, "after")):
-        assert c is not None
+    for c, label in ((shown.before, "before"), (shown.after, "after")):
         residual = c.residual[0] / c.fitted.k_ggi
-        left.plot(flights[0].time, residual, lw=0.4, label=f"{label}: {c.calibrated.rms_Eo:.2f} Eo rms")
-        frequency, density = signal.welch(residual, flights[0].rate, nperseg=2048)
+        record = c.fitted.prepared[0].observation.record
+        left.plot(record.time, residual, lw=0.4, label=f"{label}: {c.calibrated.rms_Eo:.2f} Eo rms")
+        frequency, density = signal.welch(residual, record.rate, nperseg=2048)
         right.loglog(frequency[1:], np.sqrt(density[1:]), lw=0.8, label=label)
     left.set(xlabel="time, s", ylabel="residual, Eo")
     right.set(xlabel="frequency, Hz", ylabel="residual, Eo/√Hz")
