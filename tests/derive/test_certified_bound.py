@@ -54,7 +54,7 @@ QUIET = dataclasses.replace(
 """So quiet and so well balanced that imbalances and bare angles are dropped as well."""
 BARE = dataclasses.replace(DYNAMIC_EXPERIMENT, vartheta_x=1e-3, allotted=1e3, Gamma=3e-6, dR=1e-3)
 """A rough flight with so large an error allotted that angles, imbalances and K a a go."""
-ENVELOPES = {"paper": PAPER_ENVELOPE, "dynamic": DYNAMIC_EXPERIMENT, "quiet": QUIET, "bare": BARE}
+ENVELOPES = {"paper": PAPER_ENVELOPE, "quiet": QUIET, "bare": BARE}
 
 
 @cache
@@ -174,7 +174,7 @@ def test_no_search_exceeds_the_bound_and_it_is_not_loose(name: str) -> None:
     assert max(at_random, at_corners) < found <= bound < 3.5 * found
 
 
-@settings(max_examples=12, deadline=None, derandomize=True)
+@settings(max_examples=6, deadline=None, derandomize=True)
 @given(st.lists(st.floats(-3, 2), min_size=6, max_size=6), st.integers(0, 2**32 - 1))
 def test_no_envelope_has_an_error_beyond_its_bound(exponents: list[float], seed: int) -> None:
     envelope = PAPER_ENVELOPE

@@ -207,8 +207,6 @@ TABLE = {
         status=0,
     ),
     "g, called m/s^2": Row(flown(scaled("a", 1 / G0)), (_LIKELY, "a_x, a_y, a_z are in g, not in m/s^2")),
-    "output in mV, called V": Row(flown(outputs(lambda v: 1e3 * v)), (_LIKELY, "G_out is in mV, not in V")),
-    "a_x and a_z exchanged": Row(flown(exchanged("a_x", "a_z")), (_LIKELY, "a_x and a_z are exchanged")),
     "the sign of G_out reversed": Row(
         flown(outputs(lambda v: -v)), (_LIKELY, "the sign of G_out is reversed", "-1")
     ),

@@ -65,8 +65,7 @@ def test_the_notes_are_everywhere(tmp_path: Path) -> None:
 
 
 AWKWARD: dict[str, Callable[[Flight], Flight]] = {
-    "1 % spikes": outputs(struck),
-    "blanks in the motion": motion(blank),
+    "1 % spikes, blanks in the motion": lambda x: motion(blank)(outputs(struck)(x)),
     "gaps": kept(lambda k: k[(k // 100) % 12 != 5]),
     "jittering stamps": timed(jittered(0.2)),
 }

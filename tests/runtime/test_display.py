@@ -26,7 +26,7 @@ class Result:
         self.model = api.new(folder / "model")
         self.flights = api.read_flights(self.model, [EXAMPLES / "demo-flight.parquet"])
         self.before = api.compare(self.model, self.flights)
-        self.diagnosis = api.diagnose(self.model, self.flights)
+        self.diagnosis = api.diagnose(self.model, self.flights, compared=self.before)
         self.step: Added = api.add(self.model, self.diagnosis.found[0], self.flights)
 
 

@@ -393,7 +393,7 @@ def test_envelope_keeps_the_extremes_and_the_power(n: int, points: int, seed: in
     assert np.all(e.rms[known] <= np.maximum(np.abs(e.low[known]), np.abs(e.high[known])) * (1 + 1e-12))
 
 
-def test_four_voltages_see_every_accelerometer() -> None:
+def test_four_voltages_see_every_accelerometer(clean: Case) -> None:
     made = flight()
     known, model = instrument(), load.packaged()
     V = voltages(model.chain, record(made, known), vector(model, known))
@@ -403,7 +403,7 @@ def test_four_voltages_see_every_accelerometer() -> None:
     c = compare.compare(model, known, [made])
     v = parameters.visibility(c.fitted)
     assert {d.pattern for d in v.unseen} <= {"A1", "A2", "A3", "A4"}
-    assert v.determined > parameters.visibility(compare.compare(model, known, [flight()]).fitted).determined
+    assert v.determined > parameters.visibility(clean.comparison.fitted).determined
     assert "<svg" in compare_page(c, ORIGIN)
 
 

@@ -45,18 +45,16 @@ def changed(x: Flight, change: Callable[[str, np.ndarray], np.ndarray]) -> Fligh
 
 
 HIDDEN: dict[str, dict[str, Any]] = {
-    "thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]},
     "gain-step": {"dK1": [0, 2e-6, 0, 0], "t_step": 150.0},
     "imu-lever-arm": {"l_x": 3e-2, "l_y": -2e-2},
     "imu-misalignment": {"e_x": 3e-3, "e_y": -3e-3, "e_z": 3e-3},
     "time-offset": {"delta_t": 1e-2},
     "spin-phase-offset": {"phi_0": 1e-2},
-    "encoder-harmonic": {"c_1": 1e-3},
     "quantisation": {"q": 5e-3},
 }
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_good_flight_is_left_alone(seed: int) -> None:
     trim = ("matched", "table-v")[seed % 2]
     for x in (flown(seed, trim=trim), flown(seed, trim=trim, voltages=True, record_gradient=False)):

@@ -97,7 +97,7 @@ def test_a_flight_that_kills_every_worker_is_given_up(
     monkeypatch.setattr(run, "examine", dying.deadly)
     files = [str(p) for p in flights[1]]
     toml = flights[0] / "model.toml"
-    found = dict(run.examine_here(make_job(toml.read_text(), toml), files, 2))
+    found = dict(run.examine_here(make_job(toml.read_text(), toml), files, 1))
     assert sorted(found) == sorted(files)
     failed = {Path(f).name: r["error"] for f, r in found.items() if "error" in r}
     assert sorted(failed) == ["flight-1.parquet", "flight-2.parquet"]

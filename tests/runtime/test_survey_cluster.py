@@ -109,7 +109,9 @@ def running(folder: Path, workers: int) -> Iterator[Cluster]:
 def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
     flights: Flights, whole: Survey, tmp_path: Path
 ) -> None:
+    """And once the scheduler is lost that is one message, and what is done is kept."""
     killed: list[int] = []
+    m, kept = api.load(flights[0]), tmp_path / "kept.jsonl"
     with running(tmp_path, 2) as c:
 
         def kill_one(done: int, total: int, record: Record | None) -> None:
@@ -118,7 +120,6 @@ def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
                 c.processes[1].send_signal(signal.SIGKILL)
                 c.processes[1].wait(30)
 
-        m = api.load(flights[0])
         found = api.survey(m, flights[1], scheduler=c.address, progress=kill_one)
         assert killed
         assert summary(found) == summary(whole)
@@ -127,22 +128,9 @@ def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
                 assert json.dumps(there) == json.dumps(here)
         assert [r["flight"] for r in found.records if "verdict" not in r] == ["flight-2b.parquet"]
 
-        # A file that the workers do not see, through the command; the survey is done all the same.
-        words = [sys.executable, "-m", "ragg_runtime", "survey", flights[0], "elsewhere.parquet"]
-        done = subprocess.run(
-            [*map(str, words), "--scheduler", c.address], capture_output=True, text=True, timeout=120, check=False
-        )  # fmt: skip
-        assert done.returncode == 0, done.stderr
-        assert "does not see the flight file" in done.stdout
-        assert "all workers share" in done.stdout
-
-
-def test_a_lost_scheduler_is_one_message_and_what_is_done_is_kept(
-    flights: Flights, whole: Survey, tmp_path: Path
-) -> None:
-    kept = tmp_path / "kept.jsonl"
-    m = api.load(flights[0])
-    with running(tmp_path, 1) as c:
+        # A file that the workers do not see; the survey is done all the same.
+        (lost,) = api.survey(m, ["elsewhere.parquet"], scheduler=c.address).records
+        assert "does not see the flight file" in lost["error"]["message"]
 
         def kill_scheduler(done: int, total: int, record: Record | None) -> None:
             if done == 2:

