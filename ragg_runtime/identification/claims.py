@@ -243,12 +243,12 @@ def _singles(s: Omnibus) -> list[Found]:
     return [t for t in (*s.steady[:1], *s.varying) if t.rank == 1]
 
 
-def evidence(chi2: float, rank: int, choices: Sequence[float], spread: float = 1.0) -> float:
+def evidence(chi2: float, rank: int, charge: float, spread: float = 1.0) -> float:
     """Log evidence of claims that explain a chi-square with so many coefficients.
 
-    ``choices``: from how many each was chosen; ``spread``: variance of a whitened generic term's score, 1 of noise alone.
+    ``charge``: logarithm of the number of choices; ``spread``: variance of a whitened generic term's score, 1 of noise alone.
     """
-    return float(log_bayes(chi2 / spread, rank)) - float(np.sum(np.log(choices)))
+    return float(log_bayes(chi2 / spread, rank)) - charge
 
 
 def spread_of(left: Remainder) -> float:

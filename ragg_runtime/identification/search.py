@@ -18,7 +18,7 @@ from ragg_runtime.identification import comparison, contenders, omnibus, selecti
 from ragg_runtime.identification.claims import SECOND_ORDER, Regression, Robust, Significance
 from ragg_runtime.identification.comparison import Explained, explained
 from ragg_runtime.identification.contenders import Extend
-from ragg_runtime.identification.likelihood_ratio import Test, Variance, pooled
+from ragg_runtime.identification.likelihood_ratio import Test, Variance, log_bayes, pooled
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.strong import Stage, Taken
 from ragg_runtime.instrument.instrument import Instrument
@@ -115,10 +115,30 @@ class Evidence:
         tests = {e: self.last.field.tests([o for o in chosen if o != e])[e] for e in chosen}
         return {e: t.log_p for e, t in tests.items()}
 
-    def rank(self, o: Outcome) -> int:
-        """Number of coefficients that were tested of an outcome's effects."""
+    def _tests(self, o: Outcome) -> list[Test]:
         tests = dict(self.first.choice.tests) | {t.effect: t.test for t in self.steps}
-        return sum(max(1, tests[e].rank) if e in tests else 1 for e in o.effects)
+        return [tests[e] for e in o.effects if e in tests]
+
+    def explained(self, o: Outcome) -> tuple[float, int]:
+        """Chi-square that an outcome's effects explain of what the model leaves without them, and with how many coefficients."""
+        field = self.first.field
+        known = [e for e in o.effects if e in field.candidates]
+        linear, rank = field.joint([self._block(e) for e in known]) if known else (0.0, 0)
+        rank += len(o.effects) - len(known)
+        if o.given or (linear < strong.STRONG and len(known) == len(o.effects)):
+            return linear, rank
+        # second orders of strong effects: what is left once they are derived into the model, with a noise that is estimated anew
+        fitted = float(np.sum(field.P[:, -1] ** 2) - o.target.whole[-1, -1] ** 2)
+        return max(linear, min(fitted, (1.0 + SECOND_ORDER) * linear) if o.remains else fitted), rank
+
+    def _block(self, effect: str) -> tuple[int, ...]:
+        """The columns of an effect that are needed, as far as a linear test of the first stage tells."""
+        beside = {} if self.steps else self.last.choice.blocks
+        return beside.get(effect) or self.first.choice.tests[effect].which
+
+    def charge(self, o: Outcome) -> float:
+        """Logarithm of the number of ways in which an outcome's effects may be present."""
+        return sum(float(log_bayes(t.chi2, t.rank)) - t.log_b for t in self._tests(o) if t.rank)
 
     def rivals(self) -> Mapping[str, tuple[str, ...]]:
         """For every chosen effect those that would do as well in its place."""
@@ -156,18 +176,6 @@ def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
     steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend, budget)
     last, outcome = confirmed(steps, last, extend)
     return Evidence(first, steps, last, outcome, extend, budget.spent)
-
-
-def explained_by(first: Stage, o: Outcome) -> float:
-    """Chi-square that an outcome's effects explain of what the model leaves without them."""
-    field = first.field
-    known = [e for e in o.effects if e in field.candidates]
-    linear = field.joint([[n for n, _ in field.candidates[e]] for e in known])[0] if known else 0.0
-    if o.given or len(known) < len(o.effects):
-        return linear
-    # second orders of strong effects: what is left once they are derived into the model, with a noise that is estimated anew
-    fitted = float(np.sum(field.P[:, -1] ** 2) - o.target.whole[-1, -1] ** 2)
-    return max(linear, min(fitted, (1.0 + SECOND_ORDER) * linear) if o.remains else fitted)
 
 
 def confirmed(steps: Sequence[Taken], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:

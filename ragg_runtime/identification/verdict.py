@@ -14,7 +14,7 @@ from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.line_rival import LineRival, Steady, line_rival
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.result import Reason
-from ragg_runtime.identification.search import Evidence, Outcome, explained_by
+from ragg_runtime.identification.search import Evidence, Outcome
 from ragg_runtime.identification.strong import Stage
 
 
@@ -74,7 +74,7 @@ class Conclusion:
             claimed = _claims(found, outcome, count, base)
         rival = bool(outcome.effects) and not claimed and not remains
         if rival and base is not None:  # generic terms do as well as what was chosen: they are what is left
-            _, left = claims.generic_evidence(base, np.inf, found.rank(outcome))
+            _, left = claims.generic_evidence(base, np.inf, found.explained(outcome)[1])
         remains = remains or rival or doubted
         if not remains:
             claimed = (*claimed, *(e for _, e in random[:1]))
@@ -189,7 +189,8 @@ def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) 
     """What of an outcome's effects may be claimed (``claims``)."""
     if not o.effects:
         return ()
-    chi2, single = explained_by(found.first, o) - found.rank(o), claims.best_single(base)
+    chi2, rank = found.explained(o)
+    chi2, single = chi2 - rank, claims.best_single(base)
     ahead = _ahead(found, o, count, base)
     if o.remains:
         return o.effects if chi2 > claims.MORE * single and ahead > claims.PLAINLY else ()
@@ -202,8 +203,9 @@ def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) 
 
 def _ahead(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> float:
     """Log evidence by which an outcome's effects are ahead of the best generic terms of as many coefficients."""
-    chi2, rank = explained_by(found.first, o), found.rank(o)
+    chi2, rank = found.explained(o)
     spread = max(claims.spread_of(o.remainder), o.target.calibration.excess) if o.remains else 1.0
     # with a cap, if nothing remains: no terms explain more than all
     terms, _ = claims.generic_evidence(base, np.inf if o.remains else chi2, rank, spread)
-    return claims.evidence(chi2, rank, [count] * len(o.effects), spread) - terms
+    charge = len(o.effects) * float(np.log(count)) + found.charge(o)
+    return claims.evidence(chi2, rank, charge, spread) - terms

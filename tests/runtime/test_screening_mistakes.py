@@ -96,6 +96,15 @@ def test_a_scale_factor_off_its_sheet_is_no_wrong_unit(trim: str) -> None:
     assert "K1 of A4" in screen(MODEL, other, x).flags[0].reason
 
 
+def test_a_null_bias_far_off_its_sheet_is_no_wrong_unit() -> None:
+    """Smaller outputs would stay closer to the sheet, but not explain the record."""
+    sheet = drawn(9).sheet
+    K0 = sheet.accelerometers["K0"].copy()
+    K0[3] += 0.02
+    assert screen(MODEL, sheet.replace(K0=K0), flown(9)).valid.all()
+    assert not any("mV" in f.reason for f in screen(MODEL, sheet.replace(K0=K0), flown(9)).flags)
+
+
 def test_nothing_is_named_where_nothing_follows_the_motion() -> None:
     x, sheet = flown(9), drawn(9).sheet
     noise = np.std(x.outputs["G_out"]) * np.random.default_rng(1).standard_normal(len(x))

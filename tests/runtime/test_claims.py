@@ -1,0 +1,63 @@
+"""What speaks for a claim, and what against it: synthetic regressions in blocks of time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from ragg_runtime.estimation import calibration
+from ragg_runtime.estimation.fitted import FITTED_BLOCKS
+from ragg_runtime.estimation.observation import BLOCKS
+from ragg_runtime.estimation.regressors import base_columns
+from ragg_runtime.identification import claims
+from ragg_runtime.identification.claims import Regression
+from ragg_runtime.model import model
+from ragg_runtime.model.derive import with_effects
+from ragg_runtime.reference.scenario import scenario
+
+Array = NDArray[np.float64]
+ROWS = 200
+
+
+def regression(sizes: Array, *, further: int = 0) -> Regression:
+    """An effect's column of so many sigma in each block (BLOCKS,), ``further`` that nothing excites, and one of the instrument."""
+    rng = np.random.default_rng(1)
+    blocks = []
+    for size in sizes:
+        X = np.column_stack([rng.normal(size=(ROWS, 2)), 1e-9 * rng.normal(size=(ROWS, further))])
+        y = rng.normal(size=ROWS) + X[:, 1] * size / np.sqrt(ROWS)
+        blocks.append(np.linalg.qr(np.column_stack([X, y]), mode="r"))
+    effects = (None, *(["e"] * (1 + further)))
+    return Regression((tuple(blocks),), np.zeros(2 + further), np.zeros(2 + further), effects)
+
+
+def test_held_out_blocks_speak_for_what_is_there_and_against_what_is_not() -> None:
+    fitted = np.isin(np.arange(BLOCKS), FITTED_BLOCKS)
+    assert claims.held_out_evidence(regression(np.full(BLOCKS, 2.0)), "e") > 5.0
+    assert claims.held_out_evidence(regression(np.where(fitted, 2.0, -2.0)), "e") < -20.0
+    assert abs(claims.held_out_evidence(regression(np.zeros(BLOCKS)), "e")) < claims.PLAINLY
+
+
+def test_coefficients_that_nothing_excites_cost_a_claim_nothing() -> None:
+    few, many = (claims.held_out_evidence(regression(np.full(BLOCKS, 2.0), further=n), "e") for n in (0, 12))
+    assert many == pytest.approx(few, abs=3.0)
+
+
+def test_coefficients_that_are_held_are_not_fitted_and_large_ones_widen_their_prior() -> None:
+    s = scenario(57, duration=10.0)
+    extended = with_effects(s.sheet, model.packaged(), ["cubic-input"])
+    labels = [c.label for c, _ in base_columns(extended, s.sheet) if c.effect]
+    held = replace(s.sheet, held=frozenset(labels[1:]))
+    assert [c.label for c, _ in base_columns(extended, held) if c.effect] == labels[:1]
+    columns, index = zip(*base_columns(extended, s.sheet), strict=True)
+    p = calibration.vector(extended, s.sheet)
+    known = np.array([0.01 if c.effect else 1.0 for c in columns])
+    for c, k in zip(columns, index, strict=True):
+        p[k] += 40.0 * c.scale * (c.label == labels[0])
+    c = calibration.Calibration(
+        p, columns, np.array(index), np.diag(known), (), 100, 100.0, 1.0, 1.0, converged=True, reason=""
+    )
+    assert calibration._widths(extended, s.sheet, c) == {"cubic-input.K_iii": pytest.approx(20.0, rel=0.02)}
