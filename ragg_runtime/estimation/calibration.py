@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 from types import MappingProxyType
 
 import numpy as np
@@ -101,25 +102,21 @@ class _Task:
     model: Model
     instrument: Instrument
     observations: Sequence[Observation]
-    nominal: Array
-    columns: tuple[Column, ...]
-    index: NDArray[np.intp]
 
-    @staticmethod
-    def of(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> _Task:
-        found = design.base_columns(model, instrument)
-        columns = tuple(c for c, _ in found)
-        index = np.array([i for _, i in found])
-        return _Task(
-            model=model,
-            instrument=instrument,
-            observations=observations,
-            nominal=vector(model, instrument),
-            columns=columns,
-            index=index,
-        )
+    @cached_property
+    def columns(self) -> tuple[Column, ...]:
+        return tuple(c for c, _ in design.base_columns(self.model, self.instrument))
 
-    @property
+    @cached_property
+    def index(self) -> NDArray[np.intp]:
+        """(n,): places of the fitted parameters in the parameter vector."""
+        return np.array([i for _, i in design.base_columns(self.model, self.instrument)])
+
+    @cached_property
+    def nominal(self) -> Array:
+        return vector(self.model, self.instrument)
+
+    @cached_property
     def scale(self) -> Array:
         return np.array([c.scale for c in self.columns])
 
@@ -181,22 +178,17 @@ class _Task:
         )
 
 
-@dataclass(frozen=True)
 class _Unweighted:
     """Fits in which every sample weighs the same: the points that were tried serve for any size of the noise."""
 
-    task: _Task
-    _tried: dict[bytes, _Fall] = field(default_factory=dict)
+    def __init__(self, task: _Task) -> None:
+        self.task = task
+        unit = [NoiseModel.white(o.record.rate, len(o.series)) for o in task.observations]
+        self._tried = lru_cache(maxsize=2)(lambda x: task.at(np.frombuffer(x), unit))
 
     def volts(self, x: Array) -> _Fall:
         """Linearised about x, a noise of 1 V."""
-        key = x.tobytes()
-        if key not in self._tried:
-            while len(self._tried) > 1:
-                self._tried.pop(next(iter(self._tried)))
-            unit = [NoiseModel.white(o.record.rate, len(o.series)) for o in self.task.observations]
-            self._tried[key] = self.task.at(x, unit)
-        return self._tried[key]
+        return self._tried(x.tobytes())
 
     def fit(self, x: Array, size: float) -> Minimum[_Fall]:
         """From x with noise of this size, V."""
@@ -227,7 +219,7 @@ def fit(
     First every sample weighs the same; from what is left the noise is estimated, and the fit goes on whitened, unless much more
     than noise is left or ``unweighted`` is asked for. Long flights begin on an excerpt.
     """
-    task = _Task.of(model, instrument, observations)
+    task = _Task(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
     loud, whole, some = unweighted, _Unweighted(task), task.excerpt()
     if noise is None:

@@ -12,8 +12,8 @@ from scipy import optimize
 
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import kernel
 from ragg_runtime.screening.linear_fit import Explained, Hypothesis, low_passes
 from ragg_runtime.screening.sampler import Sampler
 

@@ -19,10 +19,9 @@ from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.mapping import parse_mapping
-from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import packaged
-from ragg_runtime.model.record import record
+from ragg_runtime.model.record import kernel, record
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulate import low_pass
 
