@@ -22,7 +22,7 @@ from benchmarks.diagnosis.plan import World
 from benchmarks.diagnosis.records import Loudness
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.observation import observe
-from ragg_runtime.estimation.regressors import Column, Point, linearised
+from ragg_runtime.estimation.regressors import Column, Point, linearise
 from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import packaged
@@ -84,8 +84,8 @@ class Oracle:
         self.rms = np.sqrt(w.density * flight.rate / 2 * variance)
         self.taps = whitening(loudness, flight.rate, len(flight))
         p = vector(self.model, w.known)
-        self.raw = linearised(Point(self.model, w.known, p, with_candidates=True), self.o)[:-1]
-        self.columns = design.candidate_columns(self.model, w.known)
+        self.raw = linearise(Point(self.model, w.known, p, with_candidates=True), self.o)[:-1]
+        self.columns = design.list_candidate_columns(self.model, w.known)
         self.n = len(self.raw) - len(self.columns)
         white = self.whitened(self.raw)
         self.rows = white.shape[1]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.estimation.regressors import Column, base_columns
+from ragg_runtime.estimation.regressors import Column, list_base_columns
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
@@ -212,7 +212,7 @@ def load_saved(kept: str | None, where: Path, model: Model, instrument: Instrume
             expected=f"{form}, effects {', '.join(effects) or 'none'}",
             remedy=again,
         )
-    present = base_columns(model, instrument)
+    present = list_base_columns(model, instrument)
     places = {(c.name, c.accelerometer): k for c, k in present}
     for c, k in zip(saved.columns, saved.index, strict=True):
         if places.get((c.name, c.accelerometer)) != k:

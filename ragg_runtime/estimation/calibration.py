@@ -16,7 +16,7 @@ from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.regressors import Column, Point, spelt
-from ragg_runtime.estimation.whitening import Piece, excerpt, heard, passed
+from ragg_runtime.estimation.whitening import Piece, heard, pass_over, take_excerpt
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.evaluate import scale_factor, vector
@@ -105,12 +105,12 @@ class _Task:
 
     @cached_property
     def columns(self) -> tuple[Column, ...]:
-        return tuple(c for c, _ in design.base_columns(self.model, self.instrument))
+        return tuple(c for c, _ in design.list_base_columns(self.model, self.instrument))
 
     @cached_property
     def index(self) -> NDArray[np.intp]:
         """(n,): places of the fitted parameters in the parameter vector."""
-        return np.array([i for _, i in design.base_columns(self.model, self.instrument)])
+        return np.array([i for _, i in design.list_base_columns(self.model, self.instrument)])
 
     @cached_property
     def nominal(self) -> Array:
@@ -126,9 +126,9 @@ class _Task:
         p[self.index] += x * self.scale
         return p
 
-    def excerpt(self) -> _Task:
+    def take_excerpt(self) -> _Task:
         """The same of some segments of long flights; itself if none is long."""
-        shorter = [excerpt(o) for o in self.observations]
+        shorter = [take_excerpt(o) for o in self.observations]
         if all(a is b for a, b in zip(shorter, self.observations, strict=True)):
             return self
         return replace(self, observations=shorter)
@@ -143,7 +143,7 @@ class _Task:
         triangles, rows = [], 0
         sums = {o.place: np.zeros(len(x) + 1) for o in self.observations}
         for o, n in zip(self.observations, noise, strict=True):
-            for T, count, part in passed(point, o, n, _triangle, chosen=heard(o)):
+            for T, count, part in pass_over(point, o, n, _triangle, chosen=heard(o)):
                 triangles.append(T)
                 rows += count
                 sums[o.place] += part
@@ -221,7 +221,7 @@ def fit(
     """
     task = _Task(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
-    loud, whole, some = unweighted, _Unweighted(task), task.excerpt()
+    loud, whole, some = unweighted, _Unweighted(task), task.take_excerpt()
     if noise is None:
         begun = whole if some is task else _Unweighted(some)
         x = begun.fit(x, begun.promised(x)).x
@@ -258,7 +258,7 @@ def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[NoiseModel]
     at = found.at
     step = found.last
     for sums in at.sums.values():
-        step = design.levelled(step, sums, design.null_biases(task.columns))
+        step = design.level_biases(step, sums, design.null_biases(task.columns))
     covariance = _linear(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
     return Calibration(
         p=task.vector(found.x + step),

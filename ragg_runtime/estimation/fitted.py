@@ -161,7 +161,7 @@ class Fitted:
         for place in dict.fromkeys(o.place for o in self.observations):
             own = [x[blocks] for x, o in zip(self.sums, self.observations, strict=True) if o.place == place]
             sums = np.sum(own, axis=(0, 1))[[*picked, -1]]
-            coefficients = regressors.levelled(coefficients, sums, biases)
+            coefficients = regressors.level_biases(coefficients, sums, biases)
         return coefficients, inverse @ inverse.T
 
     def vector(self, coefficients: Array, extra: Sequence[int] = ()) -> Array:

@@ -23,9 +23,9 @@ from ragg_runtime.estimation.observation import (
     telling,
 )
 from ragg_runtime.estimation.regressors import Point
-from ragg_runtime.estimation.residual import Disturbance, Left, in_words, left_over, placed
+from ragg_runtime.estimation.residual import Disturbance, Left, fit_columns, in_words, place_valid
 from ragg_runtime.estimation.spectrum import LOWEST, Averages, Spectrum, estimate, periodogram, without_lines
-from ragg_runtime.estimation.whitening import Piece, flight_segments, longer, passed
+from ragg_runtime.estimation.whitening import Piece, flight_segments, longer, pass_over
 from ragg_runtime.io.record import ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import quantities_of
 from ragg_runtime.signals import combinations
@@ -115,7 +115,7 @@ class _Part:
 
     def rest(self, m: int) -> Array:
         """(N,): of an output, zero where a sample is not valid."""
-        return placed(self.outputs[m].rest, self.valid)
+        return place_valid(self.outputs[m].rest, self.valid)
 
 
 RESOLVED = 4.0
@@ -218,7 +218,9 @@ def _parts(at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segm
         return _Part(
             rows=piece.segment.rows,
             valid=valid,
-            outputs=tuple(kept(left_over(x, valid, rate, band, t)) for x, t in zip(each, known, strict=True)),
+            outputs=tuple(
+                kept(fit_columns(x, valid, rate, band, t)) for x, t in zip(each, known, strict=True)
+            ),
             taken=sum(w.white.shape[1] for w in piece.windows) / len(o.series),
             random={
                 e: tuple(piece.white[place].reshape(len(o.series), -1) ** 2)
@@ -227,7 +229,7 @@ def _parts(at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segm
             },
         )
 
-    return list(passed(at, o, _unwhitened(o, apart), part, chosen=chosen))
+    return list(pass_over(at, o, _unwhitened(o, apart), part, chosen=chosen))
 
 
 def _unwhitened(o: Observation, apart: Array | None) -> NoiseModel:
@@ -334,7 +336,7 @@ def averages(at: Point, o: Observation, unwhitened: NoiseModel) -> list[Averages
         found[:, :, starts == ends] = 0.0  # of no sample
         return int(boxes[0]), found
 
-    for first, part in passed(at, o, unwhitened, summed):
+    for first, part in pass_over(at, o, unwhitened, summed):
         if sums is None:
             sums = np.zeros((len(part), m, len(count)))
         sums[:, :, first : first + part.shape[2]] += part
@@ -347,6 +349,6 @@ def averages(at: Point, o: Observation, unwhitened: NoiseModel) -> list[Averages
     found = []
     for k in range(m):
         flat = sums[:, k, valid] / count[valid]
-        left = left_over(flat, valid, rate, None)
-        found.append(Averages(rest=placed(left.rest, valid), kept=left.kept, rate=rate, below=below))
+        left = fit_columns(flat, valid, rate, None)
+        found.append(Averages(rest=place_valid(left.rest, valid), kept=left.kept, rate=rate, below=below))
     return found

@@ -221,7 +221,7 @@ class Thin:
         return convolved(x, self.taps)[..., :: self.every]
 
 
-def bridged(x: Array, valid: NDArray[np.bool_]) -> Array:
+def bridge_gaps(x: Array, valid: NDArray[np.bool_]) -> Array:
     """A series (N,), straight from neighbour to neighbour where a sample is not valid."""
     if valid.all() or not valid.any():
         return x

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import stretches
-from ragg_runtime.estimation.observation import Observation, Thin, bridged
+from ragg_runtime.estimation.observation import Observation, Thin, bridge_gaps
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
@@ -57,7 +57,7 @@ def spelt(accelerometer: int | None, name: str) -> dict[str, str]:
     return {} if name in ("", f"A{accelerometer}") else {"accelerometer_name": name}
 
 
-def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int]]:
+def list_base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int]]:
     """The calibratable parameters of the model, each with its index in the parameter vector."""
     known = units(instrument.g0)
     found: list[tuple[Column, int]] = []
@@ -98,7 +98,7 @@ def own_columns(columns: Sequence[Column], instrument: Instrument, place: int) -
     return [k for k, c in enumerate(columns) if c.accelerometer is None or c.accelerometer - 1 in members]
 
 
-def candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
+def list_candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
     """The parameters of the effects that are not in the model, in the order of the signatures' rows."""
     known = units(instrument.g0)
     return [c for e in model.candidates if e.kind != "output" for c, _ in _of_effect(e, known, instrument)]
@@ -146,7 +146,7 @@ def null_biases(columns: Sequence[Column]) -> list[int]:
     return [n for n, c in enumerate(columns) if c.name == "K0" and c.effect is None]
 
 
-def levelled(coefficients: Array, sums: Array, biases: Sequence[int]) -> Array:
+def level_biases(coefficients: Array, sums: Array, biases: Sequence[int]) -> Array:
     """Coefficients (n,) with those at ``biases`` shifted until the residual of G_out has no mean.
 
     ``sums`` (n + 1,) are those of the columns and of the data over all samples; zeros: nothing is shifted.
@@ -186,12 +186,12 @@ class Point:
     @cached_property
     def base(self) -> list[Column]:
         """The parameters of the model."""
-        return [c for c, _ in base_columns(self.model, self.instrument)]
+        return [c for c, _ in list_base_columns(self.model, self.instrument)]
 
     @cached_property
     def candidates(self) -> list[Column]:
         """Those of the candidate effects whose columns are wanted."""
-        every = candidate_columns(self.model, self.instrument) if self.with_candidates else []
+        every = list_candidate_columns(self.model, self.instrument) if self.with_candidates else []
         return every if self.only is None else [every[n] for n in self.only]
 
     @cached_property
@@ -207,7 +207,7 @@ CACHED = 4096
 """Samples at which a generated module is evaluated at a time: enough for what a call costs besides, few enough for the cache."""
 
 
-def linearised(at: Point, o: Observation, residual: Array | None = None) -> Array:
+def linearise(at: Point, o: Observation, residual: Array | None = None) -> Array:
     """Base columns, candidates (if wanted), each times its parameter's scale, and residual: (n + 1, m, N), V.
 
     ``residual`` (m, N): that of a thinned observation, where it is known already.
@@ -224,7 +224,7 @@ def linearised(at: Point, o: Observation, residual: Array | None = None) -> Arra
     if o.thin is None:
         columns[-1] = o.data - _predict(at, o, r, p)
     else:
-        columns[-1] = thinned_residual(at, o.thin) if residual is None else residual
+        columns[-1] = thin_residual(at, o.thin) if residual is None else residual
     for k, c in enumerate((*at.base, *at.candidates)):
         instant = at.instants.get(c.effect or "")
         if instant is not None:
@@ -259,7 +259,7 @@ def _predict(at: Point, o: Observation, r: Record, p: Array) -> Array:
     return observed(o, V, None)
 
 
-def thinned_residual(at: Point, thin: Thin) -> Array:
+def thin_residual(at: Point, thin: Thin) -> Array:
     """Residual (m, n), V, of a thinned record: that of the whole one, thinned, for the outputs are a million times the noise."""
     parts = [thin.part(some) for some in stretches(thin.rows.stop - thin.rows.start, PART)]
     return np.concatenate([x.kept(residual_of(at, x.source(at.channels))) for x in parts], axis=1)
@@ -268,4 +268,4 @@ def thinned_residual(at: Point, thin: Thin) -> Array:
 def residual_of(at: Point, o: Observation) -> Array:
     """Residual (m, N), V, at a point; between its neighbours where a sample is not valid."""
     r, p = about(at.model, o.record, at.p)
-    return np.stack([bridged(x, r.valid) for x in o.data - _predict(at, o, r, p)])
+    return np.stack([bridge_gaps(x, r.valid) for x in o.data - _predict(at, o, r, p)])

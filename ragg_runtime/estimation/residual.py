@@ -164,7 +164,7 @@ class Left:
         return np.asarray(np.maximum(power - cross + square, 0.0) / (plain * np.sum(window**2)))
 
 
-def left_over(
+def fit_columns(
     flat: Array,
     valid: NDArray[np.bool_],
     rate: float | None,
@@ -189,7 +189,7 @@ def left_over(
         return _fitted(wide, flat, valid, rate, found)
 
     for _ in range(ROUNDS):
-        seen = disturbances(placed(left.rest, valid), valid, rate, band)
+        seen = disturbances(place_valid(left.rest, valid), valid, rate, band)
         lines = [d for d in seen if d.kind == "line"]
         jump = None if lines else _jump(left, valid, rate)
         with_it = None if jump is None else _and(left, through(jump.columns(time))[0], valid)
@@ -213,7 +213,7 @@ def _and(left: Left, column: Array, valid: NDArray[np.bool_]) -> Left:
     return replace(left, rest=left.rest - new * float(new @ left.rest), kept=kept)
 
 
-def placed(rest: Array, valid: NDArray[np.bool_]) -> Array:
+def place_valid(rest: Array, valid: NDArray[np.bool_]) -> Array:
     """(N,): what is left, zero where a sample is not valid."""
     e = np.zeros(len(valid))
     e[valid] = rest
@@ -274,9 +274,9 @@ def _told(
     before: Left, after: Left, valid: NDArray[np.bool_], rate: float, band: tuple[float, float] | None
 ) -> bool:
     """Whether what was fitted last stands out of the noise that is left without it: red noise looks like jumps, too."""
-    model = estimate([placed(after.rest, valid)], rate, band, [after.kept])
+    model = estimate([place_valid(after.rest, valid)], rate, band, [after.kept])
     taps = model.whitening_filter(len(valid))
-    gone = filtered(placed(before.rest - after.rest, valid)[None], taps)[0][valid]
+    gone = filtered(place_valid(before.rest - after.rest, valid)[None], taps)[0][valid]
     return float(gone @ gone) > JUMP
 
 

@@ -58,12 +58,12 @@ def finite(x: float) -> float | None:
 def channels(
     residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_]
 ) -> tuple[Array, Array, Array]:
-    """Demodulated residual: (time, inline, cross), s and Eo, where the low-pass is :func:`supported` by the selection."""
+    """Demodulated residual: (time, inline, cross), s and Eo, where the low-pass is :func:`find_supported` by the selection."""
     if not r.turning or len(residual) < shortest_demodulated(r.rate):
         return np.empty(0), np.empty(0), np.empty(0)
     e = np.where(selected & r.valid, residual, 0.0)
     d = demodulate(e, np.arctan2(r.sin_phi, r.cos_phi) + r.phase / 2, r.rate, k_ggi / EOTVOS)
-    kept = supported(selected[None], r.valid, len(low_pass(r.rate)))[0]
+    kept = find_supported(selected[None], r.valid, len(low_pass(r.rate)))[0]
     return r.time[d.valid][kept], d.inline[kept] / EOTVOS, d.cross[kept] / EOTVOS
 
 
@@ -71,7 +71,7 @@ HOLES = 0.05
 """Share of the samples under the low-pass that may be missing, as spikes are: it takes zeros in their place."""
 
 
-def supported(selected: NDArray[np.bool_], valid: NDArray[np.bool_], taps: int) -> NDArray[np.bool_]:
+def find_supported(selected: NDArray[np.bool_], valid: NDArray[np.bool_], taps: int) -> NDArray[np.bool_]:
     """(groups, N - taps + 1): where a filter of so many taps lies within a selection (groups, N), mostly valid (N,)."""
 
     def under(x: NDArray[np.bool_]) -> NDArray[np.int64]:
@@ -155,7 +155,7 @@ class Tally:
     ) -> None:
         if len(phi) < len(self._taps):
             return
-        whole = np.where(supported(selected, valid, len(self._taps)), 1.0, 0.0)
+        whole = np.where(find_supported(selected, valid, len(self._taps)), 1.0, 0.0)
         self.demodulated += np.sum(whole, axis=1)
         for c, carrier in enumerate((4 * np.sin(2 * phi), -2 * np.cos(2 * phi))):
             for some in stretches(len(e), SERIES):

@@ -16,8 +16,8 @@ from scipy import ndimage
 
 from ragg_runtime.base.threads import stretches
 from ragg_runtime.estimation import regressors as design
-from ragg_runtime.estimation.observation import Observation, Segment, Thin, bridged, segments, spread
-from ragg_runtime.estimation.regressors import Point, linearised, residual_of
+from ragg_runtime.estimation.observation import Observation, Segment, Thin, bridge_gaps, segments, spread
+from ragg_runtime.estimation.regressors import Point, linearise, residual_of
 from ragg_runtime.estimation.residual import disturbances
 from ragg_runtime.estimation.whitening import heard, longer
 from ragg_runtime.instrument.instrument import Instrument
@@ -57,7 +57,7 @@ def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation
     r = o.record
     most = [
         c.scale * (r.time[-1] if moving[k].growing else 1.0) * r.rate
-        for c, k in design.base_columns(model, instrument)
+        for c, k in design.list_base_columns(model, instrument)
         if k in moving
     ]
     n = int(np.ceil(LATEST * max(most, default=0.0)))
@@ -83,7 +83,7 @@ def _open(model: Model, instrument: Instrument, o: Observation) -> NDArray[np.bo
     chain, r, p = model.chain, o.record, vector(model, instrument)
     x = r.inputs(chain)
     rows = {name: k for k, (name, shared) in enumerate(chain.ROWS) if not shared}
-    base = [c for c, _ in design.base_columns(model, instrument) if c.effect is None]
+    base = [c for c, _ in design.list_base_columns(model, instrument) if c.effect is None]
     found = np.zeros(len(r.time), dtype=np.bool_)
     for j in o.output.members:
         own = [c for c in base if c.accelerometer == j + 1]
@@ -146,7 +146,7 @@ def _most(at: Point, o: Observation) -> int:
         return 1
     some = spread(heard(o), EXCERPTS)
     pieces = [o.part(slice(s.rows.start, min(s.rows.start + EXCERPT, s.rows.stop))) for s in some]
-    whole = [linearised(at, _everywhere(x))[:-1] for x in pieces]
+    whole = [linearise(at, _everywhere(x))[:-1] for x in pieces]
 
     def enough(every: int) -> bool:
         thin = [_thin(x, every) for x in pieces]
@@ -206,7 +206,7 @@ def _alike(at: Point, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
         inside = ndimage.binary_erosion(o.record.valid, iterations=HALO)
         if 2 * np.sum(inside) < len(inside):
             return False  # so few samples tell nothing of the rest
-        made = linearised(at, o)[:-1]
+        made = linearise(at, o)[:-1]
         wanted = np.concatenate([thin.kept(columns[some]) for some in stretches(len(columns), TOGETHER)])
         square = square + np.sum(wanted[:, :, inside] ** 2, axis=(1, 2))
         off = off + np.sum((made - wanted)[:, :, inside] ** 2, axis=(1, 2))
@@ -266,4 +266,4 @@ def _kept(o: Observation, thin: Thin) -> Observation:
 def _whole(x: Array, valid: NDArray[np.bool_]) -> Array:
     """Some samples of a column, in memory, all of them numbers."""
     x = np.array(x)
-    return np.nan_to_num(bridged(x, valid & np.isfinite(x)))
+    return np.nan_to_num(bridge_gaps(x, valid & np.isfinite(x)))

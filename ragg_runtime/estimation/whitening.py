@@ -25,7 +25,7 @@ from ragg_runtime.estimation.observation import (
     segments,
     spread,
 )
-from ragg_runtime.estimation.regressors import Point, linearised, thinned_residual
+from ragg_runtime.estimation.regressors import Point, linearise, thin_residual
 from ragg_runtime.estimation.unknown_gradient import Window
 from ragg_runtime.model.record import Record
 
@@ -108,7 +108,7 @@ EXCERPT = 4
 """Most segments of an excerpt."""
 
 
-def excerpt(o: Observation) -> Observation:
+def take_excerpt(o: Observation) -> Observation:
     """The observation with but some segments of a long flight valid, evenly spread: what is loud they tell as well as all."""
     found = heard(o)
     if len(found) <= EXCERPT:
@@ -119,7 +119,7 @@ def excerpt(o: Observation) -> Observation:
     return replace(o, record=replace(o.record, valid=valid, whole=o.record.whole or o.record))
 
 
-def passed(
+def pass_over(
     at: Point,
     o: Observation,
     noise: NoiseModel,
@@ -142,7 +142,7 @@ def passed(
     share = (1.0 if at.with_candidates else 0.4) * (1.0 if whitened else 0.5)
     for s in found:
         part = o.part(s.rows)
-        columns = linearised(at, part, None if residual is None else residual[:, s.rows])
+        columns = linearise(at, part, None if residual is None else residual[:, s.rows])
         flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
         windows = unknown_gradient.windows(o, s.rows, noise)
         if whitened:
@@ -175,7 +175,7 @@ def _white(
     windows: Sequence[Window],
 ) -> Array:
     """(n + 1, rows): columns (n + 1, m, N) whitened, without what an unknown gradient spans; zero where nothing is heard."""
-    some = whitened_columns(columns[heard], noise, None if tail is None else tail[heard], record)
+    some = whiten_columns(columns[heard], noise, None if tail is None else tail[heard], record)
     if windows:
         some = some.copy() if np.shares_memory(some, columns) else some
         unknown_gradient.project(some, windows)
@@ -186,7 +186,7 @@ def _white(
     return flat
 
 
-def whitened_columns(columns: Array, noise: NoiseModel, tail: Array | None, record: Record) -> Array:
+def whiten_columns(columns: Array, noise: NoiseModel, tail: Array | None, record: Record) -> Array:
     """(n + 1, rows): columns (n + 1, m, N) of a record's samples, whitened."""
     return noise.whiten(columns, record.valid, noise.level_of(record.quantity), tail=tail)
 
@@ -242,7 +242,7 @@ class PreparedFlight:
         """What ``work`` makes of every segment (or of the ``chosen``), in order: one pass over the flight. It must not keep one."""
         if self.pieces is not None:
             return map(work, self.pieces)
-        return passed(
+        return pass_over(
             self.at,
             self.observation,
             self.noise,
@@ -284,10 +284,10 @@ def prepare_flight(
 ) -> PreparedFlight:
     """A flight about a point; ``residual`` is known of a thinned flight that was prepared about the same parameters."""
     if residual is None and o.thin is not None:
-        residual = thinned_residual(at, o.thin)
+        residual = thin_residual(at, o.thin)
     if len(o.record.time) > ROWS:
         return PreparedFlight(o, noise, at, residual)
-    pieces = passed(at, o, noise, lambda piece: piece, residual=residual)
+    pieces = pass_over(at, o, noise, lambda piece: piece, residual=residual)
     return PreparedFlight(o, noise, at, residual, tuple(pieces))
 
 

@@ -14,7 +14,7 @@ from ragg_runtime.estimation.calibration import as_said, room_taken, to_nominal
 from ragg_runtime.estimation.fitted import Fitted, calibrated
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.thinning import certain
-from ragg_runtime.estimation.whitening import excerpt
+from ragg_runtime.estimation.whitening import take_excerpt
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model.model import Model
@@ -108,7 +108,7 @@ class Contest:
 
     def left(self, ids: Sequence[str]) -> dict[str, float]:
         """Chi-square that each leaves of all; of those that the excerpt puts out of the contest what it says of them."""
-        shorter = tuple(excerpt(o) for o in self.f.observations)
+        shorter = tuple(take_excerpt(o) for o in self.f.observations)
         share = sum(int(np.sum(o.record.valid)) for o in shorter) / sum(
             int(np.sum(o.record.valid)) for o in self.f.observations
         )

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.least_squares import orthonormal, triangle
-from ragg_runtime.estimation.regressors import Point, linearised
+from ragg_runtime.estimation.regressors import Point, linearise
 from ragg_runtime.identification.selection import Field
 from ragg_runtime.io.record import is_disc_angle
 
@@ -266,7 +266,7 @@ def whitened_motion(f: Fitted, at: Point, motion: Sequence[Sinusoid], simulated:
     series = (np.zeros(n),) * len(o.series)
     made = replace(o, record=r, series=series, name="motion", thin=None)
 
-    white = noise.whiten(linearised(at, made)[:-1])
+    white = noise.whiten(linearise(at, made)[:-1])
     if not unknown_gradient.unknown(o):
         return white
     cosine, sine = r.carriers

@@ -212,7 +212,7 @@ def _linear(f: Fitted, given: Sequence[int], extended: Model, instrument: Instru
     before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
     value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
     p = vector(extended, f.instrument)
-    for c, place in design.base_columns(extended, instrument):
+    for c, place in design.list_base_columns(extended, instrument):
         p[place] = value[c.label]
     return p
 

@@ -17,7 +17,7 @@ from ragg_runtime.estimation.least_squares import below, fold, join, triangle
 from ragg_runtime.estimation.least_squares import prior as prior_rows
 from ragg_runtime.estimation.observation import BLOCKS, ROWS
 from ragg_runtime.estimation.regressors import Column
-from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, whitened_columns
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, whiten_columns
 from ragg_runtime.identification import likelihood_ratio
 from ragg_runtime.identification.likelihood_ratio import Test
 
@@ -166,7 +166,7 @@ def _begun(piece: Piece, prepared: PreparedFlight, at: int, places: Sequence[int
     columns = piece.columns[list(places)]
     columns[:, :, :at] = 0.0
     own = columns.any(axis=(1, 2))
-    X = whitened_columns(columns[own], prepared.noise, None, piece.observation.record)
+    X = whiten_columns(columns[own], prepared.noise, None, piece.observation.record)
     unknown_gradient.project(X, piece.windows)
     found = np.zeros((len(columns), X.shape[1]))
     found[own] = X

@@ -231,7 +231,7 @@ def _pointers(case: _Case, before_p: Sequence[object] = ()) -> list[object]:
     return [_SIZE(len(t)), _at(t), rows, *before_p, _at(p), _at(angle)]
 
 
-def compiled_model(model: Model, backend: Backend = "auto") -> Evaluator:
+def compile_model(model: Model, backend: Backend = "auto") -> Evaluator:
     """The evaluator of a model: machine code, or, of ``auto``, NumPy with a note where it cannot be made (``c``: UserError)."""
     if backend not in ("auto", "c", "numpy"):
         raise UserError("unknown backend", found=repr(backend), expected="auto, c or numpy")
@@ -252,7 +252,7 @@ def _warn_once(why: str) -> None:
     )
 
 
-def compiled_module(model: Model, name: str) -> Evaluator:
+def compile_module(model: Model, name: str) -> Evaluator:
     """The evaluator of ``chain`` or ``signatures`` for fits: in NumPy, without a note, where there is no machine code."""
     own = {n: text for n, text in model.c.items() if n.partition(".")[0] == name}
     try:

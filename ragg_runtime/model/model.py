@@ -156,15 +156,15 @@ class Model:
     @cached_property
     def evaluators(self) -> Callable[[str], Evaluator]:
         """``chain`` and ``signatures``, as fits evaluate them."""
-        from ragg_runtime.model.evaluate import compiled_module
+        from ragg_runtime.model.evaluate import compile_module
 
-        return cache(partial(compiled_module, self))
+        return cache(partial(compile_module, self))
 
     def compiled(self, backend: Backend = "auto") -> Evaluator:
         """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
-        from ragg_runtime.model.evaluate import compiled_model
+        from ragg_runtime.model.evaluate import compile_model
 
-        return compiled_model(self, backend)
+        return compile_model(self, backend)
 
     def effect(self, identifier: str) -> Effect | None:
         """The effect of this id, in the model or not; ``None`` if unknown."""

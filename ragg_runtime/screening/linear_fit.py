@@ -184,7 +184,7 @@ class _About:
             model=model,
             layout=instrument.layout,
             p=vector(model, instrument),
-            parameters=design.base_columns(model, instrument),
+            parameters=design.list_base_columns(model, instrument),
         )
 
     def explained(self, many: Sequence[Rows]) -> list[Explained]:

@@ -10,7 +10,7 @@ from itertools import combinations, permutations, product
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.regressors import base_columns
+from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units
@@ -129,7 +129,7 @@ def _sheets(model: Model, instrument: Instrument, rows: Rows) -> Iterator[Hypoth
 def _farthest(model: Model, instrument: Instrument, fitted: Explained) -> str:
     """The parameters that lie farthest from their sheet, in its sigmas: both values of up to three."""
     sheet = vector(model, instrument)
-    off = [((fitted.p[k] - sheet[k]) / c.scale, c, k) for c, k in base_columns(model, instrument)]
+    off = [((fitted.p[k] - sheet[k]) / c.scale, c, k) for c, k in list_base_columns(model, instrument)]
     off = sorted((x for x in off if x[1].effect is None), key=lambda x: -abs(x[0]))
     worst = [x for x in off[:3] if abs(x[0]) > abs(off[0][0]) / 10]
     return ", ".join(

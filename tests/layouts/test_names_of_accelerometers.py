@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ragg_runtime.estimation.regressors import base_columns, spelt
+from ragg_runtime.estimation.regressors import list_base_columns, spelt
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model import derive
@@ -30,7 +30,7 @@ def test_what_is_far_off_its_sheet_is_called_by_its_name_there() -> None:
     assert farthest.in_words().startswith("K1 of south is ")
     assert farthest.as_json()["accelerometer"] == 2
     assert farthest.as_json()["accelerometer_name"] == "south"
-    assert {c.accelerometer_name for c, _ in base_columns(model, sheet)} == set(NAMES)
+    assert {c.accelerometer_name for c, _ in list_base_columns(model, sheet)} == set(NAMES)
     said = {"name": "K1", "accelerometer": 2, "value": 1.0, "std": 0.1, "unit": "mA/g"}
     assert parameter_line({**said, **spelt(2, "south")}).startswith("K1 of south = ")
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS
 from ragg_runtime.estimation.observation import BLOCKS
-from ragg_runtime.estimation.regressors import base_columns
+from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.identification import claims
 from ragg_runtime.identification.claims import Regression
 from ragg_runtime.model import model
@@ -49,10 +49,10 @@ def test_coefficients_that_nothing_excites_cost_a_claim_nothing() -> None:
 def test_coefficients_that_are_held_are_not_fitted_and_large_ones_widen_their_prior() -> None:
     s = scenario(57, duration=10.0)
     extended = with_effects(s.sheet, model.packaged(), ["cubic-input"])
-    labels = [c.label for c, _ in base_columns(extended, s.sheet) if c.effect]
+    labels = [c.label for c, _ in list_base_columns(extended, s.sheet) if c.effect]
     held = replace(s.sheet, held=frozenset(labels[1:]))
-    assert [c.label for c, _ in base_columns(extended, held) if c.effect] == labels[:1]
-    columns, index = zip(*base_columns(extended, s.sheet), strict=True)
+    assert [c.label for c, _ in list_base_columns(extended, held) if c.effect] == labels[:1]
+    columns, index = zip(*list_base_columns(extended, s.sheet), strict=True)
     p = calibration.vector(extended, s.sheet)
     known = np.array([0.01 if c.effect else 1.0 for c in columns])
     for c, k in zip(columns, index, strict=True):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import calibration, observation
 from ragg_runtime.estimation.noise_level import estimated, in_words
-from ragg_runtime.estimation.residual import left_over
+from ragg_runtime.estimation.residual import fit_columns
 from ragg_runtime.estimation.scores import log_sf, log_sf_f, log_sf_t
 from ragg_runtime.estimation.spectrum import estimate
 from ragg_runtime.estimation.unknown_gradient import splines
@@ -37,7 +37,7 @@ def test_what_columns_take_of_the_noise_is_no_quiet() -> None:
     for seed in range(12):
         rng = np.random.default_rng(seed)
         flat = np.vstack([slow_columns(960, 80, rng), rng.normal(size=960)])
-        left = left_over(flat, valid, RATE, None)
+        left = fit_columns(flat, valid, RATE, None)
         assert left.rank == pytest.approx(80)
         found.append(estimate([left.rest], RATE, None, [left.kept]).psd(np.array([0.2, 0.5, 4.0])))
         blind = estimate([left.rest], RATE).psd(np.array([0.5]))
@@ -52,7 +52,7 @@ def test_a_jump_to_which_slow_columns_bend_is_found() -> None:
     time = np.arange(n) / RATE
     powers = np.linspace(-1.0, 1.0, n) ** np.arange(9)[:, None]
     y = rng.normal(size=n) + size * (time >= 113.0)
-    left = left_over(np.vstack([powers, y]), np.ones(n, dtype=bool), RATE, None)
+    left = fit_columns(np.vstack([powers, y]), np.ones(n, dtype=bool), RATE, None)
     assert [d.kind for d in left.found] == ["jump"]
     assert left.found[0].at == pytest.approx(113.0, abs=2.0 / size)
     assert np.std(left.rest) == pytest.approx(1.0, rel=0.05)
@@ -87,7 +87,7 @@ def test_a_jump_beside_an_unknown_gradient_leaves_nothing_of_its_edge() -> None:
         return np.asarray(columns - (columns @ Q) @ Q.T)
 
     flat = through(np.vstack([np.ones(n), rng.normal(size=n) + 30.0 * (time >= 113.0)]))
-    left = left_over(flat, np.ones(n, dtype=bool), RATE, (0.44, 0.56), through)
+    left = fit_columns(flat, np.ones(n, dtype=bool), RATE, (0.44, 0.56), through)
     assert [(d.kind, d.at) for d in left.found] == [("jump", 113.0)]
     assert np.std(left.rest) == pytest.approx(1.0, rel=0.03)
 
@@ -99,7 +99,7 @@ def test_red_noise_does_not_jump() -> None:
         f = np.fft.rfftfreq(9600, 1 / RATE)
         y = np.fft.irfft(x * np.sqrt(1 + 0.1 / np.maximum(f, f[1])), 9600)[:4800]
         flat = np.vstack([np.ones(4800), y])
-        assert not left_over(flat, np.ones(4800, dtype=bool), RATE, None).found
+        assert not fit_columns(flat, np.ones(4800, dtype=bool), RATE, None).found
 
 
 def quantities(n: int, rng: np.random.Generator) -> dict[str, Array]:
@@ -192,7 +192,7 @@ def test_what_slow_columns_take_of_red_noise_is_known() -> None:
     for seed in range(20):
         rng = np.random.default_rng(seed)
         walk = rng.normal(size=4800) + 0.03 * np.cumsum(rng.normal(size=4800))
-        left = left_over(
+        left = fit_columns(
             np.vstack([np.linspace(-1.0, 1.0, 4800) ** np.arange(8)[:, None], walk]),
             np.ones(4800, dtype=bool),
             RATE,

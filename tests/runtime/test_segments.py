@@ -92,7 +92,7 @@ def test_single_missing_samples_do_not_silence_the_demodulator(flown: tuple[Scen
         assert b.cross_Eo == pytest.approx(a.cross_Eo, rel=0.1)
     gap = np.ones(1000, dtype=bool)
     gap[500:560] = False
-    heard = scores.supported(np.ones((1, 1000), dtype=bool), gap, 101)[0]
+    heard = scores.find_supported(np.ones((1, 1000), dtype=bool), gap, 101)[0]
     assert not heard[460:500].any()  # windows with more than half of the gap
     assert heard[:400].all() and heard[560:].all()
 
@@ -106,11 +106,11 @@ def test_an_excerpt_tells_of_its_samples_what_the_whole_pass_tells(
     noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
     monkeypatch.setattr(whitening, "ROWS", 1700)
     monkeypatch.setattr(whitening, "EXCERPT", 3)
-    some = whitening.excerpt(o)
+    some = whitening.take_excerpt(o)
     heard = whitening.heard(some)
     assert len(heard) == 3 < len(whitening.flight_segments(o))
     assert heard[0].rows.start == 0 and heard[-1].rows.stop == len(flight.time)
-    assert whitening.excerpt(some) is some
+    assert whitening.take_excerpt(some) is some
     task = calibration._Task(model.packaged(), s.sheet, [some])
     x = np.full(len(task.index), 0.01)
     found = task.at(x, noise)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import fitted, observation, thinning
 from ragg_runtime.estimation.observation import Observation
-from ragg_runtime.estimation.regressors import Point, linearised
+from ragg_runtime.estimation.regressors import Point, linearise
 from ragg_runtime.identification import diagnose as diagnosis
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import Instrument
@@ -79,14 +79,14 @@ def test_the_residual_is_that_of_the_whole_record_thinned(
     m = model.packaged()
     p = vector(m, s.sheet)
     at = Point(m, s.sheet, p, with_candidates=False)
-    found = linearised(at, thin)[-1, 0]
+    found = linearise(at, thin)[-1, 0]
     assert thin.thin is not None
     full = whole.data[0] - output(m.chain, whole.record, p, whole.output)
     taps = thin.thin.taps
     for k in (0, 1, 1777, len(found) - 1):
         expected = float(full[k * EVERY : k * EVERY + len(taps)] @ taps[::-1])
         assert found[k] == pytest.approx(expected, rel=1e-9, abs=1e-9)
-    parts = [linearised(at, thin.part(rows))[-1, 0] for rows in (slice(0, 1000), slice(1000, len(found)))]
+    parts = [linearise(at, thin.part(rows))[-1, 0] for rows in (slice(0, 1000), slice(1000, len(found)))]
     np.testing.assert_allclose(np.concatenate(parts), found, atol=1e-10)
 
 
@@ -182,8 +182,8 @@ def test_spikes_cost_a_sample_and_a_gap_what_is_beside_it(flown: tuple[Scenario,
     gap = (o.record.time[missing] > 199.5) & (o.record.time[missing] < 203.5)
     assert 3.0 * RATE / EVERY <= np.sum(gap) <= 3.8 * RATE / EVERY and np.sum(~gap) <= 2
     at = Point(model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=False)
-    found = linearised(at, o)[-1, 0]
-    expected = linearised(at, thinned(s.sheet, flight))[-1, 0]
+    found = linearise(at, o)[-1, 0]
+    expected = linearise(at, thinned(s.sheet, flight))[-1, 0]
     used = o.record.valid
     # beside a bridge the residual is off by less than a tenth of what it is
     assert np.max(np.abs((found - expected)[used])) < 0.1 * np.std(expected)

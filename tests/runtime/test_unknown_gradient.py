@@ -6,7 +6,7 @@ import numpy as np
 
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe
-from ragg_runtime.estimation.regressors import Point, linearised
+from ragg_runtime.estimation.regressors import Point, linearise
 from ragg_runtime.estimation.unknown_gradient import windows, without
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector
@@ -19,7 +19,7 @@ def test_an_unknown_gradient_is_taken_out_of_each_voltage_by_its_scale_factor() 
     o = observe(flight, s.sheet)
     model = load.packaged()
     true = s.sheet.replace(**s.instrument.accelerometers)
-    e = linearised(Point(model, s.sheet, vector(model, true), with_candidates=False), o)[-1:]
+    e = linearise(Point(model, s.sheet, vector(model, true), with_candidates=False), o)[-1:]
     n = len(o.record.time)
     left = without(e, windows(o, slice(0, n), NoiseModel.white(o.record.rate, 4)), o.record.valid)
     assert np.std(e) > 1e-3

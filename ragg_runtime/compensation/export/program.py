@@ -10,7 +10,7 @@ import numpy as np
 
 from ragg_runtime.compensation.export.contents import DISC, Contents, ExportedOutput, unit_of
 from ragg_runtime.estimation.least_squares import of_some
-from ragg_runtime.estimation.regressors import base_columns, own_columns
+from ragg_runtime.estimation.regressors import list_base_columns, own_columns
 from ragg_runtime.io.angular_acceleration import REACH, wide_weights
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT
 from ragg_runtime.model.evaluate import vector
@@ -288,7 +288,7 @@ def write_online_values(c: Contents) -> str:
 
 def _fitted(c: Contents, place: int, o: ExportedOutput) -> list[str]:
     """Initialisers of what an output's filter fits."""
-    columns = base_columns(c.model, c.instrument)
+    columns = list_base_columns(c.model, c.instrument)
     rows = {name: k for k, (name, _) in enumerate(c.model.chain.ROWS)}
     nominal = vector(c.model, c.instrument)
     found = []
@@ -304,7 +304,7 @@ def _fitted(c: Contents, place: int, o: ExportedOutput) -> list[str]:
 
 def _start(c: Contents, place: int, size: int) -> list[str]:
     """Root of what is known of an output's parameters at the beginning, further ones of unit information."""
-    own = own_columns([q for q, _ in base_columns(c.model, c.instrument)], c.instrument, place)
+    own = own_columns([q for q, _ in list_base_columns(c.model, c.instrument)], c.instrument, place)
     whole = np.eye(size)
     if c.saved is not None:
         whole[: len(own), : len(own)] = of_some(c.saved.information, own)
