@@ -20,6 +20,8 @@ from ragg_runtime.compensation.saved import add_entry, read_saved
 from ragg_runtime.compensation.segment import Quality
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.wording.describe_other import describe_calibration
+from ragg_runtime.wording.sections import render_text
 from tests.rate import RATE
 from tests.runtime.flown_twice import DURATION, files, flights, new_model, run
 
@@ -71,7 +73,7 @@ def test_a_sheet_of_another_certainty_changes_the_scales_alone(kept: tuple[Any, 
     copy = new_model(tmp_path)
     saved = api.saved_calibration(api.load(kept[0]))
     text = (copy / "model.toml").read_text()
-    (copy / "model.toml").write_text(re.sub(r"(?m)^(K2 = .*)sigma = [^,]*,", r"\1sigma = 50,", text))
+    (copy / "model.toml").write_text(re.sub(r"(?m)^K2 = {", "K2 = {sigma = 50, ", text))
     (copy / "calibration.json").write_text((kept[0] / "calibration.json").read_text())
     again = api.saved_calibration(api.load(copy))
     scales = [np.array([c.scale for c in x.columns]) for x in (saved, again)]
@@ -94,6 +96,19 @@ def test_on_another_flight_of_the_same_instrument_it_holds(kept: tuple[Any, ...]
     page = report.read_text()
     assert "The saved calibration holds here" in page
     assert ">frozen<" in page and ">held out<" not in page  # nothing is fitted on half of the blocks
+
+
+def test_of_several_flights_those_values_are_listed_that_differ(kept: tuple[Any, ...]) -> None:
+    values = {"K2[1]": (1.0, 1.2), "K0[2]": (1.0, 9.0)}
+    drift = [
+        {"flight": flight, "name": name, "value": x, "std": 0.5, "unit": "ug"}
+        for name, both in values.items()
+        for flight, x in zip(("one", "two"), both, strict=True)
+    ]
+    text = render_text(describe_calibration({**kept[3], "drift": drift}, ["one", "two"]))
+    assert "The flights differ by more than 3 sigma in 1 of 2 combinations." in text
+    assert "9.00 +- 0.50 ug" in text
+    assert "1.20 +- 0.50 ug" not in text
 
 
 def test_an_instrument_that_has_changed_is_told_with_what_would_explain_it(kept: tuple[Any, ...]) -> None:
