@@ -249,7 +249,9 @@ def describe_effect(e: Json) -> Sections:
         ("source", e["source"]),
     )
     return (
-        Section(sentences=(f"{e['id']}: {e['title']}", e["physics"]), code=(e["equation"],)),
+        Section(
+            sentences=(f"{e['id']}: {e['title']}", e["physics"]), code=(numbers.equation(e["equation"]),)
+        ),
         Section("Parameters", table=tabulate(e["parameters"], columns, words=5)),
         Section(table=Table(("", ""), facts, words=2)),
     )

@@ -252,3 +252,20 @@ def symbol(latex: str) -> tuple[tuple[str, bool], ...]:
         if plain:
             pieces.append((plain, lowered is not None))
     return tuple(pieces)
+
+
+_OPERATORS = {
+    "leftarrow": " <- ", "times": " x ", "cdot": " . ", "ge": " >= ", "to": " -> ", "partial": "d", "langle": "<", "rangle": ">",
+}  # fmt: skip
+
+
+def equation(latex: str) -> str:
+    """An equation of the catalogue as a line of plain text: ``K_1 <- K_1 (1 + d_T K_1 (T - 293.15 K))``; dots are primes."""
+    text = re.sub(r"(?<=[A-Za-z0-9)}])\\(?=[a-zA-Z])", r" \\", clean(latex))
+    text = re.sub(r"\\(?:bm|mathrm|operatorname|text)\b\s*", "", text)
+    text = re.sub(r"\\mathrel\{(.)\}", r"\1", text)
+    text = re.sub(r"\\tfrac(\d)(\d)", r"\1/\2", text)
+    dotted = r"\\(d?dot)\s*(\{[^}]*\}|\\[a-zA-Z]+|\w)"
+    text = re.sub(dotted, lambda m: m[2] + ("''" if m[1] == "ddot" else "'"), text)
+    text = re.sub(r"\\([A-Za-z]+)", lambda m: _OPERATORS.get(m[1], m[1]), text)
+    return " ".join(re.sub(r"\\.|[{}]", lambda m: "" if m[0] in "{}" else " ", text).split())

@@ -475,6 +475,8 @@ def test_numbers_a_reader_expects() -> None:
     assert numbers.unit_of_term("V/(m/s^2*m/s^2*K)") == "V/((m/s²)²·K)"
     assert numbers.unit_of_term("V/(rad/s)") == "V/(rad/s)"
     assert numbers.symbol(r"\partial_T K_{1}") == (("∂", False), ("T", True), ("K", False), ("1", True))
+    latex = r"K_1 \leftarrow K_1 (1 + \partial_{\dot T} K_1\,\dot T),\; \bm f \mathrel{+}= 2\bm\omega\times\dot{\bm d}"
+    assert numbers.equation(latex) == "K_1 <- K_1 (1 + d_T' K_1 T'), f += 2 omega x d'"
     assert numbers.product("a_x*omegadot_y*d_a_z") == "a_x · dω_y/dt · da_z/dt"
     assert numbers.harmonic("sin 1") == "sin Ωt"
 

@@ -31,6 +31,7 @@ from ragg_runtime.studio.routes import ACTIONS
 from ragg_runtime.studio.sampled import HEAD, Sampled
 from ragg_runtime.studio.session import Places, Session, branches, lineage
 from ragg_runtime.studio.views import mathml, missing
+from ragg_runtime.wording import numbers
 from tests.layouts import sheets
 
 
@@ -222,6 +223,7 @@ def test_every_equation_of_the_catalogue_is_typeset() -> None:
     for e in catalogue():
         for text in (e.equation, *(q.latex for q in e.parameters)):
             assert mathml(text).startswith("<math"), (e.id, text)
+        assert not set("\\{}") & set(numbers.equation(e.equation)), e.id
     assert mathml("K_x*f_i**2") == "<code>K_x*f_i**2</code>"
     assert "<script" not in mathml("\\text{<script>alert(1)</script>}")
 
