@@ -79,9 +79,7 @@ def render_page(
 <h1>{escape(origin.title)}</h1>
 {render_html([first], draw_plot)}
 </header>
-<nav class="contents" aria-label="Contents"><ol>
 {contents}
-</ol></nav>
 <main>
 {body}
 </main>
@@ -110,7 +108,7 @@ def _footer(origin: Origin, facts: Sequence[tuple[str, str]]) -> str:
 
 
 def _anchored(text: str) -> tuple[str, str]:
-    """The text with its headings numbered for links, and the list of these links."""
+    """The text with its headings numbered for links, and the list of these links where they are more than two."""
     found: list[str] = []
 
     def anchor(heading: re.Match[str]) -> str:
@@ -118,7 +116,9 @@ def _anchored(text: str) -> tuple[str, str]:
         return f'<h2 id="section-{len(found)}">{heading[1]}</h2>'
 
     text = re.sub(r"<h2>(.*?)</h2>", anchor, text, flags=re.DOTALL)
-    return text, "\n".join(found)
+    listed = "\n".join(found)
+    nav = f'<nav class="contents" aria-label="Contents"><ol>\n{listed}\n</ol></nav>'
+    return text, nav if len(found) > 2 else ""
 
 
 @cache
