@@ -315,7 +315,11 @@ def finding(r: Json) -> str:
 
 def _clear_values(effects: Sequence[Json]) -> list[Json]:
     """Values of effects that are larger than their uncertainty."""
-    return [p for e in effects for p in (*e["combinations"], *e["parameters"]) if _is_clear(p, e)]
+    return [p for e in effects for p in _values_of(e) if _is_clear(p, e)]
+
+
+def _values_of(effect: Json) -> list[Json]:
+    return [*effect["combinations"], *effect["parameters"]]
 
 
 def _is_clear(p: Json, effect: Json) -> bool:
@@ -332,10 +336,11 @@ def patterns_note(values: Sequence[Json]) -> list[str]:
 
 def values_sections(effects: Sequence[Json]) -> Sections:
     """All values of effects (name, parameters, combinations): those that are larger than their uncertainty, and the others."""
-    every = [(e, p) for e in effects for p in (*e["combinations"], *e["parameters"])]
+    every = [(e, p) for e in effects for p in _values_of(e)]
     if not every:
         return ()
-    clear = [(e, p) for e, p in every if _is_clear(p, e)]
+    ordered = [(e, p) for e in effects for p in sorted(_values_of(e), key=significance, reverse=True)]
+    clear = [(e, p) for e, p in ordered if _is_clear(p, e)]
     columns: dict[str, Callable[[tuple[Json, Json]], str]] = {
         "effect": lambda x: str(x[0]["effect"]),
         "parameter": lambda x: parameter_label(x[1]),
