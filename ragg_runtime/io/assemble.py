@@ -40,6 +40,9 @@ ENDLESS = 1e100
 MOST_UNUSED = 0.5
 """Share of a file's samples from which on, if something lacks in them, the rest is no evidence."""
 
+COLDEST, HOTTEST = 100.0, 1000.0
+"""K: if all others are between these, a column holds temperatures, and not differences of them."""
+
 _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
 _NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
 
@@ -138,16 +141,15 @@ def _convert(
 
 
 def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> list[str]:
-    """Take out temperatures that no sensor can have read, and say so."""
+    """Take out temperatures that no sensor can have read, and say so; those about 0 K are differences of temperature."""
     notes = []
     for name in [n for n, u in si_units.items() if u == "K" and n in si]:
         with np.errstate(invalid="ignore"):
-            cold = si[name] <= 0.0
-        if cold.any():
+            cold, usual = si[name] <= 0.0, (si[name] > COLDEST) & (si[name] < HOTTEST)
+        if cold.any() and np.all(cold | usual | np.isnan(si[name])):
             si[name] = np.where(cold, np.nan, si[name])
-            notes.append(
-                f"{name}: {samples_of(int(np.sum(cold)))} not above absolute zero: no readings, left out"
-            )
+            count = samples_of(int(np.sum(cold)))
+            notes.append(f"{name}: {count} not above absolute zero: no readings, left out")
     return notes
 
 

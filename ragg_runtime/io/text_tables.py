@@ -119,7 +119,7 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
     names = parts[-1]
     if len(parts) > 1 and sum(map(bool, parts[-2])) > 1 and _needs_a_row_above(names):
         names = _joined(parts[-2], names)
-    headings = [read_heading(n) for n in names]
+    headings = [h if (h := read_heading(n))[0] else (n.strip(), "") for n in names]
     found = [own or u for (_, own), u in zip(headings, units or [""] * size, strict=True)]
     below = [_is_data(rows[k]) for k in alike if k >= begins]
     return Header(tuple(n for n, _ in headings), tuple(found), begins, sum(below) / max(1, len(below)))
