@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,9 +73,8 @@ class NoiseModel:
     freedom: float = np.inf
 
     @staticmethod
-    @lru_cache(maxsize=64)
     def white(rate: float, outputs: int) -> NoiseModel:
-        """White noise of 1 V in every series: one object, by which it is known again."""
+        """White noise of 1 V in every series."""
         flat = Spectrum(rate, np.array([0.0, 1.0]), np.zeros(2), np.zeros(2))
         return NoiseModel(spectra=(flat,) * outputs, filters=(np.ones(1),) * outputs)
 

@@ -60,11 +60,6 @@ class Piece:
         begins = range(0, max(1, self.white.shape[1]), max(1, valid))  # of every output
         return triangle(np.concatenate([self.white[:, k + a : k + b] for k in begins], axis=1))
 
-    @property
-    def residual(self) -> Array:
-        """(m, N), V."""
-        return np.asarray(self.columns[-1])
-
     def sums(self, some: slice = slice(None)) -> Array:
         """(n + 1,), V: sums of the columns of G_out over some samples; zero of channels, which have lost their mean."""
         weights = self.observation.signs * (not self.observation.recorded.demodulated)
