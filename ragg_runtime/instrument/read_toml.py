@@ -328,10 +328,10 @@ def _number(table: Mapping[str, Any], key: str, si_unit: str, where: str) -> flo
     if isinstance(raw, int | float) and not isinstance(raw, bool) and raw == 0:
         return 0.0  # nothing has no unit
     q = read_quantity(raw, place, count=1)
-    # as g0 mostly is in SI, nothing need be known of units for it
-    if q.unit != si_unit and units(1.0).uses_g(q.unit, place):
+    # any g will do: that of most models, whose registry of units (a fifth of a second) is needed anyway
+    if q.unit != si_unit and units(STANDARD_G0).uses_g(q.unit, place):
         raise UserError("g cannot be used here: g0 defines it", where=place, found=q, expected=si_unit)
-    return float(read_si(q, si_unit, 1.0, place)[0])
+    return float(read_si(q, si_unit, STANDARD_G0, place)[0])
 
 
 def _direction(table: Mapping[str, Any], key: str, where: str, default: Vector3) -> Vector3:
