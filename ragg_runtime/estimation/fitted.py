@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -309,6 +309,19 @@ def about(
         to_nominal=calibration.to_nominal(model, instrument, c),
         scales=tuple(scale_factor(model, c.p, o.place) for o in observations),
     )
+
+
+def with_held(f: Fitted, *, candidates: bool = False) -> Fitted:
+    """The evidence about the same values with the coefficients that were held among the columns: what is reported are combinations
+    that the record tells of all.
+    """
+    if not f.instrument.held:
+        return f
+    instrument = replace(f.instrument, held=frozenset())
+    columns, index = zip(*regressors.list_base_columns(f.model, instrument), strict=True)
+    c = replace(f.calibration, columns=columns, index=np.array(index, dtype=np.intp))
+    free = about(f.model, instrument, f.observations, c, candidates=candidates)
+    return replace(free, calibration=replace(c, covariance=free.coefficients(())[1]))
 
 
 def swell(f: Fitted) -> float:

@@ -68,7 +68,7 @@ class Spectrum:
 
     def _cautious(self, f: Array) -> Array:
         with np.errstate(divide="ignore"):
-            return np.asarray(np.exp(np.interp(np.log(np.abs(f)), self.log_f, self.log_psd + self.spread)))
+            return np.asarray(np.exp(np.interp(np.log(np.abs(f)), self.log_f, self.log_psd + self.spread**2)))
 
     @property
     def rms(self) -> float:
@@ -90,8 +90,7 @@ class Spectrum:
     def whitening_filter(self, length: int) -> Array:
         """Causal minimum-phase FIR (length,) that turns this noise into white noise of unit variance.
 
-        Where the density is known poorly it is taken one standard error higher: a slow effect must stand out of
-        the noise that there may be.
+        Of n bins the mean of 1/density is 1/n larger than that of the noise: by so much the density is taken higher where few tell it.
         """
         n = 1 << max(13, (4 * length - 1).bit_length())
         f: Array = np.fft.fftfreq(n, 1 / self.rate).astype(np.float64)

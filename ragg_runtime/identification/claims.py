@@ -261,16 +261,19 @@ def strongest(left: Remainder) -> Found | None:
     return max((t for s in left.searches for t in s.terms), key=lambda t: abs(t.z), default=None)
 
 
-def with_shift(covariance: Array, shift: Array) -> Array:
-    """A covariance to which is added how far the values move with the best generic terms beside them."""
-    return covariance + np.outer(shift, shift)
-
-
-def shift(x: Robust, left: Remainder) -> Array:
-    """(n,): how far the coefficients move when the generic terms that are left are fitted beside them."""
-    moved = np.zeros(len(x.value))
+def with_shift(x: Robust, left: Remainder, columns: Sequence[str], projected: Sequence[str]) -> Array:
+    """(n, n): the covariance to state of ``columns``, with how far the values move when the generic terms that are left are fitted
+    beside the columns ``projected`` out of the residual.
+    """
+    n = len(x.value)
+    at = {label: k for k, label in enumerate(columns)}
+    places = [at[label] for label in projected if label in at]
+    known = [k for k, label in enumerate(projected) if label in at]
+    moved = np.zeros(n)
     for own, s in zip(x.regression.flights, left.searches, strict=True):
         if s.shift is not None:
-            n = len(x.value)
-            moved += sum((t[:, :n].T @ (t[:, :n] @ s.shift) for t in own), np.zeros(n))
-    return np.asarray(x.covariance @ moved)
+            full = np.zeros(n)
+            full[places] = s.shift[known]
+            moved += sum((t[:, :n].T @ (t[:, :n] @ full) for t in own), np.zeros(n))
+    shift = x.covariance @ moved
+    return x.stated + np.outer(shift, shift)

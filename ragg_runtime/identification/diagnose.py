@@ -14,15 +14,16 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.calibration import QUIET, off_sheet
-from ragg_runtime.estimation.fitted import Fitted, calibrated, fit
+from ragg_runtime.estimation.fitted import Fitted, calibrated, fit, with_held
 from ragg_runtime.estimation.observation import Observation, observations_of
+from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.estimation.thinning import thinned
 from ragg_runtime.identification import (
-    claims,
     next_motion,
     sequential,
 )
+from ragg_runtime.identification.claims import Regression, Robust, with_shift
 from ragg_runtime.identification.contenders import Extend
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.parameters import parameter_values, visible_combinations
@@ -147,24 +148,29 @@ def complete_ranking(
         ranking = staged(steps, later, ranking, found.outcome.target)
     if found.verdict != "partly-explained":
         return list(ranking)
-    robust = found.outcome.robust
-    covariance = claims.with_shift(robust.stated, claims.shift(robust, found.left))
-    return [_beside_rest(r, found.outcome, covariance) if r.effect in found.claims else r for r in ranking]
+    o = found.outcome
+    free = with_held(o.target, candidates=bool(o.given))
+    given = [k for k, q in enumerate(free.candidates) if o.given and q.effect in found.claims]
+    fitted = [q.label for q in (*o.target.calibration.columns, *(o.target.candidates[k] for k in o.given))]
+    columns = [*free.calibration.columns, *(free.candidates[k] for k in given)]
+    robust = Robust.of(Regression.of(free, given))
+    covariance = with_shift(robust, found.left, [q.label for q in columns], fitted)
+    return [
+        _beside_rest(r, free, columns, robust, covariance) if r.effect in found.claims else r for r in ranking
+    ]
 
 
-def _beside_rest(r: Ranked, o: Outcome, covariance: Array) -> Ranked:
+def _beside_rest(r: Ranked, f: Fitted, every: Sequence[Column], robust: Robust, covariance: Array) -> Ranked:
     """A row with the values as they stand beside all that is claimed, and a covariance that knows of what remains."""
-    c, f = o.target.calibration, o.target
-    every = [*c.columns, *(f.candidates[k] for k in o.given)]
     E = [k for k, q in enumerate(every) if q.effect == r.effect]
     columns = [every[k] for k in E]
-    values = (o.robust.value - o.robust.regression.absent)[E]
+    values = (robust.value - robust.regression.absent)[E]
     instant = [q for q in r.parameters if q.name == "t_step"]
     own = covariance[np.ix_(E, E)]
     return replace(
         r,
         parameters=(*parameter_values(columns, values, own), *instant),
-        combinations=tuple(visible_combinations(f.model, c.p, columns, values, own)),
+        combinations=tuple(visible_combinations(f.model, f.calibration.p, columns, values, own)),
     )
 
 

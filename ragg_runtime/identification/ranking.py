@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.fitted import Fitted, with_held
 from ragg_runtime.estimation.scores import Error, finite
 from ragg_runtime.identification import likelihood_ratio, probability, selection, sheet
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
@@ -160,10 +160,11 @@ def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
     (before,) = t.before.score([np.zeros(t.before.size)])
     half = t.after.vector(t.after.coefficients((), held_out=True)[0])
     after, held_out = t.after.score([np.zeros(t.after.size), half])
-    c = target.calibration
+    free = with_held(target)
+    c, (change, _) = free.calibration, free.coefficients(())
     own = [n for n, q in enumerate(c.columns) if q.effect == t.effect]
     columns = [c.columns[n] for n in own]
-    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in own])
+    values = np.array([c.p[c.index[n]] / c.columns[n].scale + change[n] for n in own])
     covariance = c.covariance[np.ix_(own, own)]
     parameters = parameter_values(columns, values, covariance)
     if t.instant is not None:

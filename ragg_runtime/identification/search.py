@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.estimation import calibration, whitening
 from ragg_runtime.estimation import fitted as fitted_
 from ragg_runtime.estimation import regressors as design
-from ragg_runtime.estimation import whitening
 from ragg_runtime.estimation.fitted import Fitted, Scored, fit
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import comparison, contenders, omnibus, selection, strong
@@ -152,12 +152,33 @@ class Evidence:
         kept = [e for e in o.effects if e != effect]
         if not kept:
             return Outcome.of(first.fitted, (), ())
-        if self.extend is None or not (self.steps or o.target is not last.fitted):
+        if not self._is_derived(o):
             return Outcome.of(last.fitted, kept, _given(last, kept))
+        return Outcome.of(fit(*self._derived(kept), first.fitted.observations), kept, ())
+
+    def gain(self, o: Outcome, effect: str) -> float:
+        """Chi-square that one of an outcome's effects explains beside the others, by a fit without it; 0 if it is not derived."""
+        if not self._is_derived(o):
+            return 0.0
+        model, instrument = self._derived([e for e in o.effects if e != effect])
+        f = o.target  # by its noise and with its priors
+        instrument = replace(instrument, widths=f.instrument.widths)
+        return (
+            calibration.fit(model, instrument, f.observations, noise=f.calibration.noise).chi2
+            - f.calibration.chi2
+        )
+
+    def _is_derived(self, o: Outcome) -> bool:
+        return self.extend is not None and bool(self.steps or o.target is not self.last.fitted)
+
+    def _derived(self, kept: Sequence[str]) -> tuple[Model, Instrument]:
+        """The model with some of the effects, and its sheet."""
+        first, last = self.first.fitted, self.last
+        if not kept or self.extend is None:
+            return first.model, first.instrument
         instants = dict(last.instants) | {t.effect: t.instant for t in self.steps if t.instant is not None}
         held = last.fitted.instrument.held | _held(last, [e for e in kept if e in last.choice.blocks])
-        model, instrument = contenders.derived(first.fitted, kept, instants, self.extend, held=held)
-        return Outcome.of(fit(model, instrument, first.fitted.observations), kept, ())
+        return contenders.derived(first, kept, instants, self.extend, held=held)
 
 
 def _held(last: Stage, chosen: Sequence[str]) -> frozenset[str]:

@@ -14,7 +14,7 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.regressors import Column, grouped
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.identification import likelihood_ratio, sheet
-from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 
 Array = NDArray[np.float64]
 
@@ -166,11 +166,13 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
         best = _best({e: t for e, t in remaining.items() if f.significant(t, level)})
         if best is None:
             break
-        chosen.append(best)
-        blocks[best] = remaining[best].which
-        if len(chosen) > 1:
-            chosen, blocks = _swap(f, chosen, blocks)
-        chosen, blocks = _drop(f, chosen, blocks)
+        before = blocks
+        blocks = blocks | {best: remaining[best].which}
+        blocks = _drop(f, *_swap(f, [*chosen, best], blocks)) if chosen else blocks
+        if not set(chosen) <= set(blocks) and _evidence(f, blocks) <= _evidence(f, before):
+            blocks = before  # one that holds another as a special case, and is none the better for it
+            break
+        chosen = list(blocks)
         remaining = f.tests(chosen)
     chi2 = f.joint([blocks[e] for e in chosen])[0] if chosen else 0.0
     return Choice(chosen=tuple(chosen), blocks=blocks, tests=first, conditional=remaining, chi2=chi2)
@@ -194,14 +196,20 @@ def _swap(
     return chosen, blocks
 
 
-def _drop(
-    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]]
-) -> tuple[list[str], dict[str, tuple[int, ...]]]:
+def _drop(f: Field, chosen: list[str], blocks: Mapping[str, tuple[int, ...]]) -> dict[str, tuple[int, ...]]:
+    """The chosen effects without those that are not significant beside the others, each with its block beside these."""
     for e in tuple(chosen):
         others = [o for o in chosen if o != e]
         if others and not f.significant(f.tests(others)[e]):
-            chosen, blocks = others, {o: blocks[o] for o in others}
-    return chosen, blocks
+            chosen = others
+            blocks = {o: f.tests([q for q in others if q != o])[o].which for o in others}
+    return {e: blocks[e] for e in chosen}
+
+
+def _evidence(f: Field, blocks: Mapping[str, tuple[int, ...]]) -> float:
+    """Log evidence of effects together, each with these columns, charged for their choice."""
+    chi2, rank = f.joint(list(blocks.values()))
+    return float(log_bayes(chi2, rank)) - len(blocks) * float(np.log(max(f.count, 1)))
 
 
 def alike(a: Test, b: Test) -> bool:

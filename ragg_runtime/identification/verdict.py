@@ -55,12 +55,11 @@ class Conclusion:
         weak: list[str] = []
         needed: list[str] = []
         while not apart and (e := _weakest(found, outcome, needed) or _contradicted(outcome, first)):
-            fewer = found.without(outcome, e)
-            if e not in needed and _is_needed(found, outcome, fewer, e):
+            if e not in needed and _is_needed(found, outcome, e):
                 needed.append(e)
                 continue
             weak.append(e)
-            outcome = fewer
+            outcome = found.without(outcome, e)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         # beside the noise model, whose level has shapes of its own
         tests = outcome.random.items()
@@ -167,13 +166,9 @@ def _is_significant(found: Evidence, o: Outcome, log_p: float) -> bool:
     return found.first.field.significant(Test(0.0, 1, log_p, ()), level)
 
 
-def _is_needed(found: Evidence, o: Outcome, fewer: Outcome, effect: str) -> bool:
-    """Whether the fit without an effect says that it is significant: coefficients that wander far in directions that the record does not
-    tell say nothing about where nothing is.
-    """
-    by_ratio = float(fewer.target.whole[-1, -1] ** 2 - o.target.whole[-1, -1] ** 2)
-    test = o.significance(effect)
-    log_p = replace(test, chi2=max(test.chi2, by_ratio)).log_p(None, doubted=True)
+def _is_needed(found: Evidence, o: Outcome, effect: str) -> bool:
+    """Whether an effect is significant by the fit without it: far from there a linearisation may not know what it explains."""
+    log_p = replace(o.significance(effect), chi2=found.gain(o, effect)).log_p(None, doubted=True)
     return _is_significant(found, o, log_p)
 
 
