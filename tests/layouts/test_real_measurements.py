@@ -118,7 +118,7 @@ def test_the_length_of_one_arm_alone_is_no_arm_length() -> None:
     text = story.LEFT_OUT["arm length"].replace("11.964 mm", "13.364 mm")
     i = parse_instrument(text.replace("dR = { value = 0,", "dR = { value = [-3, 0, 0, 0],"))
     f = calibrated_beside(i)
-    assert "not what all accelerometers have in common" in str(doubtful(f, "arm-length"))
+    assert "not common to all accelerometers" in str(doubtful(f, "arm-length"))
     assert "does not spin" in str(doubtful(f, "bearing-run-out"))
 
 

@@ -66,7 +66,7 @@ def test_a_strong_effect_is_found_and_nothing_beside_it(name: str) -> None:
 def assert_an_optimum(d: Diagnosis) -> None:
     """Of the model that lacks the effect: however the fit is weighted, and wherever it begins, there is no lower point."""
     f = d.fitted
-    task = calibration._Task.of(f.model, f.instrument, f.observations)
+    task = calibration._Task(f.model, f.instrument, f.observations)
     plain = calibration._Unweighted(task)
     rng = np.random.default_rng(1)
     for start in (np.zeros(len(task.index)), rng.standard_normal(len(task.index))):
