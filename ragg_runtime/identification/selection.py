@@ -13,7 +13,7 @@ from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.regressors import Column, grouped
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
-from ragg_runtime.identification import likelihood_ratio, sheet
+from ragg_runtime.identification import likelihood_ratio, sheet, uneven
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 
 Array = NDArray[np.float64]
@@ -44,8 +44,9 @@ class Field:
     """A triangle [base | candidates | residual] with the prior in, and the effects in it.
 
     ``candidates`` are columns after the base, by effect; ``penalty`` the logarithm of the number of variants an effect was chosen
-    from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``within``: a field of some of the
-    effects on the same flights, whose tests hold here.
+    from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``blocks``: R factors
+    of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``). ``within``: a field of some of
+    the effects on the same flights, whose tests hold here.
     """
 
     T: Array
@@ -54,6 +55,7 @@ class Field:
     rows: int
     penalty: Mapping[str, float] = field(default_factory=dict)
     freedom: float = np.inf
+    blocks: tuple[Array, ...] = ()
     within: Field | None = None
     norms: Array = field(init=False)
     P: Array = field(init=False)
@@ -106,8 +108,21 @@ class Field:
             for e, columns in self.candidates.items()
             if e not in given and e not in known
         }
+        if self.blocks and any(map(self._raises, found.values())):
+            others = [self.n_base + n for e in given for n, _ in self.candidates[e]]
+            beside = uneven.Beside(self.T, self.blocks, self.n_base, others)
+            found |= {e: self._tempered(t, beside, floor) for e, t in found.items() if self._raises(t)}
         found |= known
         return {e: found[e] for e in self.candidates if e in found}
+
+    def _raises(self, t: Test) -> bool:
+        """Whether a test says anything: those that do not stay as they are."""
+        return t.rank > 0 and t.log_p <= np.log(FAMILY)
+
+    def _tempered(self, t: Test, beside: uneven.Beside, floor: Array) -> Test:
+        """A test as sure as the scores in blocks of time are."""
+        tested = [self.n_base + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
+        return uneven.tempered(t, uneven.inflation(beside, tested), self.freedom, len(self.blocks))
 
     @cached_property
     def count(self) -> int:
@@ -236,8 +251,10 @@ def field_of(
     candidates = grouped(f.candidates)
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
+    uneven_noise = any(n.uneven for n in f.calibration.noise)
+    blocks = uneven.telling(t for own in f.triangles for t in own) if uneven_noise else ()
     T = f.whole if T is None else T
-    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, within=within)
+    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks, within=within)
 
 
 def testable_effects(f: Fitted) -> list[str]:

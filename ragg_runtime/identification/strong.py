@@ -257,10 +257,12 @@ def with_steps(
     scanned = {e: places[e] for e in samples}
     found: dict[str, _Found] = {}
     root = _root(f, edges, samples, places)
+    # blocks of time do not judge a step yet: one that is in the noise makes it uneven
+    unjudged = replace(plain, blocks=()) if plain.blocks else plain
     for n, (e, (step, given)) in enumerate(scans.items()):
         so_far = [*samples][: n + 1]
-        field = _with_penalty(f, [*available, *exact, *so_far], _picked(root, f, so_far, scanned), plain)
-        if e in selection.choose(field).chosen:
+        field = _with_penalty(f, [*available, *exact, *so_far], _picked(root, f, so_far, scanned), unjudged)
+        if e in selection.choose(replace(field, blocks=())).chosen:
             step = special.refined(f.prepared, step, f.n_base, given, owned[e], f.to_nominal)
             found[e] = _Found(_sharpened(f, _Found(step.sample, given), places[e]), given)
             samples[e] = found[e].sample

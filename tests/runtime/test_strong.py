@@ -163,7 +163,7 @@ def test_what_has_not_converged_says_so_and_adds_nothing(
     tmp_path: Path, never_arrives: None, capsys: pytest.CaptureFixture[str]
 ) -> None:
     m = ragg.new(tmp_path / "m")
-    s = scenario(5, duration=150.0, rate=RATE)
+    s = scenario(6, duration=150.0, rate=RATE)
     flight = s.simulate({"cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]}}).flight()
     c, d = ragg.compare(m, [flight]), ragg.diagnose(m, [flight])
     for result in (c.as_json(), d.as_json()):
