@@ -11,11 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation import regressors as design
+from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.least_squares import Linear, Minimum, join, minimise, with_prior
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.regressors import Column, Point, spelt
+from ragg_runtime.estimation.unknown_gradient import Window
 from ragg_runtime.estimation.whitening import Piece, heard, pass_over, take_excerpt
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
@@ -95,6 +97,9 @@ class _Fall(Linear):
         return replace(self, R=fall.R, y=fall.y, rest=rest, data=self.data / size)
 
 
+_Windows = Sequence[Sequence[Window] | None]
+
+
 @dataclass(frozen=True)
 class _Task:
     """What is fitted: chi-square as a function of the parameters' distance x (n,) from the sheet, in scales."""
@@ -133,8 +138,17 @@ class _Task:
             return self
         return replace(self, observations=shorter)
 
-    def at(self, x: Array, noise: Sequence[NoiseModel]) -> _Fall:
+    def windows(self, noise: Sequence[NoiseModel]) -> _Windows:
+        """What an unknown gradient spans of each flight of one segment, which is the same at every point of a fit."""
+        found = [heard(o) for o in self.observations]
+        return [
+            unknown_gradient.windows(o, s[0].rows, n) if len(s) == 1 else None
+            for o, n, s in zip(self.observations, noise, found, strict=True)
+        ]
+
+    def at(self, x: Array, noise: Sequence[NoiseModel], windows: _Windows | None = None) -> _Fall:
         """Linearised about x."""
+        windows = [None] * len(noise) if windows is None else windows
         p = self.vector(x)
         places = {o.place for o in self.observations}
         if not all(scale_factor(self.model, p, place) > 0.0 for place in places):
@@ -142,8 +156,8 @@ class _Task:
         point = Point(self.model, self.instrument, p, with_candidates=False)
         triangles, rows = [], 0
         sums = {o.place: np.zeros(len(x) + 1) for o in self.observations}
-        for o, n in zip(self.observations, noise, strict=True):
-            for T, count, part in pass_over(point, o, n, _triangle, chosen=heard(o)):
+        for o, n, w in zip(self.observations, noise, windows, strict=True):
+            for T, count, part in pass_over(point, o, n, _triangle, chosen=heard(o), windows=w):
                 triangles.append(T)
                 rows += count
                 sums[o.place] += part
@@ -184,7 +198,8 @@ class _Unweighted:
     def __init__(self, task: _Task) -> None:
         self.task = task
         unit = [NoiseModel.white(o.record.rate, len(o.series)) for o in task.observations]
-        self._tried = lru_cache(maxsize=2)(lambda x: task.at(np.frombuffer(x), unit))
+        windows = task.windows(unit)
+        self._tried = lru_cache(maxsize=2)(lambda x: task.at(np.frombuffer(x), unit, windows))
 
     def volts(self, x: Array) -> _Fall:
         """Linearised about x, a noise of 1 V."""
@@ -230,7 +245,8 @@ def fit(
     if not loud:
         if start is None and some is not task:
             x = minimise(lambda at: some.at(at, noise), x).x
-        found = minimise(lambda at: task.at(at, noise), x)
+        windows = task.windows(noise)
+        found = minimise(lambda at: task.at(at, noise, windows), x)
         return _calibration(task, found, noise)
     return _loud(whole, x, noise, fixed=unweighted)
 

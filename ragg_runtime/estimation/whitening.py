@@ -123,10 +123,12 @@ def pass_over(
     chosen: Sequence[Segment] | None = None,
     whitened: bool = True,
     residual: Array | None = None,
+    windows: Sequence[Window] | None = None,
 ) -> Iterator[R]:
     """What ``work`` makes of every segment of a flight (or of the ``chosen``, in order); it must not keep a piece of several.
 
     Unless ``whitened``, the columns alone are made. ``residual`` (m, N) V: that of a thinned flight, if it is known.
+    ``windows``: of a flight of one segment, if they are known.
     """
     n_base = len(at.base)
     heard = design.heard([*at.base, *at.candidates], at.instrument, o.place)
@@ -139,10 +141,10 @@ def pass_over(
         part = o.part(s.rows)
         columns = linearise(at, part, None if residual is None else residual[:, s.rows])
         flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
-        windows = unknown_gradient.windows(o, s.rows, noise)
+        taken = unknown_gradient.windows(o, s.rows, noise) if windows is None else windows
         if whitened:
             tail = _past(tail, s.rows.start - before, memory)
-            flat = _white(columns, heard, noise, tail, part.record, windows)
+            flat = _white(columns, heard, noise, tail, part.record, taken)
             tail, before = _carried(tail, columns, memory), s.rows.stop
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, noise.outputs)
         piece = Piece(
@@ -152,7 +154,7 @@ def pass_over(
             n_base=n_base,
             white=flat,
             sample=sample,
-            windows=windows,
+            windows=taken,
             heard=heard,
             noise=noise,
         )

@@ -168,7 +168,7 @@ def _is_significant(found: Evidence, o: Outcome, log_p: float) -> bool:
 
 def _is_needed(found: Evidence, o: Outcome, effect: str) -> bool:
     """Whether an effect is significant by the fit without it: far from there a linearisation may not know what it explains."""
-    log_p = replace(o.significance(effect), chi2=found.gain(o, effect)).log_p(None, doubted=True)
+    log_p = replace(o.significance(effect), chi2=max(0.0, found.gain(o, effect))).log_p(None, doubted=True)
     return _is_significant(found, o, log_p)
 
 
