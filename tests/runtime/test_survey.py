@@ -126,7 +126,7 @@ def wait(until: Callable[[], Any]) -> None:
 
 
 @pytest.mark.skipif(not Path("/proc").exists(), reason="looks at processes of Linux")
-@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL])
+@pytest.mark.parametrize("end", [signal.SIGKILL])
 def test_a_survey_that_is_cut_short_continues(
     end: signal.Signals, flights: Flights, whole: Survey, tmp_path: Path
 ) -> None:
