@@ -54,10 +54,14 @@ class Conclusion:
         share = 1.0 if base is None else float(expit(_ahead(found, outcome, count, base)))
         weak: list[str] = []
         needed: list[str] = []
-        while not apart and (e := _weakest(found, outcome, needed) or _contradicted(outcome, first)):
-            if e not in needed and _is_needed(found, outcome, e):
+        while not apart:
+            e = _weakest(found, outcome, needed)
+            if e is not None and _is_needed(found, outcome, e):
                 needed.append(e)
                 continue
+            e = e or _contradicted(outcome, first)
+            if e is None:
+                break
             weak.append(e)
             outcome = found.without(outcome, e)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
