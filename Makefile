@@ -84,7 +84,7 @@ lock:  ## put the hashes of all files of each release into the lock (after addin
 	cp .venv-tools/pins.lock requirements.lock
 
 docs: $(STAMP)  ## build the documentation site into docs/_build/html (offline; warnings are errors)
-	$(BIN)/python -m sphinx -q -b html -W --keep-going docs docs/_build/html
+	$(BIN)/python -m sphinx -q -j 2 -b html -W --keep-going docs docs/_build/html
 	@echo "open docs/_build/html/index.html"
 
 clean:  ## remove the environment and caches
