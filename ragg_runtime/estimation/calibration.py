@@ -197,9 +197,12 @@ class _Unweighted:
 
     def __init__(self, task: _Task) -> None:
         self.task = task
-        unit = [NoiseModel.white(o.record.rate, len(o.series)) for o in task.observations]
-        windows = task.windows(unit)
-        self._tried = lru_cache(maxsize=2)(lambda x: task.at(np.frombuffer(x), unit, windows))
+        self._unit = [NoiseModel.white(o.record.rate, len(o.series)) for o in task.observations]
+        self._tried = lru_cache(maxsize=2)(lambda x: task.at(np.frombuffer(x), self._unit, self._windows))
+
+    @cached_property
+    def _windows(self) -> _Windows:
+        return self.task.windows(self._unit)
 
     def volts(self, x: Array) -> _Fall:
         """Linearised about x, a noise of 1 V."""

@@ -14,7 +14,7 @@ from ragg_runtime.estimation.observation import Observation, Thin, bridge_gaps
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
-from ragg_runtime.model.evaluate import Evaluator, unit_factor
+from ragg_runtime.model.evaluate import Evaluator, unit_factor, voltages
 from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Effect, Model
 from ragg_runtime.model.record import Record, made_of
@@ -139,6 +139,12 @@ def heard(columns: Sequence[Column], instrument: Instrument, place: int) -> slic
 def observed(o: Observation, v: Array, accelerometer: int | None) -> Array:
     """What an observation sees of its output's voltages: (members, N), or (N,) of one accelerometer -> (m, N)."""
     return o.recorded.through(o.recorded.of_voltages(o.output, v, accelerometer), o.record)
+
+
+def predict_observed(model: Model, o: Observation, p: Array) -> Array:
+    """(m, N), V: what a model with parameters p (size,), SI, predicts of what is observed; no unknown gradient."""
+    record, rest = about(model, o.record, p)
+    return observed(o, voltages(model.chain, record, rest, o.output), None)
 
 
 def null_biases(columns: Sequence[Column]) -> list[int]:

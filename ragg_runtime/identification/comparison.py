@@ -24,7 +24,6 @@ from ragg_runtime.instrument.form import Form
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import vector, voltages
-from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulate import demodulable, low_pass
 from ragg_runtime.signals.fir import convolved
@@ -294,7 +293,7 @@ def disturbed(f: Fitted) -> str | None:
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     """Residual of G_out, (N,) V, of a piece of a flight with these values; no unknown gradient."""
     o = piece.observation
-    predicted = regressors.observed(o, voltages(f.model.chain, *about(f.model, o.record, p), o.output), None)
+    predicted = regressors.predict_observed(f.model, o, p)
     (left,) = piece.observed(np.where(o.record.valid, o.data - predicted, 0.0)[None])
     return np.asarray(left)
 

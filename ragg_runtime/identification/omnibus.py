@@ -16,10 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.estimation import regressors, unknown_gradient, whitening
+from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise_estimate import line_width
 from ragg_runtime.estimation.observation import BLOCKS
+from ragg_runtime.estimation.regressors import predict_observed
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, flight_segments
 from ragg_runtime.identification.dictionary import Dictionary, Term
@@ -27,8 +28,6 @@ from ragg_runtime.identification.features import term_unit
 from ragg_runtime.identification.spectral_line import Periodogram
 from ragg_runtime.identification.time_varying import BlockScores
 from ragg_runtime.identification.whitened_terms import Directions, products, squares
-from ragg_runtime.model.evaluate import voltages
-from ragg_runtime.model.lateness import about
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -254,8 +253,7 @@ def _predicted(x: PreparedFlight) -> Array | None:
     found = np.zeros(len(o.record.time))
     for s in flight_segments(o):
         part = o.part(s.rows)
-        record, p = about(x.at.model, part.record, x.at.p)
-        found[s.rows] = regressors.observed(part, voltages(x.at.model.chain, record, p, o.output), None)[0]
+        found[s.rows] = predict_observed(x.at.model, part, x.at.p)[0]
     return found
 
 

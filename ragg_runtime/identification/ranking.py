@@ -151,16 +151,17 @@ def staged(
     """The ranking where effects were derived into the model: each by what the model with those before leaves without and with it;
     the rest as they stand against the model as it was.
     """
-    found = [_ranked_taken(t, target) for t in steps] + list(chosen)
+    free = with_held(target)
+    found = [_ranked_taken(t, free) for t in steps] + list(chosen)
     names = {r.effect for r in found}
     return [*found, *(r for r in others if r.effect not in names)]
 
 
-def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
+def _ranked_taken(t: Taken, free: Fitted) -> Ranked:
+    """The row of an effect that was derived into the model; ``free``: the flights with all of them, and all their coefficients."""
     (before,) = t.before.score([np.zeros(t.before.size)])
     half = t.after.vector(t.after.coefficients((), held_out=True)[0])
     after, held_out = t.after.score([np.zeros(t.after.size), half])
-    free = with_held(target)
     c, (change, _) = free.calibration, free.coefficients(())
     own = [n for n, q in enumerate(c.columns) if q.effect == t.effect]
     columns = [c.columns[n] for n in own]
@@ -179,7 +180,7 @@ def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
         after=after.whole,
         after_holdout=held_out.held_out,
         parameters=tuple(parameters),
-        combinations=tuple(visible_combinations(target.model, c.p, columns, values, covariance)),
+        combinations=tuple(visible_combinations(free.model, c.p, columns, values, covariance)),
         indistinguishable_from=t.rivals,
     )
 

@@ -154,13 +154,13 @@ class Evidence:
             return Outcome.of(first.fitted, (), ())
         if not self._is_derived(o):
             return Outcome.of(last.fitted, kept, _given(last, kept))
-        return Outcome.of(fit(*self._derived(kept), first.fitted.observations), kept, ())
+        return Outcome.of(fit(*self._model_with(kept), first.fitted.observations), kept, ())
 
     def gain(self, o: Outcome, effect: str) -> float:
         """Chi-square that one of an outcome's effects explains beside the others, by a fit without it; 0 if it is not derived."""
         if not self._is_derived(o):
             return 0.0
-        model, instrument = self._derived([e for e in o.effects if e != effect])
+        model, instrument = self._model_with([e for e in o.effects if e != effect])
         f = o.target  # by its noise and with its priors
         instrument = replace(instrument, widths=f.instrument.widths)
         return (
@@ -171,7 +171,7 @@ class Evidence:
     def _is_derived(self, o: Outcome) -> bool:
         return self.extend is not None and bool(self.steps or o.target is not self.last.fitted)
 
-    def _derived(self, kept: Sequence[str]) -> tuple[Model, Instrument]:
+    def _model_with(self, kept: Sequence[str]) -> tuple[Model, Instrument]:
         """The model with some of the effects, and its sheet."""
         first, last = self.first.fitted, self.last
         if not kept or self.extend is None:
