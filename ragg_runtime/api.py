@@ -34,7 +34,7 @@ from ragg_runtime.compensation.result import QUALITY, Compensation
 from ragg_runtime.compensation.saved import Saved, add_entry, load_saved
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
-from ragg_runtime.identification.comparison import Comparison, climb
+from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.next_motion import LIMITS
 from ragg_runtime.identification.parameters import ParameterValue, calibrated
 from ragg_runtime.identification.quality import heed_flags
@@ -91,15 +91,11 @@ __all__ = [
 # --- the loop
 
 
-def compare(m: Loaded, flights: Flights, *, ladder: bool = False) -> Comparison:
-    """How far the model is from the flights; with ``ladder`` also what each simplification of it is worth there."""
+def compare(m: Loaded, flights: Flights) -> Comparison:
+    """How far the model is from the flights."""
     flights = read_flights(m, flights)
     distinct(flights)
-    c = _compare.compare(m.model, m.instrument, flights)
-    if not ladder:
-        return c
-    simpler = partial(derive.without_signatures, m.instrument)
-    return replace(c, ladder=climb(m.instrument, flights, simpler))
+    return _compare.compare(m.model, m.instrument, flights)
 
 
 def diagnose(

@@ -46,7 +46,6 @@ else:
 @model_argument
 @flights_argument
 @mapping_option
-@click.option("--ladder", is_flag=True, help="Show what each simplification of the model costs, too.")
 @click.option("--calibration", type=click.Choice(["frozen", "self"]), default="self", show_default=True,
               help="frozen: as `ragg calibrate --save` saved it; self: fitted to these flights.")  # fmt: skip
 @click.option("--frozen", is_flag=True, help="The same as --calibration frozen.")
@@ -54,7 +53,6 @@ def compare(
     model_dir: Path,
     flights: Sequence[Path],
     mapping: Path | None,
-    ladder: bool,
     calibration: str,
     frozen: bool,
 ) -> None:
@@ -67,7 +65,7 @@ def compare(
     then, again = (next_command(v, model_dir, records, mapping) for v in ("diagnose", "calibrate"))
     with working("comparing" if frozen else "calibrating and comparing", "compare", records):
         held = api.compare_frozen(m, records) if frozen else None
-        c = api.compare(m, records, ladder=ladder) if held is None else held.comparison
+        c = api.compare(m, records) if held is None else held.comparison
     if held is None:
         result = c.as_json()
         said = describe.describe_comparison(result, names, then)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -20,10 +20,9 @@ from ragg_runtime.identification import selection, series, several_outputs
 from ragg_runtime.identification.dictionary import carrier, harmonics
 from ragg_runtime.identification.omnibus import Remainder, remainder, terms_json
 from ragg_runtime.identification.selection import field_of, testable_effects
-from ragg_runtime.instrument.form import Form
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
-from ragg_runtime.model.evaluate import vector, voltages
+from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulate import demodulable, low_pass
 from ragg_runtime.signals.fir import convolved
@@ -48,7 +47,6 @@ class Comparison:
     noise_floor: float
     adequate: bool | None
     remainder: Remainder | None
-    ladder: tuple[Rung, ...] = ()
     complaint: str | None = None
     remark: str | None = None
     off_sheet: tuple[OffSheet, ...] = ()
@@ -115,7 +113,6 @@ class Comparison:
                 "time": self.by_time(),
                 "motion": self.terms(),
             },
-            **({"ladder": [r.as_json() for r in self.ladder]} if self.ladder else {}),
             **self._of_outputs(),
         }
 
@@ -307,81 +304,6 @@ def demodulated_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Arr
     """(time, inline, cross) of any series of G_out of one flight, s and Eo."""
     r = f.prepared[flight].observation.record
     return channels(x, r, f.scales[flight], r.valid)
-
-
-STEPS: tuple[Form, ...] = (
-    Form(),
-    Form(kinematics="full"),
-    Form(kinematics="full", second_order_angles=True),
-    Form(kinematics="full", second_order_angles=True, misalignment="exact"),
-    Form(kinematics="full", second_order_angles=True, misalignment="exact", mounting=2),
-    Form(kinematics="full", second_order_angles=True, misalignment="exact", mounting="exact"),
-)
-"""From the paper's form to that which keeps everything, one simplification less at a time."""
-
-
-@dataclass(frozen=True)
-class Rung:
-    """A form of the model, its errors with model.toml's values and with fitted ones, and the ``step`` by which its prediction
-    differs from that of the form before (``None`` of the first).
-    """
-
-    form: Form
-    nominal: Error
-    calibrated: Error
-    step: Error | None
-
-    def as_json(self) -> dict[str, object]:
-        return {
-            **self.form.as_json(),
-            "words": self.form.in_short(),
-            "nominal": self.nominal.as_json(),
-            "calibrated": self.calibrated.as_json(),
-            "step": None if self.step is None else self.step.as_json(),
-        }
-
-
-def forms(own: Form) -> tuple[Form, ...]:
-    """The forms to try: the steps, and the model's own at the end if it is none of them."""
-    return STEPS if own in STEPS else (*STEPS, own)
-
-
-@one_thread
-def climb(
-    instrument: Instrument, flights: Sequence[Flight], model_in: Callable[[Form], Model]
-) -> tuple[Rung, ...]:
-    """Hold the flights against the model in every form; ``model_in`` derives it."""
-    observations = observations_of(flights, instrument)
-    rungs: list[Rung] = []
-    below: tuple[Model, Array] | None = None
-    for form in forms(instrument.form):
-        model = model_in(form)
-        of_form = replace(instrument, form=form)
-        p = vector(model, of_form)
-        rungs.append(_rung(fit(model, of_form, observations), p, below))
-        below = model, p
-    return tuple(rungs)
-
-
-def _rung(f: Fitted, p: Array, below: tuple[Model, Array] | None) -> Rung:
-    def further(piece: Piece) -> Array:
-        o = piece.observation
-        here = regressors.observed(o, voltages(f.model.chain, o.record, p, o.output), None)
-        found = [o.data - here]
-        if below is not None:
-            found.append(
-                here - regressors.observed(o, voltages(below[0].chain, o.record, below[1], o.output), None)
-            )
-        return piece.observed(np.stack([np.where(o.record.valid, x, 0.0) for x in found]))
-
-    count = 1 if below is None else 2
-    scored = f.score([f.vector(np.zeros(f.n_base))], further, count)
-    return Rung(
-        form=f.instrument.form,
-        nominal=scored[1].whole,
-        calibrated=scored[0].whole,
-        step=None if below is None else scored[2].whole,
-    )
 
 
 @dataclass(frozen=True)

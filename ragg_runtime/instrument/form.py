@@ -42,12 +42,6 @@ class Form:
     def as_json(self) -> dict[str, object]:
         return {"kinematics": self.kinematics, "order": dict(self.order)}
 
-    def in_short(self) -> str:
-        """For a table: what is beyond the paper's order, if it has no name."""
-        beyond = [(k, v) for k, v in self.order.items() if v != PAPER.order[k]]
-        kept = (f"{k.replace('_', ' ')}{'' if v is True else f' {v}'}" for k, v in beyond)
-        return f"{self.kinematics}, {self.preset or ', '.join(kept)}"
-
     def words(self) -> str:
         """In half a sentence."""
         order = self.preset or ", ".join(

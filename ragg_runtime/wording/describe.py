@@ -157,7 +157,6 @@ def describe_comparison(
         found.append(Section("Where it fails", tuple(_worst(where)), terms_table(where["motion"])))
     if c["off_sheet"]:
         found.append(_off_sheet(c["off_sheet"]))
-    found += _ladder(c.get("ladder", ()))
     return (*found, *(next_section(then) if judged and not c["adequate"] else ()))
 
 
@@ -187,25 +186,6 @@ def _worst(where: Json) -> list[str]:
         f"The worst block of time: {number(b['from_s'], 4)} to {number(b['to_s'], 4)} s of {b['flight']!s},"
         f" {number(b['rms_Eo'])} Eo."
     ]
-
-
-def _ladder(rungs: Sequence[Json]) -> list[Section]:
-    if not rungs:
-        return []
-
-    def step(key: str) -> Callable[[Json], str]:
-        return lambda r: number((r["step"] or {}).get(key))
-
-    columns: Columns = {
-        "form of the model": lambda r: str(r["words"]),
-        "nominal, Eo": lambda r: eotvos(r["nominal"]),
-        "calibrated, Eo": lambda r: eotvos(r["calibrated"]),
-        "step, Eo": step("rms_Eo"),
-        "inline, Eo": step("inline_Eo"),
-        "cross, Eo": step("cross_Eo"),
-    }
-    note = "step: what a form changes in the prediction of the one above it"
-    return [Section("What each simplification costs", table=tabulate(rungs, columns, note=note))]
 
 
 def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = "") -> Sections:
