@@ -80,11 +80,47 @@ if TYPE_CHECKING:
     from ragg_runtime.survey.run import Progress
 
 __all__ = [
-    "FORMS", "QUALITY", "Added", "Catalogue", "Compensation", "Flights", "Kept", "Loaded", "add", "as_of", "calibrate",
-    "calibration_notes", "change", "check_output", "compare", "compare_frozen", "compensate", "contents", "diagnose",
-    "effects", "errors_of", "example", "export", "keep_mapping", "load", "mapping_of", "mapping_text", "motion_limits",
-    "new", "notes", "of_survey", "origin", "read_flights", "read_for_compensation", "remove", "saved_calibration",
-    "sources", "survey", "write_export",
+    "FORMS",
+    "QUALITY",
+    "Added",
+    "Catalogue",
+    "Compensation",
+    "Flights",
+    "Held",
+    "Kept",
+    "Loaded",
+    "add",
+    "as_of",
+    "calibrate",
+    "calibration_notes",
+    "change",
+    "check_output",
+    "compare",
+    "compare_frozen",
+    "compensate",
+    "contents",
+    "diagnose",
+    "effects",
+    "errors_of",
+    "example",
+    "export",
+    "keep_mapping",
+    "load",
+    "mapping_of",
+    "mapping_text",
+    "motion_limits",
+    "new",
+    "notes",
+    "of_survey",
+    "origin",
+    "read_flights",
+    "read_for_compensation",
+    "remove",
+    "saved_calibration",
+    "sources",
+    "survey",
+    "validate",
+    "write_export",
 ]  # fmt: skip
 
 
@@ -430,6 +466,14 @@ def compare_frozen(m: Loaded, flights: Flights) -> Held:
     flights = read_flights(m, flights)
     distinct(flights)
     return _frozen.compare_frozen(m.model, m.instrument, flights, saved_calibration(m))
+
+
+def validate(m: Loaded, c: Comparison, fitted: Sequence[Flight], flights: Sequence[Flight]) -> Held:
+    """How the model calibrated on the flights of a comparison holds on others, on which nothing is fitted."""
+    calibrated_ = Calibrated(c.fitted, c.nominal, c.calibrated, c.holdout)
+    return _frozen.compare_frozen(
+        m.model, m.instrument, flights, _calibrate.make_saved(calibrated_, fitted, now())
+    )
 
 
 # --- compensation

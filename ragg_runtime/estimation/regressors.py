@@ -68,7 +68,7 @@ def list_base_columns(model: Model, instrument: Instrument) -> list[tuple[Column
         start[name] = position
         position += size
     for q in PARAMETERS:
-        if q.name in UNOBSERVABLE:
+        if q.name in UNOBSERVABLE or q.name in instrument.fixed:
             continue
         factor = unit_factor(q.display_unit, known)
         scales = instrument.sigma(q.name)

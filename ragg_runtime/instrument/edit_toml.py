@@ -21,11 +21,12 @@ def set_parameters(
     text: str,
     values: Mapping[str, RawQuantity],
     sigmas: Mapping[str, tuple[float, ...] | None] = MappingProxyType({}),
+    fixed: Mapping[str, bool] = MappingProxyType({}),
 ) -> str:
     """``text`` of a model.toml with some of ``[accelerometers]`` set, comments kept.
 
     ``sigmas``, in the values' units, replace those of the sheet, ``None`` takes them out; of what is not named they stay where the unit
-    does. Raises UserError for an unknown parameter.
+    does. ``fixed`` says of some whether they are not fitted. Raises UserError for an unknown parameter.
     """
     document = _document(text)
     table: Any = document.setdefault("accelerometers", tomlkit.table())
@@ -41,6 +42,10 @@ def set_parameters(
             table[name].pop("sigma", None)
         if sigma := sigmas.get(name):
             table[name].add("sigma", [plain_number(v) for v in sigma])
+        if name in fixed:
+            table[name].pop("fixed", None)
+        if fixed.get(name):
+            table[name].add("fixed", True)
     return tomlkit.dumps(document)
 
 
@@ -141,11 +146,13 @@ def plain_number(value: float) -> int | float:
 
 
 def _put(table: Any, name: str, item: Any) -> None:
-    """Set a quantity; the sigma of the old one stays where the unit does."""
+    """Set a quantity; the sigma of the old one stays where the unit does, and whether it is fixed."""
     if name in table:
         old = table[name]
         if isinstance(old, dict) and "sigma" in old and old.get("unit") == item.get("unit"):
             item.add("sigma", old["sigma"])
+        if isinstance(old, dict) and old.get("fixed"):
+            item.add("fixed", True)
         trivia = getattr(old, "trivia", None)
         table[name] = item
         if trivia is not None:

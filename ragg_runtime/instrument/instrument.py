@@ -68,7 +68,7 @@ class Instrument:
 
     ``sigmas``: how sure the sheet is of some parameters, name -> (n,). ``radius`` and ``spin_frequency`` are those of
     the first accelerometer and its disc. ``widths``: kind of parameter -> how many times wider than usual its prior is.
-    ``held``: labels of effects' coefficients that are not fitted, but stay as model.toml has them.
+    ``fixed``: parameters that are not fitted, but stay as model.toml has them; ``held``: labels of effects' coefficients likewise.
     ``angle_origin``: where the angle of a disc without an encoder is 0, ``zero`` (of ``time``) or ``first-sample``; ``None``: at
     zero of seconds, at the first of stamps that are instants.
     """
@@ -84,6 +84,7 @@ class Instrument:
     layout: Layout = PAPER
     demodulation: Demodulation | None = None
     widths: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    fixed: frozenset[str] = frozenset()
     held: frozenset[str] = frozenset()
     angle_origin: str | None = None
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError, at, check_keys, check_table
+from ragg_runtime.base.errors import UserError, at, check_choice, check_keys, check_table
 from ragg_runtime.base.files import read_text
 from ragg_runtime.base.names import is_name, read_name
 from ragg_runtime.instrument.demodulation import read_demodulation
@@ -60,13 +60,16 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
     check_keys(table, ("disc", "accelerometers", "effects", "model", "g0", "demodulator"), path)
     form, angle_origin = read_form(table.get("model"), path)
     layout, g0 = _discs(table, path)
-    accelerometers, sigmas = _accelerometers(_table(table, "accelerometers", path), g0, path, layout.size)
+    accelerometers, sigmas, fixed = _accelerometers(
+        _table(table, "accelerometers", path), g0, path, layout.size
+    )
     return Instrument.build(
         radius=layout.places[0].radius,
         spin_frequency=layout.discs[layout.places[0].disc].spin_frequency,
         g0=g0,
         accelerometers=accelerometers,
         sigmas=sigmas,
+        fixed=fixed,
         effects=_effects(table.get("effects", []), g0, path, layout.size),
         path=path,
         layout=layout,
@@ -105,16 +108,18 @@ def _table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[st
 
 def _accelerometers(
     table: Mapping[str, Any], g0: float, path: Path | None, count: int
-) -> tuple[dict[str, Vector], dict[str, Vector]]:
-    """Values, and how sure the sheet is of those for which it says so, in SI."""
+) -> tuple[dict[str, Vector], dict[str, Vector], frozenset[str]]:
+    """Values, and how sure the sheet is of those for which it says so, in SI; and which are not fitted."""
     check_keys(table, PARAMETER, at(path, "[accelerometers]"))
-    found, sigmas = {}, {}
+    found, sigmas, fixed = {}, {}, set()
     for name, raw in table.items():
         place = at(path, f"[accelerometers] {name}")
         si_unit = PARAMETER[name].si_unit
-        own = {k: v for k, v in raw.items() if k != "sigma"} if isinstance(raw, dict) else raw
+        own = {k: v for k, v in raw.items() if k not in ("sigma", "fixed")} if isinstance(raw, dict) else raw
         quantity = read_quantity(own, place, count=count)
         found[name] = read_si(quantity, si_unit, g0, place)
+        if isinstance(raw, dict) and check_choice(raw.get("fixed", False), (False, True), f"{place}, fixed"):
+            fixed.add(name)
         if isinstance(raw, dict) and "sigma" in raw:
             where = f"{place}, sigma"
             sigma = read_quantity({"value": raw["sigma"], "unit": quantity.unit}, where, count=count)
@@ -122,7 +127,7 @@ def _accelerometers(
             if np.any(sigmas[name] <= 0):
                 expected = f"one or {'four' if count == 4 else count} above 0, in {quantity.unit}; none if the sheet does not say"
                 raise UserError("sigma must be positive", where=where, found=raw["sigma"], expected=expected)
-    return found, sigmas
+    return found, sigmas, frozenset(fixed)
 
 
 def _effects(

@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import math
-import shutil
-import subprocess
-import sys
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from starlette.requests import ClientDisconnect, Request
 
 from ragg_runtime.api import Loaded, keep_mapping, mapping_of
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import read_text, replacing
+from ragg_runtime.base.files import read_text
 from ragg_runtime.io.draft import OUTPUTS, draft_mapping, sample_table
 from ragg_runtime.io.mapping import UNKNOWN, Mapped, parse_mapping
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.tables import Column
-from ragg_runtime.studio.session import State, safe_name
 from ragg_runtime.wording import numbers
 
 Json = dict[str, Any]
@@ -38,18 +32,18 @@ UNWRITTEN = Path("mapping.toml")
 """Path of a mapping that is not saved yet, for messages."""
 
 
-def begun(m: Loaded, path: Path) -> Json:
+def draft(m: Loaded, path: Path) -> Json:
     """The model's own mapping if the file has its columns, else a first one by looking; and what the file holds."""
     columns = sample_table(path).columns
     names = {c.name for c in columns}
     own = mapping_of(m, None)
     if own is not None and own.columns <= names:
-        return _shown(tomllib.loads(read_text(own.path)), columns, {}, kept=True)
+        return _show(tomllib.loads(read_text(own.path)), columns, {}, kept=True)
     made = draft_mapping(path)
-    return _shown(tomllib.loads(made.text), columns, made.sure, kept=own is not None)
+    return _show(tomllib.loads(made.text), columns, made.sure, kept=own is not None)
 
 
-def _shown(data: Json, held: Sequence[Column], sure: Mapping[str, str], *, kept: bool) -> Json:
+def _show(data: Json, held: Sequence[Column], sure: Mapping[str, str], *, kept: bool) -> Json:
     rows = []
     columns = data.get("columns", {})
     missing = [n for n in NEEDED if n not in columns]
@@ -72,7 +66,7 @@ def _shown(data: Json, held: Sequence[Column], sure: Mapping[str, str], *, kept:
     }
 
 
-def written(given: Mapping[str, Any]) -> str:
+def write(given: Mapping[str, Any]) -> str:
     """``mapping.toml`` of what the page says; rows without a column are left out."""
 
     def table(values: Mapping[str, Any], names: tuple[str, ...]) -> list[str]:
@@ -109,11 +103,11 @@ def _instant(value: Any) -> bool:
     return isinstance(value, str) and bool(value) and all(c in "0123456789-:.TZ+ " for c in value)
 
 
-def tried(m: Loaded, path: Path, given: Mapping[str, Any]) -> Json:
+def try_mapping(m: Loaded, path: Path, given: Mapping[str, Any]) -> Json:
     """The mapping as text, what is still wrong with it, and what its channels look like on the first rows."""
     text = ""
     try:
-        text = written(given)
+        text = write(given)
         how = parse_mapping(text, UNWRITTEN)
         return {"text": text, "error": None, "preview": _preview(m, path, how)}
     except UserError as e:
@@ -143,92 +137,6 @@ def _preview(m: Loaded, path: Path, how: Mapped) -> list[Json]:
 
 def keep(m: Loaded, path: Path, given: Mapping[str, Any], *, replace: bool) -> None:
     """Lay the mapping down in the model directory, where every command finds it; never over another unasked."""
-    text = written(given)
+    text = write(given)
     _preview(m, path, parse_mapping(text, UNWRITTEN))
     keep_mapping(m, text, replace=replace)
-
-
-MOST = 4 << 30
-"""Largest file that is taken, bytes: a day at 100 Hz with all channels is 2 GB."""
-
-FOLDER = "flights"
-
-
-async def receive(s: State, name: str, request: Request) -> Path:
-    """The body of a request as a file; nothing is overwritten. UserError if it is too long or does not fit."""
-    folder = s.model.directory.path.resolve() / FOLDER
-    wanted = safe_name(name)
-    announced = int(request.headers.get("content-length", "0") or 0)
-    folder.mkdir(exist_ok=True)
-    if folder.is_symlink():
-        raise UserError("the folder for flights is a link", where=folder, remedy="make it a folder")
-    room = min(MOST, shutil.disk_usage(folder).free // 2)
-    if announced > room:
-        raise _too_long(announced, room)
-    path = _claim(folder, wanted)
-    written = 0
-    try:
-        with _given_back(path), replacing(path) as temporary, temporary.open("wb") as target:
-            async for chunk in request.stream():
-                written += len(chunk)
-                if written > room:
-                    raise _too_long(written, room)
-                target.write(chunk)
-            if not written:
-                raise UserError("the file is empty", where=wanted)
-    except ClientDisconnect:
-        raise UserError("the upload was broken off; nothing was kept", where=wanted) from None
-    return path
-
-
-def _claim(folder: Path, name: str) -> Path:
-    """A name that was not taken and is now, by an empty file: ``flight.csv``, ``flight-2.csv`` ..."""
-    stem, dot, ending = name.partition(".")
-    for n in range(1, 1000):
-        path = folder / (name if n == 1 else f"{stem}-{n}{dot}{ending}")
-        with contextlib.suppress(FileExistsError):
-            path.touch(exist_ok=False)
-            return path
-    raise UserError("there are too many files of this name", where=name)
-
-
-@contextlib.contextmanager
-def _given_back(path: Path) -> Iterator[None]:
-    """Take the empty file away again if nothing came into its place."""
-    try:
-        yield
-    finally:
-        if not path.stat().st_size:
-            path.unlink()
-
-
-def check_upload(path: Path) -> None:
-    """Read an uploaded file in a process of its own; UserError, and the file is gone, if that fails or takes too long.
-
-    A damaged file can bring down the library that reads it: then that process ends, and not the studio. A file with columns of
-    other names is kept: what they are is asked on the page.
-    """
-    limit = 120.0 + path.stat().st_size / 2e6
-    command = [sys.executable, "-m", "ragg_runtime", "info", str(path)]
-    found = "it ends with a fault"
-    try:
-        done = subprocess.run(
-            command, capture_output=True, text=True, errors="replace", timeout=limit, check=False
-        )
-        if done.returncode in (0, 1):
-            return  # a fault of the program is reported where the flight is opened
-        if done.returncode == 2:
-            found = done.stderr.strip().removeprefix("ragg: ")
-    except subprocess.TimeoutExpired:
-        found = f"no end after {limit:.0f} s"
-    path.unlink(missing_ok=True)
-    raise UserError("the file cannot be read", where=path.name, found=found, remedy="see: ragg info FLIGHT")
-
-
-def _too_long(found: int, room: int) -> UserError:
-    return UserError(
-        "the file is too large",
-        found=f"at least {found / 1e6:.0f} MB",
-        expected=f"at most {room / 1e6:.0f} MB",
-        remedy="put it beside the model and choose it there",
-    )

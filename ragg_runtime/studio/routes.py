@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 import math
 import traceback
@@ -22,9 +23,8 @@ from starlette.staticfiles import StaticFiles
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.studio import mapping, series, views
-from ragg_runtime.studio.guard import TooLong
-from ragg_runtime.studio.mapping import check_upload, receive
-from ragg_runtime.studio.session import Busy, Edit, Session
+from ragg_runtime.studio.files import check_flight, receive_flight
+from ragg_runtime.studio.session import Busy, Session, SheetEdit
 
 BEAT = 0.15
 """How often a page hears of changes, s."""
@@ -38,23 +38,23 @@ Answer = Callable[[Session, Request], Awaitable[Response]]
 Body = Mapping[str, Any]
 
 
-def application(session: Session) -> Starlette:
+def make_application(session: Session) -> Starlette:
     """The routes, without the guard."""
 
     def route(path: str, answer: Answer, method: str = "GET") -> Route:
         async def asked(request: Request) -> Response:
-            return await _guarded(answer, session, request)
+            return await _answer(answer, session, request)
 
         return Route(path, asked, methods=[method])
 
     static = Path(str(resources.files("ragg_runtime.studio").joinpath("static")))
     return Starlette(
         routes=[
-            route("/", _page(static)),
+            route("/", partial(_send_page, _make_page(static))),
             Mount("/static", StaticFiles(directory=static)),
-            route("/api/events", _events),
-            route("/api/mapping", _mapped, "POST"),
-            route("/api/take/{what}", _take),
+            route("/api/events", _send_events),
+            route("/api/mapping", _try_mapping, "POST"),
+            route("/api/take/{what}", _take_away),
             route("/api/do/{what}", _do, "POST"),
             route(UPLOAD, _upload, "POST"),
             *(route(f"/api/{name}", partial(_read, make)) for name, make in READS.items()),
@@ -62,7 +62,7 @@ def application(session: Session) -> Starlette:
     )
 
 
-async def _guarded(answer: Answer, session: Session, request: Request) -> Response:
+async def _answer(answer: Answer, session: Session, request: Request) -> Response:
     def refused(status: int, what: str | None, **facts: object) -> Response:
         return JSONResponse({"error": {"what": what, **facts}}, status)
 
@@ -72,8 +72,6 @@ async def _guarded(answer: Answer, session: Session, request: Request) -> Respon
         return JSONResponse({"error": e.facts}, 400)
     except Busy:
         return refused(409, "something else is being worked on; cancel it or wait")
-    except TooLong:
-        return refused(413, "the request is too long")
     except ClientDisconnect:
         return refused(408, "the request did not come to its end")
     except OSError as e:
@@ -83,16 +81,18 @@ async def _guarded(answer: Answer, session: Session, request: Request) -> Respon
         return refused(500, "this is a fault of the program; the terminal shows where")
 
 
-def _page(static: Path) -> Answer:
+# --- what is read --------------------------------------------------------------------------------------
+
+
+def _make_page(static: Path) -> str:
     """The page; it names all modules at once, so that they come in one round instead of one for each level of imports."""
     modules = sorted(m.relative_to(static).as_posix() for m in static.glob("**/*.js"))
     links = "\n".join(f'<link rel="modulepreload" href="/static/{m}">' for m in modules)
-    text = (static / "index.html").read_text("utf-8").replace("</head>", f"{links}\n</head>")
+    return (static / "index.html").read_text("utf-8").replace("</head>", f"{links}\n</head>")
 
-    async def page(session: Session, request: Request) -> Response:
-        return Response(text, media_type="text/html")
 
-    return page
+async def _send_page(text: str, session: Session, request: Request) -> Response:
+    return Response(text, media_type="text/html")
 
 
 async def _read(make: Callable[[Session, Request], Any], session: Session, request: Request) -> Response:
@@ -101,10 +101,10 @@ async def _read(make: Callable[[Session, Request], Any], session: Session, reque
     if isinstance(made, bytes):
         kind = "image/svg+xml" if made.startswith(b"<") else "application/octet-stream"
         return Response(made, media_type=kind)
-    return _json(made)
+    return _send_json(made)
 
 
-def _json(content: Any) -> Response:
+def _send_json(content: Any) -> Response:
     text = json.dumps(_finite(content), allow_nan=False, ensure_ascii=False, separators=(",", ":"))
     return Response(text.encode("utf-8", "replace"), media_type="application/json")
 
@@ -118,16 +118,14 @@ def _finite(x: Any) -> Any:
     return [_finite(v) for v in x] if isinstance(x, list | tuple) else x
 
 
-def _state(session: Session, request: Request) -> Any:
+def _show_state(session: Session, request: Request) -> Any:
     status, s = {"status": session.jobs.status.as_json()}, session.state
-    if (
-        session.shown is None or session.shown[0] is not s
-    ):  # a state never changes: what is said of it is made once
-        session.shown = s, views.overview(s) | {"roots": [str(r) for r in session.places.roots]}
+    if session.shown is None or session.shown[0] is not s:  # a state never changes: it is described once
+        session.shown = s, views.clean(views.overview(s))
     return status | session.shown[1]
 
 
-async def _events(session: Session, request: Request) -> Response:
+async def _send_events(session: Session, request: Request) -> Response:
     async def events() -> AsyncIterator[str]:
         last, waited = -1, 0.0
         while not await request.is_disconnected():
@@ -139,99 +137,91 @@ async def _events(session: Session, request: Request) -> Response:
             waited += BEAT
             if waited > WATCH:
                 waited = 0.0
-                await _watched(session)
+                with contextlib.suppress(UserError, Busy, OSError):  # half-edited by hand: look again later
+                    await run_in_threadpool(session.reread)
                 yield ": still here\n\n"
 
     return StreamingResponse(events(), media_type="text/event-stream")
 
 
-async def _watched(session: Session) -> None:
-    try:
-        await run_in_threadpool(session.reread)
-    except (UserError, Busy, OSError):
-        return  # half-edited by hand: look again later
-
-
-def _number(request: Request, name: str, default: float) -> float:
-    try:
-        value = float(request.query_params.get(name, default))
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise UserError("a number is needed", where=name, found=request.query_params[name][:40])
-    return value
-
-
-def _asked(request: Request) -> series.Asked:
+def _read_asked(request: Request) -> series.Asked:
     q = request.query_params
+
+    def number(name: str, default: float) -> float:
+        try:
+            value = float(q.get(name, default))
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise UserError("a number is needed", where=name, found=q[name][:40])
+        return value
+
     unit = q.get("unit", "Eo")
     if unit not in series.UNITS:
         raise UserError("the unit is not known", found=unit[:40], expected=", ".join(series.UNITS))
     return series.Asked(
         what=q.get("what", "residual"),
         unit=unit,
-        flight=int(_number(request, "flight", 0)),
-        output=int(_number(request, "output", 0)),
+        flight=int(number("flight", 0)),
+        output=int(number("output", 0)),
         effects=tuple(sorted({e for e in q.get("effects", "").split(",") if e})),
-        first=_number(request, "from", -1e12),
-        last=_number(request, "to", 1e12),
-        points=int(min(max(_number(request, "points", 1500), 16), 20000)),
+        first=number("from", -1e12),
+        last=number("to", 1e12),
+        points=int(min(max(number("points", 1500), 16), 20000)),
     )
 
 
-def _begun(session: Session, request: Request) -> Any:
+def _draft_mapping(session: Session, request: Request) -> Any:
     path = session.places.inside(request.query_params.get("flight", ""))
-    return mapping.begun(session.state.model, path)
+    return mapping.draft(session.state.model, path)
 
 
 READS: Mapping[str, Callable[[Session, Request], Any]] = {
-    "state": _state,
-    "series": lambda session, request: series.draw_series(session.state, _asked(request)),
-    "spectrum": lambda session, request: series.draw_spectra(session.state, _asked(request)),
-    "spectrogram": lambda session, request: series.draw_spectrogram(session.state, _asked(request)),
-    "heat": lambda session, request: series.draw_heat(session.state, _asked(request)),
-    "panel": lambda session, request: series.draw_panel(session.state, _asked(request)),
-    "preview": lambda session, request: series.predict_error(session.state, _asked(request)),
+    "state": _show_state,
+    "series": lambda session, request: series.draw_series(session.state, _read_asked(request)),
+    "spectrum": lambda session, request: series.draw_spectra(session.state, _read_asked(request)),
+    "spectrogram": lambda session, request: series.draw_spectrogram(session.state, _read_asked(request)),
+    "heat": lambda session, request: series.draw_heat(session.state, _read_asked(request)),
+    "panel": lambda session, request: series.draw_panel(session.state, _read_asked(request)),
+    "preview": lambda session, request: series.predict_error(session.state, _read_asked(request)),
     "folder": lambda session, request: session.places.listing(request.query_params.get("place", "")),
-    "mapping": _begun,
+    "mapping": _draft_mapping,
 }
 """What the page reads, by the last part of the address."""
 
 
-async def _mapped(session: Session, request: Request) -> Response:
-    body = await _body(request)
-    path = session.places.inside(_text(body, "flight"))
-    return _json(await run_in_threadpool(mapping.tried, session.state.model, path, _given(body)))
-
-
-def _given(body: Body) -> dict[str, Any]:
-    """A mapping as the page sends it: tables of texts and numbers."""
-    given = body.get("mapping")
-    if isinstance(given, dict):
-        rows = given.get("rows")
-        tables = [given.get(k, {}) for k in ("time", "file", "axes")]
-        named = isinstance(rows, list) and all(
-            isinstance(r, dict) and isinstance(r.get("channel"), str) for r in rows
-        )
-        if named and all(isinstance(t, dict) for t in tables):
-            return given
-    raise UserError("a mapping is needed", where="mapping", found=repr(given)[:80])
-
-
-async def _take(session: Session, request: Request) -> Response:
+async def _take_away(session: Session, request: Request) -> Response:
     what = request.path_params["what"]
     kind, data = await run_in_threadpool(views.take_away, session.state, what)
     # A report holds its style and its figures in itself: it is handed over as a file, never shown as our page.
     return Response(data, media_type=kind, headers={"content-disposition": f'attachment; filename="{what}"'})
 
 
+# --- what is done --------------------------------------------------------------------------------------
+
+
 async def _upload(session: Session, request: Request) -> Response:
-    path = await receive(session.state, request.query_params.get("name", ""), request)
-    await run_in_threadpool(check_upload, path)
-    return _json({"path": str(path)})
+    path = await receive_flight(session.state.model, request.query_params.get("name", ""), request)
+    await run_in_threadpool(check_flight, path)
+    return _send_json({"path": str(path)})
 
 
-async def _body(request: Request) -> dict[str, Any]:
+async def _try_mapping(session: Session, request: Request) -> Response:
+    body = await _read_body(request)
+    path, given = session.places.inside(_text(body, "flight")), _mapping(body)
+    return _send_json(await run_in_threadpool(mapping.try_mapping, session.state.model, path, given))
+
+
+async def _do(session: Session, request: Request) -> Response:
+    body = await _read_body(request)
+    action = ACTIONS.get(request.path_params["what"])
+    if action is None:
+        raise UserError("there is no such thing to do", found=request.path_params["what"][:40])
+    await run_in_threadpool(action, session, body)
+    return JSONResponse({"status": session.jobs.status.as_json()}, 202)
+
+
+async def _read_body(request: Request) -> dict[str, Any]:
     if request.headers.get("content-type", "").split(";")[0] != "application/json":
         raise UserError("the body must be JSON", where=str(request.url.path))
     try:
@@ -250,40 +240,47 @@ def _whole(text: str) -> int:
     return number
 
 
-async def _do(session: Session, request: Request) -> Response:
-    body = await _body(request)
-    action = ACTIONS.get(request.path_params["what"])
-    if action is None:
-        raise UserError("there is no such thing to do", found=request.path_params["what"][:40])
-    await run_in_threadpool(action, session, body)
-    return JSONResponse({"status": session.jobs.status.as_json()}, 202)
+def _require(good: bool, what: str, where: str, found: object) -> None:
+    """UserError unless what the page sends is ``good``."""
+    if not good:
+        raise UserError(f"{what} is needed", where=where[:40], found=repr(found)[:80])
 
 
 def _text(body: Body, key: str, longest: int = 4096) -> str:
     value = body.get(key)
-    if not isinstance(value, str) or len(value) > longest:
-        raise UserError("a text is needed", where=key, found=repr(value)[:80])
-    return value
+    _require(isinstance(value, str) and len(value) <= longest, "a text", key, value)
+    return str(value)
 
 
 def _texts(body: Body, key: str) -> list[str]:
     value = body.get(key)
-    if not isinstance(value, list) or not all(isinstance(x, str) for x in value) or len(value) > 2000:
-        raise UserError("a list of texts is needed", where=key, found=repr(value)[:80])
-    return value
+    good = isinstance(value, list) and len(value) <= 2000 and all(isinstance(x, str) for x in value)
+    _require(good, "a list of texts", key, value)
+    return list(value or ())
 
 
 def _count(body: Body, key: str) -> int:
     value = body.get(key)
-    if type(value) is not int:
-        raise UserError("a whole number is needed", where=key, found=repr(value)[:40])
-    return value
+    _require(type(value) is int, "a whole number", key, value)
+    return int(str(value))
 
 
 def _numbers(given: object, where: str) -> tuple[float, ...]:
-    if isinstance(given, list) and given and all(type(x) in (int, float) for x in given):
-        return tuple(float(x) for x in given)
-    raise UserError("numbers are needed", where=where[:40], found=repr(given)[:80])
+    good = isinstance(given, list) and bool(given) and all(type(x) in (int, float) for x in given)
+    _require(good, "a list of numbers", where, given)
+    return tuple(map(float, given))  # type: ignore[call-overload]
+
+
+def _mapping(body: Body) -> dict[str, Any]:
+    """A mapping as the page sends it: tables of texts and numbers."""
+    given = body.get("mapping")
+    own = given if isinstance(given, dict) else {}
+    rows, tables = own.get("rows"), [own.get(k, {}) for k in ("time", "file", "axes")]
+    named = isinstance(rows, list) and all(
+        isinstance(r, dict) and isinstance(r.get("channel"), str) for r in rows
+    )
+    _require(named and all(isinstance(t, dict) for t in tables), "a mapping", "mapping", given)
+    return own
 
 
 def _open(session: Session, body: Body) -> None:
@@ -298,9 +295,8 @@ def _new(session: Session, body: Body) -> None:
 
 
 def _map(session: Session, body: Body) -> None:
-    flight = session.places.inside(_text(body, "flight"))
-    m = session.state.model
-    mapping.keep(m, flight, _given(body), replace=body.get("replace") is True)
+    flight, m = session.places.inside(_text(body, "flight")), session.state.model
+    mapping.keep(m, flight, _mapping(body), replace=body.get("replace") is True)
     session.open(m.directory.path, [flight])  # the model anew: the mapping is its own now
 
 
@@ -310,19 +306,20 @@ def _leave(session: Session, body: Body) -> None:
         session.leave_out(flight, None)
         return
     first, last = (float(x) if isinstance(x, int | float) else math.nan for x in ends)
-    if not first < last:
-        raise UserError("a segment of time is needed", where="from, to", found=repr(ends)[:80])
+    _require(first < last, "a segment of time", "from, to", ends)
     session.leave_out(flight, (first, last))
 
 
 def _edit(session: Session, body: Body) -> None:
-    """Values of the test sheet: name -> as many numbers as accelerometers, unit, sigma."""
-    values, found = body.get("values"), dict[str, Edit]()
+    """Values of the test sheet: name -> as many numbers as accelerometers, unit, sigma, fixed."""
+    values, found = body.get("values"), dict[str, SheetEdit]()
     for name, given in values.items() if isinstance(values, dict) else ():
         own = given if isinstance(given, dict) else {}
         value, sigma = _numbers(own.get("value"), name), own.get("sigma")
         of_sheet = None if sigma is None else _numbers(sigma, f"{name}, sigma")
-        found[name] = RawQuantity(value, _text(own, "unit", 80)), of_sheet
+        found[name] = SheetEdit(
+            RawQuantity(value, _text(own, "unit", 80)), of_sheet, own.get("fixed") is True
+        )
     if not found:
         raise UserError("no value was changed", remedy="change one, then save")
     session.edit(found)
@@ -330,9 +327,17 @@ def _edit(session: Session, body: Body) -> None:
 
 def _try(session: Session, body: Body) -> None:
     units = body.get("units")
-    if not isinstance(units, dict):
-        raise UserError("every parameter needs a unit", where="units", found=repr(units)[:80])
-    session.attempt(_text(body, "id", 80), _text(body, "add", 600), {n: _text(units, n, 80) for n in units})
+    _require(isinstance(units, dict), "a unit of every parameter", "units", units)
+    given = {n: _text(dict(units or {}), n, 80) for n in units or {}}
+    session.attempt(_text(body, "id", 80), _text(body, "add", 600), given)
+
+
+def _put_beside(session: Session, body: Body) -> None:
+    session.put_beside(None if body.get("step") is None else _count(body, "step"))
+
+
+def _compensate(session: Session, body: Body) -> None:
+    session.compensate(_text(body, "calibration", 40), _text(body, "demodulator", 40))
 
 
 ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
@@ -344,17 +349,14 @@ ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
     "remove": lambda session, body: session.remove(_text(body, "effect", 80)),
     "edit": _edit,
     "leave": _leave,
+    "validate": lambda session, body: session.keep_for_validation(_count(body, "flight")),
     "undo": lambda session, body: session.go("undo"),
     "redo": lambda session, body: session.go("redo"),
     "restore": lambda session, body: session.go("restore", _count(body, "step")),
-    "beside": lambda session, body: session.beside(
-        None if body.get("step") is None else _count(body, "step")
-    ),
+    "beside": _put_beside,
     "try": _try,
     "keep": lambda session, body: session.keep(),
-    "compensate": lambda session, body: session.compensate(
-        _text(body, "calibration", 40), _text(body, "demodulator", 40)
-    ),
+    "compensate": _compensate,
     "calibrate": lambda session, body: session.calibrate(),
     "cancel": lambda session, body: session.jobs.cancel(),
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,14 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.compensation.calibrate import information, invert_root
 from ragg_runtime.identification import comparison, heat, predict
 from ragg_runtime.identification import series as reported
-from ragg_runtime.identification.comparison import Comparison
-from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.report import parameters, whiteness
 from ragg_runtime.report.plots import draw_file
-from ragg_runtime.studio.sampled import Sampled
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
 
@@ -43,6 +42,9 @@ RESOLUTION = 0.25
 LEAST = 0.9
 """Share of the samples under a window that must be valid."""
 
+MODELS = 12
+"""Models that are drawn from the posterior."""
+
 
 @dataclass(frozen=True)
 class Asked:
@@ -58,193 +60,254 @@ class Asked:
     points: int
 
 
+HEAD = struct.Struct("<4sIddI")
+"""What is sent: mark, number of points, first abscissa, step, kind (0: values, 1: least and greatest values)."""
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A uniformly sampled series (N,), NaN where there is none, from ``start`` in steps of ``step`` (s); single precision draws all."""
+
+    start: float
+    step: float
+    values: NDArray[np.float32]
+
+    def window(self, first: float, last: float, points: int) -> bytes:
+        """The series between two abscissae, as :data:`HEAD` and floats: its samples, or the extremes of about ``points`` segments."""
+        n = len(self.values)
+        a = int(np.clip(np.floor((first - self.start) / self.step), 0, n))
+        b = int(np.clip(np.ceil((last - self.start) / self.step) + 1, a, n))
+        if b - a <= 2 * points:
+            return self._pack(self.values[None, a:b], float(a), 1)
+        length = -(-(b - a) // points)
+        a -= a % length  # segments stay the same ones where the window moves
+        x = self.values[a:b]
+        parts = np.pad(x, (0, -len(x) % length), constant_values=np.nan).reshape(-1, length)
+        extremes = np.stack([np.fmin.reduce(parts, axis=1), np.fmax.reduce(parts, axis=1)])
+        return self._pack(extremes, a + 0.5 * (length - 1), length)
+
+    def _pack(self, values: NDArray[np.float32], first: float, length: int) -> bytes:
+        start, step = self.start + first * self.step, length * self.step
+        head = HEAD.pack(b"RAGG", values.shape[1], start, step, len(values) - 1)
+        return head + np.ascontiguousarray(values, dtype="<f4").tobytes()
+
+
+def sample(start: float, step: float, x: NDArray[np.floating[Any]]) -> Sampled:
+    """A series (N,) as the page draws it."""
+    return Sampled(start, step, np.asarray(x, dtype=np.float32))
+
+
+def sample_grid(time: Array, x: Array, step: float) -> Sampled:
+    """A series on a uniform grid some of whose samples are missing: NaN there."""
+    places = np.round((time - time[0]) / step).astype(np.intp)
+    values = np.full(int(places[-1]) + 1, np.nan, dtype=np.float32)
+    values[places] = x
+    return Sampled(float(time[0]), step, values)
+
+
+# --- series over time ----------------------------------------------------------------------------------
+
+
 def draw_series(s: State, a: Asked) -> bytes:
     """The window of a series that is asked for."""
     kind, _, name = a.what.partition(":")
     if s.compared is None and kind == "measured" and 0 <= a.flight < len(s.flights):
-        made = _unexamined(s, a.flight)
+        made = _read_unexamined(s, a.flight)
     elif kind == "compensated":
-        made = _compensated(s, name, a.flight)
-    elif kind == "channel":
-        made = _channel(s, name, _place(s, a))
+        made = _find_compensated(s, name, a.flight)
     else:
-        made = _drawn(s, a, _place(s, a))
+        made = View(s, a).sample()
     return made.window(a.first, a.last, a.points)
 
 
-def _known(s: State) -> Comparison:
-    if s.compared is None:
-        raise UserError("there is nothing to draw yet", remedy="wait until the flights are compared")
-    return s.compared
-
-
-def _tested(s: State) -> Diagnosis:
-    if s.diagnosed is None:
-        raise UserError("the effects are not tested yet", remedy="wait a moment")
-    return s.diagnosed
-
-
-def _place(s: State, a: Asked) -> int:
-    """Which observation an output of a flight is: what ``n`` means everywhere below."""
-    known = [n for n, o in enumerate(_known(s).fitted.observations) if o.flight == a.flight]
-    if not 0 <= a.output < len(known):
-        raise UserError("there is no such flight", found=f"flight {a.flight + 1}, output {a.output + 1}")
-    return known[a.output]
-
-
-def _unexamined(s: State, flight: int) -> Sampled:
+def _read_unexamined(s: State, flight: int) -> Sampled:
     """The output of a flight as it was read, before it is compared."""
     x = s.flights[flight]
     if not x.outputs or not len(x):
         raise UserError("the flight holds no output", where=x.name)
-    values = next(iter(x.outputs.values()))
-    return s.cache.get(("read", flight), lambda: Sampled.of(0.0, 1.0 / x.rate, values))
+    return sample(0.0, 1.0 / x.rate, next(iter(x.outputs.values())))
 
 
-def _compensated(s: State, what: str, flight: int) -> Sampled:
+def _find_compensated(s: State, what: str, flight: int) -> Sampled:
     """``inline`` and such, or ``inline:low`` and ``inline:high``: one standard uncertainty below and above it, Eo."""
-    c = s.compensated
+    c = s.require("compensated")
     name, _, edge = what.partition(":")
-    if (
-        c is None
-        or not 0 <= flight < len(c.series)
-        or f"{name}_std" not in c.units
-        or edge not in ("", "low", "high")
-    ):
+    signs = {"": 0.0, "low": -1.0, "high": 1.0}
+    if not (0 <= flight < len(c.series) and f"{name}_std" in c.units and edge in signs):
         raise UserError("there is no such compensated channel", found=what[:40])
-    x, sign = c.series[flight], {"": 0.0, "low": -1.0, "high": 1.0}[edge]
+    x = c.series[flight]
     start, end = (float(x["time"][k]) for k in (0, -1))
-    y = x[name] + sign * x[f"{name}_std"] if sign else x[name]
-    key = ("compensated", c.result["calibration"], c.result["demodulator"]["name"], what, flight)
-    return s.cache.get(key, lambda: Sampled.of(start, (end - start) / max(1, len(y) - 1), y))
+    y = x[name] + signs[edge] * x[f"{name}_std"] if edge else x[name]
+    return sample(start, (end - start) / max(1, len(y) - 1), y)
 
 
-def _channel(s: State, name: str, n: int) -> Sampled:
-    """A recorded channel in its own unit."""
-    r = _known(s).fitted.prepared[n].observation.record
-    if name not in r.wide:
-        raise UserError("the flight has no such channel", found=repr(name[:40]))
-    y = np.where(r.valid, r.wide[name], np.nan)
-    return s.cache.get(("channel", name, n), lambda: Sampled.of(float(r.time[0]), 1.0 / r.rate, y))
+class View:
+    """What is asked of an output of a flight, ``n`` in its comparison ``c``; of a flight kept for validation nothing is fitted."""
 
+    def __init__(self, s: State, a: Asked) -> None:
+        self.s, self.a = s, a
+        self.c, flight = s.result_for(a.flight)
+        self.f, self.kept = self.c.fitted, self.c is not s.compared
+        known = [n for n, o in enumerate(self.f.observations) if o.flight == flight]
+        if not 0 <= a.output < len(known):
+            found = f"flight {a.flight + 1}, output {a.output + 1}"
+            raise UserError("there is no such flight", found=found)
+        self.n = known[a.output]
+        self.prepared, self.k_ggi = self.f.prepared[self.n], self.f.scales[self.n]
+        self.record, self.residual = self.prepared.observation.record, self.c.residual[self.n]
 
-def _drawn(s: State, a: Asked, n: int) -> Sampled:
-    """A series in V, Eo, or demodulated (``inline``, ``cross``, Eo)."""
-    f = _known(s).fitted
-    r, rows = f.prepared[n].observation.record, _rows_known(s, a, n)
+    def remember(self, key: tuple[object, ...], make: Callable[[], Any]) -> Any:
+        """Something of this output, made once a state."""
+        return self.s.cache.get((self.a.flight, self.n, *key), make)
 
-    def make() -> Sampled:
-        x, time = _volts(s, a, n, a.what, rows), r.time[rows]
-        if a.unit not in DEMODULATED:
-            y = np.where(r.valid[rows], x / (1.0 if a.unit == "V" else f.scales[n]), np.nan)
-            return Sampled.of(float(time[0]), 1.0 / r.rate, y)
+    def sample(self) -> Sampled:
+        """The series in V, Eo, or demodulated (``inline``, ``cross``, Eo); a recorded channel in its own unit."""
+        kind, _, name = self.a.what.partition(":")
+        if kind == "channel":
+            return self._sample_channel(name)
+        rows = self.signature()[0] if kind in ("effect", "left") else slice(0, len(self.record.time))
+        effects = self.a.effects if kind in ("effect", "left") else ()
+        key = ("drawn", self.a.what, self.a.unit, effects, rows.start, rows.stop)
+        found: Sampled = self.remember(key, lambda: self._sample_rows(rows))
+        return found
+
+    def _sample_channel(self, name: str) -> Sampled:
+        r = self.record
+        if name not in r.wide:
+            raise UserError("the flight has no such channel", found=repr(name[:40]))
+        return sample(float(r.time[0]), 1.0 / r.rate, np.where(r.valid, r.wide[name], np.nan))
+
+    def _sample_rows(self, rows: slice) -> Sampled:
+        kind, _, edge = self.a.what.partition(":")
+        if kind != "fan":
+            return self._convert(self.volts(self.a.what, rows), rows)
+        each = [self._convert(x, rows) for x in self._draw_models()]
+        outermost = np.fmin if edge == "low" else np.fmax
+        return Sampled(each[0].start, each[0].step, outermost.reduce([x.values for x in each]))
+
+    def _convert(self, x: Array, rows: slice) -> Sampled:
+        """A series of ``rows``, V, in the unit that is asked for."""
+        r, unit = self.record, self.a.unit
+        if unit not in DEMODULATED:
+            y = np.where(r.valid[rows], x / (1.0 if unit == "V" else self.k_ggi), np.nan)
+            return sample(float(r.time[rows][0]), 1.0 / r.rate, y)
         if not r.turning:
             raise UserError("disc not spinning: no demodulation")
         if len(x) < len(r.time):
             raise UserError("the signature of an effect is drawn in V or Eo alone in so long a flight")
-        found = comparison.demodulated_one(f, n, x)
+        found = comparison.demodulated_one(self.f, self.n, x)
         if not len(found[0]):
-            raise UserError("the flight is too short to be demodulated", where=f.observations[n].name)
-        return Sampled.with_gaps(found[0], found[1 + DEMODULATED.index(a.unit)], 1.0 / r.rate)
+            where = self.prepared.observation.name
+            raise UserError("the flight is too short to be demodulated", where=where)
+        return sample_grid(found[0], found[1 + DEMODULATED.index(unit)], 1.0 / r.rate)
 
-    effects = a.effects if a.what in ("effect", "left") else ()
-    return s.cache.get(("drawn", a.what, a.unit, n, effects, rows.start, rows.stop), make)
+    def signature(self) -> tuple[slice, Array]:
+        """Samples, and what the ticked effects would take out of the residual there, V: of a long flight where the window lies."""
+        d, a = self.s.require("diagnosed"), self.a
+        if self.kept:
+            raise UserError("of a flight that is kept for validation no effect is predicted")
+        rows = predict.choose_rows(d.fitted, self.n, (a.first, a.last))
+
+        def make() -> tuple[slice, Array]:
+            v = predict.fit_effects(d.fitted, predict.field_of_diagnosis(d), a.effects)
+            return predict.compute_signature(d.fitted, self.n, v, rows)
+
+        found: tuple[slice, Array] = self.remember(("signature", a.effects, rows.start, rows.stop), make)
+        return found
+
+    def volts(self, name: str, rows: slice) -> Array:
+        """(rows,) V of any series; zero where a sample is not valid.
+
+        ``effect`` is what the ticked effects would take out of the residual, ``left`` what they would leave; ``term:h:p`` a generic
+        term as it would be fitted by itself; ``band:low:high`` (Hz) what of the residual lies there; ``before`` the residual of the
+        last step, ``beside`` that of the model beside it.
+        """
+        kind, _, of = name.partition(":")
+        match kind:
+            case "effect" | "left":
+                known, taken = self.signature()
+                if known.start > rows.start or known.stop < rows.stop:
+                    raise UserError("of so long a flight the signature is not known everywhere")
+                taken = taken[rows.start - known.start : rows.stop - known.start]
+                return taken if kind == "effect" else self.residual[rows] - taken
+            case "measured":
+                x = reported.measured(self.prepared)
+            case "residual":
+                x = self.residual
+            case "modelled":
+                x = reported.measured(self.prepared) - self.residual
+            case "before" | "beside":
+                x = self._find_other(kind)
+            case "term":
+                x = self._fit_term(of)
+            case "band":
+                x = self._pass_band(of)
+            case _:
+                raise UserError("there is no such series", found=repr(name[:40]))
+        return np.asarray(x[rows])
+
+    def _draw_models(self) -> list[Array]:
+        """Residuals (N,), V, of models drawn from the posterior of the parameters, the same ones each time."""
+        if self.kept:
+            raise UserError("of a flight that is kept for validation no model is drawn")
+        root = invert_root(information(self.f))
+        z = np.random.default_rng(0).standard_normal((MODELS, self.f.n_base))
+        return [self.f.residuals(root @ x)[self.n] for x in z]
+
+    def _find_other(self, kind: str) -> Array:
+        other = self.s.previous if kind == "before" else self.s.beside[1] if self.s.beside else None
+        if other is None or len(other.fitted.prepared) != len(self.f.prepared):
+            raise UserError(
+                "there is no step before this one" if kind == "before" else "no model is beside it"
+            )
+        return other.residual[self.n]
+
+    def terms(self, effects: tuple[str, ...]) -> heat.Heat:
+        """Harmonic x motion term of the residual once these effects are in."""
+        d = self.s.diagnosed
+        if self.kept:
+            d, effects = None, ()
+        f = self.f if d is None else d.fitted
+        given = [] if d is None else predict.columns_of(predict.field_of_diagnosis(d), effects)
+        make = lambda: heat.heat(f.prepared[self.n], f.triangles[self.n], f.n_base, given)  # noqa: E731
+        found: heat.Heat = self.remember(("heat", effects, d is None), make)
+        return found
+
+    def _fit_term(self, name: str) -> Array:
+        harmonic, _, product = name.partition(":")
+        h = self.terms(())
+        if harmonic not in h.harmonics or product not in h.products:
+            raise UserError("there is no such term", found=f"{harmonic} x {product}"[:80])
+        c = float(h.coefficient[h.harmonics.index(harmonic), h.products.index(product)])
+        if not np.isfinite(c):
+            raise UserError("the model holds this term already", found=f"{harmonic} x {product}")
+        return heat.series(self.prepared, harmonic, product, c)
+
+    def _pass_band(self, name: str) -> Array:
+        try:
+            low, high = (float(x) for x in name.split(":"))
+        except ValueError:
+            expected = "band:0.2:0.3"
+            raise UserError("a band is needed", found=repr(name[:40]), expected=expected) from None
+        return reported.within_band(self.residual, self.record.rate, low, high)
+
+    def rows(self) -> slice:
+        """The samples of the window; UserError if these are too few for a spectrum."""
+        n, t0, rate = len(self.record.time), float(self.record.time[0]), self.record.rate
+        first, last = ((t - t0) * rate for t in (self.a.first, self.a.last))
+        i, j = int(np.clip(np.floor(first), 0, n)), int(np.clip(np.ceil(last) + 1, 0, n))
+        if j - i < 64:
+            found = f"{max(0, j - i)} samples"
+            raise UserError("the segment is too short for a spectrum", found=found)
+        return slice(i, j)
 
 
-def _rows_known(s: State, a: Asked, n: int) -> slice:
-    """Samples at which a series is known: of a long flight the signature of an effect only where the window lies."""
-    if a.what in ("effect", "left"):
-        return _signature(s, a, n)[0]
-    return slice(0, len(_known(s).fitted.prepared[n].observation.record.time))
-
-
-def _signature(s: State, a: Asked, n: int) -> tuple[slice, Array]:
-    """Samples, and what the ticked effects would take out of the residual there, V."""
-    d = _tested(s)
-    rows = predict.choose_rows(d.fitted, n, (a.first, a.last))
-
-    def make() -> tuple[slice, Array]:
-        return predict.compute_signature(
-            d.fitted, n, predict.fit_effects(d.fitted, predict.field_of_diagnosis(d), a.effects), rows
-        )
-
-    return s.cache.get(("signature", a.effects, n, rows.start, rows.stop), make)
-
-
-def _volts(s: State, a: Asked, n: int, name: str, rows: slice) -> Array:
-    """(rows,) V of any series; zero where a sample is not valid.
-
-    ``effect`` is what the ticked effects would take out of the residual, ``left`` what they would leave; ``term:h:p`` a generic
-    term as it would be fitted by itself; ``band:low:high`` (Hz) what of the residual lies there; ``before`` the residual of the
-    last step, ``beside`` that of the model beside it.
-    """
-    now = _known(s)
-    kind, _, of = name.partition(":")
-    if kind in ("effect", "left"):
-        known, taken = _signature(s, a, n)
-        if known.start > rows.start or known.stop < rows.stop:
-            raise UserError("of so long a flight the signature is not known everywhere")
-        taken = taken[rows.start - known.start : rows.stop - known.start]
-        return taken if kind == "effect" else now.residual[n][rows] - taken
-    match kind:
-        case "measured":
-            x = reported.measured(now.fitted.prepared[n])
-        case "residual":
-            x = now.residual[n]
-        case "modelled":
-            x = reported.measured(now.fitted.prepared[n]) - now.residual[n]
-        case "before" | "beside":
-            x = _other(s, kind, n)
-        case "term":
-            x = _term(s, of, n)
-        case "band":
-            x = _band(s, of, n)
-        case _:
-            raise UserError("there is no such series", found=repr(name[:40]))
-    return np.asarray(x[rows])
-
-
-def _other(s: State, kind: str, n: int) -> Array:
-    other = s.previous if kind == "before" else s.beside[1] if s.beside else None
-    if other is None or len(other.fitted.prepared) != len(_known(s).fitted.prepared):
-        raise UserError("there is no step before this one" if kind == "before" else "no model is beside it")
-    return other.residual[n]
-
-
-def _term(s: State, name: str, n: int) -> Array:
-    harmonic, _, product = name.partition(":")
-    h = terms_of(s, (), n)
-    if harmonic not in h.harmonics or product not in h.products:
-        raise UserError("there is no such term", found=f"{harmonic} x {product}"[:80])
-    c = float(h.coefficient[h.harmonics.index(harmonic), h.products.index(product)])
-    if not np.isfinite(c):
-        raise UserError("the model holds this term already", found=f"{harmonic} x {product}")
-    return heat.series(_known(s).fitted.prepared[n], harmonic, product, c)
-
-
-def _band(s: State, name: str, n: int) -> Array:
-    try:
-        low, high = (float(x) for x in name.split(":"))
-    except ValueError:
-        raise UserError("a band is needed", found=repr(name[:40]), expected="band:0.2:0.3") from None
-    now = _known(s)
-    return reported.within_band(now.residual[n], now.fitted.prepared[n].observation.record.rate, low, high)
-
-
-def terms_of(s: State, effects: tuple[str, ...], n: int) -> heat.Heat:
-    """Harmonic x motion term of the residual once these effects are in."""
-    d = s.diagnosed
-    f = _known(s).fitted if d is None else d.fitted
-    given = [] if d is None else predict.columns_of(predict.field_of_diagnosis(d), effects)
-    make = lambda: heat.heat(f.prepared[n], f.triangles[n], f.n_base, given)  # noqa: E731
-    return s.cache.get(("heat", effects, n, d is None), make)
+# --- everything else -----------------------------------------------------------------------------------
 
 
 def predict_error(s: State, a: Asked) -> dict[str, Any]:
     """The error that the ticked effects would leave, and that without them."""
-    d, unwhitened = _tested(s), s.unwhitened
-    if unwhitened is None:
-        raise UserError("the effects are not tested yet", remedy="wait a moment")
+    d, unwhitened = s.require("diagnosed"), s.require("unwhitened")
     known = predict.field_of_diagnosis(d)
 
     def predicted(*effects: str) -> predict.Prediction:
@@ -255,30 +318,18 @@ def predict_error(s: State, a: Asked) -> dict[str, Any]:
     return found.as_json() | {"before_Eo": predicted().rms_Eo, "noise_Eo": d.noise_floor}
 
 
-def _window(time: Array, rate: float, a: Asked) -> slice:
-    n = len(time)
-    first, last = ((t - float(time[0])) * rate for t in (a.first, a.last))
-    i, j = int(np.clip(np.floor(first), 0, n)), int(np.clip(np.ceil(last) + 1, 0, n))
-    if j - i < 64:
-        raise UserError("the segment is too short for a spectrum", found=f"{max(0, j - i)} samples")
-    return slice(i, j)
-
-
 def draw_spectra(s: State, a: Asked) -> dict[str, Any]:
     """Amplitude densities, Eo/sqrt(Hz), of the residual now, before the last step, and with effects; and the noise."""
-    f, n = _known(s).fitted, _place(s, a)
-    w, k_ggi = f.prepared[n], f.scales[n]
-    r = w.observation.record
-    rows = _window(r.time, r.rate, a)
+    v = View(s, a)
+    r, rows, lines = v.record, v.rows(), {}
     ticked = a.effects and s.diagnosed is not None
     wanted = {"beside": s.beside, "before": s.previous, "residual": True, "left": ticked}
-    lines = {}
-    for name in (k for k, v in wanted.items() if v):
+    for name in (k for k, there in wanted.items() if there):
         try:
-            x = _volts(s, a, n, name, rows)
+            x = v.volts(name, rows)
         except UserError:
             continue
-        found = reported.spectrum(x / k_ggi, r.valid[rows], r.rate, DENSE)
+        found = reported.spectrum(x / v.k_ggi, r.valid[rows], r.rate, DENSE)
         if found is not None:
             lines[name] = found
     if not lines:
@@ -287,26 +338,23 @@ def draw_spectra(s: State, a: Asked) -> dict[str, Any]:
     return {
         "frequency": grid.tolist(),
         "lines": {k: x.density.tolist() for k, x in lines.items()},
-        "noise": reported.noise_density(w, k_ggi, r.spin_frequency, grid).tolist(),
+        "noise": reported.noise_density(v.prepared, v.k_ggi, r.spin_frequency, grid).tolist(),
         "spin_Hz": abs(r.spin_frequency),
     }
 
 
 def draw_spectrogram(s: State, a: Asked) -> bytes:
     """Instants, frequencies and densities (Eo/sqrt(Hz)) as floats: two lengths, first and last of each axis, values."""
-    f, n = _known(s).fitted, _place(s, a)
-    r = f.prepared[n].observation.record
-    rows = _window(r.time, r.rate, a)
-    spin = abs(r.spin_frequency)
+    v = View(s, a)
+    r, rows, spin = v.record, v.rows(), abs(v.record.spin_frequency)
     top = min(MULTIPLES * spin or r.rate, r.rate / 2)
     name = a.what if a.what in ("residual", "before", "left", "measured") else "residual"
-    x = _volts(s, a, n, name, rows) / f.scales[n]
-    time, frequency, density = spectrogram(x, np.asarray(r.valid[rows]), r.rate, spin or top / MULTIPLES, top)
+    x, valid = v.volts(name, rows) / v.k_ggi, np.asarray(r.valid[rows])
+    time, frequency, density = spectrogram(x, valid, r.rate, spin or top / MULTIPLES, top)
     if not np.isfinite(density).any():
         raise UserError("no segment without gaps is long enough for a spectrogram")
     t = r.time[rows.start] + time
-    ends = t[0], t[-1], frequency[0], frequency[-1]
-    head = struct.pack("<4sIIdddd", b"RAGS", len(t), len(frequency), *ends)
+    head = struct.pack("<4sIIdddd", b"RAGS", len(t), len(frequency), t[0], t[-1], frequency[0], frequency[-1])
     return head + np.ascontiguousarray(density, dtype="<f4").tobytes()
 
 
@@ -336,12 +384,12 @@ def spectrogram(
 
 def draw_heat(s: State, a: Asked) -> dict[str, Any]:
     """Significance of harmonic x product of channels: the single channels, and the products that stand out most."""
-    h = terms_of(s, a.effects, _place(s, a))
-    strongest = np.nanmax(np.abs(np.where(np.isnan(h.z), 0.0, h.z)), axis=0)
+    h = View(s, a).terms(a.effects)
+    strongest = np.nanmax(np.abs(np.nan_to_num(h.z)), axis=0)
     single = [
         k
         for k, p in enumerate(h.products)
-        if "*" not in p and "(" not in p and not p.startswith(("d_", "d2_"))
+        if not any(c in p for c in "*(") and not p.startswith(("d_", "d2_"))
     ]
     rest = [int(k) for k in np.argsort(-strongest, kind="stable") if k not in single]
     chosen = [*single, *rest[: max(0, COLUMNS - len(single))]]
@@ -358,16 +406,15 @@ def draw_heat(s: State, a: Asked) -> dict[str, Any]:
 
 def draw_panel(s: State, a: Asked) -> bytes:
     """A panel of the reports as SVG: ``correlations``, ``whiteness``, or ``against:CHANNEL`` of a flight."""
-    now, n = _known(s), _place(s, a)
+    v = View(s, a)
     kind, _, channel = a.what.partition(":")
-    residual = now.residual[n]
     match kind:
         case "correlations":
-            plot: Any = parameters.correlations(now.fitted)[0]
+            plot: Any = parameters.correlations(v.f)[0]
         case "whiteness":
-            plot = whiteness.plot_whiteness(now.fitted, n, residual)
+            plot = whiteness.plot_whiteness(v.f, v.n, v.residual)
         case "against":
-            plot = whiteness.plot_against(now.fitted, n, residual, channel)
+            plot = whiteness.plot_against(v.f, v.n, v.residual, channel)
         case _:
             raise UserError("there is no such panel", found=repr(kind[:40]))
     return draw_file(plot).encode()

@@ -1,27 +1,26 @@
-"""The server: on this machine alone, until it is interrupted."""
+"""The server of the studio: for one user on this machine, one token and then a cookie, until it is interrupted."""
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
-import html
-import os
+import secrets
 import socket
 import sys
-import tempfile
 import webbrowser
 from collections.abc import Callable, Sequence
-from functools import partial
+from http.cookies import CookieError, SimpleCookie
 from pathlib import Path
+from urllib.parse import parse_qs
 
-import platformdirs
 import uvicorn
-from uvicorn.protocols.http.h11_impl import H11Protocol
+from starlette.datastructures import Headers
+from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.studio.guard import UNFINISHED, Guard, Keys
-from ragg_runtime.studio.routes import UPLOAD, application
-from ragg_runtime.studio.session import Places, Session
+from ragg_runtime.studio.files import Places
+from ragg_runtime.studio.routes import UPLOAD, make_application
+from ragg_runtime.studio.session import Session
 
 LOOPBACK = "127.0.0.1"
 
@@ -30,6 +29,23 @@ SWITCH = 0.0005
 
 CLOSING = 1
 """Longest wait for open pages once it is interrupted, s."""
+
+BODY = 1 << 20
+"""Longest body of a request, bytes; files have a limit of their own."""
+
+ONCE = "open the address that `ragg studio` printed; it serves once: start it again for a new one"
+ELSEWHERE = "the request comes from another site"
+
+HEADERS = {
+    # nothing from elsewhere, no code and no style inside the page itself
+    "content-security-policy": "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:;"
+    " connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+    "cache-control": "no-store",
+}
 
 
 def serve(
@@ -41,78 +57,31 @@ def serve(
             raise UserError("there is no such file or folder", where=path)
     sys.setswitchinterval(SWITCH)
     session = Session(Places.of(model, flights))
-    with _listening(port) as listening:
-        keys = Keys()
+    with _listen(port) as listening:
         own = int(listening.getsockname()[1])
-        app = Guard(application(session), keys, own, (UPLOAD,))
+        guard = Guard(make_application(session), own, (UPLOAD,))
         config = uvicorn.Config(
-            app,
+            guard,
             log_level="warning",
             access_log=False,  # the token does not belong in a log
             server_header=False,
-            http=Connection,
             proxy_headers=False,
             lifespan="off",
             ws="none",
             timeout_graceful_shutdown=CLOSING,
         )
-        address = f"http://{LOOPBACK}:{own}/?token={keys.token}"
         if model is not None:
             session.open(model, flights)  # first: a page that is opened at once finds it being read
+        address = f"http://{LOOPBACK}:{own}/?token={guard.token}"
         say(address)
         if browser:
-            page = write_opening(f"http://{LOOPBACK}:{own}/", keys.token)
-            keys.forget = partial(remove_opening, page)
-            webbrowser.open(page.as_uri())
+            webbrowser.open(address)
         with contextlib.suppress(KeyboardInterrupt):  # which is how one ends it: what was done is kept
-            StudioServer(config, keys).run(sockets=[listening])
+            uvicorn.Server(config).run(sockets=[listening])
         session.jobs.cancel()
 
 
-class Connection(H11Protocol):
-    """A connection that is closed if the head of a request is not complete after :data:`UNFINISHED` seconds."""
-
-    deadline: asyncio.TimerHandle | None = None
-
-    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        super().connection_made(transport)
-        self._wait()
-
-    def data_received(self, data: bytes) -> None:
-        super().data_received(data)
-        if self._waits:
-            self._wait()
-        elif self.deadline is not None:
-            self.deadline.cancel()
-            self.deadline = None
-
-    @property
-    def _waits(self) -> bool:
-        return self.cycle is None or self.cycle.response_complete
-
-    def _wait(self) -> None:
-        if self.deadline is None:
-            self.deadline = self.loop.call_later(UNFINISHED, self._expire)
-
-    def _expire(self) -> None:
-        self.deadline = None
-        if self._waits and not self.transport.is_closing():
-            self.transport.close()
-
-
-class StudioServer(uvicorn.Server):
-    """One that leaves no token behind, however it is ended."""
-
-    def __init__(self, config: uvicorn.Config, keys: Keys) -> None:
-        super().__init__(config)
-        self._keys = keys
-
-    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        self._keys.forget()
-        await super().shutdown(sockets)
-
-
-def _listening(port: int) -> socket.socket:
+def _listen(port: int) -> socket.socket:
     """A socket on the loopback alone; 0 takes a free port."""
     made = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -120,50 +89,74 @@ def _listening(port: int) -> socket.socket:
         made.bind((LOOPBACK, port))
     except OSError as error:
         made.close()
+        remedy = "choose another with --port"
         raise UserError(
-            "the port cannot be used",
-            where=str(port),
-            found=error.strerror,
-            remedy="choose another with --port",
+            "the port cannot be used", where=str(port), found=error.strerror, remedy=remedy
         ) from None
     made.listen(128)
     return made
 
 
-_PAGE = """<!doctype html>
-<meta charset="utf-8">
-<meta name="referrer" content="no-referrer">
-<title>ragg studio</title>
-<form method="post" action="{address}"><input type="hidden" name="token" value="{token}"><button>Open ragg studio</button></form>
-<script>document.forms[0].submit()</script>
-"""
+class Guard:
+    """Lets through what comes from our own page; ``uploads`` are the paths whose bodies may be long.
+
+    The token of the address serves once, and is exchanged for the secret of a cookie.
+    """
+
+    def __init__(self, app: ASGIApp, port: int, uploads: tuple[str, ...] = ()) -> None:
+        self.token = secrets.token_urlsafe(32)
+        self._app, self._uploads, self._secret, self._used = app, uploads, secrets.token_urlsafe(32), False
+        self._hosts = (f"{LOOPBACK}:{port}", f"localhost:{port}")
+        self._cookie = f"ragg-studio-{port}"
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "http":  # there is no websocket here
+            await (self._refuse(scope) or self._app)(scope, receive, _add_headers(send))
+
+    def _refuse(self, scope: Scope) -> Response | None:
+        """What is answered in the place of the application; ``None``: the request may pass."""
+        headers, path, safe = Headers(scope=scope), scope["path"], scope["method"] in ("GET", "HEAD")
+        hosts, origins = headers.getlist("host"), headers.getlist("origin")
+        if len(hosts) != 1 or hosts[0] not in self._hosts:
+            return _refusal("this server answers to 127.0.0.1 alone", 421)
+        if any(o != f"http://{hosts[0]}" for o in origins):
+            return _refusal(ELSEWHERE)
+        if headers.get("sec-fetch-site", "same-origin") not in ("same-origin", *(["none"] if safe else [])):
+            return _refusal(ELSEWHERE)
+        if not safe and len(origins) != 1:
+            return _refusal("a request that changes something must say where it comes from")
+        length = headers.get("content-length", "0" if safe else "")
+        if not length.isdecimal() or (int(length) > BODY and path not in self._uploads):
+            return _refusal("the request is too long, or does not say how long it is", 413)
+        if self._is_known(headers):
+            return RedirectResponse("/", 303) if path == "/" and scope["query_string"] else None
+        if path == "/" and scope["method"] == "GET":
+            token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
+            if secrets.compare_digest(token.encode(), self.token.encode()) and not self._used:
+                self._used = True
+                found = RedirectResponse("/", 303)  # the token does not stay in the address
+                found.set_cookie(self._cookie, self._secret, httponly=True, samesite="strict", path="/")
+                return found
+        return _refusal(ONCE)
+
+    def _is_known(self, headers: Headers) -> bool:
+        try:
+            found = SimpleCookie(headers.get("cookie", "")).get(self._cookie)
+        except CookieError:
+            return False
+        return found is not None and secrets.compare_digest(found.value.encode(), self._secret.encode())
 
 
-def write_opening(address: str, token: str) -> Path:
-    """A file of mode 0600, in a folder of its own, that posts the token to the address."""
-    folder = Path(tempfile.mkdtemp(prefix="ragg-studio-", dir=_runtime_folder()))
-    page = folder / "open.html"
-    with open(os.open(page, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="utf-8") as f:
-        f.write(_PAGE.format(address=html.escape(address), token=html.escape(token)))
-    return page
+def _add_headers(send: Send) -> Send:
+    async def sent(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            own = {k.encode(): v.encode() for k, v in HEADERS.items()}
+            others = [(k, v) for k, v in message["headers"] if k.lower() not in own]
+            message = {**message, "headers": [*others, *own.items()]}
+        await send(message)
+
+    return sent
 
 
-def remove_opening(page: Path) -> None:
-    """Take it away, if it is still there."""
-    with contextlib.suppress(OSError):
-        page.unlink(missing_ok=True)
-        page.parent.rmdir()
-
-
-def _runtime_folder() -> Path | None:
-    """The user's own folder for what lives as long as a session; ``None``: there is none, the temporary files' serves."""
-    folder = platformdirs.user_runtime_path()
-    try:
-        known = folder.stat()
-    except OSError:
-        return None
-    return (
-        folder
-        if hasattr(os, "getuid") and known.st_uid == os.getuid() and not known.st_mode & 0o077
-        else None
-    )
+def _refusal(why: str, status: int = 403) -> Response:
+    return PlainTextResponse(f"refused: {why}\n", status)

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import os
-import re
 import threading
 import time
 import traceback
-import unicodedata
-from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import partial
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple, TypeVar
 
 from ragg_runtime import api
-from ragg_runtime.api import Added, Compensation, Loaded
+from ragg_runtime.api import Added, Compensation, Held, Loaded
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.progress import PASSES
@@ -29,15 +24,13 @@ from ragg_runtime.instrument.edit_toml import add_effect, set_parameters
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
-from ragg_runtime.io.draft import draft_mapping
-from ragg_runtime.io.files import ENDINGS, ending_of
 from ragg_runtime.model import derive
 from ragg_runtime.model.directory import Step, load_model_dir
-from ragg_runtime.studio.sampled import Cache
+from ragg_runtime.studio.files import Places, is_foreign
 
+T = TypeVar("T")
 Part = Callable[[str, float], None]
-Edit = tuple[RawQuantity, tuple[float, ...] | None]
-"""Values of a parameter, and the sheet's sigmas in the same unit (``None``: it says nothing)."""
+"""Announces a part of some work: what it is, and the samples that it passes over."""
 
 KEPT = 4
 """Results that are remembered, by model and flights: undo, redo and taking back a cut cost nothing."""
@@ -45,15 +38,52 @@ KEPT = 4
 SMALL = 1e6
 """Samples of all flights together up to which they are: what belongs to a result grows with them, and so would memory."""
 
+SERIES = 24
+"""Series of a state that are remembered: of a day at 100 Hz each takes 40 MB."""
+
+NOTHING: Mapping[str, None] = MappingProxyType(
+    dict.fromkeys(
+        ("compared", "diagnosed", "unwhitened", "held", "previous", "beside", "trial", "compensated")
+    )
+)
+"""What is known of another model or other flights."""
+
+
+class SheetEdit(NamedTuple):
+    """Values of a parameter, the sheet's sigmas in the same unit (``None``: it says nothing), and whether it is not fitted."""
+
+    value: RawQuantity
+    sigma: tuple[float, ...] | None
+    fixed: bool
+
+
+class Cache:
+    """Things that were made of a state, by name; the oldest are forgotten."""
+
+    def __init__(self) -> None:
+        self._found: dict[tuple[object, ...], Any] = {}
+        self._lock = threading.Lock()
+
+    def get(self, key: tuple[object, ...], make: Callable[[], T]) -> T:
+        """What belongs to ``key``."""
+        found = self._found.get(key)
+        if found is None:
+            found = make()
+            with self._lock:
+                while len(self._found) >= SERIES:
+                    self._found.pop(next(iter(self._found)))
+                self._found[key] = found
+        return found
+
 
 @dataclass(frozen=True)
 class State:
     """What is open and known; ``None`` and empty where it is not yet.
 
-    ``read`` are the flights as they were read, ``cuts`` the segments (from, to, s) of each that are left out;
-    ``compared``, ``diagnosed`` and ``unwhitened`` are results for exactly these. ``previous`` is the comparison before
-    the last step, ``beside`` a state of the history with its comparison, ``trial`` an own effect that is not kept yet;
-    ``cache`` holds series that were made of these.
+    ``read`` are the flights as they were read, ``cuts`` the segments (from, to, s) of each that are left out, ``kept`` how many at
+    the end are kept for validation; ``compared``, ``diagnosed`` and ``unwhitened`` are results for exactly the others, ``held`` how
+    the model calibrated on them holds on those kept. ``previous`` is the comparison before the last step, ``beside`` a state of the
+    history with its comparison, ``trial`` an own effect that is not kept yet; ``cache`` holds series that were made of these.
     """
 
     loaded: Loaded | None = None
@@ -61,27 +91,58 @@ class State:
     flights: tuple[Flight, ...] = ()
     read: tuple[Flight, ...] = ()
     cuts: tuple[tuple[tuple[float, float], ...], ...] = ()
+    kept: int = 0
     compared: Comparison | None = None
     diagnosed: Diagnosis | None = None
     unwhitened: Unwhitened | None = None
+    held: Held | None = None
     previous: Comparison | None = None
     beside: tuple[int, Comparison] | None = None
     trial: tuple[str, str, Mapping[str, str], Added] | None = None
     compensated: Compensation | None = None
     cache: Cache = field(default_factory=Cache)
 
+    def require(self, name: str) -> Any:
+        """What is known under a name of the state; UserError if it is not yet."""
+        found = getattr(self, name)
+        if found is None:
+            raise UserError("there is no result yet", remedy=REMEDIES[name])
+        return found
+
     @property
     def model(self) -> Loaded:
         """The model; UserError if none is open."""
         if self.loaded is None:
-            raise UserError(
-                "no model is open", remedy="choose a model directory, or make one from a test sheet"
-            )
+            remedy = "choose a model directory, or make one from a test sheet"
+            raise UserError("no model is open", remedy=remedy)
         return self.loaded
+
+    @property
+    def fitted(self) -> tuple[Flight, ...]:
+        """The flights that are not kept for validation; UserError if no flight is open."""
+        if not self.flights:
+            raise UserError("no flight is open", remedy="choose one first")
+        return self.flights[: len(self.flights) - self.kept]
 
     @property
     def samples(self) -> float:
         return float(sum(map(len, self.flights)))
+
+    def result_for(self, flight: int) -> tuple[Comparison, int]:
+        """The comparison that a flight is in, and its number there: of one kept for validation, by the calibration of the others."""
+        first = len(self.flights) - self.kept
+        if flight < first or self.held is None:
+            return self.require("compared"), flight
+        return self.held.comparison, flight - first
+
+
+REMEDIES = {
+    "compared": "open a flight and wait until it is compared",
+    "diagnosed": "wait until every effect is tested",
+    "unwhitened": "wait until every effect is tested",
+    "previous": "derive an effect into the model first",
+    "compensated": "compensate the flights under Apply",
+}
 
 
 class Session:
@@ -90,58 +151,81 @@ class Session:
     def __init__(self, places: Places) -> None:
         self.places = places
         self.jobs = Jobs()
-        self._lock = threading.Lock()
-        self._state = State()
+        self.state = State()
         self.shown: tuple[State, dict[str, Any]] | None = None
-        self._results: OrderedDict[object, tuple[Comparison, Diagnosis, Unwhitened]] = OrderedDict()
-
-    @property
-    def state(self) -> State:
-        return self._state
+        self._lock = threading.Lock()
+        self._results: dict[object, dict[str, object]] = {}
 
     def _put(self, **changes: object) -> None:
         with self._lock:
-            self._state = replace(self._state, **changes)  # type: ignore[arg-type]
+            self.state = replace(self.state, **changes)  # type: ignore[arg-type]
         self.jobs.changed()
+
+    def _forget(self, **changes: object) -> None:
+        self._put(**{**NOTHING, "cache": Cache(), **changes})
+
+    def _work(self, name: str, command: str, do: Callable[[State], Mapping[str, object]]) -> None:
+        """Do something beside the page that takes as long as a command, and put what comes of it into the state."""
+
+        def work(part: Part) -> None:
+            part(name, PASSES[command] * self.state.samples)
+            self._put(**do(self.state))
+
+        self.jobs.start(name, work)
 
     def open(self, model: Path | None, flights: Sequence[Path]) -> None:
         """Open a model directory and flights (``None``, none: those that are open stay), and look at them."""
-        self.jobs.start("opening", partial(self._open, model, tuple(flights)))
 
-    def _open(self, model: Path | None, flights: tuple[Path, ...], part: Part) -> None:
-        if model is not None:
-            self._put(**_nothing(), loaded=api.load(model))
-        if flights:
-            self._put(**_nothing(), paths=flights, flights=(), read=(), cuts=())
-            part("reading and examining the flights", 1.0)
-            try:
-                read = tuple(api.read_flights(self.state.model, flights))
-            except UserError:
-                if any(is_foreign(p) for p in flights):
-                    return  # the page asks what the columns are
-                raise
-            places = tuple(x.path or flights[0] for x in read)  # a file of several lines is as many flights
-            self._put(**_nothing(), paths=places, flights=read, read=read, cuts=((),) * len(read))
-        self._look(part)
+        def work(part: Part) -> None:
+            if model is not None:
+                self._forget(loaded=api.load(model))
+            if flights:
+                self._forget(paths=tuple(flights), flights=(), read=(), cuts=(), kept=0)
+                part("reading and examining the flights", 1.0)
+                try:
+                    read = tuple(api.read_flights(self.state.model, flights))
+                except UserError:
+                    if any(is_foreign(p) for p in flights):
+                        return  # the page asks what the columns are
+                    raise
+                places = tuple(
+                    x.path or flights[0] for x in read
+                )  # a file of several lines is as many flights
+                self._put(paths=places, flights=read, read=read, cuts=((),) * len(read))
+            self._look(part)
 
-    def leave_out(self, flight: int, stretch: tuple[float, float] | None) -> None:
-        """Leave a stretch of a flight (from, to, s) out of everything; ``None``: take all of it back."""
-        self._idle()
-        s = self.state
-        if not 0 <= flight < len(s.read):
-            raise UserError("there is no such flight", found=str(flight + 1))
-        cuts = list(s.cuts)
-        cuts[flight] = () if stretch is None else (*cuts[flight], stretch)
-        flights = tuple(x.without(c) for x, c in zip(s.read, cuts, strict=True))
-        if not any(flights[flight].valid):
-            raise UserError("nothing of the flight would be left", where=s.read[flight].name)
-        self._put(**_nothing(), flights=flights, cuts=tuple(cuts))
-        self.look()
+        self.jobs.start("opening", work)
 
     def new(self, model: Path, sheet: Path | None) -> None:
         """Make a model directory from a test sheet, and open it."""
         api.new(model, sheet)
         self.open(model, ())
+
+    def leave_out(self, flight: int, segment: tuple[float, float] | None) -> None:
+        """Leave a segment of a flight (from, to, s) out of everything; ``None``: take all of it back."""
+        s = self._idle(flight)
+        cuts = list(s.cuts)
+        cuts[flight] = () if segment is None else (*cuts[flight], segment)
+        flights = tuple(x.without(c) for x, c in zip(s.read, cuts, strict=True))
+        if not any(flights[flight].valid):
+            raise UserError("nothing of the flight would be left", where=s.read[flight].name)
+        self._forget(flights=flights, cuts=tuple(cuts))
+        self.look()
+
+    def keep_for_validation(self, flight: int) -> None:
+        """Keep a flight out of the calibration, at the end of the list; one that is kept already is fitted again."""
+        s = self._idle(flight)
+        first = len(s.flights) - s.kept
+        kept = s.kept + (1 if flight < first else -1)
+        if kept == len(s.flights):
+            raise UserError("one flight at least is needed to calibrate", remedy="open another flight")
+        order = [n for n in range(len(s.flights)) if n != flight]
+        order.insert(len(s.flights) - 1 if flight < first else first, flight)
+        moved = {
+            name: tuple(getattr(s, name)[n] for n in order) for name in ("paths", "flights", "read", "cuts")
+        }
+        self._forget(**moved, kept=kept)
+        self.look()
 
     def look(self) -> None:
         """Compare and diagnose what is open."""
@@ -151,75 +235,73 @@ class Session:
         s = self.state
         if s.loaded is None or not s.flights:
             return
-        key = (s.loaded.directory.text, tuple(x.digest for x in s.flights), s.cuts)
-        known = self._results.get(key)
-        if known is not None:
-            compared, d, unwhitened = known
-            self._put(compared=compared, diagnosed=d, unwhitened=unwhitened, cache=Cache())
+        key = (s.loaded.directory.text, tuple(x.digest for x in s.flights), s.cuts, s.kept)
+        if key in self._results:
+            self._put(**self._results[key], cache=Cache())
             return
         if s.compared is None:
             part("calibrating and comparing", PASSES["compare"] * s.samples)
-            compared = api.compare(s.loaded, s.flights)
-            self._put(compared=compared, cache=Cache())
-        s = self.state
+            self._put(compared=api.compare(s.loaded, s.fitted), cache=Cache())
+        compared = self.state.require("compared")
+        if s.kept:
+            part("validating", PASSES["compare"] * s.samples)
+            self._put(held=api.validate(s.loaded, compared, s.fitted, s.flights[-s.kept :]))
         part("testing every effect", PASSES["diagnose"] * s.samples)
-        d = api.diagnose(s.model, s.flights, compared=s.compared)
+        d = api.diagnose(s.loaded, s.fitted, compared=compared)
         part("preparing the preview", s.samples)
-        unwhitened = predict.pass_unwhitened(d.fitted)
-        self._put(diagnosed=d, unwhitened=unwhitened)
-        if s.compared is not None and s.samples <= SMALL:
-            self._results[key] = s.compared, d, unwhitened
+        self._put(diagnosed=d, unwhitened=predict.pass_unwhitened(d.fitted))
+        if s.samples <= SMALL:
+            names = ("compared", "diagnosed", "unwhitened", "held")
+            self._results[key] = {n: getattr(self.state, n) for n in names}
             while len(self._results) > KEPT:
-                self._results.popitem(last=False)
+                self._results.pop(next(iter(self._results)))
 
     def reread(self) -> None:
         """Load the model directory again if someone else has changed it."""
-        s = self.state
-        if s.loaded is None or self.jobs.status.name:
+        m = self.state.loaded
+        if m is None or self.jobs.status.job:
             return
-        if load_model_dir(s.loaded.directory.path).digest != s.loaded.directory.digest:
-            self._changed(api.load(s.loaded.directory.path))
+        if load_model_dir(m.directory.path).digest != m.directory.digest:
+            self._change(api.load(m.directory.path))
 
-    def _changed(self, m: Loaded) -> None:
+    def _change(self, m: Loaded) -> None:
         """Another model in the place of this one: what was known of it becomes the state before."""
-        self._put(**(_nothing() | {"previous": self.state.compared}), loaded=m)
+        self._forget(previous=self.state.compared, loaded=m)
         self.look()
 
     def add(self, effects: Sequence[str]) -> None:
         """Derive effects into the model, one after the other, and calibrate."""
-        m = self.state.model
         if not effects:
             raise UserError("no effect is chosen", remedy="tick one or several")
-        self.jobs.start(f"deriving {effects[0]} into {m.name}", partial(self._add, tuple(effects)))
+        self._extend(self.state.model, effects)
 
-    def _add(self, effects: tuple[str, ...], part: Part) -> None:
-        s, m = self.state, self.state.model
-        for e in effects:
-            part(f"deriving {e} and calibrating", PASSES["add"] * s.samples)
-            m = api.add(m, e, s.flights).loaded
-        self._after(m, part)
+    def _extend(self, m: Loaded, effects: Sequence[str]) -> None:
+        def work(part: Part) -> None:
+            # the page keeps the old state until all is done, and sees the error fall
+            s, extended = self.state, m
+            flights = s.fitted if s.flights else ()
+            for e in effects:
+                part(f"deriving {e} and calibrating", PASSES["add"] * s.samples)
+                extended = api.add(extended, e, flights).loaded
+            part("calibrating and comparing", PASSES["compare"] * s.samples)
+            compared = api.compare(extended, flights) if flights else None
+            self._forget(previous=s.compared, compared=compared, loaded=extended)
+            self._look(part)
 
-    def _after(self, m: Loaded, part: Part) -> None:
-        """What the effects that were added have done: the page keeps the old state until then, and sees the error fall."""
-        s = self.state
-        part("calibrating and comparing", PASSES["compare"] * s.samples)
-        compared = api.compare(m, s.flights) if s.flights else None
-        self._put(**(_nothing() | {"previous": s.compared, "compared": compared, "loaded": m}))
-        self._look(part)
+        self.jobs.start(f"deriving {effects[0]} into {m.name}", work)
 
     def remove(self, effect: str) -> None:
         """Take an effect out of the model."""
         self._idle()
-        self._changed(api.remove(self.state.model, effect))
+        self._change(api.remove(self.state.model, effect))
 
-    def edit(self, values: Mapping[str, Edit]) -> None:
-        """Change values of the test sheet, and how sure it is of them."""
+    def edit(self, values: Mapping[str, SheetEdit]) -> None:
+        """Change values of the test sheet, how sure it is of them, and which are fitted."""
         self._idle()
-        sheet = {n: value for n, (value, _) in values.items()}
-        sigmas = {n: sigma for n, (_, sigma) in values.items()}
+        value, sigma, fixed = ({n: e[k] for n, e in values.items()} for k in range(3))
         m = self.state.model
-        text = set_parameters(m.directory.text, sheet, sigmas)
-        self._changed(api.change(m, text, "edit", ", ".join(values)))
+        text = set_parameters(m.directory.text, value, sigma, fixed)  # type: ignore[arg-type]
+        self._change(api.change(m, text, "edit", ", ".join(values)))
 
     def go(self, action: str, step: int | None = None) -> None:
         """Undo, redo, or go back to the state after a step of the history."""
@@ -234,93 +316,71 @@ class Session:
             to = step
         else:
             raise UserError(f"there is nothing to {action}")
-        self._changed(api.change(m, text_of(m.directory.history, to), action, str(to)))
+        self._change(api.change(m, text_of(m.directory.history, to), action, str(to)))
 
-    def beside(self, step: int | None) -> None:
+    def put_beside(self, step: int | None) -> None:
         """Compare the model as it was after a step with the same flights; ``None``: no longer."""
         if step is None:
             self._put(beside=None)
             return
-        history = self.state.model.directory.history
-        if not 0 <= step < len(history):
+        m = self.state.model
+        if not 0 <= step < len(m.directory.history):
             raise UserError("there is no such step", found=step)
-        self.jobs.start("comparing an earlier model", partial(self._beside, step, text_of(history, step)))
-
-    def _beside(self, step: int, text: str, part: Part) -> None:
-        s = self.state
-        part("comparing an earlier model", PASSES["compare"] * s.samples)
-        old = api.as_of(s.model, text)
-        self._put(beside=(step, api.compare(old, s.flights)))
+        old = api.as_of(m, text_of(m.directory.history, step))
+        name = "comparing an earlier model"
+        self._work(name, "compare", lambda s: {"beside": (step, api.compare(old, s.fitted))})
 
     def attempt(self, effect: str, add: str, units: Mapping[str, str]) -> None:
         """Try an effect of the user's own: derived and calibrated, but not kept."""
-        listed = with_own(self.state.model, effect, add, units)
-        self._flown()
-        self.jobs.start(f"trying {effect}", partial(self._attempt, listed, effect, add, dict(units)))
+        listed, flights = with_own(self.state.model, effect, add, units), self.state.fitted
 
-    def _attempt(self, listed: Loaded, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
-        part(f"deriving {effect} and calibrating", PASSES["add"] * self.state.samples)
-        result = api.add(listed, effect, self.state.flights, save=False)
-        self._put(trial=(effect, add, units, result))
+        def do(s: State) -> dict[str, object]:
+            return {"trial": (effect, add, dict(units), api.add(listed, effect, flights, save=False))}
+
+        self._work(f"trying {effect}", "add", do)
 
     def keep(self) -> None:
         """Keep what was tried as an effect of the model."""
-        trial = self.state.trial
-        if trial is None:
+        if self.state.trial is None:
             raise UserError("nothing was tried", remedy="try an expression first")
-        self.jobs.start(f"keeping {trial[0]}", partial(self._keep, trial[0], trial[1], trial[2]))
-
-    def _keep(self, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
-        s = self.state
-        part(f"deriving {effect} and calibrating", PASSES["add"] * s.samples)
-        self._after(api.add(with_own(s.model, effect, add, units), effect, s.flights).loaded, part)
+        effect, add, units, _ = self.state.trial
+        self._extend(with_own(self.state.model, effect, add, units), [effect])
 
     def compensate(self, kind: str, demodulator: str) -> None:
         """Compensate the flights that are open."""
-        self._flown()
+        self.state.require("compared")
 
-        def work(part: Part) -> None:
-            s = self.state
-            part("compensating", PASSES["compare"] * s.samples)
-            self._put(compensated=api.compensate(s.model, s.flights, kind, demodulator))  # type: ignore[arg-type]
+        def do(s: State) -> dict[str, object]:
+            return {"compensated": api.compensate(s.model, s.flights, kind, demodulator)}  # type: ignore[arg-type]
 
-        self.jobs.start("compensating", work)
+        self._work("compensating", "compare", do)
 
     def calibrate(self) -> None:
         """Keep the parameters fitted to these flights with the model, as ``ragg calibrate --save``."""
-        self._flown()
+        flights = self.state.fitted
+        do = lambda s: {"loaded": api.calibrate(s.model, flights, save=True).loaded}  # noqa: E731
+        self._work("calibrating", "compare", do)
 
-        def work(part: Part) -> None:
-            s = self.state
-            part("calibrating", PASSES["compare"] * s.samples)
-            self._put(loaded=api.calibrate(s.model, s.flights, save=True).loaded)
-
-        self.jobs.start("calibrating", work)
-
-    def _flown(self) -> None:
-        if not self.state.flights:
-            raise UserError("no flight is open", remedy="choose one first")
-
-    def _idle(self) -> None:
-        if self.jobs.status.name:
+    def _idle(self, flight: int | None = None) -> State:
+        """The state, if nothing is being worked on (else Busy) and there is such a flight (else UserError)."""
+        if self.jobs.status.job:
             raise Busy
-
-
-def _nothing() -> dict[str, object]:
-    """Of another model or other flights nothing is known yet."""
-    names = ("compared", "diagnosed", "unwhitened", "previous", "beside", "trial", "compensated")
-    return dict.fromkeys(names) | {"cache": Cache()}
+        if flight is not None and not 0 <= flight < len(self.state.read):
+            raise UserError("there is no such flight", found=str(flight + 1))
+        return self.state
 
 
 def with_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Loaded:
     """The model with an effect of one's own listed, ``add`` at the transducer (unit of each parameter), in memory alone."""
+    if effect in {e.id for e in derive.known(m.instrument).effects}:
+        found, remedy = repr(effect[:80]), "choose another name"
+        raise UserError("an effect of this id exists already", found=found, remedy=remedy)
     parameters = MappingProxyType({n: MappingProxyType({"unit": u}) for n, u in units.items()})
     expression = MappingProxyType({"stage": "transducer", "add": add, "params": parameters})
-    if effect in {e.id for e in derive.known(m.instrument).effects}:
-        raise UserError(
-            "an effect of this id exists already", found=repr(effect[:80]), remedy="choose another name"
-        )
     return api.as_of(m, add_effect(m.directory.text, EffectSetting(effect, expression=expression)))
+
+
+# --- the history as branches ---------------------------------------------------------------------------
 
 
 def text_of(history: Sequence[Step], step: int) -> str:
@@ -360,105 +420,7 @@ def lineage(history: Sequence[Step]) -> list[int]:
     return [*lineage(history[: int(history[past[back]].effect) + 1]), *past[back + 1 :]]
 
 
-LISTED = 500
-"""Most entries of a folder that are shown."""
-
-LONGEST_NAME = 120
-"""Longest name of an uploaded file, characters."""
-
-
-@dataclass(frozen=True)
-class Places:
-    """Folders, resolved, below which files may be touched."""
-
-    roots: tuple[Path, ...]
-
-    @staticmethod
-    def of(model: Path | None, flights: Sequence[Path]) -> Places:
-        """Those of the model directory and of the flights; the working directory where nothing is named."""
-        named = [*([model.parent if model.name else model] if model else []), *(f.parent for f in flights)]
-        found = [p.resolve() for p in named] or [Path.cwd()]
-        return Places(tuple(dict.fromkeys(found)))
-
-    def inside(self, text: str) -> Path:
-        """The file or folder of this name if it lies, links followed, below one of the folders."""
-        try:
-            path = Path(text).resolve() if text and "\0" not in text else None
-        except (OSError, RuntimeError, ValueError):
-            path = None
-        if path is None or not self.holds(path):
-            raise UserError(
-                "this place is not open to the studio",
-                where=text[:200] or "(no name)",
-                expected="a place below " + ", ".join(map(str, self.roots)),
-                remedy="name its folder when you start `ragg studio`",
-            )
-        return path
-
-    def holds(self, path: Path) -> bool:
-        """Whether it lies, links followed, below one of the folders."""
-        real = path.resolve()
-        return any(real == r or r in real.parents for r in self.roots)
-
-    def listing(self, text: str) -> dict[str, object]:
-        """What of a folder can be opened: folders, model directories, flights."""
-        folder = self.inside(text) if text else self.roots[0]
-        if not folder.is_dir():
-            raise UserError("there is no such folder", where=folder)
-        entries: list[dict[str, object]] = []
-        with os.scandir(folder) as found:
-            for e in sorted(found, key=lambda e: e.name):
-                kind = _kind(e)
-                if kind is not None and len(entries) < LISTED:
-                    entries.append({"name": e.name, "path": e.path, "kind": kind, "bytes": _size(e)})
-        above = str(folder.parent) if any(r in folder.parents for r in self.roots) else None
-        return {
-            "folder": str(folder),
-            "above": above,
-            "roots": list(map(str, self.roots)),
-            "entries": entries,
-        }
-
-
-def is_foreign(path: Path) -> bool:
-    """Whether a file has columns of which it must be asked what they are."""
-    try:
-        return bool(draft_mapping(path).questions)
-    except (UserError, OSError):
-        return False
-
-
-def safe_name(name: str) -> str:
-    """A name for an uploaded flight: one part, no control characters, of a known ending; or UserError."""
-    plain = unicodedata.normalize("NFC", name).replace("\\", "/").split("/")[-1]
-    plain = re.sub(r"[^\w.+ ()-]", "_", plain).strip(" .")
-    ending = ending_of(plain)
-    if ending is None or len(plain) == len(ending):
-        raise UserError(
-            "this is not a flight file",
-            where=name[:200],
-            expected="a name that ends in " + ", ".join(ENDINGS),
-        )
-    if len(plain) > LONGEST_NAME:
-        raise UserError("the name is too long", where=plain[:60] + "…", expected=f"{LONGEST_NAME} characters")
-    return plain
-
-
-def _kind(e: os.DirEntry[str]) -> str | None:
-    if e.name.startswith("."):
-        return None
-    if e.is_dir():
-        return "model" if Path(e.path, "model.toml").is_file() else "folder"
-    if e.name.lower().endswith(".toml"):
-        return "sheet"
-    return "flight" if ending_of(e.name) else None
-
-
-def _size(e: os.DirEntry[str]) -> int:
-    try:
-        return e.stat().st_size if e.is_file() else 0
-    except OSError:
-        return 0
+# --- jobs ----------------------------------------------------------------------------------------------
 
 
 class Cancelled(Exception):
@@ -475,39 +437,31 @@ class Status:
 
     count: int = 0
     revision: int = 0
-    name: str = ""
+    job: str = ""
     share: float = 0.0
     began: float = 0.0
     error: dict[str, str | None] | None = None
 
     def as_json(self) -> dict[str, object]:
-        spent = time.monotonic() - self.began if self.name else 0.0
-        return {
-            "count": self.count,
-            "revision": self.revision,
-            "job": self.name,
-            "share": self.share,
-            "spent_s": spent,
-            "error": self.error,
-        }
+        return asdict(self) | {"spent_s": time.monotonic() - self.began if self.job else 0.0}
 
 
-@dataclass
 class Jobs:
     """One worker. Its status changes in its thread."""
 
-    status: Status = field(default_factory=Status)
-    _lock: threading.Lock = field(default_factory=threading.Lock)
-    _cancel: threading.Event = field(default_factory=threading.Event)
-    _thread: threading.Thread | None = None
+    def __init__(self) -> None:
+        self.status = Status()
+        self._lock = threading.Lock()
+        self._cancel = threading.Event()
+        self._thread: threading.Thread | None = None
 
-    def start(self, name: str, work: Callable[[Callable[[str, float], None]], None]) -> None:
-        """Begin ``work``, which is given a function (what, samples of a pass) to announce its parts. Raises Busy."""
+    def start(self, name: str, work: Callable[[Part], None]) -> None:
+        """Begin ``work``, which is given a function to announce its parts. Raises Busy."""
         with self._lock:
-            if self._thread is not None and self._thread.is_alive() and self.status.name:
+            if self._thread is not None and self._thread.is_alive() and self.status.job:
                 raise Busy
             self._cancel.clear()
-            self._tell(name=name, share=0.0, began=time.monotonic(), error=None)
+            self._tell(job=name, share=0.0, began=time.monotonic(), error=None)
             self._thread = threading.Thread(target=self._run, args=(work,), name="work", daemon=True)
             self._thread.start()
 
@@ -527,7 +481,7 @@ class Jobs:
     def _tell(self, **changes: object) -> None:
         self.status = replace(self.status, count=self.status.count + 1, **changes)  # type: ignore[arg-type]
 
-    def _run(self, work: Callable[[Callable[[str, float], None]], None]) -> None:
+    def _run(self, work: Callable[[Part], None]) -> None:
         total, done = 1.0, 0.0
 
         def step(amount: float) -> None:
@@ -544,7 +498,7 @@ class Jobs:
             if self._cancel.is_set():
                 raise Cancelled
             total, done = max(amount, 1.0), 0.0
-            self._tell(name=name, share=0.0, began=time.monotonic())
+            self._tell(job=name, share=0.0, began=time.monotonic())
 
         error: dict[str, str | None] | None = None
         try:
@@ -555,15 +509,12 @@ class Jobs:
         except UserError as e:
             error = e.facts
         except OSError as e:
-            error = {"what": e.strerror or "the system refuses", "where": _shown(e.filename)}
+            where = None if e.filename is None else one_line(str(e.filename))
+            error = {"what": e.strerror or "the system refuses", "where": where}
         except MemoryError:
             error = {"what": "there is not enough memory for this; nothing was changed"}
         except Exception:
             traceback.print_exc()
             error = {"what": "this is a fault of the program, not of your input; the terminal shows where"}
         finally:
-            self._tell(name="", share=0.0, error=error)
-
-
-def _shown(name: object) -> str | None:
-    return None if name is None else one_line(str(name))
+            self._tell(job="", share=0.0, error=error)

@@ -27,10 +27,11 @@ from ragg_runtime.io import write_flight
 from ragg_runtime.model.directory import Step
 from ragg_runtime.simulate import simulated
 from ragg_runtime.studio import mapping, session, views
+from ragg_runtime.studio.files import Places
 from ragg_runtime.studio.routes import ACTIONS
-from ragg_runtime.studio.sampled import HEAD, Sampled
-from ragg_runtime.studio.session import Places, Session, branches, lineage
-from ragg_runtime.studio.views import mathml, missing
+from ragg_runtime.studio.series import HEAD, sample
+from ragg_runtime.studio.session import Session, branches, lineage
+from ragg_runtime.studio.views import find_missing, mathml
 from ragg_runtime.wording import numbers
 from tests.layouts import sheets
 
@@ -87,7 +88,7 @@ def test_a_window_of_a_series_loses_no_extreme_and_no_gap() -> None:
     x = np.random.default_rng(3).normal(size=n)
     x[77_777], x[123_456] = 50.0, -60.0
     x[10_000:11_000] = np.nan
-    p = Sampled.of(5.0, 0.01, x)
+    p = sample(5.0, 0.01, x)
     for first, last, points in (
         (5.0, 2005.03, 700),
         (700.0, 1300.0, 300),
@@ -131,9 +132,9 @@ def test_undo_and_redo_walk_along_a_branch() -> None:
 def test_a_timeline_shows_gaps_and_lone_samples() -> None:
     valid = np.ones(1000, dtype=bool)
     valid[:20] = valid[500:504] = valid[700:703] = valid[999] = False
-    assert missing(valid, 10.0) == {"gaps": [[0.0, 2.0], [50.0, 50.4]], "alone": [70.0, 99.9]}
+    assert find_missing(valid, 10.0) == {"gaps": [[0.0, 2.0], [50.0, 50.4]], "alone": [70.0, 99.9]}
     valid[np.arange(0, 1000, 5)[:, None] + np.arange(4)[None]] = False
-    many = missing(np.tile(valid, 4), 10.0)
+    many = find_missing(np.tile(valid, 4), 10.0)
     assert len(many["gaps"]) == 300
     assert many["gaps"] == sorted(many["gaps"])
 
@@ -143,13 +144,13 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
     m = api.load(tmp_path / "model")
     path = tmp_path / "flight.csv"
     foreign(path)
-    given = mapping.begun(m, path)
+    given = mapping.draft(m, path)
     asked = [r for r in given["rows"] if r["asked"]]
     assert [r["channel"] for r in asked] == ["a_x", "a_y", "a_z"]
-    assert "not answered" in mapping.tried(m, path, given)["error"]["what"]
+    assert "not answered" in mapping.try_mapping(m, path, given)["error"]["what"]
     for r in asked:
         r["unit"] = "g"
-    found = mapping.tried(m, path, given)
+    found = mapping.try_mapping(m, path, given)
     assert found["error"] is None
     x = next(p for p in found["preview"] if p["channel"] == "a_z")
     raw = pyarrow.csv.read_csv(path)["ACC_Z"].to_numpy()
@@ -159,20 +160,20 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
     )
     for r in asked:
         r["unit"] = "m/s^2"
-    found = mapping.tried(m, path, given)
+    found = mapping.try_mapping(m, path, given)
     mapping.keep(m, path, given, replace=False)
     m = api.load(tmp_path / "model")
     (flight,) = api.read_flights(m, [path])
     assert flight.channels["a_z"] == pytest.approx(raw)
     assert tomllib.loads(found["text"]) == tomllib.loads((tmp_path / "model" / "mapping.toml").read_text())
-    assert mapping.begun(m, path)["rows"][0]["unit"] == "m/s^2"
+    assert mapping.draft(m, path)["rows"][0]["unit"] == "m/s^2"
     (tmp_path / "model" / "mapping.toml").unlink()
     page = session.Session(Places((tmp_path.resolve(),)))
     page.open(tmp_path / "model", [])
-    while page.jobs.status.name:
+    while page.jobs.status.job:
         time.sleep(0.05)
     ACTIONS["map"](page, {"flight": str(path), "mapping": given})  # read by the mapping that it has just kept
-    while page.jobs.status.name and not page.state.flights:
+    while page.jobs.status.job and not page.state.flights:
         time.sleep(0.05)
     page.jobs.cancel()
     assert page.state.flights[0].channels["a_z"] == pytest.approx(raw)
@@ -187,7 +188,7 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
         {"unit": "]"},
     ):
         bad = given | {"rows": [given["rows"][0] | wrong]}
-        assert mapping.tried(m, path, bad)["error"]
+        assert mapping.try_mapping(m, path, bad)["error"]
         with pytest.raises(UserError):
             mapping.keep(m, path, bad, replace=True)
 
@@ -242,6 +243,7 @@ def test_names_of_several_lines_stay_in_the_comments_of_a_shell(tmp_path: Path) 
         cuts=[[(1.0, 2.0)]],
         diagnosed=None,
         compensated=None,
+        kept=0,
     )  # fmt: skip
     script = "ragg() { :; }\n" + "\n".join(views.commands(shown))  # type: ignore[arg-type]
     assert script.count("# done: ") == 2

@@ -45,7 +45,7 @@ export function figures(box) {
     measured: timePlot(measured.body, { limits, moved, unit: unitName, lines: [{ name: "measured", colour: "before" }, { name: "model", colour: "residual" }] }),
     residual: timePlot(residual.body, {
       label: "time since the first sample, s", limits, moved, level, unit: unitName,
-      lines: [{ name: "before", colour: "before" }, { name: "residual", colour: "residual", dimmed: () => Boolean(laid()) }, { name: "laid over it", colour: "effect", alpha: "d0" }],
+      lines: [{ name: "models", colour: "beside", band: true, alpha: "60" }, { name: "before", colour: "before" }, { name: "residual", colour: "residual", dimmed: () => Boolean(laid()) }, { name: "laid over it", colour: "effect", alpha: "d0" }],
     }),
     spectrum: spectrumPlot(spectrum.body, { band, banded, harmonic }),
     spectrogram: spectrogramPlot(gram.body, { limits, moved, band, banded, harmonic, spin }),
@@ -103,16 +103,17 @@ export function figures(box) {
     if (!ready()) return;
     const common = asked(points()), over = laid();
     const began = performance.now();
-    const [before, now, effect] = await Promise.all([
+    const [low, high, before, now, effect] = await Promise.all([
+      ...["low", "high"].map((edge) => (view.fan ? series({ ...common, what: `fan:${edge}` }).catch(() => null) : null)),
       server.state.before ? series({ ...common, what: "before" }).catch(() => null) : null,
       series({ ...common, what: "residual" }),
       over ? series({ ...common, ...over }).catch((e) => (note("residual", [e.facts.what, e.facts.remedy].filter(Boolean).join(": ")), null)) : null,
     ]);
     if (!over || effect) note("residual", "");
-    plots.residual.show([before, now, effect]);
+    plots.residual.show([low && high && { ...low, low: low.low, high: high.high }, before, now, effect]);
     document.documentElement.dataset.series = (performance.now() - began).toFixed(1);
     legend("residual", [
-      before && ["before the last step", "before"], [`residual, ${unitName()}`, "residual"],
+      low && ["models within the uncertainty", "beside", "band"], before && ["before the last step", "before"], [`residual, ${unitName()}`, "residual"],
       effect && [over.words, "effect"], level() && ["± noise, 1 σ", "noise", "dashed"],
     ]);
   });
@@ -120,7 +121,7 @@ export function figures(box) {
     if (!ready()) return;
     const [from, to] = limits();
     const found = await ask("spectrum", { flight: view.flight, output: view.output, from, to, effects: view.ticked.join(",") });
-    const known = !flight() || flight().channels.some((c) => c.name.startsWith("Gamma_"));
+    const known = !flight() || flight().channels.some((c) => c.startsWith("Gamma_"));
     note("spectrum", known || !found.spin_Hz ? "" : "The notch at 2Ω: the gravity gradient is not recorded, so what varies slowly there is fitted as gradient.");
     plots.spectrum.show(found);
     legend("spectrum", spectrumLines.filter((l) => l.id === "noise" || found.lines[l.id]).map((l) => [l.name, l.colour, l.dash ? "dashed" : ""]));
@@ -212,6 +213,7 @@ export function figures(box) {
   const offs = [
     on("from to", inFrames()),
     on("flight output unit", all),
+    on("fan", () => (heading(), drawResidual())),
     on("ticked", () => (drawResidual(), slow(), calmHeat())),
     on("pointed", pointing),
     on("term", () => (drawResidual(), plots.spectrum.marked(), plots.spectrogram.marked(), drawHeatTable())),
@@ -236,12 +238,12 @@ export function noisePane(box) {
   let shown = "", picked = "";
   const body = h("div");
   const pane = h("details.panel", { ontoggle: () => known() }, h("summary", {}, h("h2", {}, "Is the residual noise?"), h("small", {}, " against a channel; whiteness; correlation with the motion")), body);
-  fill(box, pane);
+  box.append(pane);
   function known() {
     pane.hidden = !ready();
     if (pane.hidden || !pane.open) return;
-    const names = flight().channels.map((c) => c.name), channel = names.includes(picked) ? picked : names.find((n) => n === "temperature") || names[0];
-    const asked = { flight: view.flight, output: view.output, of: server.state.banner.errors[1].rms_Eo };
+    const names = flight().channels, channel = names.includes(picked) ? picked : names.find((n) => n === "temperature") || names[0];
+    const asked = { flight: view.flight, output: view.output, of: server.state.banner.errors.calibrated.rms_Eo };
     const key = JSON.stringify([asked, channel, flight().path]);
     if (key === shown) return;
     shown = key;
@@ -351,6 +353,13 @@ function cuts(f, state) {
     f.cuts.length ? h("span.chip", {}, `left out: ${f.cuts.map(([a, b]) => `${number(a, 4)} – ${number(b, 4)} s`).join(", ")}`, h("button", { type: "button", "aria-label": "Take back what was left out", title: "Take it back", onclick: () => doing("leave", { flight: view.flight }) }, "×")) : null);
 }
 
+/** A flight is fitted, or kept to validate the calibration on the others. */
+const validated = (f, state) => h("button", { type: "button", disabled: Boolean(state.status.job), "aria-pressed": String(f.kept), title: "Calibrate on the other flights and see how that holds here",
+  onclick: async () => {
+    const fitted = state.flights.filter((x) => !x.kept).length;
+    if (await doing("validate", { flight: view.flight })) look({ flight: f.kept ? fitted : state.flights.length - 1 });
+  } }, f.kept ? "kept for validation" : "keep for validation");
+
 /** Flight, output, unit, window, what is left out, notes. */
 export function windowHead(box) {
   const f = flight(), { state } = server, flights = state ? state.flights : [];
@@ -367,7 +376,9 @@ export function windowHead(box) {
       h("button", { type: "button", onclick: () => pan(-0.5), "aria-label": "Earlier", title: "Earlier ([)" }, "‹"),
       h("button", { type: "button", onclick: () => pan(0.5), "aria-label": "Later", title: "Later (])" }, "›"),
       h("button", { type: "button", onclick: () => moved(null), title: "The whole flight (0)" }, "all")),
+    state && state.banner ? h("label.fan", { title: "What models within the uncertainty of the parameters leave" }, h("input", { type: "checkbox", checked: Boolean(view.fan), onchange: (e) => look({ fan: e.target.checked ? 1 : 0 }) }), " spread of models") : null,
     cuts(f, state),
+    flights.length > 1 && f ? validated(f, state) : null,
     flights.length > 1 && flights.length <= MOST_LINES ? lines(flights) : null,
     f && f.notes.length ? h("details.notes", { open }, h("summary", {}, `${f.notes.length} ${f.notes.length > 1 ? "notes" : "note"} on this record`), h("ul", {}, f.notes.map((n) => h("li", {}, n)))) : null,
   );

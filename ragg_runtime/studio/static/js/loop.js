@@ -3,7 +3,7 @@ import { doing } from "./api.js";
 import { drawingText, fileName, saves, stepBars } from "./drawings.js";
 import { effectsPane, foreseen } from "./effects.js";
 import { figures, noisePane } from "./figures.js";
-import { fill, h, number } from "./dom.js";
+import { fill, h, number, sectionNode } from "./dom.js";
 import { look, on, server, view } from "./store.js";
 
 export function loopView(main) {
@@ -12,7 +12,7 @@ export function loopView(main) {
   const right = h("aside.effects", { "aria-label": "Effects" });
   const below = h("section.unexplained", { "aria-label": "What is unexplained" });
   main.replaceChildren(top, h("div.columns", {}, h("div.left", {}, left, noise), h("div.side", {}, right, below)));
-  const parts = [banner(top), figures(left), noisePane(noise), effectsPane(right), unexplainedPane(below)];
+  const parts = [banner(top), figures(left), noisePane(noise), validationPane(noise), effectsPane(right), unexplainedPane(below)];
   const off = on("server", () => parts.forEach((p) => p.known && p.known()));
   parts.forEach((p) => p.known && p.known());
   return () => {
@@ -37,20 +37,20 @@ export function banner(box) {
           h("button", { type: "button", onclick: () => look({ view: "files" }) }, "Choose files")) : null));
       return;
     }
-    const times = b.errors[1].rms_Eo / b.noise.rms_Eo;
+    const times = b.errors.calibrated.rms_Eo / b.noise.rms_Eo, [headline, ...lead] = b.sentences;
     fill(
       box,
       h(
         `div.verdict.${b.state}`, {},
-        h("p.headline", {}, b.headline),
-        b.lead.map((t) => h("p.lead", {}, t)),
+        h("p.headline", {}, headline),
+        lead.map((t) => h("p.lead", {}, t)),
         h("p.flags", {},
           b.converged === null ? null : h("span", { class: b.converged ? "flag good" : "flag bad" }, b.converged ? "converged" : "not converged"),
           h("span.flag", {}, b.adequate && b.verdict !== "unexplained" ? "down to the noise" : `${number(times, times < 1.95 ? 3 : 2)} × the noise`),
           h("span.flag", {}, { G_out: "G_out", voltages: "V₁ … V₄", channels: "inline and cross" }[b.kind] || b.kind)),
       ),
       h("dl.errors", {},
-        b.errors.map((e) => h("div", { class: e.label.replace(" ", "-"), title: e.about }, h("dt", {}, e.label), h("dd", {}, h("b", {}, e.text), h("small", {}, " Eo")))),
+        Object.entries(b.errors).map(([name, e]) => h("div", { class: name, title: e.about }, h("dt", {}, name === "holdout" ? "held out" : name), h("dd", {}, h("b", {}, e.text), h("small", {}, " Eo")))),
         h("div.noise", { title: "root mean square of the estimated noise, before demodulation" }, h("dt", {}, "noise floor"), h("dd", {}, h("b", {}, b.noise.text), h("small", {}, " Eo")))),
       h("div.bars"),
     );
@@ -88,7 +88,7 @@ export function unexplainedPane(box) {
       status,
       u && u.significant
         ? [h("p", {}, `The residual is significant (p-value ${u.p}); these terms explain ${u.share} of it:`),
-           h("ul.terms", {}, u.terms.map((t) => h("li", {}, h("button", { type: "button", class: "term", onclick: () => look({ term: `${t.harmonic}|${t.product}`, low: null, high: null }) }, t.label), h("small", {}, ` ${t.z} σ`)))),
+           h("ul.terms", {}, u.terms.map((t) => h("li", {}, h("button", { type: "button", class: "term", onclick: () => look({ term: t.id, low: null, high: null }) }, t.label), h("small", {}, ` ${t.z} σ`)))),
            u.expression ? h("button", { type: "button", onclick: () => form.put(u.expression) }, "Write the strongest as an expression") : null,
            u.needs.length ? h("p.note", {}, `The flight must have: ${u.needs.join("; ")}`) : null]
         : h("p.note", {}, u ? "No further effect needed." : ""),
@@ -97,14 +97,30 @@ export function unexplainedPane(box) {
     fill(
       trial,
       t ? h("div.trial", {},
-        h("p", {}, h("code", {}, t.id), `: ${number(t.before_Eo)} → `, h("b", {}, number(t.after_Eo)), ` Eo (held out ${number(t.holdout_before_Eo)} → ${number(t.holdout_Eo)}, noise ${number(t.noise_Eo)})`),
-        t.holdout_Eo > t.holdout_before_Eo ? h("p.note", {}, "Held out, the error does not fall: this record does not confirm it.") : null,
+        h("p", {}, h("code", {}, t.id), `: ${error(t.before.calibrated)} → `, h("b", {}, error(t.after.calibrated)), ` Eo (held out ${error(t.before.holdout)} → ${error(t.after.holdout)}, noise ${number(t.noise_Eo)})`),
+        t.after.holdout && t.after.holdout.rms_Eo > t.before.holdout.rms_Eo ? h("p.note", {}, "Held out, the error does not fall: this record does not confirm it.") : null,
         h("ul.terms", {}, t.values.map((v) => h("li", {}, v))),
         h("button.main", { type: "button", disabled: Boolean(state.status.job), onclick: () => doing("keep") }, `Keep ${t.id} in the model`)) : null,
     );
     form.known();
   };
   return { known };
+}
+
+const error = (e) => number(e && e.rms_Eo);
+
+// How the model that is calibrated on the other flights holds on those kept for validation.
+
+function validationPane(box) {
+  const pane = h("section.card", { hidden: true });
+  box.append(pane);
+  return {
+    known() {
+      const found = server.state && server.state.validation;
+      pane.hidden = !found;
+      if (found) fill(pane, h("h2", {}, "Validation"), found.map(sectionNode));
+    },
+  };
 }
 
 const UNIT = "m/s^2";
@@ -132,7 +148,7 @@ function own() {
     known() {
       const { state } = server;
       const flight = state && state.flights[view.flight];
-      const channels = flight ? flight.channels.map((c) => c.name).filter((n) => !/^(Gamma|spin_angle)/.test(n)) : [];
+      const channels = flight ? flight.channels.filter((n) => !/^(Gamma|spin_angle)/.test(n)) : [];
       names.textContent = `Names: f_i, f_o, f_p, time, cos_phi, sin_phi${channels.length ? `, ${channels.join(", ")}` : ""}; abs, sign, sqrt, sin, cos, exp, tanh. Parameters are K_… names.`;
       button.disabled = !state || !state.flights.length || Boolean(state.status.job);
     },

@@ -55,13 +55,14 @@ export function sheetView(main) {
       main,
       h("section.card", {},
         h("h2", {}, "Test sheet"),
-        h("p.note", {}, "The nominal values of model.toml; its comments are kept. 1 sigma: how uncertain the test sheet is, one number for all accelerometers, or one for each, separated by semicolons. Where it is empty, the default prior holds."),
+        h("p.note", {}, "The nominal values of model.toml; its comments are kept. 1 sigma: how uncertain the test sheet is, one number for all accelerometers, or one for each, separated by semicolons. Where it is empty, the default prior holds. A parameter that is fixed is not fitted."),
         h("div.wide", { tabindex: "0", role: "group", "aria-label": "Values of the test sheet" }, h("table.numbers.sheet", { class: names.length > 4 ? "many" : "" },
-          h("thead", {}, h("tr", {}, h("th", {}, "parameter"), h("th", {}, "unit"), names.map((a) => h("th.n", {}, a)), h("th.n", {}, "1 sigma"), h("th.n", {}, "default prior"))),
+          h("thead", {}, h("tr", {}, h("th", {}, "parameter"), h("th", {}, "unit"), names.map((a) => h("th.n", {}, a)), h("th.n", {}, "1 sigma"), h("th", {}, "fixed"), h("th.n", {}, "default prior"))),
           h("tbody", {}, rows.map((row) => h("tr", {},
             h("th", { scope: "row" }, symbol(row.symbol), h("small", {}, ` ${row.meaning}`)), h("td", {}, row.unit_shown),
             row.values.map((v, k) => h("td.n", {}, h("input", { type: "text", inputmode: "decimal", value: plain(v), "aria-label": `${row.name} of ${names[k]}, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.value[k] = parsed(e.target.value))) }))),
             h("td.n", {}, h("input", { type: "text", value: sure(row), placeholder: plain(row.plausible[0]), "aria-label": `${row.name}: 1 sigma of the sheet, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.sigma = sigmas(e.target.value, names.length))) })),
+            h("td", {}, h("input", { type: "checkbox", checked: row.fixed, "aria-label": `${row.name} is not fitted`, onchange: (e) => edit(row, e.target, (now) => (now.fixed = e.target.checked)) })),
             h("td.n.quiet", {}, number(row.plausible[0], 3))))))),
         h("div.row", {}, save, revert)),
       h("section.card", {}, h("h2", {}, "Discs"), h("p.note", {}, "As [[disc]] of model.toml says; edit them there."), tableNode(discs)),
@@ -74,10 +75,10 @@ export function sheetView(main) {
   };
 
   const edit = (row, input, set) => {
-    const now = changed.get(row.name) || { value: [...row.values], sigma: row.sigma };
+    const now = changed.get(row.name) || { value: [...row.values], sigma: row.sigma, fixed: row.fixed };
     set(now);
-    input.setAttribute("aria-invalid", String(invalid(input)));
-    if (same(now, { value: row.values, sigma: row.sigma })) changed.delete(row.name);
+    if (input.type === "text") input.setAttribute("aria-invalid", String(invalid(input)));
+    if (same(now, { value: row.values, sigma: row.sigma, fixed: row.fixed })) changed.delete(row.name);
     else changed.set(row.name, now);
     input.classList.toggle("edited", changed.has(row.name) && input.value !== input.defaultValue);
     foot();
@@ -151,7 +152,7 @@ export function historyView(main) {
 function beside(box, state) {
   const b = state.beside, now = state.banner, old = `after step ${b.step + 1}`;
   const errors = (label, pick) => h("tr", {}, h("th", { scope: "row" }, label), h("td.n", {}, number(pick(0))), h("td.n", {}, number(pick(1))));
-  const rows = [["nominal", "nominal", 0], ["calibrated", "calibrated", 1], ["held out", "holdout", 2]];
+  const rows = [["nominal", "nominal"], ["calibrated", "calibrated"], ["held out", "holdout"]];
   const figure = frame({ id: "spectrum", title: "Spectrum of the residual", kind: "figure", name: () => fileName(state.model.name, "two-models"), text: () => curvesText(plot.plot) });
   fill(box,
     h("h2", {}, "Two models side by side"),
@@ -161,8 +162,8 @@ function beside(box, state) {
         h("thead", {}, h("tr", {}, h("th", {}, "error before demodulation, Eo"), h("th.n", {}, old), h("th.n", {}, "now"))),
         h("tbody", {},
           h("tr", {}, h("th", { scope: "row" }, "effects"), h("td.n", {}, b.effects.join(", ") || "none"), h("td.n", {}, state.model.effects.map((e) => e.id).join(", ") || "none")),
-          rows.map(([label, key, k]) => errors(label, (which) => (which ? now.errors[k].rms_Eo : b.errors[key].rms_Eo))),
-          rows.slice(1).map(([label, key, k]) => ["inline", "cross"].map((c) => errors(`${label}, ${c}, Eo/√Hz`, (which) => (which ? now.errors[k].json : b.errors[key])[`${c}_Eo_per_rtHz`]))),
+          rows.map(([label, key]) => errors(label, (which) => (which ? now.errors[key].json : b.errors[key]).rms_Eo)),
+          rows.slice(1).map(([label, key]) => ["inline", "cross"].map((c) => errors(`${label}, ${c}, Eo/√Hz`, (which) => (which ? now.errors[key].json : b.errors[key])[`${c}_Eo_per_rtHz`]))),
           errors("noise floor", (which) => (which ? now.noise.rms_Eo : b.noise_Eo))))),
       figure.element),
     h("div.row", {}, h("button", { type: "button", onclick: () => doing("beside", { step: null }) }, "Close")));

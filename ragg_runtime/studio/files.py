@@ -1,0 +1,183 @@
+"""Which files the studio may touch: folders below those named at the start, and flights that the page sends."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import unicodedata
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from starlette.requests import ClientDisconnect, Request
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.io.draft import draft_mapping
+from ragg_runtime.io.files import ENDINGS, ending_of
+from ragg_runtime.workspace import Loaded
+
+LISTED = 500
+"""Most entries of a folder that are shown."""
+
+LONGEST_NAME = 120
+"""Longest name of an uploaded file, characters."""
+
+MOST = 4 << 30
+"""Largest file that is taken, bytes: a day at 100 Hz with all channels is 2 GB."""
+
+FOLDER = "flights"
+"""Where uploaded flights are kept, in the model directory."""
+
+
+@dataclass(frozen=True)
+class Places:
+    """Folders, resolved, below which files may be touched."""
+
+    roots: tuple[Path, ...]
+
+    @staticmethod
+    def of(model: Path | None, flights: Sequence[Path]) -> Places:
+        """Those of the model directory and of the flights; the working directory where nothing is named."""
+        named = [*([model.parent if model.name else model] if model else []), *(f.parent for f in flights)]
+        return Places(tuple(dict.fromkeys(p.resolve() for p in named or [Path.cwd()])))
+
+    def inside(self, text: str) -> Path:
+        """The file or folder of this name if it lies, links followed, below one of the folders."""
+        try:
+            path = Path(text).resolve() if text and "\0" not in text else None
+        except (OSError, RuntimeError, ValueError):
+            path = None
+        if path is None or not any(path == r or r in path.parents for r in self.roots):
+            raise UserError(
+                "this place is not open to the studio",
+                where=text[:200] or "(no name)",
+                expected="a place below " + ", ".join(map(str, self.roots)),
+                remedy="name its folder when you start `ragg studio`",
+            )
+        return path
+
+    def listing(self, text: str) -> dict[str, object]:
+        """What of a folder can be opened: folders, model directories, test sheets, flights."""
+        folder = self.inside(text) if text else self.roots[0]
+        if not folder.is_dir():
+            raise UserError("there is no such folder", where=folder)
+        with os.scandir(folder) as found:
+            kinds = [(e, _kind_of(e)) for e in sorted(found, key=lambda e: e.name)]
+        shown = [(e, kind) for e, kind in kinds if kind is not None][:LISTED]
+        return {
+            "folder": str(folder),
+            "above": str(folder.parent) if any(r in folder.parents for r in self.roots) else None,
+            "roots": list(map(str, self.roots)),
+            "entries": [
+                {"name": e.name, "path": e.path, "kind": kind, "bytes": _size_of(e)} for e, kind in shown
+            ],
+        }
+
+
+def _kind_of(e: os.DirEntry[str]) -> str | None:
+    if e.name.startswith("."):
+        return None
+    if e.is_dir():
+        return "model" if Path(e.path, "model.toml").is_file() else "folder"
+    if e.name.lower().endswith(".toml"):
+        return "sheet"
+    return "flight" if ending_of(e.name) else None
+
+
+def _size_of(e: os.DirEntry[str]) -> int:
+    try:
+        return e.stat().st_size if e.is_file() else 0
+    except OSError:
+        return 0
+
+
+def is_foreign(path: Path) -> bool:
+    """Whether a file has columns of which it must be asked what they are."""
+    try:
+        return bool(draft_mapping(path).questions)
+    except (UserError, OSError):
+        return False
+
+
+# --- flights that the page sends -----------------------------------------------------------------------
+
+
+async def receive_flight(m: Loaded, name: str, request: Request) -> Path:
+    """The body of a request as a file; nothing is overwritten. UserError if it is too long or does not fit."""
+    folder, wanted = m.directory.path.resolve() / FOLDER, make_safe(name)
+    announced = int(request.headers.get("content-length", "0") or 0)
+    folder.mkdir(exist_ok=True)
+    if folder.is_symlink():
+        raise UserError("the folder for flights is a link", where=folder, remedy="make it a folder")
+    room = min(MOST, shutil.disk_usage(folder).free // 2)
+    if announced > room:
+        raise UserError(
+            "the file is too large",
+            found=f"{announced / 1e6:.0f} MB",
+            expected=f"at most {room / 1e6:.0f} MB",
+            remedy="put it beside the model and choose it there",
+        )
+    path = _claim(folder, wanted)
+    try:
+        with path.open("wb") as target:
+            async for chunk in request.stream():  # as long as was announced
+                target.write(chunk)
+        if not path.stat().st_size:
+            raise UserError("the file is empty", where=wanted)
+    except BaseException as error:
+        path.unlink(missing_ok=True)
+        if isinstance(error, ClientDisconnect):
+            raise UserError("the upload was broken off; nothing was kept", where=wanted) from None
+        raise
+    return path
+
+
+def make_safe(name: str) -> str:
+    """A name for an uploaded flight: one part, no control characters, of a known ending; or UserError."""
+    plain = unicodedata.normalize("NFC", name).replace("\\", "/").split("/")[-1]
+    plain = re.sub(r"[^\w.+ ()-]", "_", plain).strip(" .")
+    ending = ending_of(plain)
+    if ending is None or len(plain) == len(ending):
+        expected = "a name that ends in " + ", ".join(ENDINGS)
+        raise UserError("this is not a flight file", where=name[:200], expected=expected)
+    if len(plain) > LONGEST_NAME:
+        raise UserError("the name is too long", where=plain[:60] + "…", expected=f"{LONGEST_NAME} characters")
+    return plain
+
+
+def _claim(folder: Path, name: str) -> Path:
+    """An empty file of a name that was not taken: ``flight.csv``, ``flight-2.csv`` ..."""
+    stem, dot, ending = name.partition(".")
+    for n in range(1, 1000):
+        path = folder / (name if n == 1 else f"{stem}-{n}{dot}{ending}")
+        try:
+            path.touch(exist_ok=False)
+        except FileExistsError:
+            continue
+        return path
+    raise UserError("there are too many files of this name", where=name)
+
+
+def check_flight(path: Path) -> None:
+    """Read an uploaded file in a process of its own; UserError, and the file is gone, if that fails or takes too long.
+
+    A damaged file can bring down the library that reads it: then that process ends, and not the studio. A file with columns of
+    other names is kept: what they are is asked on the page.
+    """
+    limit, found = 120.0 + path.stat().st_size / 2e6, "it ends with a fault"
+    command = [sys.executable, "-m", "ragg_runtime", "info", str(path)]
+    try:
+        done = subprocess.run(
+            command, capture_output=True, text=True, errors="replace", timeout=limit, check=False
+        )
+        if done.returncode in (0, 1):
+            return  # a fault of the program is reported where the flight is opened
+        if done.returncode == 2:
+            found = done.stderr.strip().removeprefix("ragg: ")
+    except subprocess.TimeoutExpired:
+        found = f"no end after {limit:.0f} s"
+    path.unlink(missing_ok=True)
+    raise UserError("the file cannot be read", where=path.name, found=found, remedy="see: ragg info FLIGHT")
