@@ -15,7 +15,7 @@ from ragg_runtime.compensation.segment import MEANING
 from ragg_runtime.io import Flight
 from ragg_runtime.io.files import write_tables
 from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.io.tables import Column, Table
+from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.sections import render_notebook
 
@@ -69,8 +69,8 @@ class Compensation:
         """
         parts = [_with_values(s) for s in self.series]
         whole = {n: np.concatenate([s[n] for s in parts]) for n in self.units}
-        columns = [Column(n, unit, _round(n, whole)) for n, unit in self.units.items()]
-        write_tables(Path(path), [Table(tuple(columns))])
+        columns = [DataColumn(n, unit, _round(n, whole)) for n, unit in self.units.items()]
+        write_tables(Path(path), [DataTable(tuple(columns))])
 
 
 def _unit_of(column: str) -> str:

@@ -17,17 +17,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
+from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, missing_package
 from ragg_runtime.io.tables import (
     INDEX,
     WIDEST,
-    Column,
-    Table,
+    DataColumn,
+    DataTable,
     decode_values,
     label,
     make_table,
-    of_arrow,
     read_attributes,
     read_frame_units,
     read_heading,
@@ -41,32 +41,33 @@ if TYPE_CHECKING:
 HDF5_MAGIC = b"\x89HDF\r\n\x1a\n"
 
 _DIMENSION = "This is a netCDF dimension but not a netCDF variable"
-_UNIT_ENDINGS = ("_units", "_unit", "_UNITS", "_UNIT")
 
 
 @contextlib.contextmanager
-def _whole(path: Path, kind: str) -> Iterator[None]:
+def report_damage(path: Path, kind: str) -> Iterator[None]:
     """Say of whatever a library raises that the file is damaged."""
     try:
         yield
-    except UserError:
+    except (UserError, MemoryError):
         raise
     except Exception as error:  # what they raise for damaged files is not documented
+        if (lacking := missing_package(error)) is not None:
+            raise lacking from None
         raise UserError(
             f"the {kind} file is damaged",
             where=path,
             found=(str(error) or type(error).__name__).splitlines()[0][:200],
             expected=f"a whole {kind} file",
-            remedy="copy it again",
+            remedy="copy it again, or save it once more",
         ) from None
 
 
 # --- Parquet -------------------------------------------------------------------------------------------
 
 
-def read_parquet(path: Path) -> list[Table]:
+def read_parquet(path: Path) -> list[DataTable]:
     """The Parquet file as one table: the unit in a field's metadata ``units`` or in what pandas keeps in ``attrs``."""
-    with _whole(path, "Parquet"), path.open("rb") as stream, pq.ParquetFile(stream) as file:
+    with report_damage(path, "Parquet"), path.open("rb") as stream, pq.ParquetFile(stream) as file:
         schema = file.schema_arrow
         require_memory(path, 8.0 * file.metadata.num_rows * len(schema))
         table = file.read()
@@ -92,34 +93,60 @@ def _read_json(text: bytes) -> dict[str, Any]:
     return found if isinstance(found, dict) else {}
 
 
+def of_arrow(column: pa.ChunkedArray) -> NDArray[Any] | None:
+    """Numbers, texts or instants of a column of Arrow; ``None`` for anything else. Its own ``to_numpy`` may load pandas."""
+    kind = column.type.value_type if pa.types.is_dictionary(column.type) else column.type
+    if pa.types.is_string(kind) or pa.types.is_large_string(kind) or pa.types.is_time(kind):
+        return np.array([write_cell(t) for t in column.to_pylist()], dtype=object)
+    if pa.types.is_timestamp(kind) or pa.types.is_date(kind):
+        return np.asarray(column.cast(pa.timestamp("ns")).to_numpy(), dtype="datetime64[ns]")
+    if pa.types.is_duration(kind):
+        return np.asarray(column.cast(pa.duration("ns")).to_numpy(), dtype="timedelta64[ns]")
+    if not (pa.types.is_primitive(kind) or pa.types.is_decimal(kind) or pa.types.is_null(kind)):
+        return None
+    column = column.cast(pa.int8()) if pa.types.is_boolean(kind) else column
+    whole = column.cast(pa.float64()).combine_chunks()
+    return np.asarray(np.from_dlpack(whole.fill_null(float("nan")) if whole.null_count else whole))
+
+
+def write_parquet(path: Path, columns: Sequence[DataColumn]) -> None:
+    """Write columns as float64 with their units; NaN becomes null."""
+    arrays = [pa.array(c.values, from_pandas=True) for c in columns]
+    units = [{"units": c.unit} if c.unit else None for c in columns]
+    fields = [pa.field(c.name, x.type, metadata=u) for c, x, u in zip(columns, arrays, units, strict=True)]
+    with path.open("wb") as stream:
+        pq.write_table(pa.Table.from_arrays(arrays, schema=pa.schema(fields)), stream)
+
+
 # --- HDF5 and NetCDF -----------------------------------------------------------------------------------
 
 
-def read_hdf5(path: Path) -> list[Table]:
-    """The groups of an HDF5 or NetCDF-4 file that hold tables."""
-    with _opened(path) as file:
-        return [t for group in _groups(file) for t in _tables_of_group(path, *group, {})]
-
-
-def read_classic_netcdf(path: Path) -> list[Table]:
-    """The variables of a file of NetCDF 3."""
+def read_netcdf(path: Path) -> list[DataTable]:
+    """The tables of a NetCDF file, version 3 or 4."""
+    with path.open("rb") as stream:
+        classic = stream.read(3) == b"CDF"
+    if not classic:
+        return read_hdf5(path)
     from scipy.io import netcdf_file  # slow to import, and only this format needs it
 
-    with _whole(path, "NetCDF"), netcdf_file(path, mmap=False) as file:
+    with report_damage(path, "NetCDF"), netcdf_file(path, mmap=False) as file:
         found = {n: (np.array(v.data), vars(v)["_attributes"]) for n, v in file.variables.items()}
         return [make_table([(n, label(x, a)) for n, (x, a) in found.items()])]
 
 
-@contextlib.contextmanager
-def _opened(path: Path) -> Iterator[h5py.File]:
-    """The file for reading; UserError if it is damaged, here or later."""
+def read_hdf5(path: Path) -> list[DataTable]:
+    """The groups of an HDF5, NetCDF-4 or MATLAB 7.3 file that hold tables; units of MATLAB in a structure ``units``."""
     import h5py  # slow to import, and only files built on HDF5 need it
 
-    with _whole(path, "HDF5"), h5py.File(path, "r") as file:
-        yield file
+    tables: list[DataTable] = []
+    with report_damage(path, "HDF5"), h5py.File(path, "r") as file:
+        for place, group, arrays in _find_groups(file):
+            if place.rsplit("/", 1)[-1] != "units":
+                tables += _read_group(path, place, group, arrays)
+    return tables
 
 
-def _groups(file: h5py.File) -> Iterator[tuple[str, h5py.Group, dict[str, h5py.Dataset]]]:
+def _find_groups(file: h5py.File) -> Iterator[tuple[str, h5py.Group, dict[str, h5py.Dataset]]]:
     """Every group once, with its datasets; groups may stand in each other, round in a circle."""
     import h5py
 
@@ -131,78 +158,74 @@ def _groups(file: h5py.File) -> Iterator[tuple[str, h5py.Group, dict[str, h5py.D
         if address in seen:
             continue
         seen.add(address)
-        arrays: dict[str, h5py.Dataset] = {}
-        for name in group:
-            # not what MATLAB keeps for itself, nor what stands elsewhere in this file or in another
-            if name.startswith("#") or not isinstance(group.get(name, getlink=True), h5py.HardLink):
-                continue
-            item = group[name]
-            if isinstance(item, h5py.Group):
-                waiting.append((f"{place}/{name}", item))
-            elif isinstance(item, h5py.Dataset) and _is_column(item):
-                arrays[name] = item
-        yield place, group, arrays
+        # not what MATLAB keeps for itself, nor what stands elsewhere in this file or in another
+        names = [n for n in group if n[0] != "#" and isinstance(group.get(n, getlink=True), h5py.HardLink)]
+        items = {n: group[n] for n in names}
+        waiting += [(f"{place}/{n}", x) for n, x in items.items() if isinstance(x, h5py.Group)]
+        yield place, group, {n: x for n, x in items.items() if isinstance(x, h5py.Dataset) and _is_column(x)}
 
 
 def _is_column(data: h5py.Dataset) -> bool:
     """Whether a dataset holds numbers, texts or records of them, not those of another file."""
     import h5py
 
-    if data.shape is None or data.is_virtual or data.external:
+    kind = data.dtype.kind
+    if data.shape is None or data.is_virtual or data.external or kind not in "fiubSOV":
         return False
-    if data.dtype.kind == "O" and h5py.check_string_dtype(data.dtype) is None:
+    if kind == "O" and h5py.check_string_dtype(data.dtype) is None:
         return False  # references and sequences
-    if (
-        _DIMENSION in write_cell(data.attrs.get("NAME"))
-        or write_cell(data.attrs.get("MATLAB_class")) == "char"
-    ):
+    if _DIMENSION in write_cell(data.attrs.get("NAME")):
+        return False
+    if write_cell(data.attrs.get("MATLAB_class")) == "char":
         return False  # MATLAB keeps texts as numbers
-    wide = len(data.shape) > 2 or (len(data.shape) == 2 and min(data.shape) > WIDEST)
-    return data.dtype.kind in "fiubSOV" and not (wide and data.dtype.names is None)
+    narrow = len(data.shape) < 2 or (len(data.shape) == 2 and min(data.shape) <= WIDEST)
+    return narrow or data.dtype.names is not None
 
 
-def _tables_of_group(
-    path: Path, place: str, group: h5py.Group, arrays: Mapping[str, h5py.Dataset], given: Mapping[str, str]
-) -> Iterator[Table]:
+def _read_group(
+    path: Path, place: str, group: h5py.Group, arrays: Mapping[str, h5py.Dataset]
+) -> Iterator[DataTable]:
     """The datasets of a group as a table, and every table of records (PyTables) in it; the group may be a line."""
-    records = {n: d for n, d in arrays.items() if d.dtype.names is not None}
-    plain = {n: d for n, d in arrays.items() if n not in records}
     size = sum(math.prod(d.shape) * max(1, len(d.dtype.names or ())) for d in arrays.values())
     require_memory(path, 8.0 * size)
-    own = write_cell(read_attributes(group).get("line")) or matlab_text(group.get("line"))
+    own = write_cell(read_attributes(group).get("line")) or read_matlab_text(group.get("line"))
     line = own or place.rsplit("/", 1)[-1]
+    units = group.get("units")
+    given = {n: read_matlab_text(x) for n, x in units.items()} if hasattr(units, "items") else {}
+    plain = [(n, label(d[()], read_attributes(d))) for n, d in arrays.items() if d.dtype.names is None]
     if plain:
-        read = [(n, label(d[()], read_attributes(d))) for n, d in plain.items()]
-        yield make_table(read, given, line=line, part=place)
-    for name, data in records.items():
-        yield make_table(_fields(data), index=INDEX, line=line, part=f"{place}/{name}")
+        yield make_table(plain, given, line=line, part=place)
+    for name, data in arrays.items():
+        if data.dtype.names is not None:
+            yield make_table(_read_records(data), index=INDEX, line=line, part=f"{place}/{name}")
 
 
-def _fields(data: h5py.Dataset) -> list[tuple[str, Any]]:
+def _read_records(data: h5py.Dataset) -> list[tuple[str, Any]]:
     """The fields of records as arrays with their units; those of pandas are taken apart by its own list of names."""
-    attributes = read_attributes(data)
-    whole = data[()]
+    attributes, whole = read_attributes(data), data[()].ravel()
     listed = np.atleast_1d(np.asarray(attributes.get("units", attributes.get("unit", "")))).ravel()
+    folded = {n.casefold(): v for n, v in attributes.items()}
     found: list[tuple[str, Any]] = []
     for k, name in enumerate(whole.dtype.names):
-        keys = [f"{n}{e}" for n in (name, f"FIELD_{k}") for e in _UNIT_ENDINGS]
-        unit = next((write_cell(attributes[n]) for n in keys if n in attributes), "")
+        keys = [f"{n}_{e}".casefold() for n in (name, f"FIELD_{k}") for e in ("units", "unit")]
+        unit = next((write_cell(folded[n]) for n in keys if n in folded), "")
         unit = write_cell(listed[k]) if len(listed) == len(whole.dtype.names) else unit
-        values = whole[name]
-        kind = write_cell(attributes.get(f"{name}_kind"))
-        if name == INDEX and kind.startswith(
+        values, kind = whole[name], attributes.get(f"{name}_kind")
+        written = write_cell(kind)
+        if name == INDEX and written.startswith(
             ("datetime64", "timedelta64")
-        ):  # whole numbers, of nanoseconds if not said
-            step = kind[kind.index("[") + 1 : -1] if kind.endswith("]") else "ns"
-            values = values.astype(np.int64).view(f"{'M8' if kind[0] == 'd' else 'm8'}[{step}]")
-        columns = _pickled_names(attributes.get(f"{name}_kind")) if name != INDEX else []
-        parts = values.T if values.ndim == 2 and values.shape[1] == len(columns) else [values]
-        titles = columns if len(columns) == len(parts) else [name]
-        found += [(n, label(x, {"units": unit})) for n, x in zip(titles, parts, strict=False)]
+        ):  # whole numbers, of ns if not said
+            step = written[written.index("[") + 1 : -1] if written.endswith("]") else "ns"
+            values = values.astype(np.int64).view(f"{'M8' if written[0] == 'd' else 'm8'}[{step}]")
+        titles = [] if name == INDEX else _read_pickled_names(kind)
+        if values.ndim == 2 and values.shape[1] == len(titles):
+            found += [(n, label(x, {"units": unit})) for n, x in zip(titles, values.T, strict=True)]
+        else:
+            found.append((titles[0] if len(titles) == 1 else name, label(values, {"units": unit})))
     return found
 
 
-def _pickled_names(value: object) -> list[str]:
+def _read_pickled_names(value: object) -> list[str]:
     """The texts in a list that PyTables has pickled; nothing is executed."""
     data = (
         value.tobytes() if isinstance(value, np.void) else bytes(value) if isinstance(value, bytes) else b""
@@ -216,23 +239,20 @@ def _pickled_names(value: object) -> list[str]:
 # --- MATLAB --------------------------------------------------------------------------------------------
 
 
-def read_matlab(path: Path) -> list[Table]:
+def read_matlab(path: Path) -> list[DataTable]:
     """The vectors of a MATLAB file, and its structures of vectors; units in a structure ``units``."""
     with path.open("rb") as stream:
-        head = stream.read(10)
-    if not head.startswith((b"MATLAB 7.3", HDF5_MAGIC)):
-        return list(_structures(_load(path)))
-    tables: list[Table] = []
-    with _opened(path) as file:
-        for place, group, arrays in _groups(file):
-            units = group.get("units")
-            given = {n: matlab_text(x) for n, x in units.items()} if hasattr(units, "items") else {}
-            if place.rsplit("/", 1)[-1] != "units":
-                tables += _tables_of_group(path, place, group, arrays, given)
-    return tables
+        if stream.read(10).startswith((b"MATLAB 7.3", HDF5_MAGIC)):
+            return read_hdf5(path)
+    from scipy.io import loadmat, whosmat  # slow to import, and only this format needs it
+
+    with report_damage(path, "MATLAB"):
+        require_memory(path, 8.0 * sum(math.prod(shape) for _, shape, _ in whosmat(path)))
+        found = loadmat(path, mat_dtype=False, simplify_cells=True)
+    return list(_read_structures({n: v for n, v in found.items() if not n.startswith("__")}))
 
 
-def matlab_text(item: object) -> str:
+def read_matlab_text(item: object) -> str:
     """The text that MATLAB keeps in a dataset, as numbers; ``""`` where there is none, or no short one."""
     if getattr(getattr(item, "dtype", None), "kind", "") != "u" or not 0 < item.size <= 200:  # type: ignore[attr-defined]
         return ""
@@ -240,17 +260,7 @@ def matlab_text(item: object) -> str:
     return "".join(chr(int(c)) for c in codes if 0 < int(c) < 0x110000).strip()
 
 
-def _load(path: Path) -> dict[str, Any]:
-    """The variables of a file of version 4 to 7."""
-    from scipy.io import loadmat, whosmat  # slow to import, and only this format needs it
-
-    with _whole(path, "MATLAB"):
-        require_memory(path, 8.0 * sum(math.prod(shape) for _, shape, _ in whosmat(path)))
-        found = loadmat(path, mat_dtype=False, simplify_cells=True)
-    return {n: v for n, v in found.items() if not n.startswith("__")}
-
-
-def _structures(variables: Mapping[str, Any]) -> Iterator[Table]:
+def _read_structures(variables: Mapping[str, Any]) -> Iterator[DataTable]:
     """Every structure of vectors as a table; where it stands is the name of its line."""
     waiting: list[tuple[str, Mapping[str, Any]]] = [("", variables)]
     while waiting:
@@ -273,12 +283,3 @@ def _structures(variables: Mapping[str, Any]) -> Iterator[Table]:
                     arrays.append((name, x))
         if arrays:
             yield make_table(arrays, given, line=place, part=place)
-
-
-def write_parquet(path: Path, columns: Sequence[Column]) -> None:
-    """Write columns as float64 with their units; NaN becomes null."""
-    arrays = [pa.array(c.values, from_pandas=True) for c in columns]
-    units = [{"units": c.unit} if c.unit else None for c in columns]
-    fields = [pa.field(c.name, x.type, metadata=u) for c, x, u in zip(columns, arrays, units, strict=True)]
-    with path.open("wb") as stream:
-        pq.write_table(pa.Table.from_arrays(arrays, schema=pa.schema(fields)), stream)

@@ -1,4 +1,4 @@
-"""From a recording to a flight: SI units, the uniform grid, what is missing, what can be derived."""
+"""From a table under the names of the contract to a flight: SI units, the uniform grid, what is missing, what can be derived."""
 
 from __future__ import annotations
 
@@ -6,13 +6,11 @@ from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.angular_acceleration import planned
 from ragg_runtime.io.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
@@ -21,14 +19,15 @@ from ragg_runtime.io.record import (
     GRADIENT,
     RATES,
     SI_UNITS,
-    SPECIFIC_FORCE,
     Array,
     Flight,
     Mask,
     is_disc_angle,
 )
-from ragg_runtime.io.recording import Recording, pass_over
-from ragg_runtime.io.sampling import Grid, uniform
+from ragg_runtime.io.recording import NEEDED, pass_over
+from ragg_runtime.io.sampling import Grid, make_grid
+from ragg_runtime.io.tables import DataTable
+from ragg_runtime.signals.angular_acceleration import derive_accelerations
 from ragg_runtime.signals.derivative import runs
 
 BRIDGED = 2.0
@@ -40,17 +39,13 @@ ENDLESS = 1e100
 MOST_UNUSED = 0.5
 """Share of a file's samples from which on, if something lacks in them, the rest is no evidence."""
 
-COLDEST, HOTTEST = 100.0, 1000.0
-"""K: if all others are between these, a column holds temperatures, and not differences of them."""
-
 _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
-_NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
 
 
 def make_flight(
-    made: Recording, g0: float, *, need_output: bool = True, accelerometers: Accelerometers = PAPER
+    made: DataTable, g0: float, *, need_output: bool = True, accelerometers: Accelerometers = PAPER
 ) -> Flight:
-    """The flight of a recording, in SI on a uniform grid.
+    """The flight of a table, in SI on a uniform grid.
 
     Parameters
     ----------
@@ -66,33 +61,44 @@ def make_flight(
     Raises
     ------
     UserError
-        If a column is missing, does not convert, or the record is not uniformly sampled.
+        If a column is missing, does not convert, the record is not uniformly sampled, or half of the file's rows or more
+        lack something: what is left must not acquit a model.
     """
-    names = [c.name for c in made.columns]
-    _require_names(made, names, _NEEDED, "the motion needs")
-    if any(n in names for n in ANGULAR_ACCELERATION):
-        _require_names(made, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
+    _require_names(made, NEEDED, "the motion needs")
+    if any(n in made.names for n in ANGULAR_ACCELERATION):
+        _require_names(made, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
     if need_output:
-        _require_output(made, names, accelerometers)
+        _require_output(made, made.names, accelerometers)
     si, si_units = _convert(made, g0, accelerometers)
     time = si.pop("time")
-    grid = uniform(time, made.place)
+    grid = make_grid(time, made.place)
     notes = [*made.notes, *_leave_out_impossible(si, si_units), *grid.notes]
-    slower = _find_slower(time, si, si_units, notes)
+    slower = _interpolate_slower(time, si, si_units, grid, notes)
     _drop_empty(si, notes, made.place)
     if need_output:  # once more: of the columns that hold anything
-        _require_output(made, list(si), accelerometers)
-    placed = {c: slower[c].at(grid.time) if c in slower else _placed(v, grid) for c, v in si.items()}
+        _require_output(made, (*si, *slower), accelerometers)
+    placed = {c: _place(v, grid) for c, v in si.items()} | slower
+    placed = {c: placed[c] for c in made.names if c in placed}
     notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
     outputs = {c: placed.pop(c) for c in (*accelerometers.columns, *DEMODULATED) if c in placed}
     valid = _find_valid(placed | outputs, outputs, grid, notes)
     _derive_outputs(outputs, notes, accelerometers)
-    channels = {c: _filled(v, c) for c, v in placed.items()}
+    channels = {c: _fill(v, c) for c, v in placed.items()}
     if ANGULAR_ACCELERATION[0] not in channels:
-        _derive_acceleration(channels, placed, grid, valid, notes)
+        slopes, sure, derivative = derive_accelerations([placed[n] for n in ANGULAR_RATE], grid.time)
+        valid &= sure  # a sample that stands alone between two gaps has no derivative
+        channels |= {n: _fill(x, n) for n, x in zip(ANGULAR_ACCELERATION, slopes, strict=True)}
+        notes.append(derivative.note)
     _check_gradient(channels, notes)
-    if not valid.any():
-        raise UserError("no sample of the flight is complete", where=made.place, found="; ".join(notes))
+    used = int(np.sum(valid))
+    if used <= (1 - MOST_UNUSED) * len(made):
+        raise UserError(
+            "most samples of the flight are incomplete: the rest would be no evidence",
+            where=made.place,
+            found=f"{len(made) - used} of {len(made)} samples cannot be used ({'; '.join(notes)})",
+            expected=f"fewer than {100 * MOST_UNUSED:.0f} % without a value",
+            remedy="record all columns at one rate, or resample the file to the slowest that it needs",
+        )
     return Flight(
         time=grid.time,
         channels=channels,
@@ -103,20 +109,7 @@ def make_flight(
         written={c.name: c.unit for c in made.columns},
         demodulation=made.demodulation,
         instants=made.instants,
-    )
-
-
-def require_enough(flight: Flight, rows: int) -> Flight:
-    """The flight, unless half of the file's rows or more lack something: what is left must not acquit a model."""
-    used = int(np.sum(flight.valid))
-    if used > (1 - MOST_UNUSED) * rows:
-        return flight
-    raise UserError(
-        "most samples of the flight are incomplete: the rest would be no evidence",
-        where=flight.path or flight.name,
-        found=f"{rows - used} of {rows} samples cannot be used ({'; '.join(flight.notes)})",
-        expected=f"fewer than {100 * MOST_UNUSED:.0f} % without a value",
-        remedy="record all columns at one rate, or resample the file to the slowest that it needs",
+        lacking=np.any([np.isnan(placed[n]) for n in ANGULAR_RATE], axis=0),
     )
 
 
@@ -124,7 +117,7 @@ def require_enough(flight: Flight, rows: int) -> Flight:
 
 
 def _convert(
-    made: Recording, g0: float, accelerometers: Accelerometers
+    made: DataTable, g0: float, accelerometers: Accelerometers
 ) -> tuple[dict[str, Array], dict[str, str]]:
     """The columns in SI, NaN for what is beyond all bounds, and their units; UserError if one does not convert."""
     fixed = {**SI_UNITS, **dict.fromkeys(accelerometers.columns, "V")}
@@ -141,29 +134,33 @@ def _convert(
 
 
 def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> list[str]:
-    """Take out temperatures that no sensor can have read, and say so; those about 0 K are differences of temperature."""
+    """Take out temperatures that no sensor can have read, and say so.
+
+    Where those above 0 K are farther from it than from each other, a column holds temperatures; else differences of them.
+    """
     notes = []
     for name in [n for n, u in si_units.items() if u == "K" and n in si]:
         with np.errstate(invalid="ignore"):
-            cold, usual = si[name] <= 0.0, (si[name] > COLDEST) & (si[name] < HOTTEST)
-        if cold.any() and np.all(cold | usual | np.isnan(si[name])):
+            cold, warm = si[name] <= 0.0, si[name][si[name] > 0.0]
+        if cold.any() and len(warm) and np.min(warm) > np.ptp(warm):
             si[name] = np.where(cold, np.nan, si[name])
-            count = samples_of(int(np.sum(cold)))
+            count = count_samples(int(np.sum(cold)))
             notes.append(f"{name}: {count} not above absolute zero: no readings, left out")
     return notes
 
 
-def _require_names(made: Recording, names: Sequence[str], needed: Sequence[str], what: str) -> None:
-    missing = [n for n in needed if n not in names]
+def _require_names(made: DataTable, needed: Sequence[str], what: str) -> None:
+    missing = [n for n in needed if n not in made.names]
     if not missing:
         return
-    spare = [n for n in (*names, *made.passed) if n not in SI_UNITS]
+    spare = [n for n in (*made.names, *made.passed) if n not in SI_UNITS]
     near = did_you_mean(missing[0], spare) if len(missing) == 1 else None
-    verb = "s {} are" if len(missing) > 1 else " {} is"
     raise UserError(
-        f"the column{verb.format(', '.join(missing))} missing",
+        f"the columns {', '.join(missing)} are missing"
+        if len(missing) > 1
+        else f"the column {missing[0]} is missing",
         where=made.place,
-        found=_found(made, names),
+        found=_list_columns(made, made.names),
         expected=f"{what} " + ", ".join(needed),
         remedy="say what the columns are: ragg map FLIGHT -o mapping.toml"
         if near is None
@@ -171,13 +168,13 @@ def _require_names(made: Recording, names: Sequence[str], needed: Sequence[str],
     )
 
 
-def _found(made: Recording, names: Sequence[str]) -> str:
+def _list_columns(made: DataTable, names: Sequence[str]) -> str:
     told = [n for n in made.notes if n.startswith("passed over,")]
     told += [pass_over(made.passed)] if made.passed else []
     return "; ".join(["the columns " + ", ".join(names), *told])
 
 
-def _require_output(made: Recording, names: Sequence[str], a: Accelerometers) -> None:
+def _require_output(made: DataTable, names: Sequence[str], a: Accelerometers) -> None:
     if any(o.name in names or a.voltages(o, names) is not None for o in a.outputs):
         return
     if len(a.outputs) == 1 and all(n in names for n in DEMODULATED):
@@ -188,7 +185,7 @@ def _require_output(made: Recording, names: Sequence[str], a: Accelerometers) ->
     raise UserError(
         "the instrument's output is missing",
         where=made.place,
-        found=_found(made, names),
+        found=_list_columns(made, names),
         expected=f"{a.output_names[0]}, or {volts}; {further}",
         remedy=next(filter(None, near), None),
     )
@@ -197,16 +194,17 @@ def _require_output(made: Recording, names: Sequence[str], a: Accelerometers) ->
 def _drop_empty(si: dict[str, Array], notes: list[str], place: str) -> None:
     """Leave out columns without a single number, unless the motion would be incomplete."""
     for name in [n for n, v in si.items() if np.isnan(v).all()]:
-        if name in _NEEDED:
-            where = at(place, f"column {name!r}")
-            raise UserError(
-                "the column holds no number", where=where, expected="numbers: the motion needs it"
-            )
+        if name in NEEDED:
+            what, expected = "the column holds no number", "numbers: the motion needs it"
+            raise UserError(what, where=at(place, f"column {name!r}"), expected=expected)
         del si[name]
         notes.append(f"{name}: the column holds no number; it is left out")
 
 
-def _placed(values: Array, grid: Grid) -> Array:
+# --- on the grid ---------------------------------------------------------------------------------------
+
+
+def _place(values: Array, grid: Grid) -> Array:
     """Values on the whole grid, NaN where the file has no sample."""
     if len(values) == len(grid.time):
         return values
@@ -226,31 +224,33 @@ def _find_valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, 
         if not lacking.any():
             continue
         bridged = np.zeros_like(missing)
-        if (name not in SI_UNITS or name in AUXILIARY) and name not in outputs:
+        if _is_auxiliary(name) and name not in outputs:
             for run in runs(lacking):
                 inside = run.start > 0 and run.stop < len(missing)
                 bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
         kept = int(np.sum(bridged))
         lost = int(np.sum(lacking)) - kept
-        notes += [f"{name}: without a value at {samples_of(kept)}, interpolated"] if kept else []
-        notes += [f"{name}: without a value at {samples_of(lost)}, not used"] if lost else []
+        notes += [f"{name}: without a value at {count_samples(kept)}, interpolated"] if kept else []
+        notes += [f"{name}: without a value at {count_samples(lost)}, not used"] if lost else []
         valid &= ~missing | bridged
     return valid
 
 
-def samples_of(count: int) -> str:
+def _is_auxiliary(name: str) -> bool:
+    return name not in SI_UNITS or name in AUXILIARY
+
+
+def count_samples(count: int) -> str:
     return "1 sample" if count == 1 else f"{count} samples"
 
 
-def _filled(values: Array, name: str) -> Array:
+def _fill(values: Array, name: str) -> Array:
     missing = np.isnan(values)
     if not missing.any():
         return values
     places = np.flatnonzero(~missing)
     there = np.unwrap(values[places]) if is_disc_angle(name) else values[places]
-    result = values.copy()
-    result[missing] = np.interp(np.flatnonzero(missing), places, there)
-    return result
+    return np.where(missing, np.interp(np.arange(len(values)), places, there), values)
 
 
 def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Accelerometers) -> None:
@@ -274,18 +274,6 @@ def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Acceleromete
             )
 
 
-def _derive_acceleration(
-    channels: dict[str, Array], placed: Mapping[str, Array], grid: Grid, valid: Mask, notes: list[str]
-) -> None:
-    even = [_evenly(placed[n], grid) for n in ANGULAR_RATE]
-    derivative = planned(even, 1 / grid.step)
-    for name, rate in zip(ANGULAR_ACCELERATION, even, strict=True):
-        slope, sure = derivative.of(rate, 1 / grid.step)
-        valid &= sure  # a sample that stands alone between two gaps has no derivative
-        channels[name] = _filled(_at_own_instants(slope, grid), name)
-    notes.append(derivative.note)
-
-
 def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:
     given = [n for n in GRADIENT if n in channels]
     if given and len(given) < len(GRADIENT):
@@ -294,31 +282,6 @@ def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:
     trace = float(np.max(np.abs(np.sum(diagonal, axis=0)))) if len(diagonal) == 3 else 0.0
     if trace > _TRACE_NOTED:
         notes.append(f"Gamma_xx + Gamma_yy + Gamma_zz reaches {trace / 1e-9:.3g} Eo; outside matter it is 0")
-
-
-DEGREE = 5
-"""Of the splines: their derivative is as good as the finite differences'."""
-
-
-def _at_own_instants(x: Array, grid: Grid) -> Array:
-    """A series of the even grid at the samples' own instants; itself where they do not jitter."""
-    there = np.isfinite(x)
-    if not grid.jitters or np.sum(there) < DEGREE + 3:
-        return x
-    return np.where(there, make_interp_spline(_even(grid)[there], x[there], DEGREE)(grid.time), np.nan)
-
-
-def _evenly(x: Array, grid: Grid) -> Array:
-    """Samples at evenly spaced instants; themselves where they do not jitter."""
-    there = np.isfinite(x)
-    if not grid.jitters or np.sum(there) < DEGREE + 3:
-        return x
-    return np.where(there, make_interp_spline(grid.time[there], x[there], DEGREE)(_even(grid)), np.nan)
-
-
-def _even(grid: Grid) -> Array:
-    n = len(grid.time)
-    return np.asarray(np.polyval(np.polyfit(np.arange(n), grid.time, 1), np.arange(n)))
 
 
 # --- channels of a lower rate --------------------------------------------------------------------------
@@ -343,7 +306,7 @@ fourth of it at most, rms a twentieth."""
 
 
 @dataclass(frozen=True)
-class Slow:
+class SlowChannel:
     """The values of a channel at its own instants, and its step, s."""
 
     time: Array
@@ -358,16 +321,14 @@ class Slow:
 
     def at(self, time: Array) -> Array:
         """(N,): interpolated; NaN before the first value, after the last and in gaps of more than ``BRIDGED_STEPS`` steps."""
-        found = np.interp(time, self.time, self.values)
         after = np.clip(np.searchsorted(self.time, time), 1, len(self.time) - 1)
         wide = self.time[after] - self.time[after - 1] > BRIDGED_STEPS * self.step
-        inside = (time > self.time[after - 1]) & (time < self.time[after])
-        outside = (time < self.time[0]) | (time > self.time[-1])
-        found[(wide & inside) | outside] = np.nan
-        return np.asarray(found)
+        lost = wide & (time > self.time[after - 1]) & (time < self.time[after])
+        lost |= (time < self.time[0]) | (time > self.time[-1])
+        return np.where(lost, np.nan, np.interp(time, self.time, self.values))
 
 
-def judge_slow(time: Array, values: Array) -> Slow | str:
+def judge_slow(time: Array, values: Array) -> SlowChannel | str:
     """The channel, from its values (n,) and their instants, s; or why it cannot be interpolated linearly, in words."""
     if len(values) < FEWEST_VALUES:
         return f"it has {len(values)} value{'s' * (len(values) != 1)}"
@@ -375,38 +336,36 @@ def judge_slow(time: Array, values: Array) -> Slow | str:
     step = float(np.median(steps))
     if np.mean(np.abs(steps - step) <= 0.5 * step) < REGULAR:
         return "it is not recorded at regular intervals"
-    spread = float(np.std(values))
     a, b = steps[:-1], steps[1:]
     between = (values[:-2] * b + values[2:] * a) / (a + b)
     near = np.maximum(a, b) <= BRIDGED_STEPS * step
     error = float(np.sqrt(np.mean((values[1:-1] - between)[near] ** 2))) if near.any() else np.inf
-    if error > SLOW * spread:
+    if error > SLOW * float(np.std(values)):
         return f"it changes too fast for one value in {step:.3g} s"
-    return Slow(time, values, step)
+    return SlowChannel(time, values, step)
 
 
-def _find_slower(
-    time: Array, si: dict[str, Array], si_units: Mapping[str, str], notes: list[str]
-) -> dict[str, Slow]:
-    """Auxiliary channels of a lower rate; those that cannot be interpolated are taken out of ``si``."""
+def _interpolate_slower(
+    time: Array, si: dict[str, Array], si_units: Mapping[str, str], grid: Grid, notes: list[str]
+) -> dict[str, Array]:
+    """Auxiliary channels of a lower rate on the whole grid; they are taken out of ``si``, as are those that cannot be."""
     whole = float(time[-1] - time[0])
     # One value in two seconds: more often than that, blanks are bridged where they stand.
     most = 1000 + 2 * int(min(whole / BRIDGED, ENDLESS))
     found = {}
-    for name in [n for n in si if n not in SI_UNITS or n in AUXILIARY]:
+    for name in filter(_is_auxiliary, list(si)):
         there = np.isfinite(si[name])
         count = int(np.sum(there))
         if not 0 < count < min((1 - SPARSE) * len(there), most + 1):
             continue
-        values = si[name][there]
+        values = si.pop(name)[there]
         channel = judge_slow(time[there], np.unwrap(values) if si_units[name] == "rad" else values)
-        if isinstance(channel, Slow) and channel.covered < (1 - MOST_UNUSED) * whole:
+        if isinstance(channel, SlowChannel) and channel.covered < (1 - MOST_UNUSED) * whole:
             channel = f"its values cover {channel.covered:.4g} s of {whole:.4g} s"
-        lacking = samples_of(len(there) - count)
-        if isinstance(channel, Slow):
-            found[name] = channel
+        lacking = count_samples(len(there) - count)
+        if isinstance(channel, SlowChannel):
+            found[name] = channel.at(grid.time)
             notes.append(f"{name}: recorded every {channel.step:.4g} s; interpolated (at {lacking})")
         else:
-            del si[name]
             notes.append(f"{name}: without a value at {lacking}; left out: {channel}")
     return found

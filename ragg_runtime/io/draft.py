@@ -22,7 +22,7 @@ from ragg_runtime.io.instants import find_order, parts_of
 from ragg_runtime.io.mapping import UNKNOWN
 from ragg_runtime.io.record import ANGULAR_RATE, DEMODULATED, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.recording import find_spoiled, parse_numbers
-from ragg_runtime.io.tables import Column, Table, is_unit, split_lines
+from ragg_runtime.io.tables import DataColumn, DataTable, is_unit, split_lines
 
 _LOOKED_AT = 20_000  # rows of a sample
 _FEW = 5  # different cells that are no numbers, in a column of numbers
@@ -91,13 +91,13 @@ OUTPUTS = ("G_out", "V_", "inline")
 """How channels begin of which one must be there."""
 
 
-def sample_table(path: Path) -> Table:
+def sample_table(path: Path) -> DataTable:
     """The first rows of the table that a mapping would be drafted for."""
     table = _pick(read_tables(path), path)[1]
     return table.rows(np.arange(min(len(table), _LOOKED_AT)))
 
 
-def _pick(tables: Sequence[Table], path: Path) -> tuple[list[Table], Table]:
+def _pick(tables: Sequence[DataTable], path: Path) -> tuple[list[DataTable], DataTable]:
     """The tables that are alike to the one with most columns of known roles, and that one."""
     tables = [t for t in tables if t.columns]
     if not tables:
@@ -107,7 +107,7 @@ def _pick(tables: Sequence[Table], path: Path) -> tuple[list[Table], Table]:
     return alike, replace(alike[0], part=best.part if len(alike) < len(tables) else "")
 
 
-def _read_numbers(table: Table) -> tuple[Table, dict[str, list[str]]]:
+def _read_numbers(table: DataTable) -> tuple[DataTable, dict[str, list[str]]]:
     """The table with columns of text that are mostly numbers as numbers, and the few cells of them that are none."""
     columns, odd = [], {}
     for c in table.columns:
@@ -121,7 +121,7 @@ def _read_numbers(table: Table) -> tuple[Table, dict[str, list[str]]]:
     return replace(table, columns=tuple(columns)), odd
 
 
-def _write_file(table: Table, tables: Sequence[Table], page: _Page) -> None:
+def _write_file(table: DataTable, tables: Sequence[DataTable], page: _Page) -> None:
     lines = []
     if table.part:
         lines.append(f'part = "{_quoted(table.part)}"  # likely: the file holds several tables that differ')
@@ -140,7 +140,7 @@ def _write_file(table: Table, tables: Sequence[Table], page: _Page) -> None:
     page.lines += ["[file]", *lines, ""] if lines else []
 
 
-def _write_time(table: Table, page: _Page) -> None:
+def _write_time(table: DataTable, page: _Page) -> None:
     page.lines.append("[time]")
     found = _find_instants(table)
     fits = [c for c in table.columns if c.is_number and (r := role_of(c.name)) and r.name == "time"]
@@ -170,7 +170,7 @@ def _write_time(table: Table, page: _Page) -> None:
         page.lines += [f'unit = "{UNKNOWN}"', ""]
 
 
-def _find_instants(table: Table) -> tuple[tuple[str, ...], str, str] | None:
+def _find_instants(table: DataTable) -> tuple[tuple[str, ...], str, str] | None:
     """Columns that hold instants as such, their format (``?``: one of two), and how sure that is."""
     if any(c.name == "time" and c.is_number and c.unit for c in table.columns):
         return None
@@ -192,25 +192,25 @@ def _find_instants(table: Table) -> tuple[tuple[str, ...], str, str] | None:
     return None
 
 
-def _find_form(c: Column) -> str:
+def _find_form(c: DataColumn) -> str:
     """The format of dates: ``iso``, ``d/m/y``, ``m/d/y``, or ``?`` where both are possible."""
     if not c.is_text:
         return "iso"
     return {"ymd": "iso", "dmy": "d/m/y", "mdy": "m/d/y"}.get(find_order(c.values) or "", UNKNOWN)
 
 
-def _cell(c: Column) -> str:
+def _cell(c: DataColumn) -> str:
     """The first cell of a column that is not empty, as text."""
     return next((str(v) for v in c.values if str(v)), "")
 
 
-def _example(c: Column) -> str:
+def _example(c: DataColumn) -> str:
     return _quoted(repr(_cell(c)[:40])) if c.is_text else "dates"
 
 
-def _write_columns(table: Table, page: _Page) -> None:
+def _write_columns(table: DataTable, page: _Page) -> None:
     page.lines.append("[columns]")
-    taken: dict[str, tuple[Column, Role]] = {}
+    taken: dict[str, tuple[DataColumn, Role]] = {}
     numbers = [c for c in table.columns if c.is_number and c.name not in page.used]
     candidates = [(c, r) for c in numbers if (r := role_of(c.name)) and r.name not in _TIMES]
     # The surest name wins a channel: certain before likely before guess, then the order of the file.
@@ -227,13 +227,13 @@ def _write_columns(table: Table, page: _Page) -> None:
         page.lines.append(f"{_key(name)} = {entry}{comment}")
 
 
-def _null(c: Column, page: _Page) -> str:
+def _null(c: DataColumn, page: _Page) -> str:
     """What stands for missing values in a column: its cells that are no numbers."""
     cells = ", ".join(f'"{_quoted(t)}"' for t in page.odd.get(c.name, ()))
     return f"null = [{cells}]" if cells else ""
 
 
-def _find_unit(c: Column, name: str, page: _Page, where: str) -> tuple[str, str]:
+def _find_unit(c: DataColumn, name: str, page: _Page, where: str) -> tuple[str, str]:
     """The unit to write and a remark; a question where the file gives none or one that cannot be."""
     stem = re.sub(r"_[^_]+$", "", name)
     si = SI_UNITS.get(name) or (SI_UNITS.get(stem) if stem in DEMODULATED else None)

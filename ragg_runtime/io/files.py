@@ -1,6 +1,6 @@
 """Flight files: the formats by their endings, reading, writing, converting; flights in memory go the same way.
 
-A further format is one function ``path -> list of Table`` and a line of :data:`FORMATS`.
+A further format is one function ``path -> list of DataTable`` and a line of :data:`FORMATS`.
 """
 
 from __future__ import annotations
@@ -26,30 +26,23 @@ from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.array_files import (
     HDF5_MAGIC,
-    read_classic_netcdf,
     read_hdf5,
     read_matlab,
+    read_netcdf,
     read_parquet,
     write_parquet,
 )
-from ragg_runtime.io.assemble import make_flight, require_enough
+from ragg_runtime.io.assemble import make_flight
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.io.record import SI_UNITS, Flight
-from ragg_runtime.io.recording import Recording, make_recordings
-from ragg_runtime.io.tables import Column, Table, digest_tables, tabulate
+from ragg_runtime.io.recording import make_recordings
+from ragg_runtime.io.tables import DataColumn, DataTable, digest_tables, tabulate
 from ragg_runtime.io.text_tables import read_csv, read_excel
 
 # --- formats -------------------------------------------------------------------------------------------
 
 
-def read_netcdf(path: Path) -> list[Table]:
-    """The tables of a NetCDF file, version 3 or 4."""
-    with path.open("rb") as stream:
-        classic = stream.read(3) == b"CDF"
-    return read_classic_netcdf(path) if classic else read_hdf5(path)
-
-
-def write_csv(path: Path, columns: Sequence[Column]) -> None:
+def write_csv(path: Path, columns: Sequence[DataColumn]) -> None:
     """Write columns exactly: every number is the shortest that reads back as itself, NaN is left empty."""
     header = io.StringIO()
     titles = [f"{c.name} [{c.unit}]" if c.unit else c.name for c in columns]
@@ -66,7 +59,7 @@ def write_csv(path: Path, columns: Sequence[Column]) -> None:
             stream.close()
 
 
-def write_netcdf(path: Path, columns: Sequence[Column]) -> None:
+def write_netcdf(path: Path, columns: Sequence[DataColumn]) -> None:
     """Write columns as float64 variables along ``time``; names of lines that are no numbers in ``flag_meanings`` (CF, 3.5)."""
     import xarray  # slow to import, and only this format needs it
 
@@ -98,8 +91,8 @@ class Format:
     name: str
     endings: tuple[str, ...]
     magic: tuple[bytes, ...]
-    read: Callable[[Path], list[Table]]
-    write: Callable[[Path, Sequence[Column]], None] | None = None
+    read: Callable[[Path], list[DataTable]]
+    write: Callable[[Path, Sequence[DataColumn]], None] | None = None
 
 
 FORMATS = (
@@ -117,7 +110,7 @@ ENDINGS: Mapping[str, Format] = {e: f for f in FORMATS for e in f.endings}
 
 def ending_of(name: str) -> str | None:
     """The longest known ending of a file name."""
-    return next((e for e in sorted(ENDINGS, key=len, reverse=True) if name.lower().endswith(e)), None)
+    return max((e for e in ENDINGS if name.lower().endswith(e)), key=len, default=None)
 
 
 def format_of(path: Path) -> Format:
@@ -134,7 +127,7 @@ def format_of(path: Path) -> Format:
     )
 
 
-def require_writable(path: Path) -> Callable[[Path, Sequence[Column]], None]:
+def require_writable(path: Path) -> Callable[[Path, Sequence[DataColumn]], None]:
     """The writer of a file; UserError for formats that are read alone."""
     kind = format_of(path)
     if kind.write is not None:
@@ -163,40 +156,43 @@ def _require_content(path: Path, expected: Format) -> None:
     if not head:
         remedy = "the recording or the copy may have failed: get the file again"
         raise UserError("the flight file is empty", where=path, found="0 bytes", remedy=remedy)
-    names = [f.name for f in FORMATS if any(head.startswith(m) for m in f.magic)]
-    if (expected.name in names) if expected.magic else not names:
-        return
-    raise UserError(
-        "the content does not fit the ending of the file name",
-        where=path,
-        found=f"{' or '.join(names)}, by its first bytes" if names else "text, or a format that is not known",
-        expected=expected.name,
-        remedy="rename the file, or save it as CSV, Parquet or NetCDF-4",
-    )
-
-
-def read_tables(path: Path) -> list[Table]:
-    """All tables of a file, by the ending of its name and its content."""
-    kind = format_of(path)
-    _require_content(path, kind)
-    try:
-        return kind.read(path)
-    except MemoryError:
+    names = [f.name for f in FORMATS if head.startswith(f.magic or b"\0\0")]
+    if not (expected.name in names if expected.magic else not names):
         raise UserError(
-            "the file is damaged, or too large for the memory of this computer",
+            "the content does not fit the ending of the file name",
             where=path,
-            remedy="copy it again, or divide it",
-        ) from None
+            found=f"{' or '.join(names)}, by its first bytes"
+            if names
+            else "text, or a format that is not known",
+            expected=expected.name,
+            remedy="rename the file, or save it as CSV, Parquet or NetCDF-4",
+        )
+
+
+def read_tables(source: Any) -> list[DataTable]:
+    """All tables of a file, by the ending of its name and its content, or of a flight in memory."""
+    if not isinstance(source, Path):
+        return tabulate(source)
+    kind = format_of(source)
+    _require_content(source, kind)
+    try:
+        return kind.read(source)
+    except MemoryError:
+        what, remedy = (
+            "the file is damaged, or too large for the memory of this computer",
+            "copy it again, or divide it",
+        )
+        raise UserError(what, where=source, remedy=remedy) from None
 
 
 # --- reading -------------------------------------------------------------------------------------------
 
 
-def read_recordings(source: Any, mapping: Mapped | None = None, *, lenient: bool = False) -> list[Recording]:
-    """The recordings in a file or in memory, one for each line; see :func:`.recording.make_recordings`."""
-    path = Path(source) if isinstance(source, str | Path) else None
-    tables = tabulate(source) if path is None else read_tables(path)
-    return make_recordings(tables, path or "flight", mapping, lenient=lenient)
+def read_recordings(source: Any, mapping: Mapped | None = None, *, lenient: bool = False) -> list[DataTable]:
+    """The records in a file or in memory, one for each line; see :func:`.recording.make_recordings`."""
+    source = Path(source) if isinstance(source, str) else source
+    place = source if isinstance(source, Path) else "flight"
+    return make_recordings(read_tables(source), place, mapping, lenient=lenient)
 
 
 def read_flights(
@@ -231,8 +227,8 @@ def read_flights(
         Of a flight in memory.
     """
     path = Path(source) if isinstance(source, str | Path) else None
-    tables = tabulate(source) if path is None else read_tables(path)
-    made = make_recordings(tables, name if path is None else path, mapping, leave=leave)
+    tables = read_tables(path or source)
+    made = make_recordings(tables, path or name, mapping, leave=leave)
     digest = digest_tables(tables) if path is None else file_digest(path)
     title = name if path is None else flight_name(path)
     flights = []
@@ -240,11 +236,11 @@ def read_flights(
         own = title + (f":{r.line}" if len(made) > 1 else "")
         try:
             x = make_flight(r, g0, need_output=need_output, accelerometers=accelerometers)
-            flights.append(require_enough(replace(x, name=own, path=path, digest=digest), len(r)))
         except UserError as error:
             what = f"line {r.line}: {error.what}" if len(made) > 1 else error.what
-            facts = {n: getattr(error, n) for n in ("where", "found", "expected", "remedy")}
+            facts = {n: text for n, text in error.facts.items() if n != "what"}
             raise UserError(what, **facts) from None
+        flights.append(replace(x, name=own, path=path, digest=digest))
     return flights
 
 
@@ -266,8 +262,7 @@ def read_flight(source: Any, g0: float, *, line: str | None = None, **options: A
 
 def flight_name(path: Path) -> str:
     """The file's name without its ending; the folder's where the file is just called ``flight``."""
-    ending = ending_of(path.name)
-    stem = path.name[: -len(ending)] if ending is not None else path.name
+    stem = path.name[: len(path.name) - len(ending_of(path.name) or "")]
     folder = path.resolve().parent.name
     # it is told on terminals and in reports: what would steer them, or pass for a line of ours, is written out
     return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)
@@ -284,49 +279,42 @@ def write_flight(
     In SI, the default, reading it back gives the same bits. ``units_of`` gives some columns another unit; ``g0``:
     m/s^2.
     """
-    write_tables(Path(path), [Table(tuple(_columns(flight, units_of or {}, g0)))])
-
-
-def write_tables(path: Path, tables: Sequence[Table]) -> None:
-    """Write tables in the format of the name's ending, whole or not at all; lines are told apart by a column ``line``."""
-    write = require_writable(path)
-    with replacing(path) as temporary:
-        write(temporary, join_tables(tables))
-
-
-def join_tables(tables: Sequence[Table]) -> list[Column]:
-    """The columns of all tables one after the other; where they are lines a column ``line`` tells them apart."""
-    units_of = {c.name: c.unit for t in reversed(tables) for c in t.columns}
-    names = list(dict.fromkeys(n for t in tables for n in t.names))
-    found: list[Column] = []
-    if any(t.line is not None for t in tables):
-        lines = np.array([t.line or "" for t in tables], dtype=object)
-        found.append(Column("line", "", np.repeat(lines, [len(t) for t in tables])))
-    for n in names:
-        parts: list[NDArray[Any]] = [
-            t.column(n).values if n in t.names else np.full(len(t), np.nan) for t in tables
-        ]
-        found.append(Column(n, units_of[n], np.concatenate(parts) if len(parts) > 1 else parts[0]))
-    return found
-
-
-def _columns(flight: Flight, units_of: Mapping[str, str], g0: float | None) -> list[Column]:
     known = units(1.0 if g0 is None else g0)
     ordered = [n for n in SI_UNITS if n in flight.channels]
     ordered += [n for n in flight.channels if n not in SI_UNITS]
-    blanked = flight.outputs or flight.channels
     columns = []
     for name in ("time", *ordered, *flight.outputs):
-        values = flight.time if name == "time" else flight.channels.get(name, flight.outputs.get(name))
-        assert values is not None
-        if name in blanked and not flight.valid.all():
+        values = {"time": flight.time, **flight.channels, **flight.outputs}[name]
+        if name in (flight.outputs or flight.channels) and not flight.valid.all():
             values = np.where(flight.valid, values, np.nan)
-        unit = units_of.get(name, flight.units[name])
+        unit = (units_of or {}).get(name, flight.units[name])
         if g0 is None and known.uses_g(unit):
             raise ValueError(f"{name} in {unit}: g0 is needed")
         converted = known.from_si(values, flight.units[name], unit, f"column {name!r}")
-        columns.append(Column(name, unit, converted))
-    return columns
+        columns.append(DataColumn(name, unit, converted))
+    write_tables(Path(path), [DataTable(tuple(columns))])
+
+
+def write_tables(path: Path, tables: Sequence[DataTable]) -> None:
+    """Write tables in the format of the name's ending, whole or not at all; lines are told apart by a column ``line``."""
+    write = require_writable(path)
+    with replacing(path) as temporary:
+        write(temporary, _join_tables(tables))
+
+
+def _join_tables(tables: Sequence[DataTable]) -> list[DataColumn]:
+    """The columns of all tables one after the other; where they are lines a column ``line`` tells them apart."""
+    units_of = {c.name: c.unit for t in reversed(tables) for c in t.columns}
+    found: list[DataColumn] = []
+    if any(t.line is not None for t in tables):
+        lines = np.array([t.line or "" for t in tables], dtype=object)
+        found.append(DataColumn("line", "", np.repeat(lines, [len(t) for t in tables])))
+    for n in dict.fromkeys(n for t in tables for n in t.names):
+        parts: list[NDArray[Any]] = [
+            t.column(n).values if n in t.names else np.full(len(t), np.nan) for t in tables
+        ]
+        found.append(DataColumn(n, units_of[n], np.concatenate(parts) if len(parts) > 1 else parts[0]))
+    return found
 
 
 @dataclass(frozen=True)
@@ -349,34 +337,26 @@ def convert(source: Path, target: Path, mapping: Mapped | None = None) -> Conver
         raise UserError("a file cannot be converted into itself", where=source, remedy="name another file")
     require_writable(target)  # before a long file is read for nothing
     made = read_recordings(source, mapping, lenient=True)
-    tables = [Table(_from_first(r), line=r.line if len(made) > 1 else None) for r in made]
-    write_tables(target, tables)
+    if len(made) == 1:
+        made = [replace(made[0], line=None)]
     columns = made[0].columns
     bare = [c.name for c in columns if not c.unit]
     notes = [n for r in made for n in r.notes]
     notes += [f"without a unit, as in the file: {', '.join(bare)}"] if bare else []
-    notes += [note for r in made if (note := _describe_origin(r))]
+    tables = []
+    for r in made:
+        first = float(r.column("time").values[0]) if r.instants and "time" in r.names and len(r) else 0.0
+        moved = (replace(c, values=c.values - first) if c.name == "time" else c for c in r.columns)
+        tables.append(DataTable(tuple(moved), line=r.line))
+        origin = f"{first:.10g} s after midnight" if r.instants else ""
+        if r.origin is not None:
+            origin = write_instant(r.origin + timedelta(seconds=first))
+        notes += (
+            [("" if r.line is None else f"line {r.line}: ") + f"time counts from {origin}"] if origin else []
+        )
+    write_tables(target, tables)
     names = tuple(c.name for c in columns)
     return Converted(len(tables), sum(map(len, tables)), names, tuple(dict.fromkeys(notes)))
-
-
-def _first(r: Recording) -> float:
-    """The first instant, s, of stamps that are instants; else 0."""
-    times = [c.values for c in r.columns if c.name == "time"]
-    return float(times[0][0]) if r.instants and times and len(r) else 0.0
-
-
-def _from_first(r: Recording) -> tuple[Column, ...]:
-    """The columns, with instants as seconds since the first."""
-    return tuple(replace(c, values=c.values - _first(r)) if c.name == "time" else c for c in r.columns)
-
-
-def _describe_origin(r: Recording) -> str:
-    """When ``time`` is 0 in the new file, in words, if that is known."""
-    line = "" if r.line is None else f"line {r.line}: "
-    if r.origin is not None:
-        return f"{line}time counts from {write_instant(r.origin + timedelta(seconds=_first(r)))}"
-    return f"{line}time counts from {_first(r):.10g} s after midnight" if r.instants else ""
 
 
 def write_instant(instant: datetime) -> str:

@@ -12,13 +12,13 @@ import numpy as np
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import file_digest
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.assemble import make_flight, require_enough
-from ragg_runtime.io.files import flight_name, format_of, read_tables, write_instant
+from ragg_runtime.io.assemble import make_flight
+from ragg_runtime.io.files import flight_name, format_of, read_recordings, write_instant
 from ragg_runtime.io.mapping import Mapped
-from ragg_runtime.io.record import Flight, is_disc_angle
-from ragg_runtime.io.recording import Recording, make_recordings, require_units
-from ragg_runtime.io.sampling import uniform
-from ragg_runtime.io.tables import Column
+from ragg_runtime.io.record import is_disc_angle
+from ragg_runtime.io.recording import require_units
+from ragg_runtime.io.sampling import Grid, make_grid
+from ragg_runtime.io.tables import DataColumn, DataTable
 
 PAPER_G = 9.8
 """m/s^2: the g of units such as mg where no model says its own."""
@@ -91,60 +91,57 @@ def describe_flight(path: Path | str, mapping: Mapped | None = None) -> FileInfo
         If the file cannot be read, or holds no table.
     """
     path = Path(path)
-    made = make_recordings(read_tables(path), path, mapping, lenient=True)
-    records = [_describe(r, flight_name(path), len(made) > 1) for r in made]
+    made = read_recordings(path, mapping, lenient=True)
+    records = [_describe_record(r, flight_name(path), len(made) > 1) for r in made]
     return FileInfo(str(path), file_digest(path), format_of(path).name, path.stat().st_size, records)
 
 
-def _describe(r: Recording, name: str, several: bool) -> RecordInfo:
-    notes, refused = r.notes, None
+def _describe_record(r: DataTable, name: str, several: bool) -> RecordInfo:
+    notes, refused, grid = list(r.notes), None, None
     try:
         require_units(r.columns, r.place)
-        x = require_enough(make_flight(r, PAPER_G), len(r))
-        notes = (*x.notes, *_angle_note(x))
+        x = make_flight(r, PAPER_G)
+        notes = [*x.notes]
+        if not any(map(is_disc_angle, x.channels)):
+            zero = "the first sample, as the stamps are instants" if x.instants else "t = 0 of time"
+            notes.append(
+                f"no spin_angle: the disc angle counts from {zero} (angle_origin in model.toml overrides this)"
+            )
     except UserError as error:
         refused = error.message
-    start = duration = rate = None
-    gaps: list[Json] = []
     try:
-        time = next(c for c in r.columns if c.name == "time")
-        grid = uniform(units(PAPER_G).to_si(time.values, time.unit or "s", "s", "column 'time'"), r.place)
-        start, rate = float(grid.time[0]), 1 / grid.step
-        duration = len(grid.time) / rate
-        here, jumps = grid.time[grid.index], np.diff(grid.index)
-        gaps = [
-            {"from_s": float(here[k]), "to_s": float(here[k + 1]), "samples": int(jumps[k] - 1)}
-            for k in np.flatnonzero(jumps > 1)
-        ]
-    except (StopIteration, UserError):
+        time = r.column("time")
+        grid = make_grid(units(PAPER_G).to_si(time.values, time.unit or "s", "s", "column 'time'"), r.place)
+    except (KeyError, UserError):
         pass  # said in ``refused``
+    gaps = [] if grid is None else _list_gaps(grid)
     longest = sorted(gaps, key=lambda g: -g["samples"])[:MOST_GAPS]
     return RecordInfo(
         name=f"{name}:{r.line}" if several else name,
         line=r.line if several else None,
         rows=len(r),
-        start_s=start,
-        duration_s=duration,
-        rate_Hz=rate,
+        start_s=None if grid is None else float(grid.time[0]),
+        duration_s=None if grid is None else len(grid.time) * grid.step,
+        rate_Hz=None if grid is None else 1 / grid.step,
         origin=None if r.origin is None else write_instant(r.origin),
         gap_count=len(gaps),
         missing=sum(g["samples"] for g in gaps),
         gaps=sorted(longest, key=lambda g: g["from_s"]),
         columns=list(map(_describe_column, r.columns)),
-        notes=list(notes),
+        notes=notes,
         refused=refused,
     )
 
 
-def _angle_note(x: Flight) -> tuple[str, ...]:
-    """From where the angle of a disc without an encoder counts."""
-    if any(is_disc_angle(n) for n in x.channels):
-        return ()
-    zero = "the first sample, as the stamps are instants" if x.instants else "t = 0 of time"
-    return (f"no spin_angle: the disc angle counts from {zero} (angle_origin in model.toml overrides this)",)
+def _list_gaps(grid: Grid) -> list[Json]:
+    here, jumps = grid.time[grid.index], np.diff(grid.index)
+    return [
+        {"from_s": float(here[k]), "to_s": float(here[k + 1]), "samples": int(jumps[k] - 1)}
+        for k in np.flatnonzero(jumps > 1)
+    ]
 
 
-def _describe_column(c: Column) -> Json:
+def _describe_column(c: DataColumn) -> Json:
     there = c.values[np.isfinite(c.values)]
     ranges = [float(f(there)) if len(there) else None for f in (np.min, np.max, np.mean)]
     told = {"name": c.name, "unit": c.unit, "samples": len(there), "missing": len(c.values) - len(there)}

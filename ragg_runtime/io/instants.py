@@ -53,8 +53,8 @@ _YEAR_DAY = re.compile(r"(\d{4})-?(\d{3})")
 
 
 @dataclass(frozen=True)
-class Seconds:
-    """Stamps in seconds (n,), NaN where nothing stands.
+class Stamps:
+    """Instants in seconds (n,), NaN where nothing stands.
 
     ``instants``: they are dates, times of the day or GPS time and count from ``origin``, the midnight before the first one
     (UTC, or GPS time where the file counts in that; ``None`` if the day is not known). Otherwise they are elapsed times.
@@ -86,7 +86,7 @@ def order_of(format_: str) -> str | None:
 
 def read_stamps(
     columns: Sequence[NDArray[Any]], way: str | None, where: str, row: Callable[[int], str] = "row {}".format
-) -> Seconds:
+) -> Stamps:
     """The stamps in one or two columns of text, dates or numbers.
 
     Parameters
@@ -108,7 +108,7 @@ def read_stamps(
         return _count(_read_gps(first, columns[1], where))
     if first.dtype.kind == "m":
         seconds = np.where(np.isnat(first), np.nan, first.astype(np.int64) / _SECOND)
-        return Seconds(seconds, instants=False)
+        return Stamps(seconds, instants=False)
     if first.dtype.kind == "M" and len(columns) == 1:
         return _count(first.astype("datetime64[ns]").astype(np.int64))  # NaT is the least integer
     texts = [_write_clock(v) for v in columns[-1]]
@@ -120,30 +120,30 @@ def read_stamps(
     return _read_texts(texts, order, where, row) if fast is None else _count(fast)
 
 
-def count_from(values: Array, epoch: str) -> Seconds | None:
-    """Seconds (n,) since a date as instants; ``None`` if the date is none."""
+def count_from(values: Array, epoch: str) -> Stamps | None:
+    """Stamps (n,) since a date as instants; ``None`` if the date is none."""
     try:
         start = read_stamps([np.array([epoch], dtype=object)], None, "")
     except UserError:
         return None
     if start.origin is None:
         return None
-    return Seconds(values, origin=start.origin + timedelta(seconds=float(start.values[0])))
+    return Stamps(values, origin=start.origin + timedelta(seconds=float(start.values[0])))
 
 
-def _count(total: Nanoseconds, dated: bool = True, notes: tuple[str, ...] = ()) -> Seconds:
+def _count(total: Nanoseconds, dated: bool = True, notes: tuple[str, ...] = ()) -> Stamps:
     """Instants as seconds since the midnight before the first; times of the day (not ``dated``) go on over midnight."""
     found = np.full(len(total), np.nan)
     there = total != _NONE
     values = total[there]
     if not len(values):
-        return Seconds(found, notes=notes)
+        return Stamps(found, notes=notes)
     first = int(values[0]) // _DAY if dated else 0
     if not dated:
         values = values + np.cumsum(np.diff(values, prepend=values[:1]) < -(_DAY // 2)) * _DAY
     found[there] = (values - first * _DAY) / _SECOND
     origin = (_EPOCH + timedelta(days=first)).replace(tzinfo=UTC) if dated else None
-    return Seconds(found, origin=origin, notes=notes)
+    return Stamps(found, origin=origin, notes=notes)
 
 
 def _write_clock(value: Any) -> str:
@@ -175,7 +175,7 @@ def _read_iso(values: Sequence[str]) -> Nanoseconds | None:
     return None
 
 
-def _read_texts(values: Sequence[str], order: str | None, where: str, row: Callable[[int], str]) -> Seconds:
+def _read_texts(values: Sequence[str], order: str | None, where: str, row: Callable[[int], str]) -> Stamps:
     """Dates and times as people write them."""
     matches = {k: _match(t) for k, t in enumerate(values) if t and t not in _NOTHING}
     known = {k: m for k, m in matches.items() if m is not None}
@@ -196,7 +196,7 @@ def _read_texts(values: Sequence[str], order: str | None, where: str, row: Calla
         after = np.arange(len(total)) > leaps[-1]
         total[after & (total != _NONE)] += _SECOND
     if not dated and any(m["days"] or int(m["h"]) > 23 for m in known.values()):
-        return Seconds(np.where(total == _NONE, np.nan, total / _SECOND), instants=False)
+        return Stamps(np.where(total == _NONE, np.nan, total / _SECOND), instants=False)
     return _count(total, dated, ("a leap second (hh:mm:60) is counted",) if leaps else ())
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
@@ -50,12 +50,12 @@ class Entry:
 
 
 @dataclass(frozen=True)
-class Time:
-    """Where time stands and how it is written; ``origin``: when plain seconds were 0."""
+class TimeEntry:
+    """Where time stands and how it is written (``None``: by its looks); ``origin``: when plain seconds were 0."""
 
     columns: tuple[str, ...]
-    format: str = "seconds"
-    unit: str = "s"
+    format: str | None = None
+    unit: str = ""
     origin: datetime | None = None
     null: Null = ()
 
@@ -69,7 +69,7 @@ class Mapped:
     """
 
     path: Path
-    time: Time
+    time: TimeEntry
     channels: Mapping[str, Entry]
     axes: tuple[tuple[int, float], ...] | None = None
     line: str | None = None
@@ -82,12 +82,8 @@ class Mapped:
     @property
     def columns(self) -> frozenset[str]:
         """Every column of the file that is needed."""
-        named = {e.column for e in self.channels.values()} | set(self.time.columns)
-        return frozenset(named | ({self.line} if self.line is not None else set()))
-
-    def without(self, channels: frozenset[str]) -> Mapped:
-        """The mapping without some of the channels."""
-        return replace(self, channels={n: e for n, e in self.channels.items() if n not in channels})
+        named = {e.column for e in self.channels.values()} | {*self.time.columns}
+        return frozenset(named if self.line is None else {*named, self.line})
 
 
 def read_mapping(path: Path) -> Mapped:
@@ -111,23 +107,22 @@ def parse_mapping(text: str, path: Path) -> Mapped:
     lines = file.get("lines")
     if not (lines is None or (isinstance(lines, list) and lines and all(isinstance(x, str) for x in lines))):
         raise _refuse("lines is not a list of names", place, lines, '["1010", "1020"]')
-    null = _null(data.get("null"), str(path)) + _null(file.get("null"), place)
+    null = _read_null(data.get("null"), str(path)) + _read_null(file.get("null"), place)
     columns = data.get("columns", {})
     if "time" not in data or "time" in columns:
         what = "time has a table of its own" if "time" in columns else "[time] is missing"
         raise UserError(what, where=path, expected='[time] column = "...", unit = "s"')
-    formats = [{"format": x["format"]} for x in (data, file) if "format" in x]
-    time = {k: v for d in (*formats, data["time"]) for k, v in d.items()}
+    formats = [x["format"] for x in (data["time"], file, data) if "format" in x]
     return Mapped(
         path=path,
-        time=_time(time, null, at(path, "[time]")),
+        time=_read_time(data["time"], next(iter(formats), "seconds"), null, at(path, "[time]")),
         channels=MappingProxyType(
-            {n: _entry(n, v, null, at(path, f"[columns] {n}")) for n, v in columns.items()}
+            {n: _read_entry(n, v, null, at(path, f"[columns] {n}")) for n, v in columns.items()}
         ),
-        axes=_axes(data["axes"], at(path, "[axes]")) if "axes" in data else None,
-        line=_word(file.get("line"), "line", place),
+        axes=_read_axes(data["axes"], at(path, "[axes]")) if "axes" in data else None,
+        line=_read_word(file.get("line"), "line", place),
         lines=tuple(lines) if lines is not None else None,
-        part=_word(file.get("part"), "part", place),
+        part=_read_word(file.get("part"), "part", place),
         demodulator=read_demodulation(data.get("demodulator"), at(path, "[demodulator]")),
         digest=hashlib.sha256(text.encode()).hexdigest(),
     )
@@ -137,7 +132,7 @@ def _refuse(what: str, where: str, found: object, expected: str, remedy: str | N
     return UserError(what, where=where, found=repr(found)[:60], expected=expected, remedy=remedy)
 
 
-def _null(raw: Any, where: str) -> Null:
+def _read_null(raw: Any, where: str) -> Null:
     """One or several numbers or texts."""
     values = raw if isinstance(raw, list) else [] if raw is None else [raw]
     if any(isinstance(v, bool) or not isinstance(v, int | float | str) for v in values):
@@ -145,7 +140,7 @@ def _null(raw: Any, where: str) -> Null:
     return tuple(v.strip() if isinstance(v, str) else float(v) for v in values)
 
 
-def _entry(name: str, raw: Any, null: Null, where: str) -> Entry:
+def _read_entry(name: str, raw: Any, null: Null, where: str) -> Entry:
     if not is_column(name):
         read_name(name, where, "temperature")
     if isinstance(raw, str):
@@ -154,24 +149,27 @@ def _entry(name: str, raw: Any, null: Null, where: str) -> Entry:
         example = f'{name} = {{ column = "its name in the file", unit = "..." }}'
         raise _refuse("the column of the file is not named", where, raw, example)
     check_keys(raw, _KEYS["columns"], where)
-    sign, scale = _number(raw.get("sign", 1), "sign", where), _number(raw.get("scale", 1), "scale", where)
+    sign, scale, offset = (
+        _read_number(raw.get(key, default), key, where)
+        for key, default in (("sign", 1), ("scale", 1), ("offset", 0))
+    )
     if sign not in (1.0, -1.0):
         raise _refuse("sign is 1 or -1", where, raw["sign"], "scale for other factors")
     if scale == 0.0:
         raise UserError("a scale of zero leaves nothing", where=where)
     return Entry(
-        column=_word(raw["column"], "column", where) or "",
-        unit=_unit(raw.get("unit", ""), where),
+        column=_read_word(raw["column"], "column", where) or "",
+        unit=_read_unit(raw.get("unit", ""), where),
         factor=sign * scale,
-        offset=_number(raw.get("offset", 0), "offset", where),
-        null=null + _null(raw.get("null"), where),
+        offset=offset,
+        null=null + _read_null(raw.get("null"), where),
     )
 
 
-def _time(raw: Mapping[str, Any], null: Null, where: str) -> Time:
+def _read_time(raw: Mapping[str, Any], form: Any, null: Null, where: str) -> TimeEntry:
     columns = raw.get("column")
     names = (columns,) if isinstance(columns, str) else tuple(columns) if isinstance(columns, list) else ()
-    written = _word(raw.get("format", "seconds"), "format", where) or ""
+    written = _read_word(form, "format", where) or ""
     if written not in ("seconds", *WAYS) and order_of(written) is None:
         known = "seconds, " + ", ".join(f"{n} ({example})" for n, (_, example) in WAYS.items())
         near = did_you_mean(written, ("seconds", *WAYS))
@@ -186,20 +184,19 @@ def _time(raw: Mapping[str, Any], null: Null, where: str) -> Time:
         raise _refuse("origin is the instant of second 0", where, origin, "2026-03-01T00:00:00Z, of seconds")
     if origin is not None and origin.tzinfo is None:
         origin = origin.replace(tzinfo=UTC)
-    unit = _unit(raw.get("unit", "" if written == "seconds" else "s"), where)
-    return Time(names, written, unit, origin, null + _null(raw.get("null"), where))
+    unit = _read_unit(raw.get("unit", ""), where)
+    return TimeEntry(names, written, unit, origin, null + _read_null(raw.get("null"), where))
 
 
-def _axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
-    found = []
-    for axis in "xyz":
+def _read_axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
+    found, turned = [], np.zeros((3, 3))
+    for k, axis in enumerate("xyz"):
         text = str(raw.get(axis, axis)).strip().lstrip("+")
-        bare = text.lstrip("-")
-        if bare not in ("x", "y", "z") or len(text) > 2:
+        bare = text.removeprefix("-")
+        if bare not in ("x", "y", "z"):
             raise _refuse("not an axis", at(where, axis), raw.get(axis), '"x", "-y" ...')
-        found.append(("xyz".index(bare), -1.0 if text.startswith("-") else 1.0))
-    turned = np.zeros((3, 3))
-    turned[range(3), [k for k, _ in found]] = [sign for _, sign in found]
+        found.append(("xyz".index(bare), -1.0 if text != bare else 1.0))
+        turned[k, found[-1][0]] = found[-1][1]
     volume = round(np.linalg.det(turned))
     if volume != 1:
         raise UserError(
@@ -212,24 +209,24 @@ def _axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
     return tuple(found)
 
 
-def _unit(raw: Any, where: str) -> str:
+def _read_unit(raw: Any, where: str) -> str:
     if raw == UNKNOWN:
         expected = "the unit in which the file has it; 1 for a pure number; it is not guessed"
         raise _refuse("the unit is not answered yet", where, raw, expected)
-    unit = _word(raw, "unit", where) or ""
+    unit = _read_word(raw, "unit", where) or ""
     if unit:
         units(9.8).parse(unit, where)  # whether a text is a unit does not depend on the model's g
     return unit
 
 
-def _word(raw: Any, key: str, where: str) -> str | None:
+def _read_word(raw: Any, key: str, where: str) -> str | None:
     if raw is not None and (not isinstance(raw, str) or (raw.strip() in ("", UNKNOWN) and key != "unit")):
         what = f"{key} is not answered" if raw == UNKNOWN else f"{key} is not a text"
         raise UserError(what, where=where, found=repr(raw)[:60])
     return raw
 
 
-def _number(raw: Any, key: str, where: str) -> float:
+def _read_number(raw: Any, key: str, where: str) -> float:
     if isinstance(raw, bool) or not isinstance(raw, int | float) or not abs(raw) < 1e100:
         raise UserError(f"{key} is not a number", where=where, found=repr(raw)[:60])
     return float(raw)

@@ -102,7 +102,8 @@ class Flight:
     SHA-256 of the file. ``demodulation``: how ``inline`` and ``cross`` were made, if the mapping says so. ``flags``: what
     was found odd (each is among the ``notes``, too). ``resolution``: column -> the step in which it was recorded, SI.
     ``instants``: whether the file's stamps are instants (dates, GPS time), not seconds. ``began``: time, s, of the first
-    sample of the record that this is, or is a part of.
+    sample of the record that this is, or is a part of. ``lacking`` (N,): where the file has no angular rates (``None``:
+    nowhere).
     """
 
     time: Array
@@ -120,6 +121,7 @@ class Flight:
     resolution: Mapping[str, float] = field(default_factory=dict)
     instants: bool = False
     began: float | None = None
+    lacking: Mask | None = None
 
     def __post_init__(self) -> None:
         time = _read_only(self.time)
@@ -192,6 +194,7 @@ class Flight:
             channels={name: v[rows] for name, v in self.channels.items()},
             outputs={name: v[rows] for name, v in self.outputs.items()},
             valid=self.valid[rows],
+            lacking=None if self.lacking is None else self.lacking[rows],
         )
 
 

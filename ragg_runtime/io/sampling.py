@@ -14,9 +14,6 @@ from ragg_runtime.io.record import Array
 JITTER_NOTED = 1e-3
 """Deviation from uniform sampling, in steps, that is worth a note."""
 
-JITTER_FOLLOWED = 1e-7
-"""The same from which derivatives are made by way of even instants: the last digits of a time of a day."""
-
 JITTER_REFUSED = 0.25
 """Error of one step, in steps, from which the samples have to follow a steady clock instead."""
 
@@ -63,48 +60,33 @@ class Grid:
     """Where the file's samples stand on the uniform grid.
 
     ``index`` (n,): places of the file's samples, increasing from 0. ``time`` (N,) s: the whole grid, the file's own
-    instants where it has a sample. ``step``: s. ``jitters``: whether instants leave the grid by more than
-    ``JITTER_FOLLOWED``.
+    instants where it has a sample. ``step``: s.
     """
 
     index: NDArray[np.int64]
     time: Array
     step: float
     notes: tuple[str, ...]
-    jitters: bool = False
 
 
 @np.errstate(over="ignore", invalid="ignore")  # absurd times: what comes of them is refused
-def uniform(time: Array, path: Path | str | None) -> Grid:
+def make_grid(time: Array, path: Path | str | None) -> Grid:
     """The grid of a record's instants (n,), s; UserError where they make none."""
     where = at(path, "column 'time'")
-    steps = _require_increasing(time, path, where)
-    step = _typical_step(steps)
-    span = float(time[-1] - time[0])
+    _require_increasing(time, path, where)
+    steps = np.diff(time)
+    step, span = _typical_step(steps), float(time[-1] - time[0])
     # A gap of more samples than memory holds is refused below, whatever their number.
     jumps = np.rint(np.minimum(steps / step, 2.0**31)).astype(np.int64)
-    deviation = np.abs(steps - jumps * step) / step
-    tracked = None
-    if np.any(jumps < 1) or np.any(deviation > JITTER_REFUSED):
-        tracked = _follow_clock(time, step)
-        if tracked is not None:
-            jumps, deviation = np.diff(tracked[0]), tracked[1]
-    uneven = np.any(jumps < 1) or (np.any(deviation[jumps == 1] > JITTER_REFUSED) and tracked is None)
-    if uneven or not span / step < 2.0**53:
-        row = int(np.argmax(np.where(jumps <= 1, deviation, 0.0)))
-        was_set = find_clock_steps(time, np.ones(len(time), dtype=np.bool_))
-        raise UserError(
-            f"the stamps step by {steps[row] - step:.4g} s at t = {time[row + 1]:.10g} s: was the clock set?"
-            if was_set
-            else "the record is not uniformly sampled",
-            where=where,
-            found=f"a step of {steps[row]:.6g} s after row {row + 1} (t = {time[row]:.10g} s)",
-            expected=f"steps of {step:.6g} s",
-            remedy=_BY_COUNT.format(rate=1 / step) if was_set else "resample the record to a constant rate",
-        )
+    off = np.abs(steps - jumps * step) / step
+    uneven = bool(np.any(jumps < 1) or np.any(off > JITTER_REFUSED))
+    if uneven and (tracked := _follow_clock(time, step)) is not None:
+        jumps, off = tracked
+    elif uneven and (np.any(jumps < 1) or np.any(off[jumps == 1] > JITTER_REFUSED)):
+        raise _refuse_uneven(time, steps, step, np.where(jumps <= 1, off, 0.0), where)
     index = np.concatenate([[0], np.cumsum(jumps)])
     count = int(index[-1]) + 1
-    if count > len(time) / (1 - _MOST_MISSING):
+    if count > len(time) / (1 - _MOST_MISSING) or not span / step < 2.0**53:
         raise UserError(
             "more than nine samples in ten are missing",
             where=where,
@@ -112,17 +94,57 @@ def uniform(time: Array, path: Path | str | None) -> Grid:
             remedy="split the record at its gaps into one file each",
         )
     rounded = unround(time, index)
-    if rounded is not None:
-        unit, first, step = rounded
-        notes = _describe(time, np.asarray(jumps * step), jumps, 0.0 * deviation, step)
-        if unit > JITTER_NOTED * step:
-            notes.append(
-                f"the stamps are rounded to {unit:g} s: they are put on the even grid of {1 / step:.6g} Hz"
-            )
-        return Grid(index, np.asarray(first + step * np.arange(count), dtype=np.float64), step, tuple(notes))
-    whole = time if count == len(time) else np.interp(np.arange(count), index, time)
-    notes = _describe(time, steps, jumps, deviation, step)
-    return Grid(index, whole, step, tuple(notes), jitters=bool(np.max(deviation) > JITTER_FOLLOWED))
+    if rounded is None:
+        whole = time if count == len(time) else np.interp(np.arange(count), index, time)
+        notes = _describe_gaps(time, jumps, step) + _describe_jitter(time, jumps, off, step)
+        return Grid(index, whole, step, tuple(notes))
+    unit, first, step = rounded
+    notes = _describe_gaps(time, jumps, step)
+    if unit > JITTER_NOTED * step:
+        notes.append(
+            f"the stamps are rounded to {unit:g} s: they are put on the even grid of {1 / step:.6g} Hz"
+        )
+    return Grid(index, np.asarray(first + step * np.arange(count), dtype=np.float64), step, tuple(notes))
+
+
+def _typical_step(steps: Array) -> float:
+    """The mean of those steps that are about the median: the rounding of printed times averages out."""
+    middle = (len(steps) - 1) // 2
+    median = float(np.partition(steps, middle)[middle])  # one of the steps, never between two of them
+    return float(np.mean(steps[np.abs(steps - median) < 0.5 * median]))
+
+
+def _follow_clock(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None:
+    """Of samples that jitter by less than half a step about a steady clock: samples from one to the next, (n - 1,), and by how
+    much each is off; ``None``: they do not.
+    """
+    size = 128
+    whole = (time[-1] - time[0]) / (len(time) - 1)
+    steady = bool(abs(whole / step - 1) < NO_GAPS)
+    if steady:  # no gaps: the mean step is exact, the median of jittering ones is not
+        step = float(whole)
+    phase = np.mod((time[:size] - time[0]) / step, 1.0)
+    lags = np.arange(64) / 64
+    worst = [float(np.max(np.abs((phase - lag + 0.5) % 1.0 - 0.5))) for lag in lags]
+    first = float(time[0] + step * (lags[int(np.argmin(worst))]))
+    while True:
+        t = time[:size]
+        k = np.rint((t - first) / step)
+        if np.any(np.diff(k) < 1):
+            return None
+        if len(t) >= STEADY_FROM or size >= len(time) or not steady:
+            step, first = (float(c) for c in np.polyfit(k, t, 1))
+        if size >= len(time):
+            break
+        size += size // 2
+    k = np.rint((time - first) / step)
+    off = np.abs(time - first - k * step) / step
+    if not np.max(np.abs(k)) < 2.0**53 or np.any(np.diff(k) < 1) or np.max(off) > JITTER_TRACKED:
+        return None
+    return np.diff(k).astype(np.int64), off[1:]
+
+
+# --- rounded stamps ------------------------------------------------------------------------------------
 
 
 def unround(time: Array, index: NDArray[np.int64]) -> tuple[float, float, float] | None:
@@ -179,14 +201,17 @@ def _round_rate(step: float, error: float) -> float:
     return next((1 / r for r in rates if r > 0.0 and abs(1 / r - step) <= error), step)
 
 
-def find_clock_steps(time: Array, valid: NDArray[np.bool_]) -> list[ClockStep]:
+# --- a clock that was set ------------------------------------------------------------------------------
+
+
+def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]:
     """Places where a clock was set while sampling went on, or sampling paused: the stamps move on by another time than the samples.
 
     Parameters
     ----------
     time : (N,) array
         Instants on the grid of a flight, s.
-    valid : (N,) array
+    present : (N,) array
         Samples that the file has; a gap is a place where the stamps moved on.
 
     Returns
@@ -194,7 +219,7 @@ def find_clock_steps(time: Array, valid: NDArray[np.bool_]) -> list[ClockStep]:
     list of ClockStep
         In order; more than a few are jitter, and none is said.
     """
-    rows = np.flatnonzero(valid)
+    rows = np.flatnonzero(present)
     if len(rows) < 4 * BESIDE:
         return []
     steps = np.diff(time[rows])
@@ -212,19 +237,19 @@ def find_clock_steps(time: Array, valid: NDArray[np.bool_]) -> list[ClockStep]:
         clear = max(SET, 4 * float(np.median(np.abs(before - np.median(before)))), 4 * scatter)
         lacking = float(np.rint(over[k])) if abs(over[k]) > 0.5 else 0.0
         if abs(moved) > clear or lacking:
-            at = int(rows[k + 1])
-            found.append(ClockStep(at, float(time[at]), (moved + lacking) * step))
+            row = int(rows[k + 1])
+            found.append(ClockStep(row, float(time[row]), (moved + lacking) * step))
     return found if len(found) <= MOST_SET else []
 
 
-def even_clock(time: Array, valid: NDArray[np.bool_]) -> tuple[float, float]:
+def even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, float]:
     """First instant and interval, s, of the steady clock by which the samples were taken, whatever their stamps say.
 
-    ``time``, ``valid`` (N,) as in :func:`find_clock_steps`; what a clock was set by is not counted.
+    ``time``, ``present`` (N,) as in :func:`find_clock_steps`; what a clock was set by is not counted.
     """
-    k = np.flatnonzero(valid)
+    k = np.flatnonzero(present)
     places = [k.astype(np.float64), np.ones(len(k))]
-    places += [(k >= c.row).astype(np.float64) for c in find_clock_steps(time, valid)]
+    places += [(k >= c.row).astype(np.float64) for c in find_clock_steps(time, present)]
     X, t = np.stack(places, axis=1), time[k] - time[0]
     fitted = np.linalg.lstsq(X, t, rcond=None)[0]
     set_by, scatter = X[:, 2:] @ fitted[2:], float(np.std(t - X @ fitted))
@@ -233,111 +258,91 @@ def even_clock(time: Array, valid: NDArray[np.bool_]) -> tuple[float, float]:
     return float(time[0] + np.mean(t - set_by - step * k)), step
 
 
-def _follow_clock(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None:
-    """Places of samples that jitter by less than half a step about a steady clock, and by how much (n - 1,); ``None``:
-    they do not.
-    """
-    size = 128
-    whole = (time[-1] - time[0]) / (len(time) - 1)
-    steady = bool(abs(whole / step - 1) < NO_GAPS)
-    if steady:  # no gaps: the mean step is exact, the median of jittering ones is not
-        step = float(whole)
-    phase = np.mod((time[:size] - time[0]) / step, 1.0)
-    lags = np.arange(64) / 64
-    worst = [float(np.max(np.abs((phase - lag + 0.5) % 1.0 - 0.5))) for lag in lags]
-    first = float(time[0] + step * (lags[int(np.argmin(worst))]))
-    while True:
-        t = time[:size]
-        k = np.rint((t - first) / step)
-        if np.any(np.diff(k) < 1):
-            return None
-        if len(t) >= STEADY_FROM or size >= len(time) or not steady:
-            step, first = (float(c) for c in np.polyfit(k, t, 1))
-        if size >= len(time):
-            break
-        size += size // 2
-    k = np.rint((time - first) / step)
-    off = np.abs(time - first - k * step) / step
-    if not np.max(np.abs(k)) < 2.0**53 or np.any(np.diff(k) < 1) or np.max(off) > JITTER_TRACKED:
-        return None
-    return (k - k[0]).astype(np.int64), off[1:]
+# --- in words ------------------------------------------------------------------------------------------
 
 
-def _typical_step(steps: Array) -> float:
-    """The mean of those steps that are about the median: the rounding of printed times averages out."""
-    middle = (len(steps) - 1) // 2
-    median = float(np.partition(steps, middle)[middle])  # one of the steps, never between two of them
-    return float(np.mean(steps[np.abs(steps - median) < 0.5 * median]))
+def _describe_gaps(time: Array, jumps: NDArray[np.int64], step: float) -> list[str]:
+    gaps = jumps - 1
+    if not gaps.any():
+        return []
+    count, missing, longest = int(np.sum(gaps > 0)), int(np.sum(gaps)), int(np.argmax(gaps))
+    return [
+        f"{count} gap{'s' * (count > 1)}: {missing} of {len(time) + missing} samples missing, the longest lasts"
+        f" {jumps[longest] * step:.6g} s from t = {time[longest]:.10g} s; they are filled in and not used"
+    ]
 
 
-def _describe(
-    time: Array, steps: Array, jumps: NDArray[np.int64], deviation: Array, step: float
-) -> list[str]:
-    """Notes on gaps and on jitter."""
-    notes = []
-    gaps = np.flatnonzero(jumps > 1)
-    if len(gaps):
-        missing = int(np.sum(jumps[gaps] - 1))
-        longest = gaps[np.argmax(steps[gaps])]
-        notes.append(
-            f"{len(gaps)} gap{'s' * (len(gaps) > 1)}: {missing} of {len(time) + missing} samples missing, "
-            f"the longest lasts {steps[longest]:.6g} s from t = {time[longest]:.10g} s; "
-            "they are filled in and not used"
-        )
-    worst = int(np.argmax(deviation))
-    there = np.ones(len(time), dtype=np.bool_)
-    was_set = find_clock_steps(time, there) if deviation[worst] > JITTER_NOTED and not len(gaps) else []
-    for c in was_set[:3]:
-        notes.append(f"the stamps step by {c.size:.4g} s at t = {c.time:.10g} s: was the clock set?")
-    if deviation[worst] > JITTER_NOTED and not was_set:
-        notes.append(
-            f"sampling jitters by up to {deviation[worst]:.2g} of the step of {step:.6g} s (after t = {time[worst]:.10g} s); "
-            "every sample counts at its own instant, derivatives and spectra are made on the even grid"
-        )
-    return notes
+def _describe_jitter(time: Array, jumps: NDArray[np.int64], off: Array, step: float) -> list[str]:
+    worst = int(np.argmax(off))
+    if off[worst] <= JITTER_NOTED:
+        return []
+    was_set = [] if np.any(jumps > 1) else find_clock_steps(time, np.ones(len(time), dtype=np.bool_))
+    if was_set:
+        return [
+            f"the stamps step by {c.size:.4g} s at t = {c.time:.10g} s: was the clock set?"
+            for c in was_set[:3]
+        ]
+    return [
+        f"sampling jitters by up to {off[worst]:.2g} of the step of {step:.6g} s (after t = {time[worst]:.10g} s); "
+        "every sample counts at its own instant, derivatives and spectra are made on the even grid"
+    ]
 
 
-def _require_increasing(time: Array, path: Path | str | None, where: str) -> Array:
-    """(n - 1,) s: from each instant to the next; UserError unless all are above zero."""
+def _refuse_uneven(time: Array, steps: Array, step: float, off: Array, where: str) -> UserError:
+    row = int(np.argmax(off))
+    was_set = find_clock_steps(time, np.ones(len(time), dtype=np.bool_))
+    return UserError(
+        f"the stamps step by {steps[row] - step:.4g} s at t = {time[row + 1]:.10g} s: was the clock set?"
+        if was_set
+        else "the record is not uniformly sampled",
+        where=where,
+        found=f"a step of {steps[row]:.6g} s after row {row + 1} (t = {time[row]:.10g} s)",
+        expected=f"steps of {step:.6g} s",
+        remedy=_BY_COUNT.format(rate=1 / step) if was_set else "resample the record to a constant rate",
+    )
+
+
+def _require_increasing(time: Array, path: Path | str | None, where: str) -> None:
+    """UserError unless every instant is later than the one before."""
     if len(time) < 2:
         rows = f"{len(time)} row{'s' * (len(time) != 1)}"
         raise UserError("too few samples", where=path, found=rows, expected="at least 2, usually thousands")
-    if not np.all(np.isfinite(time)):
-        row = int(np.flatnonzero(~np.isfinite(time))[0])
-        raise UserError("the time is missing", where=where, found=f"row {row + 1}: {time[row]}")
     steps = np.diff(time)
     if np.all(steps > 0):
-        return steps
+        return
+    wrong = np.flatnonzero(~(steps > 0))
+    row = int(wrong[0])
+    found = f"row {row + 1}: {time[row]:.10g} s, row {row + 2}: {time[row + 1]:.10g} s"
+    found += f" (and {len(wrong) - 1} more such places)" if len(wrong) > 1 else ""
     what, remedy = (
         "the time runs back",
         "remove doubled rows or sort the rows by time; two records need two files",
     )
-    row, count = int(np.flatnonzero(steps <= 0)[0]), int(np.sum(steps <= 0))
-    found = f"row {row + 1}: {time[row]:.10g} s, row {row + 2}: {time[row + 1]:.10g} s"
-    found += f" (and {count - 1} more such places)" if count > 1 else ""
-    in_order = np.diff(np.sort(time))
-    swapped = np.min(in_order) > 0.5 * np.median(in_order)  # the rows stand in another order
     single = _find_single(time)
     single = None if single is None or single < 1e-3 else single
     if np.all(steps < 0):
         what, remedy = "the time runs backwards", "sort the rows by time"
     elif np.all(steps == 0) and single is None:
-        what, remedy = (
-            "the time does not increase",
-            "check the clock or the format in which the time was written",
-        )
+        what = "the time does not increase"
+        remedy = "check the clock or the format in which the time was written"
     elif np.mean(steps == 0) > SHARED:
         what = "the stamps are too coarse for the rate"
         found, remedy = _describe_coarse(time, steps, single)
-    elif steps[row] < 0 and not swapped and count <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)):
+    elif steps[row] == 0:
+        what = "an instant appears twice"
+    elif len(wrong) <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)) and not _is_swapped(time):
         step = _typical_step(steps[steps > 0])
         what = (
             f"the stamps step back by {step - steps[row]:.4g} s at t = {time[row]:.10g} s: was the clock set?"
         )
         remedy = _BY_COUNT.format(rate=1 / step)
-    elif steps[row] == 0:
-        what = "an instant appears twice"
     raise UserError(what, where=where, found=found, expected="increasing time", remedy=remedy)
+
+
+def _is_swapped(time: Array) -> bool:
+    """Whether rows stand in another order."""
+    in_order = np.diff(np.sort(time))
+    return bool(np.min(in_order) > 0.5 * np.median(in_order))
 
 
 def _describe_coarse(time: Array, steps: Array, single: float | None) -> tuple[str, str]:

@@ -1,6 +1,6 @@
-"""Tables as they stand in files or in memory: columns with the file's own names and units, and the lines among them.
+"""Tables: columns with names and units as they stand in files or in memory, and the lines among them.
 
-A reader of a format makes one or more :class:`Table`; what a pandas DataFrame, an xarray Dataset, a group of an HDF5
+A reader of a format makes one or more :class:`DataTable`; what a pandas DataFrame, an xarray Dataset, a group of an HDF5
 file, a structure of MATLAB or a dict of arrays holds becomes one by :func:`make_table`.
 """
 
@@ -10,15 +10,16 @@ import hashlib
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyarrow as pa
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at, one_line
+from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.record import SI_UNITS
 
@@ -37,19 +38,19 @@ INDEX = "index"
 SHARE = 0.5
 """Of the free memory that a table may take: reading and fitting it take as much again."""
 
-_HEADER = re.compile(r"(?P<name>[^\[\]]*?)\s*\[(?P<unit>[^\[\]]*)\]")
-_OTHERWISE = re.compile(
-    r"(?P<name>.*?\S)(?:\s*\((?P<inside>[^()]+)\)|\s*[,:]\s*(?P<behind>\S+)| / (?P<over>\S+))"
+_HEADING = re.compile(
+    r"(?P<name>[^\[\]]*?)\s*\[(?P<inside>[^\[\]]*)\]"
+    r"|(?P<other>.*?\S)(?:\s*\((?P<round>[^()]+)\)|\s*[,:]\s*(?P<behind>\S+)| / (?P<over>\S+))"
 )
-"""``name (unit)``, ``name, unit``, ``name: unit`` and ``name / unit`` (ISO 80000-1)."""
-_UNIT_KEYS = ("units", "Units", "UNITS", "unit", "Unit")
+"""``name [unit]``, or ``name (unit)``, ``name, unit``, ``name: unit``, ``name / unit`` (ISO 80000-1)."""
+
 _DEFAULT_FILL = {"f4": 2.0**123 * 0.9375, "f8": 2.0**123 * 0.9375, "i4": -2147483647, "i2": -32767}
 """What NetCDF writes where nothing was written, by type (netcdf.h: NC_FILL_FLOAT ...)."""
 
 
 @dataclass(frozen=True, eq=False)
-class Column:
-    """Values (n,) of a column under the file's own name, and their unit (``""``: none given).
+class DataColumn:
+    """Values (n,) of a column under its name, and their unit (``""``: none given).
 
     ``values``: float64 with NaN for nothing, object (text, ``""`` for nothing), datetime64[ns] or timedelta64[ns].
     """
@@ -68,20 +69,29 @@ class Column:
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
-    """Columns of one length.
+class DataTable:
+    """Columns of one length: as a file has them or, once read, those of a flight under the names of the contract.
 
     ``line`` is the flight line, where there are several; ``part`` the group, structure or sheet; ``index`` the name of
     the column that labels the rows (the index of a DataFrame); ``notes`` what was made of the file. ``counts`` says how
     the file itself counts its rows: its word for them, and the number of the first.
+
+    Of a flight further: ``place`` for messages; ``origin``, the instant at which ``time`` is 0, if it is known (UTC, or
+    GPS time where the file counts in that); ``instants``, whether its stamps are instants, not seconds; ``demodulation``,
+    how its channels were made, if that is known; ``passed``, names of columns that are none of a flight.
     """
 
-    columns: tuple[Column, ...]
+    columns: tuple[DataColumn, ...]
     line: str | None = None
     part: str = ""
     notes: tuple[str, ...] = ()
     index: str | None = None
-    counts: tuple[str, int] = field(default=("row", 1))
+    counts: tuple[str, int] = ("row", 1)
+    place: str = ""
+    origin: datetime | None = None
+    instants: bool = False
+    demodulation: Demodulation | None = None
+    passed: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.columns[0].values) if self.columns else 0
@@ -90,37 +100,41 @@ class Table:
     def names(self) -> tuple[str, ...]:
         return tuple(c.name for c in self.columns)
 
-    def column(self, name: str) -> Column:
-        """The only column of this name; KeyError if there is none."""
-        return next(c for c in self.columns if c.name == name)
+    def column(self, name: str) -> DataColumn:
+        """The first column of this name; KeyError if there is none."""
+        return {c.name: c for c in reversed(self.columns)}[name]
 
     def row(self, position: int) -> str:
         """A row as the file counts it: ``line 9``."""
         return f"{self.counts[0]} {self.counts[1] + position}"
 
-    def rows(self, chosen: NDArray[Any]) -> Table:
+    def rows(self, chosen: NDArray[Any]) -> DataTable:
         """Some of the rows, by their positions."""
         return replace(self, columns=tuple(replace(c, values=c.values[chosen]) for c in self.columns))
+
+
+# --- headings and cells --------------------------------------------------------------------------------
 
 
 def read_heading(text: str) -> tuple[str, str]:
     """Name and unit of ``name [unit]``, or of another way in which what should be the unit is one (see above)."""
     text = " ".join(text.split())
-    if match := _HEADER.fullmatch(text):
-        return one_line(match["name"]), match["unit"].strip()
-    if match := _OTHERWISE.fullmatch(text):
-        unit = next(filter(None, match.groups()[1:])).strip()
-        if is_unit(unit) or match["name"] in SI_UNITS:
-            return one_line(match["name"]), unit
+    match = _HEADING.fullmatch(text)
+    if match and match["inside"] is not None:
+        return one_line(match["name"]), match["inside"].strip()
+    if match:
+        unit = (match["round"] or match["behind"] or match["over"]).strip()
+        if is_unit(unit) or match["other"] in SI_UNITS:
+            return one_line(match["other"]), unit
     return one_line(text), ""
 
 
 def read_units(cells: Sequence[str]) -> list[str] | None:
     """The units in a row below the names: each cell is a unit, perhaps in brackets, or empty; not all numbers."""
     found = [re.sub(r"\s*(?:\[(.*)\]|\((.*)\))\s*", r"\1\2", c).strip() for c in cells]
-    if not all(not c or is_unit(c) for c in found) or not any(c not in ("", "1") for c in found):
-        return None
-    return found
+    return (
+        found if all(not c or is_unit(c) for c in found) and any(c not in ("", "1") for c in found) else None
+    )
 
 
 def is_unit(text: str) -> bool:
@@ -132,16 +146,40 @@ def is_unit(text: str) -> bool:
     return bool(text.strip())
 
 
-def is_line(name: str) -> bool:
-    """Whether a column of this name tells flight lines apart."""
-    return name.casefold() == "line"
+def write_cell(cell: Any) -> str:
+    """A cell as text: dates in ISO 8601, 1010 for 1010.0, nothing for ``None`` and NaN."""
+    if cell is None or cell != cell:
+        return ""
+    if isinstance(cell, bytes):
+        cell = cell.decode("utf-8", "replace")
+    if hasattr(cell, "isoformat"):
+        return str(cell.isoformat())
+    if isinstance(cell, float):
+        return str(int(cell)) if cell.is_integer() and abs(cell) < 1e15 else repr(float(cell))
+    return str(cell).strip("\0 \t\r\n")
+
+
+# --- from arrays ---------------------------------------------------------------------------------------
+
+
+class Labelled(np.ndarray[Any, Any]):
+    """An array with attributes, as those of xarray and h5py have them."""
+
+    attrs: Mapping[str, Any]
+
+
+def label(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArray[Any]:
+    """The array with these attributes."""
+    view = np.asarray(values).view(Labelled)
+    view.attrs = attributes
+    return view
 
 
 def make_table(
     arrays: Iterable[tuple[str, Any]],
     given: Mapping[str, str] | None = None,
     **about: Any,
-) -> Table:
+) -> DataTable:
     """A table of those arrays that have the length of ``time`` (or the commonest one); notes say which have not.
 
     Parameters
@@ -157,27 +195,28 @@ def make_table(
     given, arrays = given or {}, list(arrays)
     if len(arrays) > MOST_COLUMNS:
         raise too_wide(None, len(arrays))
-    length = _common_length(arrays)
+    sizes = [(read_heading(n)[0], max(x.shape)) for n, x in arrays if _is_narrow(x.shape)]
+    common = Counter(size for _, size in sizes if size > 1).most_common(1)
+    length = next((size for n, size in sizes if n == "time" and size > 1), common[0][0] if common else 1)
     columns, other = [], []
     for name, x in arrays:
-        if length not in x.shape or len(x.shape) > 2 or (len(x.shape) == 2 and min(x.shape) > WIDEST):
-            other.append(f"{name!r} ({' x '.join(map(str, x.shape)) or 'a single value'})")
-            continue
-        attributes = read_attributes(x)
-        values = decode_values(np.asarray(x), attributes)
+        fits = _is_narrow(x.shape) and length in x.shape
+        attributes = read_attributes(x) if fits else {}
+        values = decode_values(np.asarray(x), attributes) if fits else None
         if values is None:
-            other.append(f"{name!r} (neither numbers nor text)")
+            why = "neither numbers nor text" if fits else " x ".join(map(str, x.shape)) or "a single value"
+            other.append(f"{name!r} ({why})")
             continue
         title, unit = read_heading(name)
-        said = next(filter(None, (_text(attributes.get(k)) for k in _UNIT_KEYS)), "").strip()
+        said = next(filter(None, (_read_text(v) for k, v in attributes.items() if _is_unit_key(k))), unit)
         for own, part in _spread(title, values, length):
-            unit_of = given.get(own) or given.get(name) or given.get(title) or said or unit
-            columns.append(Column(own, unit_of.strip(), part))
+            unit_of = given.get(own) or given.get(name) or given.get(title) or said
+            columns.append(DataColumn(own, unit_of.strip(), part))
     notes = list(about.pop("notes", ()))
     if other:
         shown = ", ".join(other[:6]) + (" ..." if len(other) > 6 else "")
         notes.append(f"passed over, not of the {length} rows of the table: {one_line(shown)}")
-    return Table(tuple(columns), notes=tuple(notes), **about)
+    return DataTable(tuple(columns), notes=tuple(notes), **about)
 
 
 def too_wide(where: Path | None, count: int) -> UserError:
@@ -186,15 +225,12 @@ def too_wide(where: Path | None, count: int) -> UserError:
     return UserError(what, where=where, found=count, expected=f"at most {MOST_COLUMNS}", remedy=remedy)
 
 
-def _common_length(arrays: Sequence[tuple[str, Any]]) -> int:
-    """Rows of the table that arrays make up: those of ``time``, else the commonest length."""
-    shapes = [(n, x.shape) for n, x in arrays]
-    sizes = [(n, max(s)) for n, s in shapes if len(s) == 1 or (len(s) == 2 and min(s) <= WIDEST)]
-    time = next((size for n, size in sizes if read_heading(n)[0] == "time"), 0)
-    if time > 1:
-        return time
-    common = Counter(size for _, size in sizes if size > 1).most_common(1)
-    return common[0][0] if common else max((size for _, size in sizes), default=0)
+def _is_narrow(shape: tuple[int, ...]) -> bool:
+    return len(shape) == 1 or (len(shape) == 2 and min(shape) <= WIDEST)
+
+
+def _is_unit_key(name: str) -> bool:
+    return name.casefold() in ("units", "unit")
 
 
 def _spread(name: str, values: NDArray[Any], length: int) -> list[tuple[str, NDArray[Any]]]:
@@ -231,24 +267,36 @@ def decode_values(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArra
         return _decode_objects(values)
     if kind not in "biuf":
         return None
-    meanings = _text(attributes.get("flag_meanings")).split()
+    meanings = _read_text(attributes.get("flag_meanings")).split()
     if meanings and kind in "iu" and values.ndim == 1:
         flags = np.atleast_1d(attributes.get("flag_values", np.arange(len(meanings)))).tolist()
         known = dict(zip(flags, meanings, strict=False))
         return np.array([known.get(int(v), str(v)) for v in values], dtype=object)
-    missing = np.zeros(values.shape, dtype=np.bool_)
-    for name in ("_FillValue", "missing_value"):
-        for nothing in _numbers(attributes.get(name)):
-            missing |= values == np.asarray(nothing).astype(values.dtype)
-    low, high = [*_numbers(attributes.get("valid_range")), -np.inf, np.inf][:2]
-    low = [*_numbers(attributes.get("valid_min")), low][0]
-    missing |= (values < low) | (values > [*_numbers(attributes.get("valid_max")), high][0])
+    numbers = {n: _read_numbers(attributes.get(n)) for n in attributes}
+    nothing = [*numbers.get("_FillValue", ()), *numbers.get("missing_value", ())]
     if (fill := _DEFAULT_FILL.get(values.dtype.str[1:])) is not None and "DIMENSION_LIST" in attributes:
-        missing |= values == np.asarray(fill).astype(values.dtype)
+        nothing.append(fill)
+    missing = (
+        np.isin(values, np.array(nothing).astype(values.dtype)) if nothing else np.zeros(values.shape, bool)
+    )
+    packed = "scale_factor" in attributes or "add_offset" in attributes
     result: NDArray[Any] = values.astype(np.float64)
-    if "scale_factor" in attributes or "add_offset" in attributes:
-        factor = [*_numbers(attributes.get("scale_factor")), 1.0][0]
-        result = result * factor + [*_numbers(attributes.get("add_offset")), 0.0][0]
+    if packed:
+        factor, offset = (numbers.get(n, ()) for n in ("scale_factor", "add_offset"))
+        result = result * next(iter(factor), 1.0) + next(iter(offset), 0.0)
+    for name, low in (
+        ("valid_range", True),
+        ("valid_min", True),
+        ("valid_range", False),
+        ("valid_max", False),
+    ):
+        bound = numbers.get(name, [])[:1] if low else numbers.get(name, [])[-1:]
+        # of packed whole numbers the range is one of whole numbers, or of what they stand for (NUG, appendix A)
+        own = (
+            result if bound and packed and kind in "iu" and np.asarray(bound[0]).dtype.kind == "f" else values
+        )
+        for limit in bound:
+            missing |= own < limit if low else own > limit
     result[missing] = np.nan
     return result
 
@@ -265,27 +313,14 @@ def _decode_objects(values: NDArray[Any]) -> NDArray[Any] | None:
     return np.array([write_cell(c) for c in cells], dtype=object)
 
 
-def write_cell(cell: Any) -> str:
-    """A cell as text: dates in ISO 8601, 1010 for 1010.0, nothing for ``None`` and NaN."""
-    if cell is None or cell != cell:
-        return ""
-    if isinstance(cell, bytes):
-        return cell.decode("utf-8", "replace").strip("\0 \t\r\n")
-    if hasattr(cell, "isoformat"):
-        return str(cell.isoformat())
-    if isinstance(cell, float):
-        return str(int(cell)) if cell.is_integer() and abs(cell) < 1e15 else repr(float(cell))
-    return str(cell).strip("\0 \t\r\n")
-
-
-def _text(value: object) -> str:
+def _read_text(value: object) -> str:
     """The text of an attribute; ``""`` where it is none."""
     if isinstance(value, np.ndarray) and value.size == 1:
         value = value.ravel()[0]
     return write_cell(value) if isinstance(value, str | bytes) else ""
 
 
-def _numbers(value: object) -> list[Any]:
+def _read_numbers(value: object) -> list[Any]:
     """The numbers of an attribute; none where it is no number."""
     found = np.asarray(value)
     return [v for v in found.ravel() if np.isfinite(v)] if found.dtype.kind in "fiu" else []
@@ -294,15 +329,15 @@ def _numbers(value: object) -> list[Any]:
 # --- in memory -----------------------------------------------------------------------------------------
 
 
-def tabulate(data: Any) -> list[Table]:
+def tabulate(data: Any) -> list[DataTable]:
     """A DataFrame, a Dataset or a dict of arrays as a table; UserError for anything else."""
     if hasattr(data, "iloc") and hasattr(data, "columns"):
-        return [_of_frame(data)]
+        return [_tabulate_frame(data)]
     if hasattr(data, "data_vars") and hasattr(data, "coords"):
-        return [make_table([(str(n), _of_variable(v)) for n, v in data.variables.items()])]
+        return [make_table([(str(n), _read_variable(v)) for n, v in data.variables.items()])]
     if isinstance(data, Mapping):
         about = [data[n] for n in ("units", "attrs") if isinstance(data.get(n), Mapping)]
-        arrays = [(str(n), _of_series(v)) for n, v in data.items() if not isinstance(v, Mapping)]
+        arrays = [(str(n), _read_series(v)) for n, v in data.items() if not isinstance(v, Mapping)]
         return [make_table(arrays, read_frame_units(about[0] if about else {}))]
     raise UserError(
         "this is no flight",
@@ -311,44 +346,30 @@ def tabulate(data: Any) -> list[Table]:
     )
 
 
-def _of_variable(v: Any) -> Any:
+def _read_variable(v: Any) -> Any:
     """A variable of xarray, which unpacks values but not the range in which they are valid."""
     scale, offset = v.encoding.get("scale_factor", 1.0), v.encoding.get("add_offset", 0.0)
     packed = {n: np.asarray(x) * scale + offset for n, x in v.attrs.items() if n.startswith("valid_")}
     return label(v.values, {**v.attrs, **packed})
 
 
-def _of_frame(frame: Any) -> Table:
+def _tabulate_frame(frame: Any) -> DataTable:
     """The table of a DataFrame; an index that is more than row numbers is its first column."""
-    labels = [
-        (f"{' '.join(map(str, c[:-1]))} [{c[-1]}]" if is_unit(str(c[-1])) else " ".join(map(str, c)))
-        if isinstance(c, tuple)
-        else str(c)
-        for c in frame.columns  # names and units in two rows of a header
-    ]
-    arrays = [(n, _of_series(frame.iloc[:, k])) for k, n in enumerate(labels)]
+    arrays = []
+    for k, c in enumerate(frame.columns):
+        parts = [str(x) for x in c] if isinstance(c, tuple) else [str(c)]
+        if len(parts) > 1 and is_unit(parts[-1]):  # names and units in two rows of a header
+            parts[-1] = f"[{parts[-1]}]"
+        arrays.append((" ".join(parts), _read_series(frame.iloc[:, k])))
     index = None
     if type(frame.index).__name__ != "RangeIndex":
         name = INDEX if frame.index.name is None else str(frame.index.name)
-        arrays.insert(0, (name, _of_series(frame.index.to_series())))
+        arrays.insert(0, (name, _read_series(frame.index.to_series())))
         index = read_heading(name)[0]
     return make_table(arrays, read_frame_units(frame.attrs), index=index)
 
 
-class Labelled(np.ndarray[Any, Any]):
-    """An array with attributes, as those of xarray and h5py have them."""
-
-    attrs: Mapping[str, Any]
-
-
-def label(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArray[Any]:
-    """The array with these attributes."""
-    view = np.asarray(values).view(Labelled)
-    view.attrs = attributes
-    return view
-
-
-def _of_series(series: Any) -> Any:
+def _read_series(series: Any) -> Any:
     """A column of pandas as an array of NumPy; any other array as it is."""
     if not hasattr(series, "to_numpy") or not hasattr(series, "index"):
         return series if hasattr(series, "shape") else np.asarray(series)
@@ -373,23 +394,7 @@ def read_frame_units(attributes: Mapping[Any, Any]) -> dict[str, str]:
     return found
 
 
-def of_arrow(column: pa.ChunkedArray) -> NDArray[Any] | None:
-    """Numbers, texts or instants of a column of Arrow; ``None`` for anything else. Its own ``to_numpy`` may load pandas."""
-    kind = column.type.value_type if pa.types.is_dictionary(column.type) else column.type
-    if pa.types.is_string(kind) or pa.types.is_large_string(kind) or pa.types.is_time(kind):
-        return np.array([write_cell(t) for t in column.to_pylist()], dtype=object)
-    if pa.types.is_timestamp(kind) or pa.types.is_date(kind):
-        return np.asarray(column.cast(pa.timestamp("ns")).to_numpy(), dtype="datetime64[ns]")
-    if pa.types.is_duration(kind):
-        return np.asarray(column.cast(pa.duration("ns")).to_numpy(), dtype="timedelta64[ns]")
-    if not (pa.types.is_primitive(kind) or pa.types.is_decimal(kind) or pa.types.is_null(kind)):
-        return None
-    column = column.cast(pa.int8()) if pa.types.is_boolean(kind) else column
-    whole = column.cast(pa.float64()).combine_chunks()
-    return np.asarray(np.from_dlpack(whole.fill_null(float("nan")) if whole.null_count else whole))
-
-
-def digest_tables(tables: Sequence[Table]) -> str:
+def digest_tables(tables: Sequence[DataTable]) -> str:
     """SHA-256 of what tables hold, for flights that have no file."""
     total = hashlib.sha256()
     for c in (c for t in tables for c in t.columns):
@@ -402,22 +407,18 @@ def digest_tables(tables: Sequence[Table]) -> str:
 
 
 def choose_tables(
-    tables: Sequence[Table],
-    where: Path | str | None,
-    wanted: frozenset[str] = frozenset(),
-    part: str | None = None,
-) -> list[Table]:
+    tables: Sequence[DataTable], where: Path | str, wanted: frozenset[str], part: str | None = None
+) -> list[DataTable]:
     """The tables that are meant: those of ``part``, with all columns that are wanted or with time; several alike are lines."""
     found = [t for t in tables if t.columns]
     if part is not None:
         name = part.strip("/")
-        found = [t for t in found if t.part.strip("/") == name or t.part.strip("/").startswith(name + "/")]
-    if len({tuple(sorted(t.names)) for t in found}) > 1:
-        whole = [t for t in found if wanted <= {*t.names}]
-        found = whole or [t for t in found if "time" in t.names] or found
+        found = [t for t in found if f"{t.part.strip('/')}/".startswith(f"{name}/")]
+    if _count_kinds(found) > 1:
+        found = [t for t in found if wanted <= {*t.names}] or [t for t in found if "time" in t.names] or found
     if len(found) == 1:
         return [replace(found[0], line=None)]
-    if len({tuple(sorted(t.names)) for t in found}) == 1:
+    if _count_kinds(found) == 1:
         return found
     parts = [t.part or "/" for t in found]
     raise UserError(
@@ -429,12 +430,17 @@ def choose_tables(
     )
 
 
-def split_lines(tables: Sequence[Table], column: str | None, where: Path | str | None) -> list[Table]:
+def _count_kinds(tables: Sequence[DataTable]) -> int:
+    """How many sets of columns there are."""
+    return len({tuple(sorted(t.names)) for t in tables})
+
+
+def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | str | None) -> list[DataTable]:
     """A table for each line, in the order in which they begin; the rows of one need not stand together."""
     if len(tables) != 1:
         return list(tables)
     (table,) = tables
-    name = column or next((n for n in table.names if is_line(n)), None)
+    name = column or next((n for n in table.names if n.casefold() == "line"), None)
     if name is None:
         return [table]
     values = table.column(name).values

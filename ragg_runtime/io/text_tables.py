@@ -26,14 +26,13 @@ import pyarrow.csv
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.io.array_files import of_arrow, report_damage
 from ragg_runtime.io.instants import parts_of
 from ragg_runtime.io.tables import (
     INDEX,
     MOST_COLUMNS,
-    Column,
-    Table,
-    is_line,
-    of_arrow,
+    DataColumn,
+    DataTable,
     read_heading,
     read_units,
     require_memory,
@@ -45,24 +44,9 @@ LONGEST_LINE = 1 << 20
 """Characters of a line from which a file is no table."""
 
 _EXCEL_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
+_WORDS = "nan NaN NAN NaT NA N/A n/a <NA> null NULL None -nan nan(ind) -nan(ind)"
 _OF_C = tuple(f"{sign}1.#{word}" for sign in ("", "-") for word in ("IND", "QNAN", "INF"))
-_WORDS = (
-    "nan",
-    "NaN",
-    "NAN",
-    "NaT",
-    "NA",
-    "N/A",
-    "n/a",
-    "<NA>",
-    "null",
-    "NULL",
-    "None",
-    "-nan",
-    "nan(ind)",
-    "-nan(ind)",
-)
-MISSING = ("", "-", "--", "*", *_WORDS, *_OF_C, *_EXCEL_ERRORS)
+MISSING = ("", "-", "--", "*", *_WORDS.split(), *_OF_C, *_EXCEL_ERRORS)
 """Cells that hold nothing."""
 
 _LOOKED_AT = 600  # lines that are looked at to find the header and to tell numbers from text
@@ -94,44 +78,50 @@ class Header:
 
 def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
     """The header among the first rows of a table, whose cells are text, numbers, dates or ``""``; ``None``: none."""
-    filled = [len(r) for r in rows if sum(map(bool, map(_filled, r))) > 1]
-    if not filled:
+    sizes = Counter(len(r) for r in rows if sum(map(_is_filled, r)) > 1)
+    if not sizes:
         return None
-    width = max(Counter(filled).items(), key=lambda x: (x[0] > 1) * x[0] * x[1])[0]
+    width = max(sizes, key=lambda n: (n > 1) * n * sizes[n])
     alike = [
-        k for k, r in enumerate(rows) if abs(len(r) - width) <= 1 or not any(map(_filled, r[width:] or "x"))
+        k
+        for k, r in enumerate(rows)
+        if abs(len(r) - width) <= 1 or not any(map(_is_filled, r[width:] or "x"))
     ]
-    data = [k for k, row in enumerate(alike) if _is_data(rows[row])]
-    whole = (alike[k] for k in data if all(n in data for n in range(k, min(k + 3, len(alike)))))
-    begins = next(whole, len(rows))  # numbers that stand before the header are followed by other text
-    above = [k for k in alike if k < begins and any(map(_filled, rows[k]))]
+    data = [_is_data(rows[k]) for k in alike]
+    # numbers that stand before the header are followed by other text
+    first = next((k for k in range(len(alike)) if all(data[k : k + 3])), len(alike))
+    begins = alike[first] if first < len(alike) else len(rows)
+    above = [k for k in alike[:first] if any(map(_is_filled, rows[k]))]
     if not above:
         return None
-    parts = [[write_cell(c).strip() for c in rows[k]] for k in above[-3:]]
-    size = max(width, *(len(r) for r in rows[begins : begins + 1])) if begins < len(rows) else width
-    parts = [(p + [""] * size)[:size] for p in parts]
-    units = None
+    size = max(width, *(len(r) for r in rows[begins : begins + 1]), 0)
+    parts = [([write_cell(c).strip() for c in rows[k]] + [""] * size)[:size] for k in above[-3:]]
+    units = [""] * size
     if not any(all(read_heading(c)) for p in parts for c in p):
         for k in range(len(parts) - 1, 0, -1):  # below the units there may be a row of remarks
-            if (units := read_units(parts[k])) is not None:
-                parts = parts[:k]
+            if (found := read_units(parts[k])) is not None:
+                units, parts = found, parts[:k]
                 break
     names = parts[-1]
     if len(parts) > 1 and sum(map(bool, parts[-2])) > 1 and _needs_a_row_above(names):
-        names = _joined(parts[-2], names)
+        names = _join_rows(parts[-2], names)
     headings = [h if (h := read_heading(n))[0] else (n.strip(), "") for n in names]
-    found = [own or u for (_, own), u in zip(headings, units or [""] * size, strict=True)]
-    below = [_is_data(rows[k]) for k in alike if k >= begins]
-    return Header(tuple(n for n, _ in headings), tuple(found), begins, sum(below) / max(1, len(below)))
+    share = sum(data[first:]) / max(1, len(data) - first)
+    return Header(
+        names=tuple(n for n, _ in headings),
+        units=tuple(own or u for (_, own), u in zip(headings, units, strict=True)),
+        begins=begins,
+        share=share,
+    )
 
 
-def _filled(cell: Any) -> bool:
+def _is_filled(cell: Any) -> bool:
     return cell is not None and (not isinstance(cell, str) or cell.strip() not in MISSING)
 
 
 def _is_data(row: Sequence[Any]) -> bool:
     """Whether more cells of a row are numbers or instants than are text."""
-    filled = [c for c in row if _filled(c)]
+    filled = list(filter(_is_filled, row))
     values = sum(not isinstance(c, str) or is_number(c) or any(parts_of(c)) for c in filled)
     return values > 0 and 2 * values > len(filled)
 
@@ -163,13 +153,12 @@ def _needs_a_row_above(names: Sequence[str]) -> bool:
     return "" in bare[: last + 1] or len({*there}) < len(there)
 
 
-def _joined(above: Sequence[str], below: Sequence[str]) -> list[str]:
+def _join_rows(above: Sequence[str], below: Sequence[str]) -> list[str]:
     """A header over two rows: ``acceleration [g]`` over x, y, z (of merged cells the first holds the text)."""
     found, title = [], ""
     for upper, lower in zip(above, below, strict=True):
         title = upper or (title if lower else "")
-        name, unit = read_heading(title) if title else ("", "")
-        own, its = read_heading(lower) if lower else ("", "")
+        (name, unit), (own, its) = read_heading(title), read_heading(lower)
         whole = "_".join(filter(None, (name, own)))
         found.append(f"{whole} [{its or unit}]" if its or unit else whole)
     return found
@@ -189,7 +178,7 @@ class _Dialect:
     texts: frozenset[int]
 
 
-def read_csv(path: Path) -> list[Table]:
+def read_csv(path: Path) -> list[DataTable]:
     """The CSV file as one table; UserError if it has no header or lines of different widths."""
     data, notes = _read_text(path)
     dialect = _look(data, path)
@@ -203,14 +192,18 @@ def read_csv(path: Path) -> list[Table]:
     for k, x in enumerate(map(of_arrow, table.columns)):
         name, unit = dialect.header.names[k], dialect.header.units[k]
         assert x is not None
-        if name or not np.any(x != "" if x.dtype.kind == "O" else np.isfinite(x)):
-            columns += [Column(name, unit, x)] if name else []
-        elif k == 0:  # pandas writes an index without a name so
-            columns.append(Column(INDEX, "", x))
-        else:
+        if name:
+            columns.append(DataColumn(name, unit, x))
+        elif k == 0 and _holds_values(x):  # pandas writes an index without a name so
+            columns.append(DataColumn(INDEX, "", x))
+        elif _holds_values(x):
             notes.append(f"column {k + 1} has no name; it is passed over")
     index = INDEX if columns and columns[0].name == INDEX else None
-    return [Table(tuple(columns), notes=tuple(notes), index=index, counts=("line", dialect.lines + 1))]
+    return [DataTable(tuple(columns), notes=tuple(notes), index=index, counts=("line", dialect.lines + 1))]
+
+
+def _holds_values(x: NDArray[Any]) -> bool:
+    return bool(np.any(x != "" if x.dtype.kind == "O" else np.isfinite(x)))
 
 
 def _read_text(path: Path) -> tuple[bytes, list[str]]:
@@ -244,11 +237,11 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
 def _look(data: bytes, path: Path) -> _Dialect:
     """Delimiter, header and kinds of the columns, from the first lines."""
     stream = io.TextIOWrapper(io.BytesIO(data), "utf-8", newline="")
-    lines = list(itertools.islice(_lines(stream, path), _LOOKED_AT))
+    lines = list(itertools.islice(_read_lines(stream, path), _LOOKED_AT))
     best = None
     for delimiter in "\t;,|":
         try:
-            rows, ends = _rows(lines, delimiter)
+            rows, ends = _read_rows(lines, delimiter)
         except csv.Error as error:
             raise UserError(_NOT_CSV, where=path, found=error) from None
         header = find_header(rows)
@@ -261,18 +254,18 @@ def _look(data: bytes, path: Path) -> _Dialect:
     names, sample = header.names, rows[header.begins :]
     if len(names) > MOST_COLUMNS:
         raise too_wide(path, len(names))
-    count = len(data) * len(lines) / (sum(map(len, lines)) or 1)
-    require_memory(path, count * len(names) * 8)
+    require_memory(path, len(data) * len(lines) / (sum(map(len, lines)) or 1) * len(names) * 8)
     return _Dialect(
         delimiter=delimiter,
-        decimal="," if any(_COMMA.fullmatch(c) for r in sample for c in r) else ".",
+        decimal="," if any(map(is_comma, itertools.chain(*sample))) else ".",
         lines=ends[header.begins - 1] if header.begins else 0,
         header=header,
-        texts=frozenset(k for k, n in enumerate(names) if is_line(n) or _holds_text(sample, k)),
+        # names of lines are words, even where they are numbers
+        texts=frozenset(k for k, n in enumerate(names) if n.casefold() == "line" or _holds_text(sample, k)),
     )
 
 
-def _lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
+def _read_lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
     """The lines of a text; UserError at one too long to be a row of a table."""
     number = 0
     while line := stream.readline(LONGEST_LINE):
@@ -283,7 +276,7 @@ def _lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
         yield line
 
 
-def _rows(lines: Sequence[str], delimiter: str) -> tuple[list[list[str]], list[int]]:
+def _read_rows(lines: Sequence[str], delimiter: str) -> tuple[list[list[str]], list[int]]:
     """Rows of cells that are not empty, and the number of each one's last line; the header may be a remark (NumPy's is)."""
     reader = csv.reader(lines, delimiter=delimiter)
     found = [(r, reader.line_num) for r in reader if any(c.strip() for c in r)]
@@ -299,11 +292,9 @@ def _holds_text(rows: Sequence[Sequence[str]], column: int) -> bool:
 def _parse(data: bytes, d: _Dialect) -> pa.Table:
     """The columns as Arrow reads them; ArrowInvalid where a cell is no number or a line has another width."""
     kinds = {str(k): pa.string() if k in d.texts else pa.float64() for k in range(len(d.header.names))}
+    # with several threads Arrow does not say in which row it stumbled
     options = pyarrow.csv.ReadOptions(
-        skip_rows=d.lines,
-        column_names=list(kinds),
-        block_size=1 << 22,
-        use_threads=False,  # with several threads Arrow does not say in which row it stumbled
+        skip_rows=d.lines, column_names=list(kinds), block_size=1 << 22, use_threads=False
     )
     parse = pyarrow.csv.ParseOptions(delimiter=d.delimiter)
     convert = pyarrow.csv.ConvertOptions(column_types=kinds, null_values=MISSING, decimal_point=d.decimal)
@@ -329,63 +320,55 @@ def _changed(d: _Dialect, error: str, path: Path) -> _Dialect:
 # --- Excel ---------------------------------------------------------------------------------------------
 
 
-def read_excel(path: Path) -> list[Table]:
+def read_excel(path: Path) -> list[DataTable]:
     """The sheets of a workbook that hold tables; formulas are not computed, what Excel has computed is read."""
     import openpyxl  # slow to import, and only this format needs it
 
-    try:
+    with report_damage(path, "Excel (.xlsx)"):
         with zipfile.ZipFile(path) as parts:
             size = sum(p.file_size for p in parts.infolist() if p.filename.startswith("xl/worksheets/"))
         require_memory(path, _CELL_OF_XML * size)
         book = openpyxl.load_workbook(path, read_only=True, data_only=True, keep_links=False)
-        sheets = {str(s.title): _cells(s) for s in book.worksheets}
+        sheets = {str(s.title): _read_cells(s) for s in book.worksheets}
         book.close()
-    except UserError:
-        raise
-    except Exception as error:  # openpyxl, zipfile and the XML parser each raise their own
-        what, found = (
-            "the Excel file is damaged or not .xlsx",
-            (str(error) or type(error).__name__).split("\n")[0],
-        )
-        raise UserError(what, where=path, found=found[:200], remedy="save it again, or as CSV") from None
-    return [t for t in (_sheet(name, rows) for name, rows in sheets.items()) if t is not None]
+    return [t for t in itertools.starmap(_read_sheet, sheets.items()) if t is not None]
 
 
-def _cells(sheet: Any) -> list[tuple[int, list[Any]]]:
+def _read_cells(sheet: Any) -> list[tuple[int, list[Any]]]:
     """The rows that hold anything, each with its number; whatever the sheet says of its own size."""
     sheet.reset_dimensions()
     rows = ([None if c in _EXCEL_ERRORS else c for c in r] for r in sheet.iter_rows(values_only=True))
     return [(n, r) for n, r in enumerate(rows, 1) if any(c not in (None, "") for c in r)]
 
 
-def _sheet(name: str, rows: list[tuple[int, list[Any]]]) -> Table | None:
+def _read_sheet(name: str, rows: list[tuple[int, list[Any]]]) -> DataTable | None:
     """What a sheet holds; ``None`` if there is no table in it."""
     size = max((len(r) for _, r in rows), default=0)
     cells = [["" if c is None else c for c in r] + [""] * (size - len(r)) for _, r in rows]
     header = find_header(cells[:_LOOKED_AT])
     if header is None:
         return None
-    named = [k for k, n in enumerate(header.names) if n]
     data = cells[header.begins :]
     columns = tuple(
-        Column(header.names[k], header.units[k], _column([r[k] for r in data])) for k in named[:MOST_COLUMNS]
+        DataColumn(n, header.units[k], _read_column([r[k] for r in data]))
+        for k, n in list(enumerate(header.names))[:MOST_COLUMNS]
+        if n
     )
-    first = rows[header.begins][0] if data else 1
-    return Table(columns, line=name, part=name, counts=("row", first))
+    return DataTable(columns, line=name, part=name, counts=("row", rows[header.begins][0] if data else 1))
 
 
-def _column(cells: Sequence[Any]) -> NDArray[Any]:
+def _read_column(cells: Sequence[Any]) -> NDArray[Any]:
     """Cells of a sheet: numbers, dates, elapsed times (beyond 24 h Excel has dates of 1900 for them), or texts."""
-    there = [c for c in cells if _filled(c)]
+    there = list(filter(_is_filled, cells))
     if all(isinstance(c, int | float) for c in there):
         return np.array([float(c) if isinstance(c, int | float) else np.nan for c in cells])
-    if any(isinstance(c, timedelta | datetime) for c in there) and None not in map(_elapsed, there):
-        known = ["NaT" if (e := _elapsed(c)) is None else e for c in cells]
+    if any(isinstance(c, timedelta | datetime) for c in there) and None not in map(_read_elapsed, there):
+        known = ["NaT" if (e := _read_elapsed(c)) is None else e for c in cells]
         return np.array(known, dtype="timedelta64[us]").astype("timedelta64[ns]")
     return np.array([write_cell(c) for c in cells], dtype=object)
 
 
-def _elapsed(cell: Any) -> timedelta | None:
+def _read_elapsed(cell: Any) -> timedelta | None:
     """An elapsed time; ``None`` if the cell is none."""
     if isinstance(cell, time):
         cell = datetime.combine(date(1899, 12, 31), cell)

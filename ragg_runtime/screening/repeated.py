@@ -11,8 +11,8 @@ from scipy.interpolate import CubicSpline
 from scipy.signal import periodogram
 
 from ragg_runtime.io import Flight
-from ragg_runtime.io.angular_acceleration import planned
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag, is_disc_angle
+from ragg_runtime.signals.angular_acceleration import derive_accelerations
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
@@ -45,7 +45,7 @@ SUDDEN = 5.0
 
 LOST = 1e-3
 """Part of a derivative, rms, in the highest eighth of its band from which as much more is missing beyond: of 1e-3 rad/s^2 that is
-some ten times an instrument's noise (see :mod:`ragg_runtime.io.angular_acceleration`)."""
+some ten times an instrument's noise (see :mod:`ragg_runtime.signals.angular_acceleration`)."""
 
 RARE, RARE_ZEROS = 1e-3, 0.1
 """Number of such runs to be expected in the whole record below which one is no chance; of zeros, which recorders write."""
@@ -96,19 +96,19 @@ def leave_out_repeated(flight: Flight) -> Flight:
     return changed.flagged(_flags(found, flight))
 
 
-def with_derived_acceleration(x: Flight, lacking: Mask | None = None) -> Flight:
-    """The flight with its angular acceleration derived anew, unless it was recorded; rates (N,) are ``lacking`` somewhere."""
+def with_derived_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
+    """The flight with its angular acceleration derived anew, unless it was recorded; rates are ``stuck`` (N,) somewhere."""
     if not x.written or ANGULAR_ACCELERATION[0] in x.written or ANGULAR_ACCELERATION[0] not in x.channels:
         return x
-    rates = [
-        x.channels[n] if lacking is None else np.where(lacking, np.nan, x.channels[n]) for n in ANGULAR_RATE
-    ]
-    derivative, valid, made = planned(rates, x.rate), x.valid, {}
-    for change, rate in zip(ANGULAR_ACCELERATION, rates, strict=True):
-        slope, sure = derivative.of(rate, x.rate)
-        valid = valid & sure
-        made[change] = _interpolated(slope, np.isfinite(slope), False)
-    return replace(x, channels={**x.channels, **made}, valid=valid)
+    nowhere = np.zeros(len(x), dtype=np.bool_)
+    lacking = (nowhere if x.lacking is None else x.lacking) | (nowhere if stuck is None else stuck)
+    rates = [np.where(lacking, np.nan, x.channels[n]) for n in ANGULAR_RATE]
+    slopes, sure, _ = derive_accelerations(rates, x.time)
+    made = {
+        n: _interpolated(slope, np.isfinite(slope), False)
+        for n, slope in zip(ANGULAR_ACCELERATION, slopes, strict=True)
+    }
+    return replace(x, channels={**x.channels, **made}, valid=x.valid & sure)
 
 
 def _is_given(name: str, flight: Flight) -> bool:

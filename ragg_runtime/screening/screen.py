@@ -13,7 +13,6 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import Units
 from ragg_runtime.io import Flight
-from ragg_runtime.io.angular_acceleration import wide_weights
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag
 from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, even_clock, find_clock_steps
 from ragg_runtime.model.evaluate import scale_factor
@@ -25,6 +24,7 @@ from ragg_runtime.screening.mistakes import Finding, find_mistake
 from ragg_runtime.screening.repeated import leave_out_repeated, with_derived_acceleration
 from ragg_runtime.screening.sampler import Rows, Sampler, sampler_of
 from ragg_runtime.screening.spikes import find_spikes, leave_out_glitches, words_of
+from ragg_runtime.signals.angular_acceleration import wide_weights
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
@@ -201,6 +201,7 @@ def _evenly(x: Flight, steps: Sequence[ClockStep]) -> Flight:
         x,
         time=np.asarray(first + step * np.arange(np.sum(kept))),
         valid=x.valid[kept],
+        lacking=None if x.lacking is None else x.lacking[kept],
         channels={n: v[kept] for n, v in x.channels.items()},
         outputs={n: v[kept] for n, v in x.outputs.items()},
         # a first sample that came late does not delay the disc

@@ -17,7 +17,7 @@ from ragg_runtime.base.files import read_text
 from ragg_runtime.io.draft import OUTPUTS, draft_mapping, sample_table
 from ragg_runtime.io.mapping import UNKNOWN, Mapped, parse_mapping
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
-from ragg_runtime.io.tables import Column
+from ragg_runtime.io.tables import DataColumn
 from ragg_runtime.wording import numbers
 
 Json = dict[str, Any]
@@ -43,7 +43,7 @@ def draft(m: Loaded, path: Path) -> Json:
     return _show(tomllib.loads(made.text), columns, made.sure, kept=own is not None)
 
 
-def _show(data: Json, held: Sequence[Column], sure: Mapping[str, str], *, kept: bool) -> Json:
+def _show(data: Json, held: Sequence[DataColumn], sure: Mapping[str, str], *, kept: bool) -> Json:
     rows = []
     columns = data.get("columns", {})
     missing = [n for n in NEEDED if n not in columns]

@@ -11,12 +11,12 @@ import openpyxl
 from scipy.io import savemat
 
 from ragg_runtime.io.files import write_tables
-from ragg_runtime.io.tables import Table
+from ragg_runtime.io.tables import DataTable
 
 ENDINGS = (".csv", ".csv.gz", ".parquet", ".nc", ".h5", ".mat", ".xlsx")
 
 
-def write(path: Path, tables: Sequence[Table]) -> Path:
+def write(path: Path, tables: Sequence[DataTable]) -> Path:
     """Write tables in the format of the name's ending."""
     if path.suffix == ".h5":
         _hdf5(path, tables)
@@ -29,7 +29,7 @@ def write(path: Path, tables: Sequence[Table]) -> Path:
     return path
 
 
-def _hdf5(path: Path, tables: Sequence[Table]) -> None:
+def _hdf5(path: Path, tables: Sequence[DataTable]) -> None:
     with h5py.File(path, "w", track_order=True) as file:
         for t in tables:
             group = file if t.line is None else file.create_group(t.line, track_order=True)
@@ -38,7 +38,7 @@ def _hdf5(path: Path, tables: Sequence[Table]) -> None:
                 group[c.name].attrs["units"] = c.unit
 
 
-def _matlab(path: Path, tables: Sequence[Table]) -> None:
+def _matlab(path: Path, tables: Sequence[DataTable]) -> None:
     whole: dict[str, Any] = {}
     for t in tables:
         inside: dict[str, Any] = {c.name: c.values for c in t.columns}
@@ -47,7 +47,7 @@ def _matlab(path: Path, tables: Sequence[Table]) -> None:
     savemat(path, whole, do_compression=True)  # as MATLAB does since version 7
 
 
-def _excel(path: Path, tables: Sequence[Table]) -> None:
+def _excel(path: Path, tables: Sequence[DataTable]) -> None:
     book = openpyxl.Workbook()
     book.remove(book.active)
     for t in tables:

@@ -11,11 +11,11 @@ from ragg_runtime.estimation.fitted import noise_floor
 from ragg_runtime.estimation.spectrum import estimate
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.identification.diagnose import diagnose
-from ragg_runtime.io.angular_acceleration import REACH, Derivative, planned
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import screen
+from ragg_runtime.signals.angular_acceleration import REACH, RateDerivative, plan_derivative
 from ragg_runtime.signals.derivative import differentiate
 
 RATE = 16.0
@@ -26,7 +26,7 @@ def test_what_a_wide_band_gives() -> None:
     rng = np.random.default_rng(1)
     w, phase = 2 * np.pi * rng.uniform(0.01, 0.85 * RATE / 2, 60), rng.uniform(0, 2 * np.pi, 60)
     x, dx = np.sin(np.outer(t, w) + phase).sum(axis=1), (np.cos(np.outer(t, w) + phase) * w).sum(axis=1)
-    found = planned([x], RATE)
+    found = plan_derivative([x], RATE)
     derived, sure = found.of(x, RATE)
     assert np.std((derived - dx)[sure]) < 3e-6 * np.std(dx)
     assert np.std((differentiate(x, RATE) - dx)[sure]) > 0.1 * np.std(dx)
@@ -37,7 +37,7 @@ def test_noise_is_no_reason_to_leave_samples_out() -> None:
     """Beside the ends the derivative is short and noisier; of a noisy rate that is the lesser evil."""
     t = np.arange(20000) / RATE
     x = np.sin(2 * np.pi * 0.3 * t) + 1e-3 * np.random.default_rng(2).normal(size=len(t))
-    found = planned([x], RATE)
+    found = plan_derivative([x], RATE)
     assert found.unsure <= 4
     wrong = found.of(x, RATE)[0] - 2 * np.pi * 0.3 * np.cos(2 * np.pi * 0.3 * t)
     assert np.std(wrong[REACH:-REACH]) < 1.8 * 1e-3 * RATE
@@ -46,10 +46,10 @@ def test_noise_is_no_reason_to_leave_samples_out() -> None:
 def test_gaps_cost_little_of_short_runs() -> None:
     x = np.sin(np.arange(1000) / 5.0)
     x[::50] = np.nan
-    derived, sure = Derivative(unsure=REACH).of(x, RATE)
+    derived, sure = RateDerivative(unsure=REACH).of(x, RATE)
     assert np.isnan(derived[::50]).all()
     assert np.mean(sure) > 0.7
-    assert planned([x], RATE).unsure > 0, (
+    assert plan_derivative([x], RATE).unsure > 0, (
         "no run is long enough to judge by: one-sided ends are not relied upon"
     )
 
@@ -61,8 +61,8 @@ def test_runs_between_gaps_tell_together_what_their_ends_are_worth() -> None:
     x = np.sin(np.outer(t, w) + phase).sum(axis=1)
     dx = (np.cos(np.outer(t, w) + phase) * w).sum(axis=1)
     x[::300] = np.nan  # no run of 512 samples
-    derived, sure = planned([x], RATE).of(x, RATE)
-    trusted = Derivative().of(x, RATE)[1]
+    derived, sure = plan_derivative([x], RATE).of(x, RATE)
+    trusted = RateDerivative().of(x, RATE)[1]
     assert np.nanstd((derived - dx)[sure]) < 0.3 * np.nanstd((derived - dx)[trusted])
 
 
@@ -74,7 +74,7 @@ def derived(seed: int, rate: float, trim: str, noise: float = 0.0):  # type: ign
     channels = {n: v for n, v in flight.channels.items() if n not in ANGULAR_ACCELERATION}
     for n in ANGULAR_RATE:
         channels[n] = channels[n] + np.radians(noise) / 3600 * rng.normal(size=len(flight))
-    found = planned([channels[n] for n in ANGULAR_RATE], rate)
+    found = plan_derivative([channels[n] for n in ANGULAR_RATE], rate)
     valid = np.ones(len(flight), dtype=bool)
     for n, r in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
         channels[n], sure = found.of(channels[r], rate)

@@ -21,7 +21,7 @@ from scipy.io import netcdf_file, savemat
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight, files, read_flight, write_flight
 from ragg_runtime.io.files import convert, estimate_room, read_recordings, write_tables
-from ragg_runtime.io.tables import Column, Table
+from ragg_runtime.io.tables import DataColumn, DataTable
 from tests.runtime.foreign_files import ENDINGS, write
 
 G0 = 9.8
@@ -29,16 +29,16 @@ WRITTEN = (".csv", ".csv.gz", ".parquet", ".nc")
 UNITS = {"a_x": "g", "omega_y": "deg/h", "inline": "Eo", "fuel": "kg"}
 
 
-def made(n: int, lines: tuple[str, ...], seed: int = 0) -> list[Table]:
+def made(n: int, lines: tuple[str, ...], seed: int = 0) -> list[DataTable]:
     rng = np.random.default_rng(seed)
     found = []
     for k, line in enumerate(lines or (None,)):
-        columns = [Column("time", "s", np.arange(n + k) / 3.0)]
+        columns = [DataColumn("time", "s", np.arange(n + k) / 3.0)]
         for name, unit in UNITS.items():
             values = np.round(rng.normal(size=n + k), 9) * 10.0 ** rng.integers(-12, 12)
             values[rng.integers(0, n + k)] = np.nan
-            columns.append(Column(name, unit, values))
-        found.append(Table(tuple(columns), line))
+            columns.append(DataColumn(name, unit, values))
+        found.append(DataTable(tuple(columns), line))
     return found
 
 

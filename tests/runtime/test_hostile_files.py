@@ -15,7 +15,7 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import read_flight
 from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import parse_mapping
-from ragg_runtime.io.tables import Column, Table
+from ragg_runtime.io.tables import DataColumn, DataTable
 from tests.runtime.foreign_files import ENDINGS, write
 
 NAMES = ("time", "a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z", "G_out")
@@ -39,9 +39,9 @@ def good(path: Path, lines: tuple[str, ...] = ()) -> Path:
     rng = np.random.default_rng(1)
     tables = []
     for line in lines or (None,):
-        columns = [Column(n, u, rng.normal(size=60)) for n, u in zip(NAMES, UNITS, strict=True)]
-        columns[0] = Column("time", "s", np.arange(60) / 16)
-        tables.append(Table(tuple(columns), line))
+        columns = [DataColumn(n, u, rng.normal(size=60)) for n, u in zip(NAMES, UNITS, strict=True)]
+        columns[0] = DataColumn("time", "s", np.arange(60) / 16)
+        tables.append(DataTable(tuple(columns), line))
     return write(path, tables)
 
 

@@ -21,7 +21,7 @@ from flights_of_a_survey import COUNT, WITH_EFFECT, lines_of, make, without_effe
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.io.tables import Column, Table
+from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.simulate import simulated
 from ragg_runtime.survey import run
 from ragg_runtime.survey.examine import Record, examine, expand_lines, make_job, split_line
@@ -291,9 +291,9 @@ def made(tmp_path: Path) -> tuple[Path, str, Path]:
         columns = {**x.channels, **x.outputs}
         names = {n: f"C{k}" for k, n in enumerate(columns)}
         entries = [f'{n} = {{ column = "{c}", unit = "{x.units[n]}" }}' for n, c in names.items()]
-        rows = [Column("T", "", np.asarray(x.time))]
-        rows += [Column(names[n], "", np.asarray(v)) for n, v in columns.items()]
-        tables.append(Table(tuple(rows), str(10 * seed)))
+        rows = [DataColumn("T", "", np.asarray(x.time))]
+        rows += [DataColumn(names[n], "", np.asarray(v)) for n, v in columns.items()]
+        tables.append(DataTable(tuple(rows), str(10 * seed)))
     write(tmp_path / "s.h5", tables)
     return tmp_path / "s.h5", MAPPING + "\n".join(entries) + "\n", tmp_path / "model" / "model.toml"
 

@@ -15,12 +15,12 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, gain, sees
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.angular_acceleration import Derivative
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS, is_disc_angle
 from ragg_runtime.model.evaluate import named, scale_factor
 from ragg_runtime.model.lateness import late
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import SPIN, Record, phase
+from ragg_runtime.signals.angular_acceleration import RateDerivative
 
 Array = NDArray[np.float64]
 Json = dict[str, Any]
@@ -176,7 +176,7 @@ class Contents:
         t, wide = columns["time"], {n: x for n, x in columns.items() if n != "time"}
         for name, rate in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
             if name not in wide and rate in wide:
-                wide[name] = Derivative().of(wide[rate], RATE)[0]
+                wide[name] = RateDerivative().of(wide[rate], RATE)[0]
         model = self.model if "folded.c" in self.sources else replace(self.model, folded=None)
         evaluator, found = model.compiled("numpy"), {}
         for k, o in enumerate(self.outputs()):

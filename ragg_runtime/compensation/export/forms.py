@@ -15,9 +15,9 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
 from ragg_runtime.compensation.export.contents import Contents, unit_of
 from ragg_runtime.compensation.export.program import make_program
-from ragg_runtime.io.angular_acceleration import wide_weights
 from ragg_runtime.model import derive
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
+from ragg_runtime.signals.angular_acceleration import wide_weights
 from ragg_runtime.signals.derivative import DEGREES, WINDOW, weights
 
 Files = Mapping[str, str]

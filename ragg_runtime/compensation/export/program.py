@@ -11,10 +11,10 @@ import numpy as np
 from ragg_runtime.compensation.export.contents import DISC, Contents, ExportedOutput, unit_of
 from ragg_runtime.estimation.least_squares import of_some
 from ragg_runtime.estimation.regressors import list_base_columns, own_columns
-from ragg_runtime.io.angular_acceleration import REACH, wide_weights
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
+from ragg_runtime.signals.angular_acceleration import REACH, wide_weights
 from ragg_runtime.signals.derivative import DEGREES, WINDOW, weights
 
 TOLERANCE_EO = 1e-6

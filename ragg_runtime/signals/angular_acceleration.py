@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
+from scipy.interpolate import make_interp_spline
 
 from ragg_runtime.signals.derivative import WINDOW, differentiate, runs, weights
 
@@ -28,12 +29,18 @@ sees a tenth of the acceleration times its radius: of some 1e-3 rad/s^2 that is 
 NOISIER = 2.0
 """Noise of a shorter window over that of the long one up to which it is relied upon."""
 
+JITTER = 1e-7
+"""Deviation from even instants, in steps, from which they are followed: the last digits of a time of a day."""
+
+DEGREE = 5
+"""Of the splines through instants that jitter: their derivative is as good as the finite differences'."""
+
 HEAD = 32768
 """Samples from the first ones on that decide: enough for a spectrum, and the same however a file is read."""
 
 
 @dataclass(frozen=True)
-class Derivative:
+class RateDerivative:
     """How a record's angular rates are differentiated; ``unsure`` samples next to an end or a gap are not relied upon."""
 
     unsure: int = 0
@@ -60,15 +67,50 @@ class Derivative:
         return text
 
 
-def planned(omegas: Sequence[Array], rate: float) -> Derivative:
+def derive_accelerations(rates: Sequence[Array], time: Array) -> tuple[list[Array], Mask, RateDerivative]:
+    """The derivatives of angular rates, whether they can be relied upon, and how they were made.
+
+    Parameters
+    ----------
+    rates
+        (N,) each, NaN where none was recorded.
+    time
+        (N,) s: the samples' own instants, which may jitter.
+
+    Returns
+    -------
+    (N,) each, NaN where there is no rate; (N,) bool; the derivative.
+    """
+    k = np.arange(len(time))
+    even = np.asarray(np.polyval(np.polyfit(k, time, 1), k), dtype=np.float64)
+    rate = (len(time) - 1) / float(time[-1] - time[0])
+    jitters = bool(np.max(np.abs(time - even)) * rate > JITTER)
+    straight = [resample(x, time, even) for x in rates] if jitters else rates
+    derivative = plan_derivative(straight, rate)
+    made, sure = zip(*(derivative.of(x, rate) for x in straight), strict=True)
+    slopes = [resample(x, even, time) if jitters else x for x in made]
+    return slopes, np.all(sure, axis=0), derivative
+
+
+def resample(x: Array, time: Array, instants: Array) -> Array:
+    """A series (N,) at instants that are near its own, s; every run without a gap by itself, NaN where it has no sample."""
+    found = np.full(len(x), np.nan)
+    for run in runs(np.isfinite(x)):
+        size = run.stop - run.start
+        degree = min(DEGREE, (size - 1) // 2 * 2 - 1)
+        found[run] = x[run] if size < 3 else make_interp_spline(time[run], x[run], degree)(instants[run])
+    return found
+
+
+def plan_derivative(omegas: Sequence[Array], rate: float) -> RateDerivative:
     """How to differentiate these rates (N,): the runs without a gap of the first HEAD samples decide."""
     omegas = [x[:HEAD] for x in omegas]
     whole = np.asarray(np.isfinite(omegas).all(axis=0))
     longest = max((r.stop - r.start for r in runs(whole)), default=0)
     long = [r for r in runs(whole) if r.stop - r.start >= min(8 * REACH, max(TELLING, longest // 2))]
     if not long:
-        return Derivative(0 if whole.all() else WINDOW // 2)
-    return Derivative(max(_unsure([x[r] - x[r.start] for r in long]) for x in omegas))
+        return RateDerivative(0 if whole.all() else WINDOW // 2)
+    return RateDerivative(max(_unsure([x[r] - x[r.start] for r in long]) for x in omegas))
 
 
 TELLING = 3 * REACH
