@@ -48,11 +48,15 @@ _BY_COUNT = "if sampling went on, give the times by the sample count: time = row
 
 @dataclass(frozen=True)
 class ClockStep:
-    """A place where the stamps move on by ``size``, s, more than the samples: before ``row``, at ``time``, s."""
+    """A place where the stamps move on by ``size``, s, more than the samples: before ``row``, at ``time``, s.
+
+    ``part``, s, of it is no whole number of steps; 0 where samples may just lack.
+    """
 
     row: int
     time: float
     size: float
+    part: float
 
 
 @dataclass(frozen=True)
@@ -236,9 +240,10 @@ def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]
         moved = float(np.median(after) - np.median(before))
         clear = max(SET, 4 * float(np.median(np.abs(before - np.median(before)))), 4 * scatter)
         lacking = float(np.rint(over[k])) if abs(over[k]) > 0.5 else 0.0
-        if abs(moved) > clear or lacking:
+        part = moved if abs(moved) > clear else 0.0
+        if part or lacking:
             row = int(rows[k + 1])
-            found.append(ClockStep(row, float(time[row]), (moved + lacking) * step))
+            found.append(ClockStep(row, float(time[row]), (part + lacking) * step, part * step))
     return found if len(found) <= MOST_SET else []
 
 
@@ -249,12 +254,13 @@ def even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, float]:
     """
     k = np.flatnonzero(present)
     places = [k.astype(np.float64), np.ones(len(k))]
-    places += [(k >= c.row).astype(np.float64) for c in find_clock_steps(time, present)]
+    places += [(k >= c.row).astype(np.float64) for c in find_clock_steps(time, present) if c.part]
     X, t = np.stack(places, axis=1), time[k] - time[0]
     fitted = np.linalg.lstsq(X, t, rcond=None)[0]
     set_by, scatter = X[:, 2:] @ fitted[2:], float(np.std(t - X @ fitted))
     # A clock is set to a round rate: take it where the instants cannot tell it from the fitted one.
-    step = _round_rate(float(fitted[0]), 4 * scatter * np.sqrt(12 / len(k)) / (k[-1] - k[0]))
+    known = 4 * scatter * np.sqrt(np.linalg.pinv(X.T @ X, hermitian=True)[0, 0])
+    step = _round_rate(float(fitted[0]), known)
     return float(time[0] + np.mean(t - set_by - step * k)), step
 
 

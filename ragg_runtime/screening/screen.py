@@ -17,10 +17,11 @@ from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_
 from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, even_clock, find_clock_steps
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
+from ragg_runtime.model.record import EVEN
 from ragg_runtime.model.recorded import recorded
 from ragg_runtime.screening import checks
-from ragg_runtime.screening.linear_fit import Explained, explain
-from ragg_runtime.screening.mistakes import Finding, find_mistake
+from ragg_runtime.screening.linear_fit import INDEPENDENT, Explained, explain
+from ragg_runtime.screening.mistakes import NAMED, Finding, find_mistake
 from ragg_runtime.screening.repeated import leave_out_repeated, with_derived_acceleration
 from ragg_runtime.screening.sampler import Rows, Sampler, sampler_of
 from ragg_runtime.screening.spikes import find_spikes, leave_out_glitches, words_of
@@ -36,11 +37,8 @@ SENSELESS = 20.0
 HALVED = 2.0
 """Factor from which what the model leaves is told as smaller; below, the parameters' nearness to the sheet spoke for the mistake."""
 
-BETTER = 1.1
-"""Factor by which the model's residual must fall for instants to be taken otherwise than they stand."""
-
-PLAINLY = 5.0
-"""The same for a clock that was set: the rows that seem to lack are none, and the rest is earlier."""
+LONGEST = 1 << 18
+"""Samples of which it is told whether they were taken at uneven instants."""
 
 STEPS_TOLD = 0.5
 """Share of what a model leaves that the steps of motion sensors must make for a note."""
@@ -152,42 +150,62 @@ def _saturated(s: Sampler) -> list[Flag]:
 
 
 def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Flight:
-    """The flight by the clock that explains it best: its own, or an even one where the stamps jitter, or were set on the way."""
+    """The flight by the clock that explains it: its own, or an even one where stamps jitter, or were set on the way."""
     x = s.flight
     if s.recorded.demodulated or len(x) < LEAST:
         return x
     first, step = even_clock(x.time, x.present)
     worst = float(np.max(np.abs(x.time - first - step * np.arange(len(x)))[x.present])) / step
     steps = find_clock_steps(x.time, x.present)
-    broken = [c for c in steps if abs(c.size / step - np.rint(c.size / step)) > 1e-3]
-    tried: list[tuple[float, Sequence[ClockStep], Flight]] = []
-    if worst > JITTER_NOTED:
-        tried.append((BETTER, [], _evenly(x, [])))
-    if steps:
-        tried += [
-            (PLAINLY, some, _evenly(x, some)) for some in (steps, *([c] for c in steps if len(steps) > 1))
-        ]
-    if not tried:
+    inputs = tuple(model.chain.INPUTS)
+
+    def judge(flight: Flight) -> Explained:
+        t = sampler_of(flight, instrument, inputs, s.place)
+        return explain(model, instrument, t.take(t.rows()))
+
+    own = judge(x) if worst > EVEN or steps else None
+    if own is None:
         return x
-
-    def left(flight: Flight) -> float:
-        t = sampler_of(flight, instrument, tuple(model.chain.INPUTS), s.place)
-        return explain(model, instrument, t.take(t.rows())).rms
-
-    own = left(x)
-    gain, _, k = max((own / left(flight) / factor, -k, k) for k, (factor, _, flight) in enumerate(tried))
-    if gain < 1.0:
-        return x.flagged([_paused(c) for c in broken])
-    factor, some, flight = tried[k]
-    better = f"({gain * factor:.3g} times less is left unexplained)"
-    where = ", ".join(f"by {c.size:.4g} s at t = {c.time:.6g} s" for c in list(some or broken)[:3])
-    text = f"the stamps step {where} (was the clock set?), but sampling went on: the times are those of the sample count {better}"
-    if not where:
+    several = [steps, *([c] for c in steps if len(steps) > 1)] if steps else []
+    gain, k = max(
+        ((own.misfit - judge(_evenly(x, some)).misfit, -k) for k, some in enumerate(several)),
+        default=(0.0, 0),
+    )
+    if INDEPENDENT * gain > NAMED:
+        where = ", ".join(f"by {c.size:.4g} s at t = {c.time:.6g} s" for c in several[-k][:3])
         text = (
-            f"the instants in the file scatter by up to {worst:.2g} of a step, but the output was sampled"
-            f" evenly: the times are replaced by even ones {better}"
+            f"the stamps step {where} (was the clock set?), but sampling went on: the times are those of the sample"
+            f" count ({np.exp(gain):.3g} times less is left unexplained)"
         )
-    return with_derived_acceleration(flight).flagged([Flag(("time",), text, len(x))])
+        return with_derived_acceleration(_evenly(x, several[-k])).flagged([Flag(("time",), text, len(x))])
+    broken = [_pause(c) for c in steps if c.part]
+    even = _evenly(x, [])
+    if (
+        broken
+        or worst <= EVEN
+        or not _is_even(model, s, sampler_of(even, instrument, inputs, s.place), own.p)
+    ):
+        return x.flagged(broken)
+    text = (
+        f"the instants in the file scatter by up to {worst:.2g} of a step, but the output was sampled evenly: the times"
+        " are replaced by even ones"
+    )
+    return with_derived_acceleration(even).flagged([Flag(("time",), text, len(x))] * (worst > JITTER_NOTED))
+
+
+def _is_even(model: Model, s: Sampler, even: Sampler, p: Array) -> bool:
+    """Whether the output was sampled evenly, and not at the instants of the stamps.
+
+    What the model with parameters ``p`` predicts at the stamps differs from what it predicts at even instants by the jitter times
+    the output's slope. The part of that which is in the output is 1 or 0; it is fitted to second differences, from which slow
+    errors of the model are gone.
+    """
+    rows = slice(0, LONGEST)
+    by_stamps, by_count = (_residual(model, t, p, rows) for t in (s, even))
+    usable = s.usable[rows]
+    three = usable[2:] & usable[1:-1] & usable[:-2]
+    d, e = (np.diff(y, 2)[:, three] for y in (by_count - by_stamps, by_count))
+    return bool(np.sum(d * e) < 0.5 * np.sum(d * d))
 
 
 def _evenly(x: Flight, steps: Sequence[ClockStep]) -> Flight:
@@ -209,7 +227,7 @@ def _evenly(x: Flight, steps: Sequence[ClockStep]) -> Flight:
     )
 
 
-def _paused(c: ClockStep) -> Flag:
+def _pause(c: ClockStep) -> Flag:
     text = f"the stamps step by {c.size:.4g} s at t = {c.time:.6g} s, by no whole number of samples: taken as a pause"
     return Flag(("time",), text, 1, (c.time, c.time))
 
@@ -222,7 +240,7 @@ def _without_output_spikes(model: Model, instrument: Instrument, s: Sampler, fli
     if s.recorded.demodulated or not s.usable.any():
         return flight  # a demodulator has smeared them
     fitted = explain(model, instrument, s.take(s.rows())).p
-    found = np.array([find_spikes(e, s.usable) for e in _residual(model, s, fitted)])
+    found = np.array([find_spikes(e, s.usable) for e in _residual(model, s, fitted, slice(None))])
     flags = [
         Flag((name,), words_of(name, mask, flight.time), int(np.sum(mask)))
         for name, mask in zip(s.columns, found, strict=True)
@@ -233,19 +251,19 @@ def _without_output_spikes(model: Model, instrument: Instrument, s: Sampler, fli
     return replace(flight, valid=valid).flagged(flags)
 
 
-def _residual(model: Model, s: Sampler, fitted: Array) -> Array:
-    """(columns, N) Eo: what a model with these parameters leaves of the output."""
-    n = len(s.flight)
-    evaluator = model.compiled("auto" if n >= MANY else "numpy")
-    left = np.empty((len(s.columns), n))
-    for start in range(0, n, CHUNK):
-        some = s.take(np.arange(start, min(n, start + CHUNK)))
+def _residual(model: Model, s: Sampler, fitted: Array, rows: slice) -> Array:
+    """(columns, n) Eo: what a model with these parameters leaves of some rows of the output."""
+    first, last, _ = rows.indices(len(s.flight))
+    evaluator = model.compiled("auto" if last - first >= MANY else "numpy")
+    left = np.empty((len(s.columns), last - first))
+    for start in range(first, last, CHUNK):
+        some = s.take(np.arange(start, min(last, start + CHUNK)))
         x = some.inputs(model.chain)
         if s.recorded.separate:
             predicted = evaluator.voltages(some.time, x, fitted, some.phi, s.output.members)
         else:
             predicted = evaluator.output(some.time, x, fitted, some.phi, which=s.place)[None]
-        left[:, start : start + CHUNK] = some.data - predicted
+        left[:, start - first : start - first + CHUNK] = some.data - predicted
     return left / scale_factor(model, fitted, s.place)
 
 
