@@ -14,7 +14,6 @@ from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.estimation.fitted import Fitted, fit, noise_floor
 from ragg_runtime.estimation.least_squares import Linear, join, with_prior
 from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.parameters import (
@@ -52,31 +51,17 @@ class Calibrated:
 
     def as_json(self) -> dict[str, Any]:
         """As ``ragg calibrate --json`` writes it."""
-        f, c = self.fitted, self.fitted.calibration
-        values, root = values_in_scales(f), invert_root(information(f))
-        seen = visible_combinations(f.model, c.p, c.columns, root)
-        fitted = parameter_values(c.columns, values, c.covariance)
-        parameters = []
-        for k, (q, column) in enumerate(zip(fitted, c.columns, strict=True)):
-            factor = column.scale / column.unit_factor
-            parameters.append(
-                {
-                    **q.as_json(),
-                    "effect": column.effect,
-                    "sheet": float(values[k] + f.to_nominal[k]) * factor,
-                    "sheet_sigma": factor,
-                    "said_by": "record" if c.covariance[k, k] < LEARNED**2 else "sheet",
-                }
-            )
+        f = self.fitted
+        values, seen = values_in_scales(f), visible_combinations(f)
         flights = [*each_flight(f)]
         return {
-            "converged": c.converged,
+            "converged": f.calibration.converged,
             "effects": [e.id for e in f.model.effects],
             "error": self.errors_json(),
             "noise_floor": noise_floor_json(f, noise_floor(f)),
             "directions": dict(zip(("seen", "fitted"), self.directions, strict=True)),
-            "parameters": parameters,
-            "combinations": [_combination_json(q, values, root) for q in seen],
+            "parameters": list_parameters(f),
+            "combinations": list_combinations(f),
             "drift": [
                 {"flight": name, **_combination_json(q, values + step, own)}
                 for name, step, own in (flights if len(flights) > 1 else ())
@@ -88,6 +73,27 @@ class Calibrated:
         """The ``error`` of the JSON: nominal, calibrated, holdout."""
         errors = {"nominal": self.nominal, "calibrated": self.error, "holdout": self.holdout}
         return {name: e.as_json() for name, e in errors.items()}
+
+
+def list_parameters(f: Fitted) -> list[dict[str, Any]]:
+    """Every fitted parameter, with what the test sheet says of it, as JSON has them."""
+    c, values = f.calibration, values_in_scales(f)
+    found = []
+    for k, (q, column) in enumerate(
+        zip(parameter_values(c.columns, values, c.covariance), c.columns, strict=True)
+    ):
+        factor = column.scale / column.unit_factor
+        sheet = float(values[k] + f.to_nominal[k]) * factor
+        said_by = "record" if c.covariance[k, k] < LEARNED**2 else "sheet"
+        own = {"effect": column.effect, "sheet": sheet, "sheet_sigma": factor, "said_by": said_by}
+        found.append({**q.as_json(), **own})
+    return found
+
+
+def list_combinations(f: Fitted) -> list[dict[str, Any]]:
+    """What the record determines: combinations of accelerometers', and single values, as JSON has them."""
+    values, root = values_in_scales(f), invert_root(information(f))
+    return [_combination_json(q, values, root) for q in visible_combinations(f)]
 
 
 def _combination_json(q: Combination, values: Array, root: Array) -> dict[str, Any]:
@@ -180,9 +186,11 @@ def each_flight(f: Fitted) -> Iterator[tuple[str, Array, Array]]:
         yield f.observations[own[0]].flight_name, *fit_some(f, [t for k in own for t in base_triangles(f, k)])
 
 
-def visible_combinations(model: Model, p: Array, columns: Sequence[Column], root: Array) -> list[Combination]:
-    """What a root (n, k) of a covariance, in scales, says to be determined: combinations of accelerometers', and single values."""
-    found = combinations_seen(model, p, columns, lambda w: float(np.linalg.norm(w @ root)))
+def visible_combinations(f: Fitted, root: Array | None = None) -> list[Combination]:
+    """What a root (n, n) of a covariance, in scales (by default that of the fit), says to be determined."""
+    model, columns = f.model, f.calibration.columns
+    root = invert_root(information(f)) if root is None else root
+    found = combinations_seen(model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ root)))
     single = np.linalg.norm(root, axis=1) < SEEN
     for name in dict.fromkeys(c.name for c in columns):
         places = [k for k, c in enumerate(columns) if c.name == name]

@@ -124,10 +124,10 @@ class Held:
     def drift(self) -> list[dict[str, Any]]:
         """Every visible combination, frozen and as each of the flights alone has it; ``z``: how far it moved."""
         f = self.comparison.fitted
-        c, values, root = f.calibration, values_in_scales(f), invert_root(self.saved.information)
+        values, root = values_in_scales(f), invert_root(self.saved.information)
         rows = []
         for flight, step, root_now in each_flight(f):
-            for q in visible_combinations(f.model, c.p, c.columns, root):
+            for q in visible_combinations(f, root):
                 value, std = q.of(values, root)
                 now, now_std = q.of(values + step, root_now)
                 both = float(np.hypot(std, now_std))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -27,29 +27,9 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 Json = Mapping[str, Any]
 
 
-def compare_page(c: Comparison, origin: Origin, frozen: Held | None = None) -> str:
-    """The report of ``compare``; ``frozen``: how a saved calibration holds, where it is that which is compared."""
-    f, names = c.fitted, [o.name for o in c.fitted.observations]
-    said = (
-        describe.describe_comparison(c.as_json(), names)
-        if frozen is None
-        else describe.describe_held(frozen.as_json(), names)
-    )
-    lines = panels.before_and_after(c.residual, None)
-    sections = [
-        _with_plots(said[0], panels.plot_blocks(f, lines, envelope=True)),
-        *_with_failures(said[1:], c),
-        Section(title="Measured over model", plots=(panels.plot_measured(f, c.residual),)),
-        *_figure("Spectrum", panels.plot_spectrum(f, lines)),
-        *_figure("Demodulated channels", panels.plot_channels(f, lines)),
-        *_whiteness(f, c.residual),
-        *describe_parameters(f),
-    ]
-    return render_page("Model against flight", sections, _of(origin, f), panels.describe_record(f))
-
-
-def _of(origin: Origin, f: Any) -> Origin:
-    return replace(origin, digest=f.model.digest)
+def _render(kind: str, sections: Sequence[Section], origin: Origin, f: Fitted) -> str:
+    """The page of what comes from a fit."""
+    return render_page(kind, sections, replace(origin, digest=f.model.digest), panels.describe_record(f))
 
 
 def _with_plots(s: Section, *plots: Plot | None) -> Section:
@@ -62,16 +42,37 @@ def _figure(title: str, *plots: Plot | None, detail: bool = False) -> list[Secti
     return [Section(title=title, plots=drawn, detail=detail)] if drawn else []
 
 
-def _whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
+# --- the loop ------------------------------------------------------------------------------------------
+
+
+def compare_page(c: Comparison, origin: Origin, frozen: Held | None = None) -> str:
+    """The report of ``compare``; ``frozen``: how a saved calibration holds, where it is that which is compared."""
+    f, names = c.fitted, [o.name for o in c.fitted.observations]
+    if frozen is None:
+        said = describe.describe_comparison(c.as_json(), names)
+    else:
+        said = describe.describe_held(frozen.as_json(), names)
+    lines = panels.before_and_after(c.residual, None)
+    sections = [
+        _with_plots(said[0], panels.plot_blocks(f, lines, envelope=True)),
+        *_with_failures(said[1:], c),
+        *_figure("Measured over model", panels.plot_measured(f, c.residual)),
+        *_figure("Spectrum", panels.plot_spectrum(f, lines)),
+        *_figure("Demodulated channels", panels.plot_channels(f, lines)),
+        *_ask_whiteness(f, c.residual),
+        *describe_parameters(f),
+    ]
+    return _render("Model against flight", sections, origin, f)
+
+
+def _ask_whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
     """Whether the residual of the worst flight is noise, folded; nothing where only the channels were recorded."""
     (n,) = series.worst(f, residual, 1)
     if f.observations[n].recorded.demodulated:
         return []
     channel = whiteness.worst_channel(f, n, residual[n])
-    white, against = (
-        whiteness.plot_whiteness(f, n, residual[n]),
-        whiteness.plot_against(f, n, residual[n], channel),
-    )
+    white = whiteness.plot_whiteness(f, n, residual[n])
+    against = whiteness.plot_against(f, n, residual[n], channel)
     return [
         *_figure("Whiteness of the residual", white, detail=True),
         *_figure(f"Residual against {numbers.product(channel)}", against, detail=True),
@@ -81,54 +82,42 @@ def _whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
 def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
     """The sections, the one that says where the model fails with its figures."""
     f = c.fitted
-    plots = (
-        panels.plot_harmonics(f, f.vector(np.zeros(f.n_base)), "where"),
-        panels.plot_terms(c.terms(), c.calibrated.rms_Eo, "where"),
-    )
-    found = [_with_plots(s, *plots) if s.title == "Where it fails" else s for s in sections]
-    if not any(s.title == "Where it fails" for s in sections):
-        found += _figure("Residual by harmonic of the spin", plots[0])
-    return found
+    harmonics = panels.plot_harmonics(f, f.vector(np.zeros(f.n_base)), "where")
+    terms = panels.plot_terms(c.terms(), c.calibrated.rms_Eo, "where")
+    if any(s.title == "Where it fails" for s in sections):
+        return [_with_plots(s, harmonics, terms) if s.title == "Where it fails" else s for s in sections]
+    return [*sections, *_figure("Residual by harmonic of the spin", harmonics)]
 
 
 def diagnose_page(d: Diagnosis, origin: Origin) -> str:
     """The report of ``diagnose``: verdict, one figure, where the model fails, the findings; everything else is folded."""
     f, said = d.target, describe.describe_diagnosis(d.as_json())
-    after = d.residual_after if d.found else None
-    lines = panels.before_and_after(d.residual, after)
-    remains = d.verdict in ("unexplained", "partly-explained")
+    lines = panels.before_and_after(d.residual, d.residual_after if d.found else None)
     main = panels.plot_spectrum(f, lines) or panels.plot_blocks(d.fitted, lines)
-    where = [
-        panels.plot_terms(d.terms(), d.after.rms_Eo, "where") if remains else None,
-        panels.plot_harmonics(f, d.coefficients, "where") if remains else None,
-    ]
     parts = {s.title: s for s in said[1:]}
-    open_ = [
-        _with_plots(parts.pop("Not explained", Section(title="Not explained")), *where) if remains else None,
-        parts.pop("Values", None),
-        parts.pop("Next motion", None),
-    ]
-    level = -(np.log(false_alarms.CATALOGUE / max(1, len(d.ranking))) / np.log(10.0))
-    evidence = panels.plot_evidence([r.as_json() for r in d.ranking], d.found, float(level))
+    open_ = []
+    if d.verdict in ("unexplained", "partly-explained"):
+        terms = panels.plot_terms(d.terms(), d.after.rms_Eo, "where")
+        harmonics = panels.plot_harmonics(f, d.coefficients, "where")
+        rest = parts.pop("Not explained", Section(title="Not explained"))
+        open_.append(_with_plots(rest, terms, harmonics))
+    open_ += [parts.pop(name) for name in ("Values", "Next motion") if name in parts]
     if "Evidence" in parts:
+        level = -float(np.log10(false_alarms.CATALOGUE / max(1, len(d.ranking))))
+        evidence = panels.plot_evidence([r.as_json() for r in d.ranking], d.found, level)
         parts["Evidence"] = _with_plots(parts["Evidence"], evidence)
+    known = [e for e in map(d.fitted.model.effect, d.found) if e is not None]
+    physics = [f"{e.id}, {e.title}: {e.physics} Source: {e.source or 'none'}" for e in known]
     sections = [
         _with_plots(said[0], main),
-        *(s for s in open_ if s is not None),
+        *open_,
         *(replace(s, detail=True) for s in parts.values() if s.title),
-        *_physics(d),
+        *([Section("Physics of the effects", tuple(physics), detail=True)] if physics else ()),
         *_figure("Error in blocks of time", panels.plot_blocks(d.fitted, lines), detail=True),
         *_figure("Demodulated channels", panels.plot_channels(f, lines), detail=True),
         *(describe_parameters(f) if d.found else ()),
     ]
-    return render_page("What is missing", sections, _of(origin, d.fitted), panels.describe_record(d.fitted))
-
-
-def _physics(d: Diagnosis) -> list[Section]:
-    """What the claimed effects are, from the catalogue."""
-    known = [e for e in map(d.fitted.model.effect, d.found) if e is not None]
-    said = [f"{e.id}, {e.title}: {e.physics} Source: {e.source or 'none'}" for e in known]
-    return [Section(title="Physics of the effects", sentences=tuple(said), detail=True)] if said else []
+    return _render("What is missing", sections, origin, d.fitted)
 
 
 def add_page(
@@ -143,24 +132,17 @@ def add_page(
     old, new = ([e.id for e in c.fitted.model.effects] for c in (before, after))
     values = []
     for e in new:
-        parameters, combinations = calibrated(f, e)
-        own = {"effect": e, "parameters": [p.as_json() for p in parameters]}
-        values.append(own | {"combinations": [p.as_json() for p in combinations]})
-    step = describe.describe_step(
-        [e for e in new if e not in old],
-        [e for e in old if e not in new],
-        before.as_json(),
-        after.as_json(),
-        values,
-    )
+        found = zip(("parameters", "combinations"), calibrated(f, e), strict=True)
+        values.append({"effect": e} | {name: [p.as_json() for p in own] for name, own in found})
+    added, removed = [e for e in new if e not in old], [e for e in old if e not in new]
+    step = describe.describe_step(added, removed, before.as_json(), after.as_json(), values)
     lines = panels.before_and_after(before.residual, after.residual)
+    both = panels.plot_spectrum(f, lines), panels.plot_blocks(f, lines)
     sections = [
         _with_plots(step[0], panels.plot_history(history, after.noise_floor)),
         *step[1:],
         Section(title="History", table=describe.history_table(history), detail=True),
-        *_figure(
-            "The residual before and after", panels.plot_spectrum(f, lines), panels.plot_blocks(f, lines)
-        ),
+        *_figure("The residual before and after", *both),
         *_figure("Demodulated channels", panels.plot_channels(f, lines)),
         *_with_failures([], after),
         *_figure("What each group of parameters contributes", panels.plot_budget(f, after.noise_floor)),
@@ -168,18 +150,26 @@ def add_page(
     if diagnosis is not None:
         said = describe.describe_diagnosis(diagnosis.as_json())
         sections += [replace(s, detail=True) for s in said if s.title == "Evidence"]
-    return render_page("A step of the model", sections, _of(origin, f), panels.describe_record(f))
+    return _render("A step of the model", sections, origin, f)
 
 
-def calibrate_page(said: Sequence[Section], f: Any, origin: Origin) -> str:
+def history_page(steps: Sequence[Json], origin: Origin) -> str:
+    """The report of ``history``."""
+    first = Section(sentences=(f"{describe.counted(len(steps), 'step')}.",))
+    table = Section(title="Steps", table=describe.history_table(steps))
+    drawn = panels.plot_history(steps, float("nan"))
+    return render_page("History", [_with_plots(first, drawn), table], origin)
+
+
+# --- what comes after, and flights ---------------------------------------------------------------------
+
+
+def calibrate_page(said: Sequence[Section], f: Fitted, origin: Origin) -> str:
     """The report of ``calibrate``: ``said`` and the parameters of the fit ``f``."""
     lines = panels.before_and_after(f.residuals(np.zeros(f.n_base)), None)
-    figures = _figure(
-        "The residual", panels.plot_blocks(f, lines, envelope=True), panels.plot_spectrum(f, lines)
-    )
-    return render_page(
-        "Calibration", [*said, *figures, *describe_parameters(f)], _of(origin, f), panels.describe_record(f)
-    )
+    drawn = panels.plot_blocks(f, lines, envelope=True), panels.plot_spectrum(f, lines)
+    sections = [*said, *_figure("The residual", *drawn), *describe_parameters(f, values=False)]
+    return _render("Calibration", sections, origin, f)
 
 
 def compensate_page(said: Sequence[Section], made: Sequence[Mapping[str, Array]], origin: Origin) -> str:
@@ -188,92 +178,59 @@ def compensate_page(said: Sequence[Section], made: Sequence[Mapping[str, Array]]
     for columns in made[: panels.FLIGHTS]:
         time = np.asarray(columns["time"], dtype=np.float64)
         step = max(1, len(time) // panels.MOST_POINTS)
-        for name in columns:
-            if f"{name}_std" in columns:
-                x, std = (np.asarray(columns[k], dtype=np.float64)[::step] for k in (name, f"{name}_std"))
-                band = Curve("± 1 sigma", time[::step], x - std, "envelope", "band", x + std)
-                axes.append(Axes((band, Curve(name, time[::step], x, width=0.8)), f"{name}, Eo"))
-    plot = Curves(
-        "compensated",
-        "compensated channels over time",
-        "Compensated channels with their uncertainty.",
-        tuple(axes),
-        "time, s",
-    )
-    return render_page("Compensation", [*said, *_figure("Channels", plot if axes else None)], origin)
+        for name in (n for n in columns if f"{n}_std" in columns):
+            x, std = (np.asarray(columns[k], dtype=np.float64)[::step] for k in (name, f"{name}_std"))
+            band = Curve("± 1 sigma", time[::step], x - std, "envelope", "band", x + std)
+            axes.append(Axes((band, Curve(name, time[::step], x, width=0.8)), f"{name}, Eo"))
+    caption = "Compensated channels with their uncertainty."
+    plot = Curves("compensated", caption, tuple(axes), "time, s") if axes else None
+    return render_page("Compensation", [*said, *_figure("Channels", plot)], origin)
 
 
 def info_page(said: Sequence[Section], flights: Sequence[Flight], origin: Origin) -> str:
     """The report of ``info``: ``said``, and every column of the flights over time."""
     sections = list(said)
     for n, x in enumerate(flights[: panels.FLIGHTS]):
-        step = max(1, len(x.time) // panels.MOST_POINTS)
-        columns = {**x.channels, **x.outputs}
-        axes = tuple(
-            Axes(
-                (Curve(name, x.time[::step], np.asarray(v)[::step], width=0.7),),
-                numbers.unit(x.units.get(name, "")),
-                share=0.8,
-            )
-            for name, v in columns.items()
-        )
-        plot = Curves(
-            f"columns{n}",
-            f"columns of {x.name}",
-            "Every column over time, in SI.",
-            axes,
-            "time, s",
-            height=1.6,
-        )
+        axes = tuple(_draw_columns(x, max(1, len(x.time) // panels.MOST_POINTS)))
+        caption = "Every column over time, in SI."
+        plot = Curves(f"columns{n}", caption, axes, "time, s", height=1.6)
         sections += _figure(f"Columns of {x.name}", plot)
     return render_page("A flight", sections, origin)
 
 
-def history_page(steps: Sequence[Json], origin: Origin) -> str:
-    """The report of ``history``."""
-    said = [
-        Section(sentences=(f"{len(steps)} steps.",)),
-        Section(title="Steps", table=describe.history_table(steps)),
-    ]
-    return render_page(
-        "History", [_with_plots(said[0], panels.plot_history(steps, float("nan"))), said[1]], origin
-    )
+def _draw_columns(x: Flight, step: int) -> Iterator[Axes]:
+    for name, v in {**x.channels, **x.outputs}.items():
+        curve = Curve(name, x.time[::step], np.asarray(v)[::step], width=0.7)
+        yield Axes((curve,), numbers.unit(x.units.get(name, "")), share=0.8)
+
+
+# --- many flights --------------------------------------------------------------------------------------
 
 
 def survey_page(s: Survey, origin: Origin) -> str:
     """The report of ``survey``."""
     said = s.sections("MODEL_DIR")
-    drawn = [plot_errors(s)] if s.done else []
-    trends = find_trends(s.done)[:6]
-    sections = [_with_plots(said[0], *drawn), *said[1:]]
-    if trends:
-        sections += _figure(
-            "The least constant parameters", *(plot_trend(t, n) for n, t in enumerate(trends))
-        )
-    return render_page("Survey of flights", sections, origin)
+    trends = [_plot_trend(t, n) for n, t in enumerate(find_trends(s.done)[:6])]
+    first = _with_plots(said[0], _plot_errors(s) if s.done else None)
+    return render_page(
+        "Survey of flights", [first, *said[1:], *_figure("The least constant parameters", *trends)], origin
+    )
 
 
-def plot_errors(s: Survey) -> Plot:
+def _plot_errors(s: Survey) -> Plot:
     """Calibrated error of every flight, before and after the effects that were found in it."""
-    bars = tuple(
-        Bar(str(r["flight"]), after, r["noise_floor"]["rms_Eo"], r["verdict"] != "unexplained", (before,))
-        for r in s.done
-        for before, after in [[r["error"][k]["rms_Eo"] for k in ("calibrated", "after")]]
-    )
-    every = [b.value for b in bars] + [b.dots[0] for b in bars]
+    bars = []
+    for r in s.done:
+        before, after = (r["error"][k]["rms_Eo"] for k in ("calibrated", "after"))
+        explained = r["verdict"] != "unexplained"
+        bars.append(Bar(str(r["flight"]), after, r["noise_floor"]["rms_Eo"], explained, (before,)))
+    every = [v for b in bars for v in (b.value, b.dots[0])]
     caption = "Error before demodulation of every flight, calibrated alone. Bars: with the effects found in it; grey: unexplained."
-    return Bars(
-        "errors",
-        "error of every flight",
-        caption,
-        bars,
-        "error, Eo rms",
-        log=max(every) > 6.0 * min(every),
-        dots=("as the model is",),
-    )
+    log = max(every) > 6.0 * min(every)
+    return Bars("errors", caption, tuple(bars), "error, Eo rms", log=log, dots=("as the model is",))
 
 
-def plot_trend(t: Json, n: int) -> Plot:
+def _plot_trend(t: Json, n: int) -> Plot:
     """A calibrated parameter over the flights, less its mean, with one standard deviation."""
     at = np.array([k for k, v in enumerate(t["values"]) if v is not None], dtype=np.float64)
     v, std = (np.array([x for x in t[k] if x is not None]) for k in ("values", "stds"))
@@ -282,12 +239,5 @@ def plot_trend(t: Json, n: int) -> Plot:
     label, away = numbers.short(name, 44), v - t["mean"]
     band = Curve("± 1 sigma", at, away - std, "envelope", "band", away + std)
     axes = Axes((band, Curve("value", at, away)), numbers.unit(t["unit"]), f"{label} − {middle}")
-    return Curves(
-        f"trend{n}",
-        f"{label} over the flights",
-        f"{label} over the flights.",
-        (axes,),
-        "flight, by number in the table",
-        "",
-        1.5,
-    )
+    caption = f"{label} over the flights."
+    return Curves(f"trend{n}", caption, (axes,), "flight, by number in the table", "", 1.5)

@@ -68,7 +68,7 @@ def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
     caption = "Error before demodulation in 24 blocks of time."
     if len(chosen) < len(f.prepared):
         caption += f" The {len(chosen)} worst of {len(f.prepared)} flights."
-    return Curves("time", "residual over time", caption, tuple(axes), SECONDS)
+    return Curves("time", caption, tuple(axes), SECONDS)
 
 
 def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
@@ -94,15 +94,7 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
     caption = "Amplitude density of the residual and the estimated noise. Dotted: multiples of the spin rate."
     if any(unknown(o) for o in f.observations):
         caption += " The notch at 2Ω: the gravity gradient is not recorded, so what varies slowly there is fitted as gradient."
-    return Curves(
-        "spectrum",
-        "spectrum of the residual",
-        caption,
-        tuple(axes),
-        "frequency before demodulation, Hz",
-        "Hz",
-        2.9,
-    )
+    return Curves("spectrum", caption, tuple(axes), "frequency before demodulation, Hz", "Hz", 2.9)
 
 
 def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
@@ -124,11 +116,7 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
             ends = (float(r.time[0]), float(r.time[-1]))
             axes.append(Axes(tuple(curves), "error, Eo", channel + name, ends, level))
     caption = "Demodulated residual: the error of the measured gradients. Dashed: one sigma of the noise."
-    return (
-        Curves("channels", "demodulated residual over time", caption, tuple(axes), SECONDS, height=1.6)
-        if axes
-        else None
-    )
+    return Curves("channels", caption, tuple(axes), SECONDS, height=1.6) if axes else None
 
 
 def _channel(label: str, time: Array, x: Array) -> list[Curve]:
@@ -171,7 +159,7 @@ def plot_measured(f: Fitted, residual: Residuals) -> Curves:
     )
     name = f" of {w.observation.name}" if len(f.prepared) > 1 else ""
     caption = f"Above: min-max, the whole record{name}. Below: the window where the error is largest."
-    return Curves("measured", "measured output over the model's", caption, axes, SECONDS, height=1.5)
+    return Curves("measured", caption, axes, SECONDS, height=1.5)
 
 
 def plot_harmonics(f: Fitted, coefficients: Array, key: str) -> Bars | None:
@@ -192,9 +180,7 @@ def plot_harmonics(f: Fitted, coefficients: Array, key: str) -> Bars | None:
         "Residual by harmonic of the spin, multiplied by 1, 2 cos kΩt or 2 sin kΩt and low-passed at 0.2 Hz as the"
         " demodulator does; the demodulator reads harmonic 2 as gradient. Grey: not above the noise."
     )
-    return Bars(
-        f"{key}-harmonic", "error by harmonic of the spin", caption, bars, "slow error, Eo", upright=True
-    )
+    return Bars(f"{key}-harmonic", caption, bars, "slow error, Eo", upright=True)
 
 
 def plot_terms(terms: Sequence[Mapping[str, Any]], rms_Eo: float, key: str) -> Bars | None:
@@ -202,7 +188,7 @@ def plot_terms(terms: Sequence[Mapping[str, Any]], rms_Eo: float, key: str) -> B
     sizes = [(describe.term_label(t), float(np.sqrt(float(t["share"]))) * rms_Eo) for t in terms]
     bars = tuple(Bar(label, size) for label, size in sorted(sizes, key=lambda x: -x[1]))
     caption = "Motion terms that are significant in the residual, by their own size before demodulation."
-    return Bars(f"{key}-terms", "error by motion term", caption, bars, "Eo rms") if len(bars) > 2 else None
+    return Bars(f"{key}-terms", caption, bars, "Eo rms") if len(bars) > 2 else None
 
 
 def plot_evidence(ranking: Sequence[Mapping[str, Any]], found: Sequence[str], level: float) -> Bars | None:
@@ -217,15 +203,7 @@ def plot_evidence(ranking: Sequence[Mapping[str, Any]], found: Sequence[str], le
     bars = tuple(Bar(e, v, strong=e in found) for e, v in values)
     axis = "evidence, −log₁₀ p" + (" (logarithmic scale)" if log else "")
     caption = "Evidence for each effect alone, best first. Dark: claimed."
-    return Bars(
-        "evidence",
-        "evidence for each effect",
-        caption,
-        bars,
-        axis,
-        log=log,
-        threshold=(level, "needed for a claim"),
-    )
+    return Bars("evidence", caption, bars, axis, log=log, threshold=(level, "needed for a claim"))
 
 
 def error_steps(steps: Sequence[Mapping[str, Any]], now: float | None = None) -> list[Bar]:
@@ -261,7 +239,6 @@ def plot_history(steps: Sequence[Mapping[str, Any]], noise: float) -> Bars | Non
     )
     return Bars(
         "loop",
-        "error after every step",
         caption,
         tuple(bars),
         "calibrated error, Eo rms",
@@ -280,18 +257,8 @@ def plot_budget(f: Fitted, noise: float) -> Bars:
         "What each group of parameters contributes to the output: the change when it is put to zero. Bars: rms before"
         " demodulation; marks: standard deviation in the channels. Dark: effects that were added."
     )
-    label = "what each group of parameters contributes"
-    threshold = (noise, "noise before demodulation")
-    return Bars(
-        "budget",
-        label,
-        caption,
-        bars,
-        "contribution, Eo",
-        log=True,
-        threshold=threshold,
-        dots=("inline", "cross"),
-    )
+    threshold, dots = (noise, "noise before demodulation"), ("inline", "cross")
+    return Bars("budget", caption, bars, "contribution, Eo", log=True, threshold=threshold, dots=dots)
 
 
 def describe_record(f: Fitted) -> list[tuple[str, str]]:

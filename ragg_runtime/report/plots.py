@@ -70,7 +70,7 @@ def draw_curves(plot: Curves) -> str:
         draw.legend(ax, 3)
         draw.live(ax, plot.unit)
     found[-1].set_xlabel(plot.x_label)
-    return draw.svg(fig, plot.key, plot.label)
+    return draw.svg(fig, plot.key, plot.caption)
 
 
 def _draw_curve(ax: Drawn, c: Curve) -> None:
@@ -163,7 +163,7 @@ def draw_bars(plot: Bars) -> str:
     _draw_levels(ax, plot, place)
     _draw_dots(ax, plot, place, low)
     _label_bars(ax, plot, place, low, float(np.max(shown, initial=1e-12)))
-    return draw.svg(fig, plot.key, plot.label)
+    return draw.svg(fig, plot.key, plot.caption)
 
 
 def _scale(plot: Bars, values: Array) -> tuple[float, Array]:
@@ -247,4 +247,4 @@ def draw_matrix(plot: Matrix) -> str:
     ax.tick_params(labelsize=7, length=0)
     ax.grid(False)
     draw.legend(ax, 2)
-    return draw.svg(fig, plot.key, plot.label)
+    return draw.svg(fig, plot.key, plot.caption)

@@ -92,7 +92,7 @@ def plot_whiteness(f: Fitted, n: int, residual: Array, channels: Sequence[str] =
         "Correlation of the whitened residual with itself and with the motion, over the lag (positive: the motion was earlier)."
         " Pale: 99 % of noise lies inside."
     )
-    return Curves(f"white{n}", "whiteness of the residual", caption, tuple(axes), "lag, s", height=1.4)
+    return Curves(f"white{n}", caption, tuple(axes), "lag, s", height=1.4)
 
 
 def plot_against(f: Fitted, n: int, residual: Array, channel: str) -> Curves:
@@ -102,12 +102,9 @@ def plot_against(f: Fitted, n: int, residual: Array, channel: str) -> Curves:
     if channel not in r.channels:
         raise UserError("the flight has no such channel", found=repr(channel[:40]))
     e, x = whiten_residual(w, residual), np.asarray(r.channels[channel], dtype=np.float64)
-    kept = np.flatnonzero(np.isfinite(e) & np.isfinite(x))
-    ordered = kept[np.argsort(x[kept], kind="stable")]
-    parts = [p for p in np.array_split(ordered, BINS) if len(p) > 2]
-    at, mean, rms = (np.array([g(p) for p in parts]) for g in (
-        lambda p: np.mean(x[p]), lambda p: np.mean(e[p]), lambda p: np.sqrt(np.mean(e[p] ** 2))
-    ))  # fmt: skip
+    parts = _divide(e, x)
+    at, mean = (np.array([np.mean(v[p]) for p in parts]) for v in (x, e))
+    rms = np.array([np.sqrt(np.mean(e[p] ** 2)) for p in parts])
     half = NORMAL_99 / np.sqrt([len(p) for p in parts])
     name, unit = numbers.product(channel), numbers.unit(SI_UNITS.get(channel, ""))
     axes = (
@@ -119,7 +116,14 @@ def plot_against(f: Fitted, n: int, residual: Array, channel: str) -> Curves:
         " Pale: 99 % of noise lies inside. A mean outside: a missing term; an rms outside: noise that depends on the channel."
     )
     label = f"{name}{f', {unit}' if unit else ''}"
-    return Curves(f"against{n}", f"residual against {name}", caption, axes, label, unit, 1.6)
+    return Curves(f"against{n}", caption, axes, label, unit, 1.6)
+
+
+def _divide(e: Array, x: Array) -> list[NDArray[np.intp]]:
+    """The samples at which both are known, in bins of x, each of as many."""
+    kept = np.flatnonzero(np.isfinite(e) & np.isfinite(x))
+    ordered = kept[np.argsort(x[kept], kind="stable")]
+    return [p for p in np.array_split(ordered, BINS) if len(p) > 2]
 
 
 def worst_channel(f: Fitted, n: int, residual: Array) -> str:
@@ -129,8 +133,6 @@ def worst_channel(f: Fitted, n: int, residual: Array) -> str:
 
     def departs(name: str) -> float:
         x = np.asarray(r.channels[name], dtype=np.float64)
-        kept = np.flatnonzero(np.isfinite(e) & np.isfinite(x))
-        parts = np.array_split(kept[np.argsort(x[kept], kind="stable")], BINS)
-        return float(sum(len(p) * np.mean(e[p]) ** 2 for p in parts if len(p)))
+        return float(sum(len(p) * np.mean(e[p]) ** 2 for p in _divide(e, x)))
 
     return max(sorted(r.channels), key=departs)

@@ -410,7 +410,7 @@ def draw_panel(s: State, a: Asked) -> bytes:
     kind, _, channel = a.what.partition(":")
     match kind:
         case "correlations":
-            plot: Any = parameters.correlations(v.f)[0]
+            plot: Any = parameters.correlate_parameters(v.f)[0]
         case "whiteness":
             plot = whiteness.plot_whiteness(v.f, v.n, v.residual)
         case "against":

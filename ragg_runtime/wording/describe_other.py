@@ -61,24 +61,10 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
         ("held out", e["holdout"]),
         floor_row(c),
     ]
-    clear = [p for p in c["combinations"] if significance(p) > CLEAR]
-    every = (*c["combinations"], *c["parameters"])
-    value: Columns = {"parameter": parameter_label, "value": with_uncertainty}
-    sheet: Columns = {
-        "test sheet": lambda p: number(p.get("sheet"), 4),
-        "its uncertainty": lambda p: number(p.get("sheet_sigma"), 4),
-    }
-    note = " ".join(patterns_note(clear))
     found = [
         Section(sentences=(head, text), state="good" if c["converged"] else "bad"),
         errors_section(rows),
-        Section("Best-determined combinations", table=tabulate(clear, value, words=2, note=note)),
-        Section(
-            "Every parameter",
-            table=tabulate(every, value | sheet, words=2),
-            detail=True,
-            summary=f"all {len(every)} combinations and parameters",
-        ),
+        *parameters_sections(c["combinations"], c["parameters"]),
     ]
     if c["drift"]:
         found += _flight_by_flight(c["drift"])
@@ -87,6 +73,26 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
     if "certificate" in c:
         found.append(_certificate(c["certificate"]))
     return (*found, *next_section(then))
+
+
+def parameters_sections(
+    combinations: Sequence[Json], parameters: Sequence[Json], *, detail: bool = False
+) -> Sections:
+    """What a record determines of the parameters, and every one of them beside its test sheet."""
+    clear = [p for p in combinations if significance(p) > CLEAR]
+    value: Columns = {"parameter": parameter_label, "value": with_uncertainty}
+    sheet: Columns = {
+        "test sheet": lambda p: number(p["sheet"], 4),
+        "its uncertainty": lambda p: number(p["sheet_sigma"], 4),
+        "shift, σ of the sheet": lambda p: numbers.fixed((p["value"] - p["sheet"]) / p["sheet_sigma"], 2),
+    }
+    note, summary = " ".join(patterns_note(clear)), f"all {len(parameters)} parameters"
+    best = tabulate(clear, value, words=2, note=note)
+    every = tabulate(parameters, value | sheet, words=2)
+    return (
+        Section("Best-determined combinations", table=best, detail=detail),
+        Section("Every parameter", table=every, detail=True, summary=summary),
+    )
 
 
 DIFFERENT = 3.0

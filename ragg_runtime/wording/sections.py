@@ -71,7 +71,6 @@ class Curves:
     """A figure of axes below each other; ``key`` begins the ids of its elements, ``unit`` is that of the abscissa."""
 
     key: str
-    label: str
     caption: str
     axes: tuple[Axes, ...]
     x_label: str
@@ -95,7 +94,6 @@ class Bars:
     """A figure of bars, upright or lying; ``threshold`` is a dashed line with a text, ``dots`` names the marks."""
 
     key: str
-    label: str
     caption: str
     bars: tuple[Bar, ...]
     axis: str
@@ -110,7 +108,6 @@ class Matrix:
     """A figure of a symmetric matrix (n, n) of correlations, with the names of its rows."""
 
     key: str
-    label: str
     caption: str
     names: tuple[str, ...]
     values: Array

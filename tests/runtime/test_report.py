@@ -19,6 +19,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.compensation.calibrate import list_combinations, list_parameters
 from ragg_runtime.identification import budget, diagnose, result, series
 from ragg_runtime.identification import comparison as compare
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -302,7 +303,7 @@ def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
 
 def test_what_a_record_sees_of_the_parameters_is_what_the_paper_derives(clean: Case) -> None:
     """Eq. 17-19: of the biases only D1234 enters; K2 and K5 enter as Sigma (k5 - k2) and D1234 (k2 + k5)."""
-    v = parameters.visibility(clean.comparison.fitted)
+    v = parameters.find_visibility(clean.comparison.fitted)
     unseen = {str(d) for d in v.unseen}
     assert {f"{pattern} K_0" for pattern in ("Σ", "D12", "D34")} <= unseen
     assert "D1234 K_0" not in unseen
@@ -318,17 +319,19 @@ def test_what_a_record_sees_of_the_parameters_is_what_the_paper_derives(clean: C
 
 
 def test_combinations_are_known_better_than_single_values(clean: Case) -> None:
-    rows = {r[0].split()[-1]: r[2:] for r in parameters.combination_rows(clean.comparison.fitted)}
-    patterns = [name for name, _ in parameters.PATTERNS]
-    K0 = rows["K0"][patterns.index("D1234")]
+    f = clean.comparison.fitted
+    known = {q["name"]: q for q in list_combinations(f)}
     # the flight's biases are 1 ug above the test sheet in all four: D1234 stays 10 + 2 - 5 - 8 = -1 ug
-    value = float(K0.split(numbers.THIN)[0].split("(")[0].replace(numbers.MINUS, "-"))
-    assert value == pytest.approx(-1.0, abs=0.05)
-    assert rows["K0"][patterns.index("Σ")] == "(25)"
+    assert known["D1234 K0"]["value"] == pytest.approx(-1.0, abs=0.05)
+    assert "Sigma K0" not in known
+    assert all(q["std"] > 10 * known["D1234 K0"]["std"] for q in list_parameters(f) if q["name"] == "K0")
+    said = render_text(parameters.describe_parameters(f), verbose=True)
+    assert "D1234 of K0  " in said
+    assert "shift, sigma of the sheet" in said
 
 
 def test_correlations_are_of_what_the_record_determines(clean: Case) -> None:
-    matrix, pairs = parameters.correlations(clean.comparison.fitted)
+    matrix, pairs = parameters.correlate_parameters(clean.comparison.fitted)
     assert np.allclose(np.diag(matrix.values), 1.0)
     assert not {"Σ K_0", "D12 K_0"} & set(matrix.names)
     sizes = [abs(float(r.replace(numbers.MINUS, "-"))) for _, _, r in pairs]
@@ -401,9 +404,9 @@ def test_four_voltages_see_every_accelerometer(clean: Case) -> None:
     noisy = {f"V_{j + 1}": V[j] + rng.normal(0, 4e-4, V.shape[1]) for j in range(4)}
     made = replace(made, outputs=noisy)
     c = compare.compare(model, known, [made])
-    v = parameters.visibility(c.fitted)
+    v = parameters.find_visibility(c.fitted)
     assert {d.pattern for d in v.unseen} <= {"A1", "A2", "A3", "A4"}
-    assert v.determined > parameters.visibility(clean.comparison.fitted).determined
+    assert v.determined > parameters.find_visibility(clean.comparison.fitted).determined
     assert "<svg" in compare_page(c, ORIGIN)
 
 
@@ -485,7 +488,7 @@ def test_labels_in_figures_are_never_taken_for_mathematics() -> None:
     bars = (Bar("$\\frac{1}$ <b>\udc80\u202e 傾斜", 2.0), Bar("b" * 300, math.inf))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        text = draw_plot(Bars("x", 'a "label" <', "", bars, "Eo", log=True, threshold=(1.0, "needed")))
+        text = draw_plot(Bars("x", 'a "label" <', bars, "Eo", log=True, threshold=(1.0, "needed")))
     assert "$\\frac{1}$ &lt;b&gt;" in text
     assert "傾斜" in text
     assert "certain" in text
