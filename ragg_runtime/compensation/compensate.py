@@ -38,17 +38,25 @@ from ragg_runtime.compensation.segment import (
 )
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation.least_squares import orthonormal
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.observation import BLOCKS, ROWS, Observation, block_edges, observations_of
+from ragg_runtime.estimation.observation import (
+    BLOCKS,
+    ROWS,
+    Observation,
+    as_output,
+    block_edges,
+    observations_of,
+)
 from ragg_runtime.estimation.scores import error, finite
 from ragg_runtime.estimation.spectrum import periodogram
-from ragg_runtime.estimation.unknown_gradient import spin_frequency
+from ragg_runtime.estimation.unknown_gradient import spin_frequency, windows
+from ragg_runtime.estimation.whitening import flight_segments
+from ragg_runtime.identification.budget import list_groups
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, sees
-from ragg_runtime.instrument.parameters import PARAMETERS
-from ragg_runtime.instrument.units import units
 from ragg_runtime.io import Flight
-from ragg_runtime.model.evaluate import scale_factor, unit_factor
+from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
 from ragg_runtime.signals.derivative import runs
@@ -230,6 +238,7 @@ def make_channel(p: Prepared, k: int, name: str) -> Channel:
         blocks=p.blocks[k],
         about=c.p,
         k_ggi=k_ggi,
+        spectrum=c.noise[k],
         noise=predict_noise(o, c.noise[k], d, k_ggi),
         validity={} if p.saved is None else p.saved.validity,
         flags=0 if p.change is None or p.change.holds else int(Quality.CALIBRATION),
@@ -282,7 +291,7 @@ def describe_channel(c: Channel, x: Compensated) -> dict[str, Any]:
     o, d, names = c.observation, c.demodulator, ("inline_Eo", "cross_Eo")
     there = np.isfinite(x.gradient.real)
     rms = np.sqrt(np.mean(x.parameters[:, there] ** 2, axis=1)) if there.any() else np.full(2, np.nan)
-    nominal = error(x.nominal, o.record, c.k_ggi).as_json()
+    nominal = error(take_gradient_out(o, x.nominal, c.spectrum), o.record, c.k_ggi).as_json()
     every = max(1, int(d.rate))  # the channels hold nothing above half a hertz
     return {
         "flight": o.flight_name,
@@ -306,6 +315,18 @@ def describe_channel(c: Channel, x: Compensated) -> dict[str, Any]:
         },
         "contributions": list_contributions(c),
     }
+
+
+def take_gradient_out(o: Observation, e: Array, noise: NoiseModel) -> Array:
+    """A residual of G_out (N,), V, without what a gradient can be of it: as a record is scored of which the gradient is not known."""
+    found, valid = e.copy(), o.record.valid
+    for s in flight_segments(o):
+        for w in (w for w in windows(o, s.rows, noise) if len(w.plain)):
+            rows = np.arange(s.rows.start, s.rows.stop)[w.samples]
+            rows = rows[valid[rows]]
+            Q = orthonormal(as_output(o, w.plain.reshape(len(w.plain), -1, len(rows))))
+            found[rows] -= (found[rows] @ Q) @ Q.T
+    return found
 
 
 def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
@@ -334,17 +355,18 @@ def list_contributions(c: Channel) -> list[dict[str, Any]]:
     """What was removed: root mean squares of inline and cross, Eo, on two segments of the flight, largest first."""
     totals: dict[tuple[str, str | None], Array] = {}
     count = 0
-    p = c.blocks[0].p
     whole = replace(c, blocks=(replace(c.blocks[0], rows=slice(0, len(c.observation.record.time))),))
     for rows in _spread(_segments(c), 2):
         s = Segment(whole, rows)
         good = (s.quality()[s.own] & NO_VALUE) == 0
         count += int(np.sum(good))
-        for name, effect, changed in [("everything", None, None), *_without_each(c, p)]:
-            e = s.bare if changed is None else s.bare - s.predict_by(changed)
+        removed: dict[tuple[str, str | None], Array] = {("everything", None): s.bare}
+        groups = list_groups(c.model, c.instrument, c.blocks[0].p)
+        removed |= {(x.name, x.effect): s.bare - s.predict_by(x.without) for x in groups}
+        for key, e in removed.items():
             g = s.demodulate(e)[s.own][good]
             part = np.array([np.sum(g.real**2), np.sum(g.imag**2)])
-            totals[name, effect] = totals.get((name, effect), np.zeros(2)) + part
+            totals[key] = totals.get(key, np.zeros(2)) + part
     if not count:
         return []
     found: list[dict[str, Any]] = []
@@ -353,27 +375,6 @@ def list_contributions(c: Channel) -> list[dict[str, Any]]:
         if inline or cross:
             found.append({"of": name, "effect": effect, "inline_Eo": float(inline), "cross_Eo": float(cross)})
     return sorted(found, key=lambda r: -float(r["inline_Eo"] ** 2 + r["cross_Eo"] ** 2))
-
-
-def _without_each(c: Channel, p: Array) -> list[tuple[str, str | None, Array]]:
-    """(name, effect, p with it at its neutral value) of everything that the model removes."""
-    model = c.model
-    ends = np.cumsum([size for _, size in model.chain.PARAMETERS])
-    places = {n: slice(end - size, end) for (n, size), end in zip(model.chain.PARAMETERS, ends, strict=True)}
-    found: list[tuple[str, str | None, Array]] = []
-    known = units(c.instrument.g0)
-    for e in model.effects:
-        changed = p.copy()
-        for q in (q for q in e.parameters if q.fitted):
-            changed[places[q.symbol]] = (q.neutral or 0.0) * unit_factor(q.unit, known)
-        found.append((e.id, e.id, changed))
-    for own in PARAMETERS:
-        changed = p.copy()
-        # of a gain the mean carries the gradient itself: what disturbs is that the four differ
-        changed[places[own.name]] = np.mean(p[places[own.name]]) if own.required else 0.0
-        if not np.array_equal(changed, p):
-            found.append((f"imbalance of {own.name}" if own.required else own.name, None, changed))
-    return found
 
 
 # --- the command ---------------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.calibration import Calibration
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation, as_output
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
@@ -99,9 +100,9 @@ class Channel:
     """One output of a flight, with what compensates it.
 
     ``observation``: the whole flight, without recorded gradients. ``recorded``: inline + i cross (N,), Eo, if the flight was
-    demodulated by its recorder. ``about`` (size,): the calibrated parameters, SI. ``k_ggi``: V/Eo. ``noise``: standard deviations of
-    inline and cross that the noise causes, Eo. ``validity``: channel -> range, SI; empty: not flagged. ``flags``: bits of the quality
-    of all samples. ``rest``: variance, Eo^2, by directions that are not followed.
+    demodulated by its recorder. ``about`` (size,): the calibrated parameters, SI. ``k_ggi``: V/Eo. ``spectrum``: the noise, and
+    ``noise`` the standard deviations of inline and cross that it causes, Eo. ``validity``: channel -> range, SI; empty: not flagged.
+    ``flags``: bits of the quality of all samples. ``rest``: variance, Eo^2, by directions that are not followed.
     """
 
     model: Model
@@ -113,6 +114,7 @@ class Channel:
     blocks: tuple[Block, ...]
     about: Array
     k_ggi: float
+    spectrum: NoiseModel
     noise: tuple[float, float]
     validity: Mapping[str, tuple[float, float]]
     flags: int = 0

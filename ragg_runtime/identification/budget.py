@@ -9,11 +9,25 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import error
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.evaluate import output, unit_factor
+from ragg_runtime.model.model import Model
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ParameterGroup:
+    """Parameters that do something together: their name, in words with their symbol, the ``effect`` that they are of, and the
+    parameter vector ``without`` (size,) them: at zero, an effect where it is absent, scale factors at their mean.
+    """
+
+    name: str
+    label: str
+    effect: str | None
+    without: Array
 
 
 @dataclass(frozen=True)
@@ -29,44 +43,38 @@ class Contribution:
 
 def contributions(f: Fitted) -> list[Contribution]:
     """rms before demodulation and standard deviations of the channels, Eo, largest first: the change of the model's output when one
-    group of parameters is put to zero (an effect: to where it is absent; scale factors: to their mean).
+    group of parameters is put to zero.
     """
     found = []
     full = [output(f.model.chain, o.record, f.calibration.p, o.output) for o in f.observations]
-    for label, without, effect in _groups(f):
+    for g in list_groups(f.model, f.instrument, f.calibration.p):
         squares = []
         for o, G, k in zip(f.observations, full, f.scales, strict=True):
-            e = error(G - output(f.model.chain, o.record, without, o.output), o.record, k)
+            e = error(G - output(f.model.chain, o.record, g.without, o.output), o.record, k)
             squares.append([e.rms_Eo**2, e.inline_Eo**2, e.cross_Eo**2])
-        rms, inline, cross = np.sqrt(np.mean(squares, axis=0))
-        found.append(
-            Contribution(label=label, rms=float(rms), inline=float(inline), cross=float(cross), strong=effect)
-        )
+        rms, inline, cross = (float(x) for x in np.sqrt(np.mean(squares, axis=0)))
+        found.append(Contribution(g.label, rms, inline, cross, g.effect is not None))
     return sorted((c for c in found if c.rms > 0.0), key=lambda c: (-c.rms, c.label))
 
 
-def _groups(f: Fitted) -> list[tuple[str, Array, bool]]:
-    """(label, parameter vector without the group, whether it is an added effect)."""
-    p, known = f.calibration.p, f.instrument.units
-    places, start = {}, 0
-    for name, size in f.model.chain.PARAMETERS:
-        places[name] = slice(start, start + size)
-        start += size
-    groups = []
-    for q in PARAMETERS:
-        if q.name not in places:
-            continue
+def list_groups(model: Model, instrument: Instrument, p: Array) -> list[ParameterGroup]:
+    """The groups of the parameters p (size,) of which something is there: of accelerometers, then of each effect."""
+    ends = np.cumsum([size for _, size in model.chain.PARAMETERS])
+    places = {n: slice(end - size, end) for (n, size), end in zip(model.chain.PARAMETERS, ends, strict=True)}
+    found = []
+    for q in (q for q in PARAMETERS if q.name in places):
         without = p.copy()
+        # of a gain the mean carries the gradient itself: what disturbs is that the four differ
         without[places[q.name]] = np.mean(p[places[q.name]]) if q.relative else 0.0
-        text = "".join(f"_{piece}" if lowered else piece for piece, lowered in numbers.symbol(q.symbol))
-        kind = "imbalance of the " if q.relative else ""
-        groups.append((f"{text}  {kind}{numbers.unit(q.description)}", without, False))
-    for e in f.model.effects:
+        symbol = "".join(f"_{piece}" if lowered else piece for piece, lowered in numbers.symbol(q.symbol))
+        imbalance = "imbalance of the " if q.relative else ""
+        label = f"{symbol}  {imbalance}{numbers.unit(q.description)}"
+        name = f"imbalance of {q.name}" if q.relative else q.name
+        found.append(ParameterGroup(name, label, None, without))
+    for e in model.effects:
         without = p.copy()
-        for parameter in e.parameters:
-            if parameter.symbol in places and parameter.fitted:
-                without[places[parameter.symbol]] = (parameter.neutral or 0.0) * unit_factor(
-                    parameter.unit, known
-                )
-        groups.append((e.id, without, True))
-    return groups
+        for parameter in (x for x in e.parameters if x.symbol in places and x.fitted):
+            factor = unit_factor(parameter.unit, instrument.units)
+            without[places[parameter.symbol]] = (parameter.neutral or 0.0) * factor
+        found.append(ParameterGroup(e.id, e.id, e.id, without))
+    return [g for g in found if not np.array_equal(g.without, p)]
