@@ -72,7 +72,7 @@ def _made(app: Sphinx, config: Any) -> None:
     from docs import made as build
     from ragg_runtime.experiments.dynamic import dynamic
     from ragg_runtime.experiments.multifrequency import multifrequency
-    from ragg_runtime.experiments.result import page
+    from ragg_runtime.experiments.page import write_page
     from ragg_runtime.experiments.turbulence import turbulence
 
     made = HERE / "_made"
@@ -82,7 +82,7 @@ def _made(app: Sphinx, config: Any) -> None:
     texts = build.effects() | {
         "errata.md": audit.page(),
         "simplified.md": simplified(),
-        "experiments.md": page([multifrequency(), dynamic(), turbulence()]),
+        "experiments.md": write_page([multifrequency(), dynamic(), turbulence()]),
         "commands.md": build.commands(),
         "model-toml.md": build.model_toml(),
     }

@@ -71,7 +71,7 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
         click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
     place, effects = one_line(str(m.directory.path)), [e.id for e in m.model.effects]
     said = (
-        f"{place}: made; effects in the model: {', '.join(effects) or 'none'}",
+        f"{place}: created; effects in the model: {', '.join(effects) or 'none'}",
         f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT",
     )
     conclude({"model": place, "effects": effects}, [Section(sentences=said)], Source(m))

@@ -14,10 +14,10 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
 from ragg_runtime.experiments.dynamic import dynamic
 from ragg_runtime.experiments.multifrequency import multifrequency
-from ragg_runtime.experiments.result import Result, page
+from ragg_runtime.experiments.page import Experiment, write_page
 from ragg_runtime.experiments.turbulence import turbulence
 
-EXPERIMENTS: Mapping[str, Callable[[], Result]] = {
+EXPERIMENTS: Mapping[str, Callable[[], Experiment]] = {
     "multifrequency": multifrequency,
     "dynamic": dynamic,
     "turbulence": turbulence,
@@ -29,13 +29,13 @@ EXPERIMENTS: Mapping[str, Callable[[], Result]] = {
 @click.option("--json", "json_file", metavar="FILE", help="Write the results as JSON (- is stdout).")
 def main(names: Sequence[str], json_file: str | None) -> None:
     """Repeat the paper's experiments (Section III): multifrequency, dynamic, turbulence; without a name all."""
-    results = {name: EXPERIMENTS[name]() for name in names or EXPERIMENTS}
+    found = {name: EXPERIMENTS[name]() for name in names or EXPERIMENTS}
     if json_file is None:
-        click.echo(page(list(results.values())), nl=False)
+        click.echo(write_page(list(found.values())), nl=False)
         return
     made = provenance.provenance(provenance.command())
-    found = {n: r.as_json() for n, r in results.items()} | {"provenance": made}
-    text = json.dumps(found, indent=1, allow_nan=False) + "\n"
+    whole = {n: e.as_json() for n, e in found.items()} | {"provenance": made}
+    text = json.dumps(whole, indent=1, allow_nan=False) + "\n"
     if json_file == "-":
         click.echo(text, nl=False)
     else:

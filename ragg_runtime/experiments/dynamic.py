@@ -11,21 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.models import (
-    ANGLES_DROPPED,
-    CHANNELS,
+from ragg_runtime.experiments.page import Cell, Experiment, Variation, judge
+from ragg_runtime.experiments.runs import (
     DERIVED,
     LARGEST,
+    average_turns,
     bounds,
-    draws,
-    error,
+    draw_angles,
+    find_error,
     largest,
-    over_turns,
-    response,
-    smallest_angles,
+    respond,
     with_angles,
 )
-from ragg_runtime.experiments.result import Cell, Result, Row, Table, judge
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.reference import Motion, Simulation, Sinusoids, simulate
@@ -36,38 +33,33 @@ Array = NDArray[np.float64]
 
 RATE, TURNS = 16.0, 64
 
+ANGLES_DROPPED = {"second-order-misalignment": {"kappa": 0.0}}
+"""The numerical model with the second-order terms of Eq. 5, without angles, in place of those of Eq. 52."""
+
 WITH_MASS = PointMass(paper.MASS, paper.MASS_POSITION)
 """The test mass of Section III.A where it starts."""
 
 
-def dynamic() -> Result:
+def dynamic() -> Experiment:
     """Repeat the experiment."""
-    angle, reached = missing_angle()
-    return Result(
-        title="Dynamic experiment (Section III.B, Tables V and VI)",
-        settings={
-            "instrument": "Table V, R = 0.1 m, 0.25 Hz; vartheta_x = 0 (not stated), g = 9.8 m/s^2",
-            "motion": "Table VI; angular acceleration is the derivative of the angular rate",
-            "record": f"{TURNS} turns at {RATE:g} Hz (not stated)",
-            "model error": "numerical minus model; first-order rotations; no mass near",
-        },
-        rows=_compare_rows(regular_run(turns=TURNS), reached),
-        tables=(tabulate_conditions(), angle),
-    )
-
-
-def _compare_rows(run: Simulation, reached: Array) -> tuple[Row, ...]:
-    errors = {name: error(name, run) for name in DERIVED}
-    whole, analytical = largest(run.G_out), largest(errors["analytical"])
-    gradient = largest(regular_run(gravity=WITH_MASS).G_out - regular_run().G_out)
+    run = run_regular(turns=TURNS)
+    errors = {name: find_error(name, run) for name in DERIVED}
+    base, slopes = respond(measure_analytical)
+    reached = base + draw_angles() @ slopes
+    gradient = largest(run_regular(gravity=WITH_MASS).G_out - run_regular().G_out)
+    whole = largest(run.G_out)
     rows = [
         judge("k_ggi", paper.K_GGI, run.instrument.scale_factor * EOTVOS),
         judge("output before demodulation", paper.OUTPUT, whole),
         *(
-            judge(f"{n} model error before demodulation", paper.MODEL_ERROR, largest(errors[n]))
-            for n in errors
+            judge(f"{n} model error before demodulation", paper.MODEL_ERROR, largest(e))
+            for n, e in errors.items()
         ),
-        judge("relative error of the analytical model", paper.RELATIVE_ERROR, analytical / whole),
+        judge(
+            "relative error of the analytical model",
+            paper.RELATIVE_ERROR,
+            largest(errors["analytical"]) / whole,
+        ),
         judge(
             "voltage of the gravitational gradient",
             paper.GRADIENT_VOLTAGE,
@@ -76,7 +68,8 @@ def _compare_rows(run: Simulation, reached: Array) -> tuple[Row, ...]:
         ),
     ]
     for name, e in errors.items():
-        for k, (channel, ours) in enumerate(zip(CHANNELS, over_turns(e, run), strict=True)):
+        for k, ours in enumerate(average_turns(e, run)):
+            channel = ("inline", "cross")[k]
             rows.append(
                 judge(
                     f"{name} model error, {channel}",
@@ -90,30 +83,37 @@ def _compare_rows(run: Simulation, reached: Array) -> tuple[Row, ...]:
                     "and VI alone, whatever the numerical model",
                 )
             )
-    return tuple(rows)
+    settings = {
+        "instrument": "Table V, R = 0.1 m, 0.25 Hz; vartheta_x = 0 (not stated), g = 9.8 m/s^2",
+        "motion": "Table VI; angular acceleration is the derivative of the angular rate",
+        "record": f"{TURNS} turns at {RATE:g} Hz (not stated)",
+        "model error": "numerical minus model; first-order rotations; no mass near",
+    }
+    title = "Dynamic experiment (Section III.B, Tables V and VI)"
+    return Experiment(title, settings, tuple(rows), (_vary_conventions(), _vary_angle(base, slopes, reached)))
 
 
-def tabulate_conditions() -> Table:
+def _vary_conventions() -> Variation:
     """Model errors with one convention changed at a time: what they consist of."""
     straight = table_v().replace(vartheta_y=np.zeros(4), vartheta_z=np.zeros(4))
     mounted = table_v().replace(beta_x=np.zeros(4), beta_z=np.zeros(4))
     runs = {
-        "as set up": regular_run(),
-        "second-order terms without angles (Eq. 5)": regular_run(effects=ANGLES_DROPPED),
-        "vartheta = 0: second-order terms times beta alone": regular_run(straight),
-        "beta = 0: second-order terms times vartheta alone": regular_run(mounted),
-        "exact rotations": regular_run(rotations="exact"),
-        "vartheta_x = 20 arcsec, all four": regular_run(with_angles(np.full(4, 20.0))),
-        "the mass of Section III.A at rest": regular_run(gravity=WITH_MASS),
+        "as set up": run_regular(),
+        "second-order terms without angles (Eq. 5)": run_regular(effects=ANGLES_DROPPED),
+        "vartheta = 0: second-order terms times beta alone": run_regular(straight),
+        "beta = 0: second-order terms times vartheta alone": run_regular(mounted),
+        "exact rotations": run_regular(rotations="exact"),
+        "vartheta_x = 20 arcsec, all four": run_regular(with_angles(np.full(4, 20.0))),
+        "the mass of Section III.A at rest": run_regular(gravity=WITH_MASS),
     }
     rows: list[tuple[Cell, ...]] = []
     for label, run in runs.items():
-        errors = [error(name, run) for name in DERIVED]
+        errors = [find_error(name, run) for name in DERIVED]
         # What is zero but for rounding (1e-9 V) must not show its last digits.
-        eotvos = [v if abs(v) > 1e-4 else 0.0 for e in errors for v in over_turns(e, run)]
+        eotvos = [v if abs(v) > 1e-4 else 0.0 for e in errors for v in average_turns(e, run)]
         volts = [v if v > 1e-7 else 0.0 for v in map(largest, errors)]
         rows.append((label, *eotvos, *volts))
-    return Table(
+    return Variation(
         "Model errors after demodulation (Eo) and the largest before it (V)",
         ("condition", "an. inline", "an. cross", "si. inline", "si. cross", "an. V", "si. V"),
         tuple(rows),
@@ -127,48 +127,42 @@ def tabulate_conditions() -> Table:
 
 def measure_analytical(instrument: Instrument) -> Array:
     """Error of the analytical model, (2,) Eo: inline and cross."""
-    run = regular_run(instrument)
-    return np.array(over_turns(error("analytical", run), run))
+    run = run_regular(instrument)
+    return np.array(average_turns(find_error("analytical", run), run))
 
 
-def missing_angle() -> tuple[Table, Array]:
-    """Which vartheta_x would give the printed error of the analytical model, and what draws of it give, (draws, 2) Eo."""
-    base, slopes = response(measure_analytical)
-    reached = base + draws() @ slopes
-    printed = np.array([paper.DYNAMIC["analytical", c].value for c in CHANNELS])
-    rows: list[tuple[Cell, ...]] = []
-    for label, target in (("printed", printed), ("printed, signs reversed", -printed)):
-        angles = smallest_angles(base, slopes, target)
-        rows.append((label, *(float(a) for a in angles), largest(angles)))
+def find_angles(base: Array, slopes: Array, target: Array) -> Array:
+    """The four vartheta_x of least square, (4,) arcsec, with which a measure (2,) becomes ``target``."""
+    return np.asarray(np.linalg.lstsq(slopes.T, target - base, rcond=None)[0])
+
+
+def _vary_angle(base: Array, slopes: Array, reached: Array) -> Variation:
+    """Which vartheta_x would give the printed error of the analytical model."""
+    printed = np.array([paper.DYNAMIC["analytical", c].value for c in ("inline", "cross")])
+    targets = {"printed": printed, "printed, signs reversed": -printed}
+    angles = {label: find_angles(base, slopes, target) for label, target in targets.items()}
     low, high = reached.min(axis=0), reached.max(axis=0)
-    return Table(
+    return Variation(
         "The four vartheta_x of least square that give the printed analytical error, arcsec",
         ("analytical error", "A1", "A2", "A3", "A4", "largest"),
-        tuple(rows),
+        tuple((label, *map(float, a), largest(a)) for label, a in angles.items()),
         f"Without vartheta_x it is {base[0]:.2f} Eo inline and {base[1]:.2f} Eo cross; four vartheta_x "
         f"within {LARGEST:g} arcsec put it anywhere from {low[0]:.2f} to {high[0]:.2f} and from "
         f"{low[1]:.2f} to {high[1]:.2f} Eo. The printed pair is thus no contradiction, and no confirmation "
         "either.",
-    ), reached
-
-
-def regular_motion() -> Motion:
-    """Table VI."""
-    g0, frequency = table_v().g0, table_v().spin_frequency
-    a_x, a_y, a_z, w_x, w_y, w_z = (
-        Sinusoids(mean * unit, [amplitude * unit], [frequency], [0.0])
-        for name, (mean, amplitude) in paper.TABLE_VI.items()
-        for unit in [g0 if name.startswith("a") else paper.DEGREE_PER_HOUR]
     )
-    return Motion((a_x, a_y, a_z), (w_x, w_y, w_z))
 
 
-def regular_run(
+def run_regular(
     instrument: Instrument | None = None, *, rate: float = RATE, turns: int = 1, **how: Any
 ) -> Simulation:
     """The numerical model in the motion of Table VI; means over one turn are exact at 16 Hz. ``how``: as of :func:`simulate`."""
     known = instrument or table_v()
-    duration = float(np.rint(turns / known.spin_frequency))
-    return simulate(
-        known, regular_motion(), duration, rate, **{"rotations": "first-order", "auxiliaries": {}, **how}
+    a_x, a_y, a_z, w_x, w_y, w_z = (
+        Sinusoids(mean * unit, [amplitude * unit], [known.spin_frequency], [0.0])
+        for name, (mean, amplitude) in paper.TABLE_VI.items()
+        for unit in [known.g0 if name.startswith("a") else paper.DEGREE_PER_HOUR]
     )
+    duration = float(np.rint(turns / known.spin_frequency))
+    how = {"rotations": "first-order", "auxiliaries": {}, **how}
+    return simulate(known, Motion((a_x, a_y, a_z), (w_x, w_y, w_z)), duration, rate, **how)

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-DEGREE_PER_HOUR = np.pi / 180 / 3600
-ARCSEC = np.pi / 180 / 3600
+DEGREE_PER_HOUR = ARCSEC = np.pi / 180 / 3600
 
 
 @dataclass(frozen=True)
@@ -35,9 +34,8 @@ class Printed:
     def matches(self, ours: float) -> bool:
         """Whether ``ours`` has the printed digits, or the printed order of magnitude (a third of it up to ten times)."""
         if self.order:
-            return math.copysign(1, ours) == math.copysign(1, self.value) and (
-                -0.5 <= math.log10(abs(ours / self.value)) < 1
-            )
+            ratio = ours / self.value
+            return ratio > 0.0 and -0.5 <= math.log10(ratio) < 1.0
         mantissa, _, exponent = self.text.partition("e")
         decimals = len(mantissa.partition(".")[2])
         return abs(ours - self.value) <= 0.5000001 * 10.0 ** (int(exponent or 0) - decimals)
@@ -60,33 +58,24 @@ TABLE_VI: Mapping[str, tuple[float, float]] = {
 }
 """Constant and amplitude of sin(Omega t): g for a, deg/h for omega."""
 
-
 TABLE_VII = ((100.0, 10.0, 0.0, 0.0), (100.0, 10.0, 100.0, 50.0), (200.0, 10.0, 100.0, 50.0))
 """Mean and standard deviation of a_z, mg, and of each angular rate, deg/h."""
 
 HORIZONTAL = 0.15
 """Section III.C: rms of a_x and of a_y over that of a_z."""
 
-TABLE_VIII: tuple[Mapping[str, str], ...] = (
-    {
-        "M_in": "-0.037", "M_cs": "-0.0004", "Ms_in": "-0.080", "Ms_cs": "0.033",
-        "sigma_in": "0.062", "sigma_cs": "0.031", "sigmas_in": "0.11", "sigmas_cs": "0.052",
-    },
-    {
-        "M_in": "-0.032", "M_cs": "-0.001", "Ms_in": "-0.09", "Ms_cs": "0.015",
-        "sigma_in": "0.068", "sigma_cs": "0.032", "sigmas_in": "0.294", "sigmas_cs": "0.149",
-    },
-    {
-        "M_in": "-0.145", "M_cs": "-0.001", "Ms_in": "-0.253", "Ms_cs": "0.134",
-        "sigma_in": "0.064", "sigma_cs": "0.029", "sigmas_in": "0.556", "sigmas_cs": "0.281",
-    },
-)  # fmt: skip
-"""Eo. M and sigma of the analytical, Ms and sigmas of the simplified model (the paper's M^s, sigma^s)."""
+_VIII = """
+        M_in    M_cs    Ms_in   Ms_cs  sigma_in  sigma_cs  sigmas_in  sigmas_cs
+    1   -0.037  -0.0004 -0.080  0.033  0.062     0.031     0.11       0.052
+    2   -0.032  -0.001  -0.09   0.015  0.068     0.032     0.294      0.149
+    3   -0.145  -0.001  -0.253  0.134  0.064     0.029     0.556      0.281
+"""
 
 
 def table_viii(experiment: int, name: str) -> Printed:
-    """An entry of Table VIII; ``experiment`` is 1, 2 or 3."""
-    return Printed(TABLE_VIII[experiment - 1][name], "Eo", "Table VIII")
+    """An entry of Table VIII, Eo, of experiment 1, 2 or 3: M and sigma of the analytical, Ms and sigmas of the simplified model."""
+    heads, *rows = (line.split() for line in _VIII.strip().splitlines())
+    return Printed(rows[experiment - 1][1 + heads.index(name)], "Eo", "Table VIII")
 
 
 K_GGI = Printed("4.54e-4", "V/Eo", "Section III.B")

@@ -213,7 +213,7 @@ def _absorbed(f: Fitted, field: Field, e: Effect) -> str:
     k = int(np.argmax(whole))
     strongest = columns[k]
     if whole[k] < likelihood_ratio.TESTABLE:
-        return "this record hardly excites it: even a hundred times its plausible size leaves no trace"
+        return "not observable in this flight, even at a hundred times its plausible size"
     solution = np.linalg.solve(field.T[:n, :n], field.T[:n, n + strongest])
     names: dict[str, float] = {}
     for c, v, norm in zip(
@@ -222,9 +222,7 @@ def _absorbed(f: Fitted, field: Field, e: Effect) -> str:
         names[c.name] = names.get(c.name, 0.0) + float(np.abs(v * norm))
     most = sorted(names, key=lambda x: -names[x])[:3]
     share = float(left[k] / whole[k]) if whole[k] else 0.0
-    return (
-        f"absorbed by {', '.join(most)} of the model: {share:.1e} of its signature survives the calibration"
-    )
+    return f"absorbed by {', '.join(most)}: the calibration leaves {100.0 * share:.2g} % of its signature"
 
 
 @dataclass(frozen=True)

@@ -196,7 +196,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     head = (
         f"The saved calibration {holds} here: it leaves {eotvos(frozen)} Eo, parameters fitted to this record"
         f" {eotvos(free)} Eo; the noise floor is {eotvos(c['noise_floor'])} Eo.",
-        f"It was made {h['made']} on {flights_text(list(h['flights']))}. Test of the step to the free fit: chi-square"
+        f"It was made {h['made']} on {flights_text(list(h['flights']))}. Test against parameters fitted to this record: chi-square"
         f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions (p {_equals(h['log10_p'])}).",
     )
     rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))
@@ -421,7 +421,7 @@ def _own_effect(u: Json) -> Sections:
     if not u["expression"]:
         return ()
     needs = (f"The flight then needs further columns: {listed(list(u['needs']))}.",) if u.get("needs") else ()
-    text = "To keep the strongest term as an effect of your own, put this line into effects of model.toml and add it:"
+    text = "To make the strongest term an effect of your own, put this line into `effects` in model.toml, then add it:"
     return (Section(title="As an effect of your own", sentences=(text, *needs), code=(u["expression"],)),)
 
 

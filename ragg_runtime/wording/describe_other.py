@@ -221,11 +221,11 @@ def _channels_table(x: Json) -> Table:
 def describe_online(r: Json, output: str) -> Sections:
     """The result of ``compensate --calibration online``, written to a file."""
     within, forget = r["follows_within_s"], r["forget_s"]
-    follows = "" if within is None else f" and is followed within {number(within)} s"
+    follows = "" if within is None else f" (time constant {number(within)} s)"
     return plain_section(
-        f"{output}: sample by sample from the {r['started']}; noise {number(r['noise_Eo_per_rtHz'])} Eo/√Hz.",
-        f"The gradient wanders by {number(r['walk_Eo_per_rts'])} Eo/√s{follows}; the parameters"
-        f" {'forget nothing' if forget is None else f'forget within {number(forget)} s'}.",
+        f"{output}: sample by sample, starting from the {r['started']}; noise {number(r['noise_Eo_per_rtHz'])} Eo/√Hz.",
+        f"The gradient is modelled as a random walk of {number(r['walk_Eo_per_rts'])} Eo/√s{follows}; the parameters"
+        f" {'never forget' if forget is None else f'forget within {number(forget)} s'}.",
         *(f"{x['flight']!s}: {x['samples']} samples" for x in r["flights"]),
     )
 
@@ -351,7 +351,7 @@ def describe_next_motion(r: Json, output: str) -> Sections:
         )
     if not r["separations"]:
         return plain_section(
-            head, "No effects are left to separate: a multisine about all axes, which excites every effect."
+            head, "No effects remain to be separated: a multisine about all axes, which excites every effect."
         )
     said = [
         f"if it is {x['effect']!s}: {x['rival']!s} is ruled out ({number(x['now'], 2)} → {promised(x['then'], x['spread'])} σ)"

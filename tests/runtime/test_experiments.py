@@ -11,49 +11,48 @@ from click.testing import CliRunner
 
 from ragg_runtime.experiments import paper
 from ragg_runtime.experiments.__main__ import main
-from ragg_runtime.experiments.dynamic import dynamic, measure_analytical, regular_run
-from ragg_runtime.experiments.models import (
+from ragg_runtime.experiments.dynamic import (
     ANGLES_DROPPED,
+    dynamic,
+    find_angles,
+    measure_analytical,
+    run_regular,
+)
+from ragg_runtime.experiments.multifrequency import find_centre, multifrequency, run_mass, subtract_centre
+from ragg_runtime.experiments.page import Entry, Experiment, judge, write_page
+from ragg_runtime.experiments.paper import Printed
+from ragg_runtime.experiments.runs import (
     Channels,
-    channels,
-    error,
-    over_turns,
-    response,
-    smallest_angles,
+    average_turns,
+    demodulate_run,
+    find_error,
+    respond,
     with_angles,
 )
-from ragg_runtime.experiments.multifrequency import centre, mass_run, multifrequency, subtract_centre
-from ragg_runtime.experiments.paper import Printed
-from ragg_runtime.experiments.result import Result, Row, judge, page
-from ragg_runtime.experiments.turbulence import (
-    statistics,
-    turbulence,
-    turbulent_motion,
-    turbulent_run,
-)
+from ragg_runtime.experiments.turbulence import draw_motion, measure_moments, run_turbulent, turbulence
 from ragg_runtime.reference.gravity import G
 from ragg_runtime.reference.instruments import table_v
 
 
 @pytest.fixture(scope="module")
-def third_b() -> Result:
+def third_b() -> Experiment:
     return dynamic()
 
 
 @pytest.fixture(scope="module")
-def third_c() -> Result:
+def third_c() -> Experiment:
     return turbulence()
 
 
 @pytest.fixture(scope="module")
 def beside_the_mass() -> tuple[Channels, dict[str, Channels]]:
     """The centre gradients, and what the models differ from them."""
-    run = mass_run()
+    run = run_mass()
     found = dict(subtract_centre(run))
-    return centre(run, found["numerical"]), found
+    return find_centre(run, found["numerical"]), found
 
 
-def _row(rows: tuple[Row, ...], quantity: str) -> Row:
+def _row(rows: tuple[Entry, ...], quantity: str) -> Entry:
     (found,) = (r for r in rows if r.quantity == quantity)
     return found
 
@@ -124,21 +123,21 @@ def test_derived_models_measure_the_centre(beside_the_mass: tuple[Channels, dict
 # --- III.B ---
 
 
-def test_section_three_b_before_demodulation_agrees(third_b: Result) -> None:
+def test_section_three_b_before_demodulation_agrees(third_b: Experiment) -> None:
     assert {r.verdict for r in third_b.rows[:6]} == {"agrees"}
     assert _row(third_b.rows, "k_ggi").ours == pytest.approx(4.54187e-4, rel=1e-5)
 
 
 def test_the_filter_and_the_mean_over_turns_agree() -> None:
-    run = regular_run(turns=64)
+    run = run_regular(turns=64)
     for model in ("analytical", "simplified"):
-        c = channels(error(model, run), run)
-        inline, cross = over_turns(error(model, run), run)
+        c = demodulate_run(find_error(model, run), run)
+        inline, cross = average_turns(find_error(model, run), run)
         assert np.abs(c.inline - inline).max() < 1e-3
         assert np.abs(c.cross - cross).max() < 1e-3
 
 
-def test_all_four_model_errors_have_the_printed_signs(third_b: Result) -> None:
+def test_all_four_model_errors_have_the_printed_signs(third_b: Experiment) -> None:
     rows = [
         r
         for r in third_b.rows
@@ -149,16 +148,16 @@ def test_all_four_model_errors_have_the_printed_signs(third_b: Result) -> None:
 
 
 def test_analytical_error_is_second_order_coefficients_times_angles() -> None:
-    run = regular_run(effects=ANGLES_DROPPED)
-    assert np.abs(error("analytical", run)).max() < 1e-8
+    run = run_regular(effects=ANGLES_DROPPED)
+    assert np.abs(find_error("analytical", run)).max() < 1e-8
     assert np.abs(run.G_out).max() > 1e5
     zero = dict.fromkeys(("K2", "K4", "K5", "K6", "K7", "K8"), 0.0)
-    assert np.abs(error("analytical", regular_run(table_v().replace(**zero)))).max() < 1e-8
+    assert np.abs(find_error("analytical", run_regular(table_v().replace(**zero)))).max() < 1e-8
 
 
 def test_the_missing_angle_can_give_the_printed_error() -> None:
     printed = np.array([-0.72, 0.56])
-    angles = smallest_angles(*response(measure_analytical), printed)
+    angles = find_angles(*respond(measure_analytical), printed)
     np.testing.assert_allclose(measure_analytical(with_angles(angles)), printed, rtol=0, atol=2e-3)
     assert np.abs(angles).max() < 40
 
@@ -170,7 +169,7 @@ def test_turbulence_has_the_moments_of_table_vii() -> None:
     experiment_number = 3
     a_mean, a_std, omega_mean, omega_std = paper.TABLE_VII[experiment_number - 1]
     time = np.arange(20000) / 20
-    state = turbulent_motion(np.random.default_rng(3), experiment_number, 1000, 20).at(time)
+    state = draw_motion(np.random.default_rng(3), experiment_number, 1000, 20).at(time)
     milli_g = 9.8e-3
     np.testing.assert_allclose(state.a[2].mean(), a_mean * milli_g, rtol=0.005)
     np.testing.assert_allclose(state.a[2].std(), a_std * milli_g, rtol=0.02)
@@ -182,7 +181,7 @@ def test_turbulence_has_the_moments_of_table_vii() -> None:
 
 
 def test_analytical_error_is_quadratic_in_the_acceleration() -> None:
-    one, two, three = (statistics(turbulent_run(e, 0)) for e in (1, 2, 3))
+    one, two, three = (measure_moments(run_turbulent(e, 0)) for e in (1, 2, 3))
     assert three["M_in"] / one["M_in"] == pytest.approx(4, rel=0.05)
     assert three["sigma_in"] / one["sigma_in"] == pytest.approx(2, rel=0.05)
     # Angular motion does not enter it.
@@ -193,18 +192,18 @@ def test_analytical_error_is_quadratic_in_the_acceleration() -> None:
     "entry", ["sigma, inline, simplified", "sigma, cross, simplified", "noise density, simplified"]
 )
 @pytest.mark.parametrize("number", [2, 3])
-def test_simplified_sigmas_of_table_viii(third_c: Result, entry: str, number: int) -> None:
+def test_simplified_sigmas_of_table_viii(third_c: Experiment, entry: str, number: int) -> None:
     row = _row(third_c.rows, f"exp. {number}: {entry}")
     assert row.verdict == "agrees"
     assert row.ours == pytest.approx(row.printed.value, rel=0.05)
 
 
-def test_what_the_printed_equations_cannot_give_is_called_unexplained(third_c: Result) -> None:
+def test_what_the_printed_equations_cannot_give_is_called_unexplained(third_c: Experiment) -> None:
     for entry in ("M, inline", "M, cross", "sigma, inline", "sigma, cross"):
         assert _row(third_c.rows, f"exp. 1: {entry}, simplified").verdict == "unexplained"
 
 
-def test_a_sigma_that_stays_needs_noise_beside_the_missing_angle(third_c: Result) -> None:
+def test_a_sigma_that_stays_needs_noise_beside_the_missing_angle(third_c: Experiment) -> None:
     row = _row(third_c.rows, "sigma, inline, analytical: exp. 3 over exp. 1")
     assert row.ours == pytest.approx(2.0, abs=0.02)
     assert row.verdict == "open input"
@@ -213,8 +212,10 @@ def test_a_sigma_that_stays_needs_noise_beside_the_missing_angle(third_c: Result
 # --- what a reader gets ---
 
 
-def test_the_page_counts_the_verdicts_of_all_printed_numbers(third_b: Result, third_c: Result) -> None:
-    text = page([multifrequency(), third_b, third_c])
+def test_the_page_counts_the_verdicts_of_all_printed_numbers(
+    third_b: Experiment, third_c: Experiment
+) -> None:
+    text = write_page([multifrequency(), third_b, third_c])
     assert "Of 42 printed numbers, **15 agree**, **20 hang on an input" in " ".join(text.split())
     for row in third_c.rows:
         assert f"| {row.quantity} | {row.printed.text} |" in text

@@ -34,12 +34,13 @@ export function effectsPane(box) {
       inside.length ? h("p.inside", {}, "In the model: ", inside.map((e) => h("span.chip", { title: e.title }, e.id, h("button", { type: "button", "aria-label": `Take ${e.id} out of the model`, title: "Take it out of the model", onclick: () => doing("remove", { effect: e.id }) }, "×")))) : null,
       !effects.length && state && state.banner ? state.status.job ? h("p.note", {}, "Testing every effect of the catalogue …") : h("button", { type: "button", onclick: () => doing("look") }, "Test every effect") : null,
     );
-    const open = (e) => e.found || view.ticked.includes(e.id) || (e.significant && state.banner.verdict !== "adequate");
+    // what is hardly probable is folded, all of it once the model is adequate
+    const open = (e) => e.found || view.ticked.includes(e.id) || (e.significant && (e.probability ?? 1) >= 0.01 && state.banner.verdict !== "adequate");
     const hidden = effects.filter((e) => !open(e));
     fill(list, effects.filter(open).map(row));
     fill(more, hidden.map(row));
     others.hidden = !hidden.length;
-    others.firstChild.textContent = hidden.length === effects.length ? `No further effect needed; ${hidden.length} tested` : `${hidden.length} others, not significant`;
+    others.firstChild.textContent = hidden.length === effects.length ? `No further effect needed; ${hidden.length} tested` : `${hidden.length} others, less probable`;
     const untestable = state ? state.untestable : [];
     fill(rest, untestable.length ? h("details", {}, h("summary", {}, `${untestable.length} effects are not testable on this record`), h("ul.silent", {}, untestable.map((e) => h("li", {}, h("b", {}, e.title || e.id), " ", h("code", {}, e.id), h("p", {}, e.why))))) : null,
       state && state.next_motion.length ? h("details", { open: true }, h("summary", {}, "Next motion"), h("ul.silent", {}, state.next_motion.map((m) => h("li", {}, m)))) : null);

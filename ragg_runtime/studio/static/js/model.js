@@ -17,7 +17,7 @@ export function parametersView(main) {
     fill(
       main,
       p.map((s) => h("section.card", {}, h("h2", {}, s.title), s.title.startsWith("Correlations") ? pictureNode("correlations", { flight: view.flight }) : null, sectionNode({ ...s, title: "", detail: false }))),
-      h("section.card", {}, h("h2", {}, "Next motion"), state.next_motion.length ? h("ul", {}, state.next_motion.map((m) => h("li", {}, m))) : h("p.note", {}, "No effects are left that another motion would separate.")),
+      h("section.card", {}, h("h2", {}, "Next motion"), state.next_motion.length ? h("ul", {}, state.next_motion.map((m) => h("li", {}, m))) : h("p.note", {}, "No other motion is needed to separate effects.")),
     );
   };
   known();

@@ -5,45 +5,34 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Literal
 
 from ragg_runtime.experiments.paper import Printed
 
-Verdict = Literal["agrees", "open input", "unexplained"]
-"""``open input``: the number hangs on something that the paper does not state, and the printed one is within
-its reach. ``unexplained``: neither."""
-
 Cell = str | float
-Json = dict[str, object]
+Range = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class Row:
-    """One printed number beside ours, in the printed unit (the mean of several runs, ``spread`` their least and
-    greatest).
+class Entry:
+    """One printed number beside ours, in the printed unit (the mean of several runs, ``spread`` their least and greatest).
 
-    ``reason`` is empty only where the numbers agree.
+    ``verdict``: ``agrees``; ``open input``: the number hangs on something that the paper does not state, and the printed one is
+    within its reach; ``unexplained``: neither. ``reason`` is empty only where the numbers agree.
     """
 
     quantity: str
     printed: Printed
     ours: float
-    spread: tuple[float, float] | None
-    verdict: Verdict
+    spread: Range | None
+    verdict: str
     reason: str
 
-    def as_json(self) -> Json:
-        p = self.printed
+    def as_json(self) -> dict[str, object]:
+        p, own = self.printed, asdict(self)
         paper = {"where": p.where, "unit": p.unit, "paper": p.value, "paper_gives_order_only": p.order}
-        own = {k: v for k, v in asdict(self).items() if k not in ("quantity", "printed")}
-        return {"quantity": self.quantity, **paper, **own}
-
-    def cells(self) -> tuple[Cell, ...]:
-        """The row under :data:`COLUMNS`."""
-        p = self.printed
-        spread = "" if self.spread is None else " ... ".join(map(format_number, self.spread))
-        paper = ("order of " if p.order else "") + p.text
-        return self.quantity, paper, self.ours, spread, p.unit, self.verdict
+        return (
+            {"quantity": self.quantity} | paper | {k: own[k] for k in ("ours", "spread", "verdict", "reason")}
+        )
 
 
 def judge(
@@ -51,29 +40,25 @@ def judge(
     printed: Printed,
     ours: float,
     *,
-    spread: tuple[float, float] | None = None,
-    reach: tuple[float, float] | None = None,
+    spread: Range | None = None,
+    reach: Range | None = None,
     open_input: str = "",
     unexplained: str = "",
-) -> Row:
+) -> Entry:
     """Compare, by the same rule for every number.
 
     ``spread``: least and greatest of several runs, a printed number between them agrees. ``reach``: the same over an
     input that the paper leaves open. ``open_input``, ``unexplained``: the reason to give in either case.
     """
-    verdict: Verdict
-    inside = spread is not None and spread[0] <= printed.value <= spread[1]
+    inside, within = (r is not None and r[0] <= printed.value <= r[1] for r in (spread, reach))
     if inside or printed.matches(ours):
-        verdict, reason = "agrees", ""
-    elif reach is not None and reach[0] <= printed.value <= reach[1]:
-        verdict, reason = "open input", open_input
-    else:
-        verdict, reason = "unexplained", unexplained
-    return Row(quantity=quantity, printed=printed, ours=ours, spread=spread, verdict=verdict, reason=reason)
+        return Entry(quantity, printed, ours, spread, "agrees", "")
+    verdict, reason = ("open input", open_input) if within else ("unexplained", unexplained)
+    return Entry(quantity, printed, ours, spread, verdict, reason)
 
 
 @dataclass(frozen=True)
-class Table:
+class Variation:
     """Runs with something changed, which show what a number hangs on; ``finding`` says what they show."""
 
     title: str
@@ -83,37 +68,31 @@ class Table:
 
 
 @dataclass(frozen=True)
-class Result:
+class Experiment:
     """An experiment: its title, settings, the printed numbers beside ours, and what they hang on."""
 
     title: str
     settings: Mapping[str, str]
-    rows: tuple[Row, ...]
-    tables: tuple[Table, ...]
+    rows: tuple[Entry, ...]
+    checks: tuple[Variation, ...]
 
-    def as_json(self) -> Json:
-        return {
-            "title": self.title,
-            "settings": dict(self.settings),
-            "rows": [r.as_json() for r in self.rows],
-            "checks": [asdict(t) for t in self.tables],
-        }
+    def as_json(self) -> dict[str, object]:
+        own = {"title": self.title, "settings": dict(self.settings)}
+        return own | {"rows": [r.as_json() for r in self.rows], "checks": [asdict(t) for t in self.checks]}
 
 
-COLUMNS = ("quantity", "paper", "ours", "runs from ... to", "unit", "verdict")
-
-
-def format_number(value: float) -> str:
+def _format(value: Cell) -> str:
     """Three significant digits; the same text on any machine but for the last of them."""
+    if isinstance(value, str):
+        return value
     if value == 0:
         return "0"
     return f"{value:.3g}" if 1e-3 <= abs(value) < 1e4 else f"{value:.2e}"
 
 
-def write_markdown(columns: Sequence[str], rows: Sequence[Sequence[Cell]]) -> str:
-    """A Markdown table."""
-    texts = ([c if isinstance(c, str) else format_number(c) for c in r] for r in rows)
-    return "\n".join("| " + " | ".join(line) + " |" for line in (columns, ["---"] * len(columns), *texts))
+def _write_table(columns: Sequence[str], rows: Sequence[Sequence[Cell]]) -> str:
+    lines = (columns, ["---"] * len(columns), *(map(_format, r) for r in rows))
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
 _HEAD = """# The paper's experiments, repeated
@@ -141,21 +120,25 @@ sampling of the turbulence, on which the simplified model's sigmas in experiment
 """
 
 
-def page(results: Sequence[Result]) -> str:
+def write_page(experiments: Sequence[Experiment]) -> str:
     """The page of some experiments."""
-    verdicts = Counter(row.verdict for r in results for row in r.rows)
+    verdicts = Counter(row.verdict for e in experiments for row in e.rows)
     counts = {k.split()[0]: verdicts[k] for k in ("agrees", "open input", "unexplained")}
-    return "\n".join([_HEAD.format(rows=sum(verdicts.values()), **counts), *map(_section, results)])
+    return "\n".join([_HEAD.format(rows=sum(verdicts.values()), **counts), *map(_write_section, experiments)])
 
 
-def _section(r: Result) -> str:
-    parts = [f"## {r.title}", "\n".join(f"- {name}: {value}" for name, value in r.settings.items())]
-    parts.append(write_markdown(COLUMNS, [row.cells() for row in r.rows]))
-    reasons: dict[str, list[str]] = {}  # each once, with the quantities that it is for
-    for row in r.rows:
-        if row.reason:
-            reasons.setdefault(f"({row.verdict}) {row.reason}", []).append(row.quantity)
+def _write_section(e: Experiment) -> str:
+    rows, reasons = [], dict[str, list[str]]()  # each reason once, with the quantities that it is for
+    for r in e.rows:
+        spread = "" if r.spread is None else " ... ".join(map(_format, r.spread))
+        paper = ("order of " if r.printed.order else "") + r.printed.text
+        rows.append((r.quantity, paper, r.ours, spread, r.printed.unit, r.verdict))
+        if r.reason:
+            reasons.setdefault(f"({r.verdict}) {r.reason}", []).append(r.quantity)
+    heads = ("quantity", "paper", "ours", "runs from ... to", "unit", "verdict")
+    parts = [f"## {e.title}", "\n".join(f"- {name}: {value}" for name, value in e.settings.items())]
+    parts += [_write_table(heads, rows)]
     parts += [f"- {'; '.join(quantities)}: {reason}" for reason, quantities in reasons.items()]
-    for t in r.tables:
-        parts += [f"### {t.title}", write_markdown(t.columns, t.rows), t.finding]
+    for t in e.checks:
+        parts += [f"### {t.title}", _write_table(t.columns, t.rows), t.finding]
     return "\n\n".join(parts) + "\n"

@@ -20,32 +20,13 @@ from ragg_runtime.signals.demodulate import demodulate
 
 Array = NDArray[np.float64]
 
-ANGLES_DROPPED = {"second-order-misalignment": {"kappa": 0.0}}
-"""The numerical model with the second-order terms of Eq. 5, without angles, in place of those of Eq. 52."""
-
 DERIVED: dict[str, Any] = {"analytical": analytical, "simplified": simplified}
 """Eq. 17-19 and Eq. 42-47, as derived."""
-
-CHANNELS = ("inline", "cross")
 
 LARGEST = 30.0
 """arcsec: the largest misalignment angle of Table V."""
 
 DRAWS = 1000
-
-
-def output(name: str, run: Simulation) -> Array:
-    """G_out, (N,) V, of the ``analytical`` or ``simplified`` model, given the motion and gradients of a run."""
-    model, known = DERIVED[name], run.instrument
-    values = {"radius": [known.radius], "spin_frequency": [known.spin_frequency], **known.accelerometers}
-    p = np.concatenate([values[q] for q, _ in model.PARAMETERS])
-    inputs = np.stack([run.channels[channel] for channel in model.INPUTS])
-    return np.asarray(model.output(run.time, inputs, p))
-
-
-def error(name: str, run: Simulation) -> Array:
-    """Model error, (N,) V: output of the numerical model *minus* that of a derived one, which gives the paper's signs."""
-    return np.asarray(run.G_out - output(name, run))
 
 
 @dataclass(frozen=True)
@@ -57,7 +38,20 @@ class Channels:
     cross: Array
 
 
-def channels(G: Array, run: Simulation, attenuation: float = 100.0) -> Channels:
+def predict(name: str, run: Simulation) -> Array:
+    """G_out, (N,) V, of the ``analytical`` or ``simplified`` model, given the motion and gradients of a run."""
+    model, known = DERIVED[name], run.instrument
+    values = {"radius": [known.radius], "spin_frequency": [known.spin_frequency], **known.accelerometers}
+    p = np.concatenate([values[q] for q, _ in model.PARAMETERS])
+    return np.asarray(model.output(run.time, np.stack([run.channels[x] for x in model.INPUTS]), p))
+
+
+def find_error(name: str, run: Simulation) -> Array:
+    """Model error, (N,) V: output of the numerical model *minus* that of a derived one, which gives the paper's signs."""
+    return np.asarray(run.G_out - predict(name, run))
+
+
+def demodulate_run(G: Array, run: Simulation, attenuation: float = 100.0) -> Channels:
     """Inline and cross channel, Eo, of an output or an error (N,) V; ``attenuation`` of the filter, dB."""
     rate = float(1 / (run.time[1] - run.time[0]))
     phi = disc_angle(run.instrument.spin_frequency, run.time)
@@ -65,7 +59,7 @@ def channels(G: Array, run: Simulation, attenuation: float = 100.0) -> Channels:
     return Channels(run.time[d.valid], d.inline / EOTVOS, d.cross / EOTVOS)
 
 
-def over_turns(G: Array, run: Simulation) -> tuple[float, float]:
+def average_turns(G: Array, run: Simulation) -> tuple[float, float]:
     """Inline and cross channel, Eo, by ideal demodulation: the mean over the whole turns of a record."""
     turn = round(1 / (run.instrument.spin_frequency * (run.time[1] - run.time[0])))
     whole = slice(0, run.time.size // turn * turn)
@@ -74,9 +68,9 @@ def over_turns(G: Array, run: Simulation) -> tuple[float, float]:
     return float(np.mean(4 * g * np.sin(2 * phi))), float(-np.mean(2 * g * np.cos(2 * phi)))
 
 
-def largest(x: Array) -> float:
+def largest(*x: Array) -> float:
     """The largest magnitude."""
-    return float(np.abs(x).max())
+    return float(max(np.abs(v).max() for v in x))
 
 
 def bounds(x: Array) -> tuple[float, float]:
@@ -89,20 +83,15 @@ def with_angles(arcsec: Array) -> Instrument:
     return table_v().replace(vartheta_x=np.asarray(arcsec) * ARCSEC)
 
 
-def response(measure: Callable[[Instrument], Array]) -> tuple[Array, Array]:
+def respond(measure: Callable[[Instrument], Array]) -> tuple[Array, Array]:
     """A measured array without vartheta_x, shape (...), and its change per arcsec of each, (4, ...)."""
     base = measure(with_angles(np.zeros(4)))
     slopes = np.stack([(measure(with_angles(one)) - base) / LARGEST for one in LARGEST * np.eye(4)])
     return base, slopes
 
 
-def draws() -> Array:
+def draw_angles() -> Array:
     """Four vartheta_x, uniform within +-``LARGEST``, (DRAWS, 4) arcsec; the corners of that cube first."""
     corners = LARGEST * np.array(list(product((1.0, -1.0), repeat=4)))
     inside = np.random.default_rng(0).uniform(-LARGEST, LARGEST, (DRAWS - len(corners), 4))
     return np.concatenate([corners, inside])
-
-
-def smallest_angles(base: Array, slopes: Array, target: Array) -> Array:
-    """The four vartheta_x of least square, (4,) arcsec, with which a measure (2,) becomes ``target``."""
-    return np.asarray(np.linalg.lstsq(slopes.T, target - base, rcond=None)[0])
