@@ -6,6 +6,10 @@ import os
 import signal
 
 
+def begin() -> None:
+    """Stands in for what a worker does first."""
+
+
 def deadly(given: object, file: str) -> dict[str, str]:
     """Stands in for a flight that takes its worker down each time."""
     if "flight-1" in file:

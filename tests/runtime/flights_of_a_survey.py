@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import json
 import shutil
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 from ragg_runtime import api
 from ragg_runtime.io import write_flight
 from ragg_runtime.simulate import simulated
+from ragg_runtime.survey.examine import Job, Record, examine
 
 HIDDEN = "thermal-scale:dK1_dT=0/0/6e-7/0"
-COUNT = 5
+COUNT = 4
 WITH_EFFECT = ("flight-0.parquet", "flight-3.parquet")
 
 
 def make(folder: Path) -> tuple[Path, list[Path]]:
-    """Five flights of 150 s at 8 Hz, an effect hidden in two of them, and a damaged file between them."""
+    """Four flights of 150 s at 8 Hz, an effect hidden in two of them, and a damaged file between them."""
     m = api.new(folder / "model")
     paths = []
     for k in range(COUNT):
@@ -34,6 +36,11 @@ def make(folder: Path) -> tuple[Path, list[Path]]:
 def without_effect(paths: list[Path]) -> list[Path]:
     """Those that are diagnosed soonest: no effect to derive, the damaged file among them."""
     return [p for p in paths if p.name not in WITH_EFFECT]
+
+
+def in_process(job: Job, files: Sequence[str], jobs: int) -> Iterator[tuple[str, Record]]:
+    """Stands in for a pool, whose processes would import everything anew: for what is not about the pool."""
+    return ((f, examine(job, f)) for f in files)
 
 
 def lines_of(path: Path) -> list[Any]:

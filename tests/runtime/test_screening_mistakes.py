@@ -46,12 +46,17 @@ def changed(x: Flight, change: Callable[[str, np.ndarray], np.ndarray]) -> Fligh
 
 HIDDEN: dict[str, dict[str, Any]] = {
     "gain-step": {"dK1": [0, 2e-6, 0, 0], "t_step": 150.0},
-    "imu-lever-arm": {"l_x": 3e-2, "l_y": -2e-2},
     "imu-misalignment": {"e_x": 3e-3, "e_y": -3e-3, "e_z": 3e-3},
     "time-offset": {"delta_t": 1e-2},
     "spin-phase-offset": {"phi_0": 1e-2},
     "quantisation": {"q": 5e-3},
 }
+
+
+@pytest.fixture
+def no_timing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without the mistakes of time, whose search takes most of it: for what is about others."""
+    monkeypatch.setattr(timing, "hypotheses", lambda *_: [])
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -68,6 +73,7 @@ def test_a_hidden_effect_is_no_mistake(effect: str) -> None:
     assert found.flags == () and found.valid.all()
 
 
+@pytest.mark.usefixtures("no_timing")
 @pytest.mark.parametrize("trim", ["matched", "table-v"])
 def test_the_mistake_is_named_on_any_instrument(trim: str) -> None:
     x = flown(9, trim=trim, record_gradient=False)
@@ -82,6 +88,7 @@ def test_the_mistake_is_named_on_any_instrument(trim: str) -> None:
         assert words in str(caught.value)
 
 
+@pytest.mark.usefixtures("no_timing")
 @pytest.mark.parametrize("trim", ["matched", "table-v"])
 def test_a_scale_factor_off_its_sheet_is_no_wrong_unit(trim: str) -> None:
     """1 to 5 % off sheets that are sure to 1e-4, alike or each by itself; and the sheet of another instrument."""
@@ -96,13 +103,15 @@ def test_a_scale_factor_off_its_sheet_is_no_wrong_unit(trim: str) -> None:
     assert "K1 of A4" in screen(MODEL, other, x).flags[0].reason
 
 
+@pytest.mark.usefixtures("no_timing")
 def test_a_null_bias_far_off_its_sheet_is_no_wrong_unit() -> None:
     """Smaller outputs would stay closer to the sheet, but not explain the record."""
     sheet = drawn(9).sheet
     K0 = sheet.accelerometers["K0"].copy()
     K0[3] += 0.02
-    assert screen(MODEL, sheet.replace(K0=K0), flown(9)).valid.all()
-    assert not any("mV" in f.reason for f in screen(MODEL, sheet.replace(K0=K0), flown(9)).flags)
+    found = screen(MODEL, sheet.replace(K0=K0), flown(9))
+    assert found.valid.all()
+    assert not any("mV" in f.reason for f in found.flags)
 
 
 def test_nothing_is_named_where_nothing_follows_the_motion() -> None:
@@ -176,6 +185,7 @@ def test_a_clock_that_was_set_is_said_with_its_time(size: float) -> None:
     np.testing.assert_allclose(found.time, x.time, atol=1e-9)
 
 
+@pytest.mark.usefixtures("no_timing")
 def test_columns_that_contradict_each_other_are_remarked() -> None:
     x = flown(12)
     c = x.channels
@@ -206,10 +216,9 @@ def demodulated(s: Scenario, x: Flight, low_pass: Any = None) -> Flight:
 
 
 @pytest.fixture
-def channels_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of all mistakes those of channels alone, and none of time: each is tried on 3,000 rows."""
+def channels_alone(monkeypatch: pytest.MonkeyPatch, no_timing: None) -> None:
+    """Of all mistakes those of channels alone: each is tried on 3,000 rows."""
     monkeypatch.setattr(mistakes, "mistakes", lambda rows, *_, **__: mistakes._demodulated(rows))
-    monkeypatch.setattr(timing, "hypotheses", lambda *_: [])
 
 
 @pytest.mark.usefixtures("channels_alone")

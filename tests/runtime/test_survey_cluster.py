@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from flights_of_a_survey import lines_of, make, without_effect
+from flights_of_a_survey import in_process, lines_of, make, without_effect
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
@@ -31,13 +31,15 @@ HERE = "127.0.0.1"
 @pytest.fixture(scope="module")
 def flights(tmp_path_factory: pytest.TempPathFactory) -> Flights:
     model, files = make(tmp_path_factory.mktemp("survey"))
-    return model, [files[0], *without_effect(files)]
+    return model, without_effect(files)
 
 
 @pytest.fixture(scope="module")
 def whole(flights: Flights) -> Survey:
-    """What the local pool says."""
-    return api.survey(api.load(flights[0]), flights[1], jobs=1)
+    """What this process says."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(run, "examine_here", in_process)
+        return api.survey(api.load(flights[0]), flights[1])
 
 
 def summary(s: Survey) -> str:
@@ -107,7 +109,7 @@ def running(folder: Path, workers: int) -> Iterator[Cluster]:
 
 
 def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
-    flights: Flights, whole: Survey, tmp_path: Path
+    flights: Flights, whole: Survey, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """And once the scheduler is lost that is one message, and what is done is kept."""
     killed: list[int] = []
@@ -133,13 +135,14 @@ def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
         assert "does not see the flight file" in lost["error"]["message"]
 
         def kill_scheduler(done: int, total: int, record: Record | None) -> None:
-            if done == 2:
+            if done == 1:
                 c.scheduler.kill()
 
         with pytest.raises(UserError, match="connection to the scheduler is lost"):
             api.survey(m, flights[1], scheduler=c.address, resume=kept, progress=kill_scheduler)
-    assert 3 <= len(lines_of(kept)) < len(flights[1]) + 1
-    again = api.survey(m, flights[1], jobs=1, resume=kept)  # continued on this machine
+    assert 2 <= len(lines_of(kept)) < len(flights[1]) + 1
+    monkeypatch.setattr(run, "examine_here", in_process)
+    again = api.survey(m, flights[1], resume=kept)  # continued on this machine
     assert summary(again) == summary(whole)
 
 
