@@ -42,7 +42,7 @@ ENVIRONMENT = os.environ | {
 def prepared(base: Path) -> Path:
     """A folder with a model and a short flight."""
     m = api.new(base / "model")
-    write_flight(simulated(m.instrument, [], seed=1, duration=90.0, rate=16.0), base / "flight.parquet")
+    write_flight(simulated(m.instrument, [], seed=1, duration=60.0, rate=8.0), base / "flight.parquet")
     return base
 
 

@@ -34,10 +34,10 @@ RUNS = (
 )
 NAMES = ("a-b", "a_b", "int", "lambda")
 EFFECTS = """[
- { id = "a-b", stage = "transducer", add = "lambda*f_i**2*is", lambda = { value = 1.0, unit = "ug/g^2" } },
+ { id = "a-b", stage = "transducer", add = "lambda*f_i**2*is", lambda = { value = 1e-4, unit = "ug/g^2" } },
  { id = "a_b", stage = "transducer", add = "for*f_i**3 + K__x_*f_o", \
-for = { value = 2.0, unit = "ug/g^3" }, K__x_ = { value = 3.0, unit = "ug/g" } },
- { id = "Int", stage = "transducer", add = "double*f_i*C__is", double = { value = 4.0, unit = "ug/g" } },
+for = { value = 2e-4, unit = "ug/g^3" }, K__x_ = { value = 3e-4, unit = "ug/g" } },
+ { id = "Int", stage = "transducer", add = "double*f_i*C__is", double = { value = 4e-4, unit = "ug/g" } },
 ]"""
 
 

@@ -14,6 +14,7 @@ from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.model import derive
 from ragg_runtime.signals.combinations import basis, telling
 from ragg_runtime.simulate import simulated
+from tests.rate import RATE
 
 SIGNS = np.array([1.0, 1.0, -1.0, -1.0])
 
@@ -46,7 +47,9 @@ def test_only_noise_that_is_shared_is_taken_apart() -> None:
 
 def test_an_effect_is_found_beside_a_shake_that_all_accelerometers_share() -> None:
     i = example()
-    x = simulated(i, ["cubic-input:K_iii=0/3/0/0"], seed=4, duration=400.0, voltages=True, no_gradient=False)
+    x = simulated(
+        i, ["cubic-input:K_iii=0/3/0/0"], seed=4, duration=150.0, rate=RATE, voltages=True, no_gradient=False
+    )
     G = sum(s * x.outputs[f"V_{j}"] for j, s in enumerate(SIGNS, 1))
     shake = 30.0 * np.std(np.diff(G)) * np.random.default_rng(5).standard_normal(len(G))
     volts = {f"V_{j}": x.outputs[f"V_{j}"] + shake for j in range(1, 5)}  # cancels in G_out

@@ -24,11 +24,12 @@ from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
 G0 = 9.8
+DURATION = 300.0
 ERROR = {"rms_V", "rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz"}
 
 
 def flown(seed: int, effects: dict[str, Any] | None = None, **options: Any) -> tuple[Scenario, Flight]:
-    s = scenario(seed, duration=600.0, rate=RATE, **options)
+    s = scenario(seed, duration=DURATION, rate=RATE, **options)
     return s, s.simulate(effects or {}).flight()
 
 
@@ -60,7 +61,7 @@ HIDDEN: dict[str, dict[str, Any]] = {
     "thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]},
     "imu-lever-arm": {"l_x": 3e-3, "l_y": -2e-3},
     "bias-drift": {"dK0_dt": [2e-9 * G0, 0, 0, 0]},
-    "gain-step": {"dK1": [0, 2e-7, 0, 0], "t_step": 350.0},
+    "gain-step": {"dK1": [0, 2e-7, 0, 0], "t_step": 175.0},
 }
 
 
@@ -78,7 +79,7 @@ def test_a_hidden_effect_is_found_and_the_error_falls_to_the_noise(effect: str) 
         instants = [
             p.value for r in d.ranking if r.effect == effect for p in r.parameters if p.name == "t_step"
         ]
-        assert instants == [pytest.approx(350.0, abs=0.1)]
+        assert instants == [pytest.approx(175.0, abs=0.1)]
 
 
 def test_two_effects_are_both_found() -> None:
@@ -90,7 +91,7 @@ def test_two_effects_are_both_found() -> None:
 
 
 def test_what_no_effect_explains_is_called_unexplained_and_named() -> None:
-    s = scenario(44, duration=600.0, rate=RATE)
+    s = scenario(44, duration=DURATION, rate=RATE)
     run = s.simulate({})
     k1 = s.instrument.accelerometers["K1"][0] * s.instrument.accelerometers["k_VI"][0]
     strange = k1 * 3e-7 * run.channels["omega_z"]  # a sensitivity to rate, in A1
@@ -104,7 +105,7 @@ def test_what_no_effect_explains_is_called_unexplained_and_named() -> None:
 
 
 def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
-    s = scenario(45, duration=600.0, rate=RATE, gradient_rms=20e-9)
+    s = scenario(45, duration=DURATION, rate=RATE, gradient_rms=20e-9)
     clean = s.simulate({}, record_gradient=False).flight()
     d = diagnosed(s, clean)
     assert d.verdict == "adequate"
@@ -117,7 +118,7 @@ def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
 
 
 def test_voltages_gaps_and_several_flights() -> None:
-    s = scenario(46, duration=600.0, rate=RATE)
+    s = scenario(46, duration=DURATION, rate=RATE)
     run = s.simulate({"cubic-input": HIDDEN["cubic-input"]})
     whole = run.flight(voltages=True)
     valid = np.ones(len(whole.time), dtype=bool)
@@ -125,12 +126,12 @@ def test_voltages_gaps_and_several_flights() -> None:
     outputs = {n: np.where(valid, v, np.nan) for n, v in whole.outputs.items()}
     broken = dataclasses.replace(whole, outputs=outputs, valid=valid)
     assert diagnosed(s, broken).found == ("cubic-input",)
-    halves = [run.flight().part(slice(0, 2400)), run.flight().part(slice(2400, 4800))]
+    halves = [run.flight().part(slice(0, 1200)), run.flight().part(slice(1200, 2400))]
     assert "cubic-input" in claimed(diagnosed(s, *halves))
 
 
 def test_demodulated_channels_alone_tell_as_much_as_they_can() -> None:
-    s = scenario(73, duration=600.0, rate=RATE)
+    s = scenario(73, duration=500.0, rate=RATE)
     whole = s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 1e-6, 0]}}).flight()
     a = s.sheet.accelerometers
     k_ggi = float(np.sum(a["k_VI"] * a["K1"] * (s.sheet.radius + a["dR"])))
@@ -174,7 +175,7 @@ def test_the_commands_speak_the_interface(tmp_path: Path) -> None:
         "where",
     } <= set(found)
     assert found["adequate"] is False
-    assert found["samples"] == 4800
+    assert found["samples"] == 2400
     assert all(set(found["error"][k]) == ERROR for k in ("nominal", "calibrated", "holdout"))
     assert set(found["where"]) == {"harmonics", "time", "motion"}
     assert {"harmonic", "term", "share"} <= set(found["where"]["motion"][0])
@@ -209,7 +210,7 @@ def test_the_commands_speak_the_interface(tmp_path: Path) -> None:
 
 
 def test_saturation_of_the_output_is_recognised() -> None:
-    s = scenario(47, duration=600.0, rate=RATE)
+    s = scenario(47, duration=DURATION, rate=RATE)
     G = s.simulate({}).G_out
     limit = float(np.quantile(np.abs(G), 0.98))
     flight = s.simulate({"saturation": {"V_max": limit}}).flight()
