@@ -12,8 +12,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.compensate import Kind, Prepared, compensate_channel, make_channel, prepare
-from ragg_runtime.compensation.segment import Channel
+from ragg_runtime.compensation.compensate import (
+    Kind,
+    PreparedFlights,
+    compensate_channel,
+    make_channel,
+    prepare,
+)
+from ragg_runtime.compensation.segment import OutputChannel
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -28,12 +34,12 @@ SIZE = 20.0
 """Of each wave, Eo."""
 
 
-def ready(s: Scenario, x: Flight, kind: Kind) -> Prepared:
+def ready(s: Scenario, x: Flight, kind: Kind) -> PreparedFlights:
     """The flight, calibrated."""
     return prepare(packaged(), s.sheet, [x], kind)
 
 
-def series(p: Prepared, name: str) -> tuple[Complex, NDArray[np.float64], Channel]:
+def series(p: PreparedFlights, name: str) -> tuple[Complex, NDArray[np.float64], OutputChannel]:
     """The compensated gradient, Eo, and its uncertainties."""
     c = make_channel(p, 0, name)
     x = compensate_channel(c)

@@ -98,7 +98,7 @@ def demonstration(reports: Path) -> Demonstration:
     from ragg_runtime import api
     from ragg_runtime.cli.main import cli
     from ragg_runtime.report.page import Origin
-    from ragg_runtime.report.pages import add_page, diagnose_page
+    from ragg_runtime.report.pages import write_addition, write_diagnosis
 
     shutil.copy(FLIGHT, FLIGHT.name)
     m = api.new(Path("model"))
@@ -108,10 +108,10 @@ def demonstration(reports: Path) -> Demonstration:
     step = api.add(m, d.found[0], flights)
     assert step.after is not None
     origin = Origin("Demonstration: diagnosis", "ragg demo", api.sources(m, flights))
-    (reports / "diagnosis.html").write_text(diagnose_page(d, origin), "utf-8")
+    (reports / "diagnosis.html").write_text(write_diagnosis(d, origin), "utf-8")
     origin = Origin("Demonstration: the effect added", "ragg demo", api.sources(step.loaded, flights))
     steps = [s.as_json() for s in step.loaded.directory.history]
-    (reports / "report.html").write_text(add_page(steps, c, step.after, origin, d), "utf-8")
+    (reports / "report.html").write_text(write_addition(steps, c, step.after, origin, d), "utf-8")
     documents = {
         name: x.as_json() | api.origin(m, flights, f"ragg {name} model")
         for name, x in {"compare": c, "diagnose": d}.items()

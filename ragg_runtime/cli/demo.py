@@ -63,6 +63,6 @@ def _recovered(added: Mapping[str, Any]) -> list[str]:
     q = max(added["combinations"], key=describe.significance)
     true = sum(w * x for w, x in zip(q["weights"], values, strict=True))
     return [
-        f"hidden:    {effect}: {describe.parameter_label(q)} = {numbers.with_unit(numbers.number(true, 2), q['unit'])}",
-        f"recovered: {effect}: {describe.parameter_line(q)}",
+        f"hidden:    {effect}: {describe.label_parameter(q)} = {numbers.with_unit(numbers.number(true, 2), q['unit'])}",
+        f"recovered: {effect}: {describe.write_parameter(q)}",
     ]

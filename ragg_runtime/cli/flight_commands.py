@@ -73,7 +73,7 @@ def compare(
         result = held.as_json()
         said = describe.describe_held(result, names, then, again)
     title = f"{m.name}, frozen, and {', '.join(names)}" if frozen else None
-    page = lambda origin: pages.compare_page(c, origin, held)  # noqa: E731
+    page = lambda origin: pages.write_comparison(c, origin, held)  # noqa: E731
     conclude(result, said, Source(m, records, notes=odd), page, title)
 
 
@@ -100,7 +100,7 @@ def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], ma
     result = d.as_json()
     then = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
     said = describe.describe_diagnosis(result, then)
-    conclude(result, said, Source(m, records), lambda origin: pages.diagnose_page(d, origin))
+    conclude(result, said, Source(m, records), lambda origin: pages.write_diagnosis(d, origin))
 
 
 @click.command(cls=Command, report=True)
@@ -121,7 +121,7 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
             assert result.before is not None
             assert result.after is not None
             steps = [s.as_json() for s in result.loaded.directory.history]
-            return pages.add_page(steps, result.before, result.after, origin)
+            return pages.write_addition(steps, result.before, result.after, origin)
 
         found = result.as_json()
         said = describe.describe_addition(found, [e.id for e in result.loaded.model.effects], check)
@@ -197,7 +197,7 @@ def next_motion(
             shared.running().write(run_sheet, planned.run_sheet())
     next_flight.write_motion(found, Path(output))
     said = describe_other.describe_next_motion(found.as_json(), output)
-    page = lambda origin: pages.info_page(said, [found.motion()], origin)  # noqa: E731
+    page = lambda origin: pages.write_info(said, [found.motion()], origin)  # noqa: E731
     conclude(found.as_json(), said, Source(m, records), page)
 
 
@@ -224,7 +224,7 @@ def calibrate(
         found["certificate"] = next_flight.certify(planned, found["parameters"])
     use = f"{next_command('compensate', model_dir, records)} -o compensated.csv --calibration frozen"
     said = describe_other.describe_calibration(found, [x.name for x in records], use if kept.saved else "")
-    page = lambda origin: pages.calibrate_page(said, kept.calibrated.fitted, origin)  # noqa: E731
+    page = lambda origin: pages.write_calibration(said, kept.calibrated.fitted, origin)  # noqa: E731
     conclude(found, said, Source(kept.loaded, records), page)
 
 
@@ -291,7 +291,7 @@ def compensate(
     made = describe_other.describe_online if calibration == "online" else describe_other.describe_compensation
     said = made(result, output)
     source = Source(m, records, notes=[*result.get("notes", ()), *odd])
-    page = lambda origin: pages.compensate_page(said, c.series, origin)  # noqa: E731
+    page = lambda origin: pages.write_compensation(said, c.series, origin)  # noqa: E731
     conclude(result | {"output": str(out)}, said, source, page)
 
 
@@ -370,5 +370,5 @@ def survey(
     origin, about = api.of_survey(m, s, command_line())
     if table_file is not None:
         shared.running().write(table_file, make_parquet(s.records))
-    page = lambda _: pages.survey_page(s, Origin(**about))  # noqa: E731
+    page = lambda _: pages.write_survey(s, Origin(**about))  # noqa: E731
     conclude(s.as_json() | origin, s.sections(model_dir), page=page)

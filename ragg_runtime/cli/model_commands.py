@@ -117,7 +117,7 @@ def history(model_dir: Path) -> None:
     d = load_model_dir(model_dir)  # not derived: the steps of a model that no longer can be are shown, too
     steps = [s.as_json() for s in d.history]
     result = {"steps": steps, "provenance": provenance(command_line(), identity(d))}
-    page = lambda origin: pages.history_page(steps, origin)  # noqa: E731
+    page = lambda origin: pages.write_history(steps, origin)  # noqa: E731
     conclude(result, describe.describe_history(steps), page=page, title=f"{d.path.name}: history")
 
 
@@ -198,7 +198,7 @@ def info(flight: Path, mapping: Path | None) -> None:
     def page(origin: Origin) -> str:
         usable = not any(r.refused for r in found.records)
         records = read_flights(flight, PAPER_G, mapping=how) if usable else []
-        return pages.info_page(said, records, replace(origin, sources=[(found.path, found.sha256)]))
+        return pages.write_info(said, records, replace(origin, sources=[(found.path, found.sha256)]))
 
     conclude(found.as_json(), said, page=page, title=flight.name)
 

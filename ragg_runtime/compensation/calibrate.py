@@ -52,8 +52,8 @@ class Calibrated:
     def as_json(self) -> dict[str, Any]:
         """As ``ragg calibrate --json`` writes it."""
         f = self.fitted
-        values, seen = values_in_scales(f), visible_combinations(f)
-        flights = [*each_flight(f)]
+        values, seen = find_values_in_scales(f), visible_combinations(f)
+        flights = [*fit_each_flight(f)]
         return {
             "converged": f.calibration.converged,
             "effects": [e.id for e in f.model.effects],
@@ -77,7 +77,7 @@ class Calibrated:
 
 def list_parameters(f: Fitted) -> list[dict[str, Any]]:
     """Every fitted parameter, with what the test sheet says of it, as JSON has them."""
-    c, values = f.calibration, values_in_scales(f)
+    c, values = f.calibration, find_values_in_scales(f)
     found = []
     for k, (q, column) in enumerate(
         zip(parameter_values(c.columns, values, c.covariance), c.columns, strict=True)
@@ -92,7 +92,7 @@ def list_parameters(f: Fitted) -> list[dict[str, Any]]:
 
 def list_combinations(f: Fitted) -> list[dict[str, Any]]:
     """What the record determines: combinations of accelerometers', and single values, as JSON has them."""
-    values, root = values_in_scales(f), invert_root(information(f))
+    values, root = find_values_in_scales(f), invert_root(information(f))
     return [_combination_json(q, values, root) for q in visible_combinations(f)]
 
 
@@ -151,7 +151,7 @@ def find_ranges(flights: Sequence[Flight]) -> Mapping[str, tuple[float, float]]:
 # --- what a fit knows, in scales: units of the prior widths of its parameters
 
 
-def values_in_scales(f: Fitted) -> Array:
+def find_values_in_scales(f: Fitted) -> Array:
     """(n,): the fitted parameters."""
     c = f.calibration
     return np.asarray(c.p[c.index] / np.array([q.scale for q in c.columns]))
@@ -167,7 +167,7 @@ def invert_root(R: Array) -> Array:
     return np.asarray(linalg.solve_triangular(R, np.diag(np.sign(np.diag(R)))))
 
 
-def base_triangles(f: Fitted, k: int) -> list[Array]:
+def list_base_triangles(f: Fitted, k: int) -> list[Array]:
     """Of an observation the R factors [base | residual] of its blocks of time."""
     return [t[:, [*range(f.n_base), -1]] for t in f.triangles[k]]
 
@@ -179,11 +179,14 @@ def fit_some(f: Fitted, triangles: Sequence[Array]) -> tuple[Array, Array]:
     return Linear(R=R, y=whole[:-1, -1], rest=0.0).step, invert_root(R)
 
 
-def each_flight(f: Fitted) -> Iterator[tuple[str, Array, Array]]:
+def fit_each_flight(f: Fitted) -> Iterator[tuple[str, Array, Array]]:
     """What every flight says by itself, with the sheet: its name, the step (n,) from here, a root (n, n) of its covariance."""
     for n in dict.fromkeys(o.flight for o in f.observations):
         own = [k for k, o in enumerate(f.observations) if o.flight == n]
-        yield f.observations[own[0]].flight_name, *fit_some(f, [t for k in own for t in base_triangles(f, k)])
+        yield (
+            f.observations[own[0]].flight_name,
+            *fit_some(f, [t for k in own for t in list_base_triangles(f, k)]),
+        )
 
 
 def visible_combinations(f: Fitted, root: Array | None = None) -> list[Combination]:

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.compensation.calibrate import base_triangles, fit_some, information, invert_root
+from ragg_runtime.compensation.calibrate import fit_some, information, invert_root, list_base_triangles
 from ragg_runtime.compensation.drift import smooth_drift
 from ragg_runtime.compensation.frozen import (
-    Change,
+    CalibrationChange,
     as_calibration,
     describe_saved,
     find_other_origin,
@@ -28,10 +28,10 @@ from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.compensation.segment import (
     NO_VALUE,
     Block,
-    Channel,
+    ChannelSegment,
     Compensated,
+    OutputChannel,
     Quality,
-    Segment,
     compensate_segment,
     keep_directions,
     make_block,
@@ -88,7 +88,7 @@ SEARCHED = 4
 
 
 @dataclass(frozen=True)
-class Prepared:
+class PreparedFlights:
     """Flights with the parameters that compensate them: of every observation its ``blocks``. ``seeing``: observations that see a
     gradient on a turning disc; ``saved`` and ``change`` only if frozen.
     """
@@ -101,7 +101,7 @@ class Prepared:
     calibration: Calibration
     blocks: tuple[tuple[Block, ...], ...]
     saved: Saved | None
-    change: Change | None
+    change: CalibrationChange | None
 
     @property
     def converged(self) -> bool:
@@ -115,7 +115,7 @@ class Prepared:
 @one_thread
 def prepare(
     model: Model, instrument: Instrument, flights: Sequence[Flight], kind: Kind, saved: Saved | None = None
-) -> Prepared:
+) -> PreparedFlights:
     """Calibrate on the flights (``self``, ``crossed``, ``smoothed``), or take what was saved (``frozen``).
 
     Raises
@@ -128,7 +128,7 @@ def prepare(
     flights = tuple(without_gradients(x) for x in flights)
     observations = tuple(observations_of(flights, instrument))
     seeing = find_seeing(instrument, observations)
-    change: Change | None = None
+    change: CalibrationChange | None = None
     if kind == "frozen":
         if saved is None:
             raise UserError("a frozen compensation needs a saved calibration")
@@ -139,7 +139,7 @@ def prepare(
     else:
         f = fit(model, instrument, observations)
         c, blocks = f.calibration, _fitted_blocks(f, flights, kind)
-    return Prepared(
+    return PreparedFlights(
         model=model,
         instrument=instrument,
         flights=flights,
@@ -182,7 +182,7 @@ def _fitted_blocks(f: Fitted, flights: Sequence[Flight], kind: Kind) -> list[tup
             for o in f.observations
         ]
     if kind == "crossed":
-        of_all = [base_triangles(f, k) for k in range(len(f.observations))]
+        of_all = [list_base_triangles(f, k) for k in range(len(f.observations))]
         return [tuple(_crossed_block(f, o, b, of_all) for b in range(BLOCKS)) for o in f.observations]
     root = invert_root(information(f))
     return _whole_blocks(c, f.observations, root)
@@ -210,7 +210,7 @@ def _crossed_block(f: Fitted, o: Observation, b: int, of_all: Sequence[Sequence[
 # --- channels ------------------------------------------------------------------------------------------
 
 
-def make_channel(p: Prepared, k: int, name: str) -> Channel:
+def make_channel(p: PreparedFlights, k: int, name: str) -> OutputChannel:
     """An observation ready to be compensated; ``name``: of the demodulator. UserError if the flight is too short for it."""
     o, c = p.observations[k], p.calibration
     flight, d = p.flights[o.flight], demodulator(name, o.record.rate)
@@ -228,7 +228,7 @@ def make_channel(p: Prepared, k: int, name: str) -> Channel:
     if o.recorded.demodulated:  # by its recorder: put right for the calibrated scale factor
         known: Complex = flight.outputs["inline"] + 1j * flight.outputs["cross"]
         recorded = known * (p.instrument.scale_factor / k_ggi)
-    channel = Channel(
+    channel = OutputChannel(
         model=p.model,
         instrument=p.instrument,
         evaluator=p.model.compiled("auto" if len(flight.time) >= MANY else "numpy"),
@@ -268,11 +268,11 @@ def _spread(parts: Sequence[slice], most: int) -> list[slice]:
     return [parts[k] for k in np.linspace(0, len(parts) - 1, count).round().astype(int)]
 
 
-def _segments(c: Channel) -> list[slice]:
+def _segments(c: OutputChannel) -> list[slice]:
     return divide(len(c.observation.record.time), max(ROWS, 4 * len(c.demodulator.taps)))
 
 
-def compensate_channel(c: Channel) -> Compensated:
+def compensate_channel(c: OutputChannel) -> Compensated:
     """Compensate a channel, segment after segment."""
     holes, parts = not bool(np.all(c.observation.record.valid)), []
     for rows in _segments(c):
@@ -286,7 +286,7 @@ def compensate_channel(c: Channel) -> Compensated:
 # --- what is said of them ------------------------------------------------------------------------------
 
 
-def describe_channel(c: Channel, x: Compensated) -> dict[str, Any]:
+def describe_channel(c: OutputChannel, x: Compensated) -> dict[str, Any]:
     """What was done and how good it is, as JSON says it."""
     o, d, names = c.observation, c.demodulator, ("inline_Eo", "cross_Eo")
     there = np.isfinite(x.gradient.real)
@@ -351,13 +351,13 @@ def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
     }
 
 
-def list_contributions(c: Channel) -> list[dict[str, Any]]:
+def list_contributions(c: OutputChannel) -> list[dict[str, Any]]:
     """What was removed: root mean squares of inline and cross, Eo, on two segments of the flight, largest first."""
     totals: dict[tuple[str, str | None], Array] = {}
     count = 0
     whole = replace(c, blocks=(replace(c.blocks[0], rows=slice(0, len(c.observation.record.time))),))
     for rows in _spread(_segments(c), 2):
-        s = Segment(whole, rows)
+        s = ChannelSegment(whole, rows)
         good = (s.quality()[s.own] & NO_VALUE) == 0
         count += int(np.sum(good))
         removed: dict[tuple[str, str | None], Array] = {("everything", None): s.bare}
@@ -435,7 +435,7 @@ def compensate(
     return Compensation.of(name, result, series)
 
 
-def _require_alike(flights: Sequence[Flight], every: Sequence[Sequence[Channel]]) -> None:
+def _require_alike(flights: Sequence[Flight], every: Sequence[Sequence[OutputChannel]]) -> None:
     """UserError unless all flights have the same outputs."""
     names = [[c.observation.output.name for c in channels] for channels in every]
     for flight, own in zip(flights, names, strict=True):
@@ -450,7 +450,7 @@ def _require_alike(flights: Sequence[Flight], every: Sequence[Sequence[Channel]]
 
 
 def make_columns(
-    instrument: Instrument, channels: Sequence[Channel], series: Sequence[Compensated]
+    instrument: Instrument, channels: Sequence[OutputChannel], series: Sequence[Compensated]
 ) -> dict[str, NDArray[Any]]:
     """The columns (N,) of a flight: of every output, with an ending where there are several, and the tensor where they determine it."""
     names = instrument.layout.output_names

@@ -13,10 +13,10 @@ from scipy import special
 from ragg_runtime.base import false_alarms
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation.calibrate import (
-    base_triangles,
-    each_flight,
+    find_values_in_scales,
+    fit_each_flight,
     invert_root,
-    values_in_scales,
+    list_base_triangles,
     visible_combinations,
 )
 from ragg_runtime.compensation.saved import Saved
@@ -58,7 +58,7 @@ SUSPECTS = 5
 
 
 @dataclass(frozen=True)
-class Change:
+class CalibrationChange:
     """The step from the frozen to the free fit.
 
     ``z`` (k,): components, each of unit variance if nothing has changed; ``signatures`` (k, n): what a change of each
@@ -118,15 +118,15 @@ class Held:
     saved: Saved
     free: Error
     free_holdout: Error
-    change: Change
+    change: CalibrationChange
     origin: str | None
 
     def drift(self) -> list[dict[str, Any]]:
         """Every visible combination, frozen and as each of the flights alone has it; ``z``: how far it moved."""
         f = self.comparison.fitted
-        values, root = values_in_scales(f), invert_root(self.saved.information)
+        values, root = find_values_in_scales(f), invert_root(self.saved.information)
         rows = []
-        for flight, step, root_now in each_flight(f):
+        for flight, step, root_now in fit_each_flight(f):
             for q in visible_combinations(f, root):
                 value, std = q.of(values, root)
                 now, now_std = q.of(values + step, root_now)
@@ -199,14 +199,14 @@ def compare_frozen(model: Model, instrument: Instrument, flights: Sequence[Fligh
     )
 
 
-def measure_change(f: Fitted, saved: Saved) -> Change:
+def measure_change(f: Fitted, saved: Saved) -> CalibrationChange:
     """Test the step from frozen parameters to what flights say."""
     n, root = f.n_base, invert_root(saved.information)
-    T = join([t for k in range(len(f.observations)) for t in base_triangles(f, k)])
+    T = join([t for k in range(len(f.observations)) for t in list_base_triangles(f, k)])
     U, s, _ = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
     informed = s**2 >= INFORMED
     both = (U.T @ T[:n])[informed] / np.sqrt(1.0 + s[informed] ** 2)[:, None]
-    return Change(
+    return CalibrationChange(
         z=both[:, n],
         signatures=both[:, :n],
         squares=(float(np.sum(T[:, n] ** 2)), float(T[n, n] ** 2)),
@@ -215,7 +215,7 @@ def measure_change(f: Fitted, saved: Saved) -> Change:
 
 def retest_change(
     model: Model, instrument: Instrument, observations: Sequence[Observation], saved: Saved, c: Calibration
-) -> Change:
+) -> CalibrationChange:
     """The same from observations, of long ones from some blocks of them."""
     parts, noise = [], []
     for o, own in zip(observations, c.noise, strict=True):
@@ -231,7 +231,7 @@ def retest_change(
 
 
 def find_other_origin(
-    model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved, change: Change
+    model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved, change: CalibrationChange
 ) -> str | None:
     """That a calibration which does not hold holds plainly better with disc angles from elsewhere, in words; ``None``: it does not."""
     encoders = all(d.angle_column in x.channels for d in instrument.layout.discs for x in flights)
@@ -252,7 +252,7 @@ def find_other_origin(
     return None
 
 
-def warn_of_change(made: str, change: Change) -> str:
+def warn_of_change(made: str, change: CalibrationChange) -> str:
     """What is said of a compensation by a calibration, made at that instant, that does not hold."""
     p = numbers.probability(change.log10_p)
     return (

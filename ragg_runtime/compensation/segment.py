@@ -96,7 +96,7 @@ def make_block(c: Calibration, rows: slice, step: Array | float, root: Array) ->
 
 
 @dataclass(frozen=True)
-class Channel:
+class OutputChannel:
     """One output of a flight, with what compensates it.
 
     ``observation``: the whole flight, without recorded gradients. ``recorded``: inline + i cross (N,), Eo, if the flight was
@@ -137,10 +137,10 @@ class Compensated:
     quality: NDArray[np.int64]
 
 
-class Segment:
+class ChannelSegment:
     """Samples ``rows`` of a channel, with so much of their neighbours as their values depend on, N samples together."""
 
-    def __init__(self, c: Channel, rows: slice, *, holes: bool = False) -> None:
+    def __init__(self, c: OutputChannel, rows: slice, *, holes: bool = False) -> None:
         d, o = c.demodulator, c.observation
         times = 2 + (BRIDGES if holes else 0)
         self.c = c
@@ -296,9 +296,9 @@ class Segment:
             bits[(share > FELT) & (share <= HOLES)] |= Quality.BRIDGED
 
 
-def compensate_segment(c: Channel, rows: slice, *, holes: bool) -> Compensated:
+def compensate_segment(c: OutputChannel, rows: slice, *, holes: bool) -> Compensated:
     """Compensate samples ``rows`` of a channel; ``holes``: whether samples are missing anywhere in it."""
-    s = Segment(c, rows, holes=holes)
+    s = ChannelSegment(c, rows, holes=holes)
     nominal = s.nominal()[s.own]
     g = np.array(s.gradient()[s.own])
     variance = s.variance()[:, s.own] + np.array(c.rest)[:, None]
@@ -310,14 +310,14 @@ def compensate_segment(c: Channel, rows: slice, *, holes: bool) -> Compensated:
     return Compensated(g, nominal, parameters, std, bits)
 
 
-def keep_directions(c: Channel, samples: Sequence[slice], neglected: float) -> Channel:
+def keep_directions(c: OutputChannel, samples: Sequence[slice], neglected: float) -> OutputChannel:
     """The channel with those directions of the parameters that matter, found on some segments of it.
 
     What the others add on the average to the variance of inline and cross is its ``rest``: less than ``neglected`` of the noise's.
     """
     inline, cross = [], []
     for rows in samples:
-        s = Segment(c, rows)
+        s = ChannelSegment(c, rows)
         s.gradient()
         few, coarse = s.coarse
         step = max(1, int(coarse.rate))  # the channels do not change within a second

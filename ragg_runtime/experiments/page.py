@@ -13,7 +13,7 @@ Range = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class Entry:
+class PrintedEntry:
     """One printed number beside ours, in the printed unit (the mean of several runs, ``spread`` their least and greatest).
 
     ``verdict``: ``agrees``; ``open input``: the number hangs on something that the paper does not state, and the printed one is
@@ -44,7 +44,7 @@ def judge(
     reach: Range | None = None,
     open_input: str = "",
     unexplained: str = "",
-) -> Entry:
+) -> PrintedEntry:
     """Compare, by the same rule for every number.
 
     ``spread``: least and greatest of several runs, a printed number between them agrees. ``reach``: the same over an
@@ -52,9 +52,9 @@ def judge(
     """
     inside, within = (r is not None and r[0] <= printed.value <= r[1] for r in (spread, reach))
     if inside or printed.matches(ours):
-        return Entry(quantity, printed, ours, spread, "agrees", "")
+        return PrintedEntry(quantity, printed, ours, spread, "agrees", "")
     verdict, reason = ("open input", open_input) if within else ("unexplained", unexplained)
-    return Entry(quantity, printed, ours, spread, verdict, reason)
+    return PrintedEntry(quantity, printed, ours, spread, verdict, reason)
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Experiment:
 
     title: str
     settings: Mapping[str, str]
-    rows: tuple[Entry, ...]
+    rows: tuple[PrintedEntry, ...]
     checks: tuple[Variation, ...]
 
     def as_json(self) -> dict[str, object]:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.page import Cell, Entry, Experiment, Variation, judge
+from ragg_runtime.experiments.page import Cell, Experiment, PrintedEntry, Variation, judge
 from ragg_runtime.experiments.paper import Printed
 from ragg_runtime.experiments.runs import (
     LARGEST,
@@ -95,7 +95,7 @@ def turbulence() -> Experiment:
 # --- rows ----------------------------------------------------------------------------------------------
 
 
-def _compare_entry(e: int, name: str, values: Values, reach: Values) -> Entry:
+def _compare_entry(e: int, name: str, values: Values, reach: Values) -> PrintedEntry:
     """An entry of Table VIII beside ours."""
     v, simplified = values[e, name], name.startswith(("Ms", "sigmas"))
     within, why = None, _NO_ANGULAR_MOTION
@@ -118,7 +118,7 @@ def _compare_entry(e: int, name: str, values: Values, reach: Values) -> Entry:
     )
 
 
-def _compare_growth(values: Values, reach: Values) -> Entry:
+def _compare_growth(values: Values, reach: Values) -> PrintedEntry:
     """Sigma of experiment 3 over that of 1; its reach over vartheta_x, with white noise that makes up what 1 lacks."""
     first, third = (paper.table_viii(e, "sigma_in").value for e in (1, 3))
     ratio = values[3, "sigma_in"] / values[1, "sigma_in"]
@@ -139,7 +139,7 @@ def _compare_growth(values: Values, reach: Values) -> Entry:
     )
 
 
-def _compare_densities(values: Values, reach: Values) -> list[Entry]:
+def _compare_densities(values: Values, reach: Values) -> list[PrintedEntry]:
     root, rows = float(np.sqrt(paper.BANDWIDTH)), []
     for model, e, density in paper.DENSITIES:
         v = values[e, f"sigma{MARKS[model]}_in"] / root

@@ -149,7 +149,7 @@ def _size(found: re.Match[str]) -> str:
     return f"font-size: {found[2]}" + (f"; font-weight: {found[1]}" if found[1] else "")
 
 
-def log_ticks(axes: Axes, which: str) -> None:
+def set_log_ticks(axes: Axes, which: str) -> None:
     """Plain numbers on a logarithmic axis; 2 and 5 labelled as well where it spans little."""
     axis = axes.xaxis if which == "x" else axes.yaxis
     low, high = axes.get_xlim() if which == "x" else axes.get_ylim()
@@ -166,7 +166,7 @@ def log_ticks(axes: Axes, which: str) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def no_ticks(axes: Axes, which: str) -> None:
+def hide_ticks(axes: Axes, which: str) -> None:
     """Labels of categories need no tick marks and no grid."""
     axes.tick_params(axis="x" if which == "x" else "y", length=0)
     (axes.xaxis if which == "x" else axes.yaxis).grid(False)

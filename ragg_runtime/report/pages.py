@@ -45,14 +45,14 @@ def _figure(title: str, *plots: Plot | None, detail: bool = False) -> list[Secti
 # --- the loop ------------------------------------------------------------------------------------------
 
 
-def compare_page(c: Comparison, origin: Origin, frozen: Held | None = None) -> str:
+def write_comparison(c: Comparison, origin: Origin, frozen: Held | None = None) -> str:
     """The report of ``compare``; ``frozen``: how a saved calibration holds, where it is that which is compared."""
     f, names = c.fitted, [o.name for o in c.fitted.observations]
     if frozen is None:
         said = describe.describe_comparison(c.as_json(), names)
     else:
         said = describe.describe_held(frozen.as_json(), names)
-    lines = panels.before_and_after(c.residual, None)
+    lines = panels.pair_lines(c.residual, None)
     sections = [
         _with_plots(said[0], panels.plot_blocks(f, lines, envelope=True)),
         *_with_failures(said[1:], c),
@@ -70,7 +70,7 @@ def _ask_whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
     (n,) = series.worst(f, residual, 1)
     if f.observations[n].recorded.demodulated:
         return []
-    channel = whiteness.worst_channel(f, n, residual[n])
+    channel = whiteness.find_worst_channel(f, n, residual[n])
     white = whiteness.plot_whiteness(f, n, residual[n])
     against = whiteness.plot_against(f, n, residual[n], channel)
     return [
@@ -89,10 +89,10 @@ def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
     return [*sections, *_figure("Residual by harmonic of the spin", harmonics)]
 
 
-def diagnose_page(d: Diagnosis, origin: Origin) -> str:
+def write_diagnosis(d: Diagnosis, origin: Origin) -> str:
     """The report of ``diagnose``: verdict, one figure, where the model fails, the findings; everything else is folded."""
     f, said = d.target, describe.describe_diagnosis(d.as_json())
-    lines = panels.before_and_after(d.residual, d.residual_after if d.found else None)
+    lines = panels.pair_lines(d.residual, d.residual_after if d.found else None)
     main = panels.plot_spectrum(f, lines) or panels.plot_blocks(d.fitted, lines)
     parts = {s.title: s for s in said[1:]}
     open_ = []
@@ -120,7 +120,7 @@ def diagnose_page(d: Diagnosis, origin: Origin) -> str:
     return _render("What is missing", sections, origin, d.fitted)
 
 
-def add_page(
+def write_addition(
     history: Sequence[Json],
     before: Comparison,
     after: Comparison,
@@ -136,12 +136,12 @@ def add_page(
         values.append({"effect": e} | {name: [p.as_json() for p in own] for name, own in found})
     added, removed = [e for e in new if e not in old], [e for e in old if e not in new]
     step = describe.describe_step(added, removed, before.as_json(), after.as_json(), values)
-    lines = panels.before_and_after(before.residual, after.residual)
+    lines = panels.pair_lines(before.residual, after.residual)
     both = panels.plot_spectrum(f, lines), panels.plot_blocks(f, lines)
     sections = [
         _with_plots(step[0], panels.plot_history(history, after.noise_floor)),
         *step[1:],
-        Section(title="History", table=describe.history_table(history), detail=True),
+        Section(title="History", table=describe.tabulate_history(history), detail=True),
         *_figure("The residual before and after", *both),
         *_figure("Demodulated channels", panels.plot_channels(f, lines)),
         *_with_failures([], after),
@@ -153,10 +153,10 @@ def add_page(
     return _render("A step of the model", sections, origin, f)
 
 
-def history_page(steps: Sequence[Json], origin: Origin) -> str:
+def write_history(steps: Sequence[Json], origin: Origin) -> str:
     """The report of ``history``."""
     first = Section(sentences=(f"{describe.counted(len(steps), 'step')}.",))
-    table = Section(title="Steps", table=describe.history_table(steps))
+    table = Section(title="Steps", table=describe.tabulate_history(steps))
     drawn = panels.plot_history(steps, float("nan"))
     return render_page("History", [_with_plots(first, drawn), table], origin)
 
@@ -164,15 +164,15 @@ def history_page(steps: Sequence[Json], origin: Origin) -> str:
 # --- what comes after, and flights ---------------------------------------------------------------------
 
 
-def calibrate_page(said: Sequence[Section], f: Fitted, origin: Origin) -> str:
+def write_calibration(said: Sequence[Section], f: Fitted, origin: Origin) -> str:
     """The report of ``calibrate``: ``said`` and the parameters of the fit ``f``."""
-    lines = panels.before_and_after(f.residuals(np.zeros(f.n_base)), None)
+    lines = panels.pair_lines(f.residuals(np.zeros(f.n_base)), None)
     drawn = panels.plot_blocks(f, lines, envelope=True), panels.plot_spectrum(f, lines)
     sections = [*said, *_figure("The residual", *drawn), *describe_parameters(f, values=False)]
     return _render("Calibration", sections, origin, f)
 
 
-def compensate_page(said: Sequence[Section], made: Sequence[Mapping[str, Array]], origin: Origin) -> str:
+def write_compensation(said: Sequence[Section], made: Sequence[Mapping[str, Array]], origin: Origin) -> str:
     """The report of ``compensate``: ``said`` and the compensated channels of every flight."""
     axes = []
     for columns in made[: panels.FLIGHTS]:
@@ -187,7 +187,7 @@ def compensate_page(said: Sequence[Section], made: Sequence[Mapping[str, Array]]
     return render_page("Compensation", [*said, *_figure("Channels", plot)], origin)
 
 
-def info_page(said: Sequence[Section], flights: Sequence[Flight], origin: Origin) -> str:
+def write_info(said: Sequence[Section], flights: Sequence[Flight], origin: Origin) -> str:
     """The report of ``info``: ``said``, and every column of the flights over time."""
     sections = list(said)
     for n, x in enumerate(flights[: panels.FLIGHTS]):
@@ -207,7 +207,7 @@ def _draw_columns(x: Flight, step: int) -> Iterator[Axes]:
 # --- many flights --------------------------------------------------------------------------------------
 
 
-def survey_page(s: Survey, origin: Origin) -> str:
+def write_survey(s: Survey, origin: Origin) -> str:
     """The report of ``survey``."""
     said = s.sections("MODEL_DIR")
     trends = [_plot_trend(t, n) for n, t in enumerate(find_trends(s.done)[:6])]

@@ -34,7 +34,7 @@ STEPS = 14
 SECONDS = "time since the first sample, s"
 
 
-def before_and_after(before: Residuals, after: Residuals | None) -> Lines:
+def pair_lines(before: Residuals, after: Residuals | None) -> Lines:
     """The lines of a figure of a residual, before a step and after it if there was one."""
     return [("residual", before)] if after is None else [("before", before), ("after", after)]
 
@@ -185,7 +185,7 @@ def plot_harmonics(f: Fitted, coefficients: Array, key: str) -> Bars | None:
 
 def plot_terms(terms: Sequence[Mapping[str, Any]], rms_Eo: float, key: str) -> Bars | None:
     """Generic terms of a residual by their own size, Eo before demodulation."""
-    sizes = [(describe.term_label(t), float(np.sqrt(float(t["share"]))) * rms_Eo) for t in terms]
+    sizes = [(describe.label_term(t), float(np.sqrt(float(t["share"]))) * rms_Eo) for t in terms]
     bars = tuple(Bar(label, size) for label, size in sorted(sizes, key=lambda x: -x[1]))
     caption = "Motion terms that are significant in the residual, by their own size before demodulation."
     return Bars(f"{key}-terms", caption, bars, "Eo rms") if len(bars) > 2 else None
@@ -206,7 +206,7 @@ def plot_evidence(ranking: Sequence[Mapping[str, Any]], found: Sequence[str], le
     return Bars("evidence", caption, bars, axis, log=log, threshold=(level, "needed for a claim"))
 
 
-def error_steps(steps: Sequence[Mapping[str, Any]], now: float | None = None) -> list[Bar]:
+def list_error_steps(steps: Sequence[Mapping[str, Any]], now: float | None = None) -> list[Bar]:
     """The error after every step of a history, held out as dots, and ``now``: pale where the flights, not the model, are others."""
     bars: list[Bar] = []
     made = ""
@@ -217,8 +217,8 @@ def error_steps(steps: Sequence[Mapping[str, Any]], now: float | None = None) ->
             bars.append(Bar(label, value, strong=bool(made), dots=(np.nan if held is None else held,)))
 
     for s in steps:
-        begin(describe.rms_of(s.get("before")), describe.rms_of(s.get("before"), "holdout"))
-        after, held = (describe.rms_of(s.get("after"), k) for k in ("calibrated", "holdout"))
+        begin(describe.find_rms(s.get("before")), describe.find_rms(s.get("before"), "holdout"))
+        after, held = (describe.find_rms(s.get("after"), k) for k in ("calibrated", "holdout"))
         if after is not None:
             label = f"+ {s['effect']}" if s["action"] == "add" else str(s.get("effect") or s["action"])
             bars.append(Bar(label, after, dots=(np.nan if held is None else held,)))
@@ -230,7 +230,7 @@ def error_steps(steps: Sequence[Mapping[str, Any]], now: float | None = None) ->
 
 def plot_history(steps: Sequence[Mapping[str, Any]], noise: float) -> Bars | None:
     """The error after every step of a history against the noise floor, held out as dots."""
-    bars, known = error_steps(steps)[-STEPS:], np.isfinite(noise)
+    bars, known = list_error_steps(steps)[-STEPS:], np.isfinite(noise)
     if not bars:
         return None
     top = max(b.value for b in bars)

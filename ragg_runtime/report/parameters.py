@@ -62,7 +62,7 @@ class Direction:
 
 
 @dataclass(frozen=True)
-class Group:
+class DegenerateGroup:
     """Directions that the record cannot distinguish, how many are lost, and the sums of them that it does determine."""
 
     members: tuple[Direction, ...]
@@ -77,7 +77,7 @@ class Visibility:
     determined: int
     total: int
     unseen: tuple[Direction, ...]
-    groups: tuple[Group, ...]
+    groups: tuple[DegenerateGroup, ...]
 
 
 def find_directions(f: Fitted) -> tuple[list[Direction], Array]:
@@ -121,10 +121,12 @@ def find_visibility(f: Fitted) -> Visibility:
     )
 
 
-def _find_group(directions: Sequence[Direction], P: Array, members: NDArray[np.intp]) -> Group:
+def _find_group(directions: Sequence[Direction], P: Array, members: NDArray[np.intp]) -> DegenerateGroup:
     values, vectors = np.linalg.eigh(P[np.ix_(members, members)])
     seen, own = vectors[:, values < HALF_SEEN], tuple(directions[n] for n in members)
-    return Group(own, len(members) - seen.shape[1], tuple(_write_sum(own, v) for v in _simplify(seen)))
+    return DegenerateGroup(
+        own, len(members) - seen.shape[1], tuple(_write_sum(own, v) for v in _simplify(seen))
+    )
 
 
 def _simplify(seen: Array) -> list[Array]:
@@ -177,7 +179,7 @@ def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...
     lists = (list_combinations(f), list_parameters(f)) if values else None
     return (
         Section("What the record determines", tuple(text), detail=True, summary=f"{known}."),
-        *(() if lists is None else describe_other.parameters_sections(*lists, detail=True)),
+        *(() if lists is None else describe_other.tabulate_parameters(*lists, detail=True)),
         Section("Correlations of the parameters", table=strongest, plots=(matrix,), detail=True),
     )
 

@@ -119,8 +119,8 @@ def _limit_log(ax: Drawn, axes: Axes, every: Array) -> None:
     ax.set_ylim(low, high)
     if axes.ends is not None:
         ax.set_xlim(*axes.ends)
-    draw.log_ticks(ax, "x")
-    draw.log_ticks(ax, "y")
+    draw.set_log_ticks(ax, "x")
+    draw.set_log_ticks(ax, "y")
 
 
 def _mark(ax: Drawn, x: float, text: str) -> None:
@@ -210,7 +210,7 @@ def _label_bars(ax: Drawn, plot: Bars, place: Array, low: float, top: float) -> 
     if plot.log:
         scale("log")
         limit(low, top * (top / low) ** 0.14)
-        draw.log_ticks(ax, "y" if plot.upright else "x")
+        draw.set_log_ticks(ax, "y" if plot.upright else "x")
     else:
         limit(0.0, 1.18 * max(top, plot.threshold[0] if plot.threshold else 0.0))
     across = "x" if plot.upright else "y"
@@ -224,7 +224,7 @@ def _label_bars(ax: Drawn, plot: Bars, place: Array, low: float, top: float) -> 
         ax.set_yticks(place, texts)
         ax.set_ylim(-0.6, len(place) - 0.4)
         ax.set_xlabel(plot.axis)
-    draw.no_ticks(ax, across)
+    draw.hide_ticks(ax, across)
     if ax.get_legend_handles_labels()[1]:
         draw.legend(ax, 3)
 

@@ -126,7 +126,7 @@ def _divide(e: Array, x: Array) -> list[NDArray[np.intp]]:
     return [p for p in np.array_split(ordered, BINS) if len(p) > 2]
 
 
-def worst_channel(f: Fitted, n: int, residual: Array) -> str:
+def find_worst_channel(f: Fitted, n: int, residual: Array) -> str:
     """The channel of flight n against which the mean of the whitened residual departs most from zero."""
     r = f.prepared[n].observation.record
     e = whiten_residual(f.prepared[n], residual)

@@ -57,7 +57,7 @@ class SheetEdit(NamedTuple):
     fixed: bool
 
 
-class Cache:
+class SeriesCache:
     """Things that were made of a state, by name; the oldest are forgotten."""
 
     def __init__(self) -> None:
@@ -100,7 +100,7 @@ class State:
     beside: tuple[int, Comparison] | None = None
     trial: tuple[str, str, Mapping[str, str], Added] | None = None
     compensated: Compensation | None = None
-    cache: Cache = field(default_factory=Cache)
+    cache: SeriesCache = field(default_factory=SeriesCache)
 
     def require(self, name: str) -> Any:
         """What is known under a name of the state; UserError if it is not yet."""
@@ -162,7 +162,7 @@ class Session:
         self.jobs.changed()
 
     def _forget(self, **changes: object) -> None:
-        self._put(**{**NOTHING, "cache": Cache(), **changes})
+        self._put(**{**NOTHING, "cache": SeriesCache(), **changes})
 
     def _work(self, name: str, command: str, do: Callable[[State], Mapping[str, object]]) -> None:
         """Do something beside the page that takes as long as a command, and put what comes of it into the state."""
@@ -237,11 +237,11 @@ class Session:
             return
         key = (s.loaded.directory.text, tuple(x.digest for x in s.flights), s.cuts, s.kept)
         if key in self._results:
-            self._put(**self._results[key], cache=Cache())
+            self._put(**self._results[key], cache=SeriesCache())
             return
         if s.compared is None:
             part("calibrating and comparing", PASSES["compare"] * s.samples)
-            self._put(compared=api.compare(s.loaded, s.fitted), cache=Cache())
+            self._put(compared=api.compare(s.loaded, s.fitted), cache=SeriesCache())
         compared = self.state.require("compared")
         if s.kept:
             part("validating", PASSES["compare"] * s.samples)
@@ -307,7 +307,7 @@ class Session:
         """Undo, redo, or go back to the state after a step of the history."""
         self._idle()
         m = self.state.model
-        past, future = branches(m.directory.history)
+        past, future = split_history(m.directory.history)
         if action == "undo" and len(past) > 1:
             to = past[-2]
         elif action == "redo" and future:
@@ -332,7 +332,7 @@ class Session:
 
     def attempt(self, effect: str, add: str, units: Mapping[str, str]) -> None:
         """Try an effect of the user's own: derived and calibrated, but not kept."""
-        listed, flights = with_own(self.state.model, effect, add, units), self.state.fitted
+        listed, flights = list_own(self.state.model, effect, add, units), self.state.fitted
 
         def do(s: State) -> dict[str, object]:
             return {"trial": (effect, add, dict(units), api.add(listed, effect, flights, save=False))}
@@ -344,7 +344,7 @@ class Session:
         if self.state.trial is None:
             raise UserError("nothing was tried", remedy="try an expression first")
         effect, add, units, _ = self.state.trial
-        self._extend(with_own(self.state.model, effect, add, units), [effect])
+        self._extend(list_own(self.state.model, effect, add, units), [effect])
 
     def compensate(self, kind: str, demodulator: str) -> None:
         """Compensate the flights that are open."""
@@ -370,7 +370,7 @@ class Session:
         return self.state
 
 
-def with_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Loaded:
+def list_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Loaded:
     """The model with an effect of one's own listed, ``add`` at the transducer (unit of each parameter), in memory alone."""
     if effect in {e.id for e in derive.known(m.instrument).effects}:
         found, remedy = repr(effect[:80]), "choose another name"
@@ -394,7 +394,7 @@ def text_of(history: Sequence[Step], step: int) -> str:
     return history[step].text
 
 
-def branches(history: Sequence[Step]) -> tuple[list[int], list[int]]:
+def split_history(history: Sequence[Step]) -> tuple[list[int], list[int]]:
     """Steps on the present branch, and those that undo has left (nearest last); undo and redo are steps themselves."""
     past: list[int] = []
     future: list[int] = []
@@ -411,13 +411,13 @@ def branches(history: Sequence[Step]) -> tuple[list[int], list[int]]:
     return past, future
 
 
-def lineage(history: Sequence[Step]) -> list[int]:
+def trace_history(history: Sequence[Step]) -> list[int]:
     """The steps that lead to the present state, without those that were undone or left."""
-    past, _ = branches(history)
+    past, _ = split_history(history)
     back = next((k for k in reversed(range(len(past))) if history[past[k]].action == "restore"), None)
     if back is None:
         return past
-    return [*lineage(history[: int(history[past[back]].effect) + 1]), *past[back + 1 :]]
+    return [*trace_history(history[: int(history[past[back]].effect) + 1]), *past[back + 1 :]]
 
 
 # --- jobs ----------------------------------------------------------------------------------------------

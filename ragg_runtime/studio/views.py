@@ -30,7 +30,7 @@ from ragg_runtime.io.record import WIDEST_SPIKE, left_out
 from ragg_runtime.report import pages, panels, parameters
 from ragg_runtime.report.page import Origin
 from ragg_runtime.signals.derivative import runs
-from ragg_runtime.studio.session import State, branches, lineage
+from ragg_runtime.studio.session import State, split_history, trace_history
 from ragg_runtime.wording import describe, describe_other, numbers
 from ragg_runtime.wording.sections import Section, Table
 
@@ -153,8 +153,8 @@ def _tabulate_discs(i: Instrument) -> Table:
 
 def _show_history(m: Loaded) -> Json:
     history = m.directory.history
-    past, future = branches(history)
-    present = lineage(history)
+    past, future = split_history(history)
+    present = trace_history(history)
     return {
         "now": present[-1] if present else None,
         "steps": [
@@ -163,9 +163,9 @@ def _show_history(m: Loaded) -> Json:
                 "action": s.action,
                 "effect": s.effect,
                 "time": s.time,
-                "before": describe.rms_of(s.before),
-                "after": describe.rms_of(s.after),
-                "holdout": describe.rms_of(s.after, "holdout"),
+                "before": describe.find_rms(s.before),
+                "after": describe.find_rms(s.after),
+                "holdout": describe.find_rms(s.after, "holdout"),
                 "flights": sorted(s.flights),
                 "present": n in present,
                 "kept": bool(s.text),
@@ -180,7 +180,9 @@ def _show_history(m: Loaded) -> Json:
 def _show_steps(m: Loaded, c: Comparison) -> list[Json]:
     """The error after every step of the present branch, ending with what the flights that are open show now."""
     history = m.directory.history
-    bars = panels.error_steps([history[n].as_json() for n in lineage(history)], c.calibrated.rms_Eo)
+    bars = panels.list_error_steps(
+        [history[n].as_json() for n in trace_history(history)], c.calibrated.rms_Eo
+    )
     return [{"label": b.label, "value": b.value, "kind": "step" if b.strong else "start"} for b in bars]
 
 
@@ -279,7 +281,7 @@ def show_effects(d: Diagnosis) -> list[Json]:
     for r in d.ranking:
         own: Any = r.as_json()
         significant, claimed = r.rank > 0 and r.log_p < level, r.effect in d.found
-        best = describe.best_values(own) if significant or claimed else []
+        best = describe.choose_values(own) if significant or claimed else []
         found.append(
             {
                 **_about(d, r.effect),
@@ -292,7 +294,7 @@ def show_effects(d: Diagnosis) -> list[Json]:
                 "holdout_Eo": r.after_holdout.rms_Eo,
                 "testable": r.rank > 0 and r.effect in linear,
                 "seen_from": [str(s) for s in d.sizes if s.effect == r.effect],
-                "values": [[describe.parameter_label(p), describe.with_uncertainty(p)] for p in best],
+                "values": [[describe.label_parameter(p), describe.format_value(p)] for p in best],
                 "indistinguishable": list(r.indistinguishable_from),
             }
         )
@@ -306,7 +308,7 @@ def _show_unexplained(d: Diagnosis) -> Json:
         "p": numbers.probability(d.remainder.log_p / math.log(10.0)),
         "terms": [
             {
-                "label": describe.term_label(t),
+                "label": describe.label_term(t),
                 "z": numbers.number(abs(float(str(t["z"])))),
                 "id": f"{t['harmonic']}|{t['term']}",
             }
@@ -347,7 +349,7 @@ def _show_trial(s: State) -> Json:
         "before": before,
         "after": after,
         "noise_Eo": None if a.after is None else a.after.noise_floor,
-        "values": [describe.parameter_line(p.as_json()) for p in (a.combinations or a.parameters)],
+        "values": [describe.write_parameter(p.as_json()) for p in (a.combinations or a.parameters)],
     }
 
 
@@ -409,7 +411,7 @@ def commands(s: State) -> list[str]:
 def _list_done(s: State, model: str, flights: str) -> list[str]:
     """The steps of the present branch, as comments."""
     history, known, found = s.model.directory.history, {x.name for x in s.flights}, []
-    for step in (history[n] for n in lineage(history)):
+    for step in (history[n] for n in trace_history(history)):
         if step.action in ("add", "remove"):
             on = f" {flights if set(step.flights) <= known else 'FLIGHTS'}" if step.flights else ""
             found.append(f"# done: ragg {step.action} {model} {shlex.quote(step.effect)}{on}")
@@ -440,8 +442,8 @@ def _make_origin(s: State, command: str) -> Origin:
 def _write_steps(s: State) -> str:
     before, after = s.require("previous"), s.require("compared")
     history = s.model.directory.history
-    steps = [history[n].as_json() for n in branches(history)[0]]
-    return pages.add_page(steps, before, after, _make_origin(s, "history"), s.diagnosed)
+    steps = [history[n].as_json() for n in split_history(history)[0]]
+    return pages.write_addition(steps, before, after, _make_origin(s, "history"), s.diagnosed)
 
 
 def _write_compensated(s: State, name: str) -> bytes:
@@ -466,8 +468,8 @@ def _write_json(s: State, name: str, command: str) -> str:
 
 
 FILES: Mapping[str, tuple[str, Callable[[State], str | bytes]]] = {
-    "compare.html": ("text/html", lambda s: pages.compare_page(s.require("compared"), _make_origin(s, "compare"))),
-    "diagnosis.html": ("text/html", lambda s: pages.diagnose_page(s.require("diagnosed"), _make_origin(s, "diagnose"))),
+    "compare.html": ("text/html", lambda s: pages.write_comparison(s.require("compared"), _make_origin(s, "compare"))),
+    "diagnosis.html": ("text/html", lambda s: pages.write_diagnosis(s.require("diagnosed"), _make_origin(s, "diagnose"))),
     "steps.html": ("text/html", _write_steps),
     "compare.json": ("application/json", lambda s: _write_json(s, "compared", "compare")),
     "diagnosis.json": ("application/json", lambda s: _write_json(s, "diagnosed", "diagnose")),

@@ -27,17 +27,17 @@ CLEAR, CLEAR_ALONE = 1.0, 3.0
 """Standard deviations below which a value is shown on request alone; of a single accelerometer, where combinations are known."""
 
 
-def eotvos(e: Json | None) -> str:
+def format_error(e: Json | None) -> str:
     """The error before demodulation of an error object."""
     return number(None if e is None else e.get("rms_Eo"))
 
 
-def with_uncertainty(p: Json) -> str:
+def format_value(p: Json) -> str:
     """Value, uncertainty and unit of a parameter, the last digits matching."""
     return numbers.with_unit(numbers.plus_minus(p["value"], p["std"]), p["unit"])
 
 
-def parameter_label(p: Json) -> str:
+def label_parameter(p: Json) -> str:
     """``D34 of dK1/dT``, ``K_iii of A1``, ``tau``."""
     of, _, name = str(p["name"]).rpartition(" ")
     j = p.get("accelerometer")
@@ -47,21 +47,21 @@ def parameter_label(p: Json) -> str:
     return f"{numbers.parameter(name)}{which}"
 
 
-def parameter_line(p: Json) -> str:
+def write_parameter(p: Json) -> str:
     """A fitted parameter in one line."""
-    return f"{parameter_label(p)} = {with_uncertainty(p)}"
+    return f"{label_parameter(p)} = {format_value(p)}"
 
 
-def error_text(before: Json | None, after: Json | None) -> str:
+def write_errors(before: Json | None, after: Json | None) -> str:
     """The error before and after a step."""
-    return f"error {eotvos(before)} → {eotvos(after)} Eo"
+    return f"error {format_error(before)} → {format_error(after)} Eo"
 
 
-def flights_text(names: Sequence[str]) -> str:
+def write_flights(names: Sequence[str]) -> str:
     return listed([str(n) for n in names]) if len(names) < 4 else f"{len(names)} flights"
 
 
-def effects_text(names: Sequence[str]) -> str:
+def write_effects(names: Sequence[str]) -> str:
     return f"effects in the model: {', '.join(map(str, names)) or 'none'}"
 
 
@@ -69,7 +69,7 @@ def counted(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def errors_section(
+def tabulate_errors(
     rows: Sequence[tuple[str, Json | None]], title: str = "Errors", *, detail: bool = False
 ) -> Section:
     """The table of errors, before demodulation and of both channels; a dash where there is none."""
@@ -80,7 +80,7 @@ def errors_section(
     return Section(title=title, table=table, detail=detail)
 
 
-def floor_row(c: Json) -> tuple[str, Json]:
+def make_floor_row(c: Json) -> tuple[str, Json]:
     """The noise floor as a row of the table of errors; its densities are those of the demodulator's band."""
     floor = dict(c["noise_floor"])
     for channel in ("inline", "cross"):
@@ -89,24 +89,24 @@ def floor_row(c: Json) -> tuple[str, Json]:
     return "noise floor", floor
 
 
-def next_section(command: str) -> Sections:
+def suggest_next(command: str) -> Sections:
     return (Section(sentences=(f"next: {command}",)),) if command else ()
 
 
-def plain_section(*sentences: str) -> Sections:
+def say_plainly(*sentences: str) -> Sections:
     found = tuple(text for text in sentences if text)
     return (Section(sentences=found),) if found else ()
 
 
-def term_label(t: Json) -> str:
+def label_term(t: Json) -> str:
     """``cos 2Ωt × ω_z``."""
     return f"{numbers.harmonic(str(t['harmonic']))} × {numbers.product(str(t['term']))}"
 
 
-def terms_table(terms: Sequence[Json]) -> Table:
+def tabulate_terms(terms: Sequence[Json]) -> Table:
     """Generic terms of a residual, the most significant first."""
     columns: Columns = {
-        "harmonic × motion term": term_label,
+        "harmonic × motion term": label_term,
         "coefficient": lambda t: numbers.plus_minus(float(t["coefficient"]), float(t["std"])),
         "unit": lambda t: numbers.unit_of_term(str(t["unit"])),
         "σ": lambda t: number(abs(float(t["z"]))),
@@ -118,7 +118,7 @@ def terms_table(terms: Sequence[Json]) -> Table:
 def _off_sheet(found: Sequence[Json]) -> Section:
     """Parameters that the record puts far from their test sheet."""
     lines = [
-        f"{parameter_label(x)} is {number(abs(x['sigmas']))} σ off its test sheet: {numbers.plain(x['value'])} instead of"
+        f"{label_parameter(x)} is {number(abs(x['sigmas']))} σ off its test sheet: {numbers.plain(x['value'])} instead of"
         f" {numbers.with_unit(numbers.plain(x['sheet']), x['unit'])}"
         for x in found
     ]
@@ -143,24 +143,24 @@ def describe_comparison(
     e = c["error"]
     usual = [("nominal", e["nominal"]), ("calibrated", e["calibrated"]), ("held out", e["holdout"])]
     sentences = [
-        f"{flights_text(flights)}: {numbers.fixed(c['samples'], 0)} samples at {number(c['rate_Hz'])} Hz; {effects_text(c['effects'])}."
+        f"{write_flights(flights)}: {numbers.fixed(c['samples'], 0)} samples at {number(c['rate_Hz'])} Hz; {write_effects(c['effects'])}."
     ]
     if c["converged"] and c["reason"]:
         sentences.append(f"Note: {c['reason']!s}.")
-    head = comparison_headline(c) if judged else ()
+    head = write_comparison_headline(c) if judged else ()
     found = [
         Section(sentences=(*head, *sentences), state="good" if c["adequate"] else "bad"),
-        errors_section([*(rows or usual), floor_row(c)]),
+        tabulate_errors([*(rows or usual), make_floor_row(c)]),
     ]
     where = c["where"]
     if where["motion"]:
-        found.append(Section("Where it fails", tuple(_worst(where)), terms_table(where["motion"])))
+        found.append(Section("Where it fails", tuple(_worst(where)), tabulate_terms(where["motion"])))
     if c["off_sheet"]:
         found.append(_off_sheet(c["off_sheet"]))
-    return (*found, *(next_section(then) if judged and not c["adequate"] else ()))
+    return (*found, *(suggest_next(then) if judged and not c["adequate"] else ()))
 
 
-def comparison_headline(c: Json) -> tuple[str, ...]:
+def write_comparison_headline(c: Json) -> tuple[str, ...]:
     """Whether the model is adequate, with the error, the noise and what says so."""
     error, noise = c["error"]["calibrated"]["rms_Eo"], c["noise_floor"]["rms_Eo"]
     if not c["converged"]:
@@ -194,9 +194,9 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     frozen, free = c["error"]["calibrated"], h["free"]["calibrated"]
     holds = "holds" if h["holds"] else "does NOT hold"
     head = (
-        f"The saved calibration {holds} here: it leaves {eotvos(frozen)} Eo, parameters fitted to this record"
-        f" {eotvos(free)} Eo; the noise floor is {eotvos(c['noise_floor'])} Eo.",
-        f"It was made {h['made']} on {flights_text(list(h['flights']))}. Test against parameters fitted to this record: chi-square"
+        f"The saved calibration {holds} here: it leaves {format_error(frozen)} Eo, parameters fitted to this record"
+        f" {format_error(free)} Eo; the noise floor is {format_error(c['noise_floor'])} Eo.",
+        f"It was made {h['made']} on {write_flights(list(h['flights']))}. Test against parameters fitted to this record: chi-square"
         f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions (p {_equals(h['log10_p'])}).",
     )
     rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))
@@ -204,7 +204,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     moved = [r for r in sorted(h["drift"], key=lambda r: -abs(r["z"])) if abs(r["z"]) > 3.0]
     columns: Columns = {
         "flight": lambda r: str(r["flight"]),
-        "parameter": parameter_label,
+        "parameter": label_parameter,
         "frozen": lambda r: numbers.plus_minus(r["frozen"], r["frozen_std"]),
         "now": lambda r: numbers.plus_minus(r["value"], r["std"]),
         "unit": lambda r: numbers.unit(r["unit"]),
@@ -222,7 +222,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
         title = "Single parameters whose change would explain it"
         found.append(Section(title, table=tabulate(h["suspects"], single)))
     save = "" if h["holds"] or not again else f"if the instrument may have changed: {again} --save"
-    return (*found, *next_section(save))
+    return (*found, *suggest_next(save))
 
 
 def _equals(log10_p: float | None) -> str:
@@ -230,26 +230,26 @@ def _equals(log10_p: float | None) -> str:
     return text if text.startswith("<") else f"= {text}"
 
 
-def verdict_headline(d: Json) -> str:
+def write_verdict(d: Json) -> str:
     """What a diagnosis concludes, with its numbers, in one sentence or two."""
     before, after, noise = d["error"]["before"], d["error"]["after"], d["noise_floor"]
     found = listed([_group_name(e, d["groups"]) for e in d["found"]])
     it = "it" if len(d["found"]) == 1 else "them"
     terms = d["unexplained"]["terms"]
-    mostly = f", mostly at {term_label(terms[0])}" if terms else ""
+    mostly = f", mostly at {label_term(terms[0])}" if terms else ""
     left = excess(after["rms_Eo"], noise["rms_Eo"])
     if not d["converged"] and d["verdict"] != "partly-explained":
         return f"No verdict: {d['remark']!s}."
     if d["verdict"] == "adequate":
         return (
-            f"Adequate: no effect is missing that this record could show. The calibrated model leaves {eotvos(before)} Eo;"
-            f" the noise floor is {eotvos(noise)} Eo."
+            f"Adequate: no effect is missing that this record could show. The calibrated model leaves {format_error(before)} Eo;"
+            f" the noise floor is {format_error(noise)} Eo."
         )
-    falls = f"With {it} the error falls from {eotvos(before)} to {eotvos(after)} Eo"
+    falls = f"With {it} the error falls from {format_error(before)} to {format_error(after)} Eo"
     if not after["rms_Eo"] < before["rms_Eo"] * (1.0 - 1e-6):
-        falls = f"The error stays {eotvos(before)} Eo"
+        falls = f"The error stays {format_error(before)} Eo"
     if d["verdict"] == "missing-effect":
-        return f"Missing: {found}. {falls}; the noise floor is {eotvos(noise)} Eo."
+        return f"Missing: {found}. {falls}; the noise floor is {format_error(noise)} Eo."
     if d["verdict"] == "partly-explained":
         return f"Partly explained: {found}. {falls}. Not yet explained: {number(left, 2)} Eo{mostly}."
     remain = excess(before["rms_Eo"], noise["rms_Eo"])
@@ -259,7 +259,7 @@ def verdict_headline(d: Json) -> str:
         else "the systematic part of it"
     )
     return (
-        f"Unexplained: {eotvos(before)} Eo remain where the noise floor is {eotvos(noise)} Eo, and no effect of the catalogue"
+        f"Unexplained: {format_error(before)} Eo remain where the noise floor is {format_error(noise)} Eo, and no effect of the catalogue"
         f" accounts for {size}{mostly}."
     )
 
@@ -271,7 +271,7 @@ def _group_name(effect: str, groups: Sequence[Json]) -> str:
     return str(effect)
 
 
-def best_values(r: Json) -> list[Json]:
+def choose_values(r: Json) -> list[Json]:
     """One value of every parameter of an effect: of its combinations, or single values, the one that stands out most."""
     every: dict[str, list[Json]] = {}
     for q in (*r["combinations"], *r["parameters"]):
@@ -287,9 +287,9 @@ def significance(p: Json) -> float:
 
 def finding(r: Json) -> str:
     """An effect in one line: what, its value, the error before and after, held out."""
-    values = ", ".join(parameter_line(p) for p in best_values(r)[:3])
+    values = ", ".join(write_parameter(p) for p in choose_values(r)[:3])
     held = r.get("error_after_holdout")
-    errors = f"{error_text(r['error_before'], r['error_after'])}, held out {eotvos(held)} Eo"
+    errors = f"{write_errors(r['error_before'], r['error_after'])}, held out {format_error(held)} Eo"
     return f"{r['effect']!s}: {values}{'; ' if values else ''}{errors}"
 
 
@@ -307,14 +307,14 @@ def _is_clear(p: Json, effect: Json) -> bool:
     return significance(p) > (CLEAR_ALONE if alone else CLEAR)
 
 
-def patterns_note(values: Sequence[Json]) -> list[str]:
+def explain_patterns(values: Sequence[Json]) -> list[str]:
     """What the combinations are that appear among the values."""
     named = {str(p["name"]).rpartition(" ")[0] for p in values}
     said = [f"{name} = {PATTERNS[name]}" for name in PATTERNS if name in named]
     return [f"{', '.join(said)}, each accelerometer weighted by its scale factor."] if said else []
 
 
-def values_sections(effects: Sequence[Json]) -> Sections:
+def describe_values(effects: Sequence[Json]) -> Sections:
     """All values of effects (name, parameters, combinations): those that are larger than their uncertainty, and the others."""
     every = [(e, p) for e in effects for p in _values_of(e)]
     if not every:
@@ -323,8 +323,8 @@ def values_sections(effects: Sequence[Json]) -> Sections:
     clear = [(e, p) for e, p in ordered if _is_clear(p, e)]
     columns: dict[str, Callable[[tuple[Json, Json]], str]] = {
         "effect": lambda x: str(x[0]["effect"]),
-        "parameter": lambda x: parameter_label(x[1]),
-        "value": lambda x: with_uncertainty(x[1]),
+        "parameter": lambda x: label_parameter(x[1]),
+        "value": lambda x: format_value(x[1]),
     }
     found = [Section("Values", table=tabulate(clear, columns, words=3))] if clear else []
     if hidden := len(every) - len(clear):
@@ -342,21 +342,21 @@ def describe_diagnosis(d: Json, then: str = "") -> Sections:
         d["verdict"], "bad"
     )
     first = Section(
-        sentences=(verdict_headline(d), *map(finding, claimed), *_remarks(d), *patterns_note(values)),
+        sentences=(write_verdict(d), *map(finding, claimed), *_remarks(d), *explain_patterns(values)),
         state=state,
     )
     rows = [("model as it is", d["error"]["before"])]
     if d["found"]:
         rows.append((f"with {listed([str(e) for e in d['found']])}", d["error"]["after"]))
-    found = [first, errors_section([*rows, floor_row(d)]), *values_sections(claimed)]
+    found = [first, tabulate_errors([*rows, make_floor_row(d)]), *describe_values(claimed)]
     terms = d["unexplained"]["terms"]
     if terms and d["verdict"] in ("unexplained", "partly-explained"):
-        found.append(Section(title="Not explained", table=terms_table(terms)))
+        found.append(Section(title="Not explained", table=tabulate_terms(terms)))
         found += _own_effect(d["unexplained"])
     found += [*_evidence(d), *_next_motions(d["next_motion"]), *_untestable(d)]
     if d["off_sheet"]:
         found.append(_off_sheet(d["off_sheet"]))
-    return (*found, *(next_section(then) if d["found"] else ()))
+    return (*found, *(suggest_next(then) if d["found"] else ()))
 
 
 def _remarks(d: Json) -> list[str]:
@@ -372,7 +372,7 @@ def _remarks(d: Json) -> list[str]:
     for x in d.get("disagree") or ():
         what = listed([str(e) for e in x["found"]]) or "no effect"
         said.append(
-            f"By itself, {flights_text(x['flights'])} {'needs' if len(x['flights']) == 1 else 'need'} {what}."
+            f"By itself, {write_flights(x['flights'])} {'needs' if len(x['flights']) == 1 else 'need'} {what}."
         )
     if d["holds_until_s"] is not None:
         said.append(
@@ -387,7 +387,7 @@ def _remarks(d: Json) -> list[str]:
         and best["log10_p"] < -4.0
     ):
         said.append(
-            f"Nearest of the catalogue is {best['effect']!s} (error {eotvos(best['error_after'])} Eo with it), which is not"
+            f"Nearest of the catalogue is {best['effect']!s} (error {format_error(best['error_after'])} Eo with it), which is not"
             " claimed: probabilities compare the effects of the catalogue only, and the cause may be another one."
         )
     return said
@@ -395,13 +395,13 @@ def _remarks(d: Json) -> list[str]:
 
 def _evidence(d: Json) -> Sections:
     if not d["ranking"]:
-        return plain_section("No effect of the catalogue could be tested on this record.")
+        return say_plainly("No effect of the catalogue could be tested on this record.")
     columns: Columns = {
         "effect": lambda r: str(r["effect"]),
         "p-value": lambda r: numbers.probability(r["log10_p"]),
         "probability": lambda r: chance(r["probability"]),
-        "error with it, Eo": lambda r: eotvos(r["error_after"]),
-        "held out, Eo": lambda r: eotvos(r["error_after_holdout"]),
+        "error with it, Eo": lambda r: format_error(r["error_after"]),
+        "held out, Eo": lambda r: format_error(r["error_after_holdout"]),
     }
     note = "p-value: chance of so much evidence without the effect; probability: among the effects of the catalogue."
     brief, strong = max(RANKED, len(d["found"])), frozenset(d["found"])
@@ -486,8 +486,8 @@ def describe_step(
     end = "the model is now adequate" if after["adequate"] else "the model is still NOT adequate"
     head = listed(done) or "the test sheet changed"
     text = [
-        f"{head[:1].upper()}{head[1:]}: {error_text(old['calibrated'], new['calibrated'])}, held out {eotvos(new['holdout'])} Eo;"
-        f" the noise floor is {eotvos(after['noise_floor'])} Eo, and {end}."
+        f"{head[:1].upper()}{head[1:]}: {write_errors(old['calibrated'], new['calibrated'])}, held out {format_error(new['holdout'])} Eo;"
+        f" the noise floor is {format_error(after['noise_floor'])} Eo, and {end}."
     ]
     if new["holdout"]["rms_Eo"] > old["holdout"]["rms_Eo"]:
         text.append("Held out, the error does not fall: this record does not confirm the step.")
@@ -496,55 +496,57 @@ def describe_step(
         ("before", old["calibrated"]),
         ("after", new["calibrated"]),
         ("held out", new["holdout"]),
-        floor_row(after),
+        make_floor_row(after),
     ]
-    first = Section(sentences=(*text, *patterns_note(every)), state="good" if after["adequate"] else "found")
-    return (first, errors_section(rows), *values_sections(values))
+    first = Section(
+        sentences=(*text, *explain_patterns(every)), state="good" if after["adequate"] else "found"
+    )
+    return (first, tabulate_errors(rows), *describe_values(values))
 
 
 def describe_addition(a: Json, effects: Sequence[str], then: str = "") -> Sections:
     """The result of ``add``; ``effects`` are those of the model afterwards."""
     if not a.get("converged", True):
-        return plain_section(f"{a['effect']!s} was NOT added: {a['reason']!s}.")
+        return say_plainly(f"{a['effect']!s} was NOT added: {a['reason']!s}.")
     if a["before"] is None or a["after"] is None:
-        return plain_section(f"Added {a['effect']!s}; {effects_text(effects)}.")
+        return say_plainly(f"Added {a['effect']!s}; {write_effects(effects)}.")
     found = [
         *describe_step([a["effect"]], [], a["before"], a["after"], [a]),
-        *plain_section(f"{effects_text(effects)}."),
+        *say_plainly(f"{write_effects(effects)}."),
     ]
     if a["off_sheet"]:
         found.append(_off_sheet(a["off_sheet"]))
-    return (*found, *(next_section(then) if not a["after"]["adequate"] else ()))
+    return (*found, *(suggest_next(then) if not a["after"]["adequate"] else ()))
 
 
-def rms_of(entry: Json | None, which: str = "calibrated") -> float | None:
+def find_rms(entry: Json | None, which: str = "calibrated") -> float | None:
     """rms_Eo of a step of a history; ``None`` if it has none."""
     inner = entry.get(which, entry if which == "calibrated" else None) if entry else None
     value = inner.get("rms_Eo") if inner else None
     return None if value is None else float(value)
 
 
-def history_table(steps: Sequence[Json]) -> Table:
+def tabulate_history(steps: Sequence[Json]) -> Table:
     """The error before and after every step."""
     columns: Columns = {
         "when, UTC": lambda s: str(s["time"])[:16].replace("T", " "),
         "step": lambda s: str(s["action"]),
         "effect": lambda s: str(s["effect"] or numbers.ABSENT),
-        "before, Eo": lambda s: number(rms_of(s.get("before"))),
-        "after, Eo": lambda s: number(rms_of(s.get("after"))),
-        "held out, Eo": lambda s: number(rms_of(s.get("after"), "holdout")),
+        "before, Eo": lambda s: number(find_rms(s.get("before"))),
+        "after, Eo": lambda s: number(find_rms(s.get("after"))),
+        "held out, Eo": lambda s: number(find_rms(s.get("after"), "holdout")),
     }
     return tabulate(steps, columns, words=3)
 
 
 def describe_history(steps: Sequence[Json]) -> Sections:
     """The steps of a model directory."""
-    return (Section(table=history_table(steps)),)
+    return (Section(table=tabulate_history(steps)),)
 
 
 def describe_model(name: str, effects: Sequence[str], steps: Sequence[Json]) -> Sections:
     """A model directory and its history."""
-    return (Section(sentences=(f"{name!s}; {effects_text(effects)}",), table=history_table(steps)),)
+    return (Section(sentences=(f"{name!s}; {write_effects(effects)}",), table=tabulate_history(steps)),)
 
 
 def summarize(kind: str, said: str, *errors: tuple[str, float | None]) -> str:

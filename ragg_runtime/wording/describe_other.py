@@ -11,20 +11,20 @@ from ragg_runtime.wording.describe import (
     Json,
     Sections,
     counted,
-    effects_text,
-    eotvos,
-    error_text,
-    errors_section,
-    flights_text,
-    floor_row,
-    next_section,
-    parameter_label,
-    patterns_note,
-    plain_section,
+    explain_patterns,
+    format_error,
+    format_value,
+    label_parameter,
+    label_term,
+    make_floor_row,
     promised,
+    say_plainly,
     significance,
-    term_label,
-    with_uncertainty,
+    suggest_next,
+    tabulate_errors,
+    write_effects,
+    write_errors,
+    write_flights,
 )
 from ragg_runtime.wording.numbers import number
 from ragg_runtime.wording.sections import Section, Table, tabulate
@@ -46,25 +46,25 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
     """The result of ``calibrate``."""
     e, seen = c["error"], c["directions"]
     head = (
-        f"Calibrated on {flights_text(flights)}: {error_text(e['nominal'], e['calibrated'])}, held out {eotvos(e['holdout'])} Eo;"
-        f" the noise floor is {eotvos(c['noise_floor'])} Eo."
+        f"Calibrated on {write_flights(flights)}: {write_errors(e['nominal'], e['calibrated'])}, held out {format_error(e['holdout'])} Eo;"
+        f" the noise floor is {format_error(c['noise_floor'])} Eo."
         if c["converged"]
         else "The calibration has NOT converged: do not rely on these values."
     )
     text = (
         f"The record determines {seen['seen']} of {seen['fitted']} directions of the parameters; the rest stay at their"
-        f" test-sheet values. {effects_text(c['effects'])[:1].upper()}{effects_text(c['effects'])[1:]}."
+        f" test-sheet values. {write_effects(c['effects'])[:1].upper()}{write_effects(c['effects'])[1:]}."
     )
     rows = [
         ("nominal", e["nominal"]),
         ("calibrated", e["calibrated"]),
         ("held out", e["holdout"]),
-        floor_row(c),
+        make_floor_row(c),
     ]
     found = [
         Section(sentences=(head, text), state="good" if c["converged"] else "bad"),
-        errors_section(rows),
-        *parameters_sections(c["combinations"], c["parameters"]),
+        tabulate_errors(rows),
+        *tabulate_parameters(c["combinations"], c["parameters"]),
     ]
     if c["drift"]:
         found += _flight_by_flight(c["drift"])
@@ -72,21 +72,21 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
         found += _drifting(c["drifting"])
     if "certificate" in c:
         found.append(_certificate(c["certificate"]))
-    return (*found, *next_section(then))
+    return (*found, *suggest_next(then))
 
 
-def parameters_sections(
+def tabulate_parameters(
     combinations: Sequence[Json], parameters: Sequence[Json], *, detail: bool = False
 ) -> Sections:
     """What a record determines of the parameters, and every one of them beside its test sheet."""
     clear = [p for p in combinations if significance(p) > CLEAR]
-    value: Columns = {"parameter": parameter_label, "value": with_uncertainty}
+    value: Columns = {"parameter": label_parameter, "value": format_value}
     sheet: Columns = {
         "test sheet": lambda p: number(p["sheet"], 4),
         "its uncertainty": lambda p: number(p["sheet_sigma"], 4),
         "shift, σ of the sheet": lambda p: numbers.fixed((p["value"] - p["sheet"]) / p["sheet_sigma"], 2),
     }
-    note, summary = " ".join(patterns_note(clear)), f"all {len(parameters)} parameters"
+    note, summary = " ".join(explain_patterns(clear)), f"all {len(parameters)} parameters"
     best = tabulate(clear, value, words=2, note=note)
     every = tabulate(parameters, value | sheet, words=2)
     return (
@@ -113,8 +113,8 @@ def _flight_by_flight(rows: Sequence[Json]) -> list[Section]:
     text = f"The flights differ by more than {DIFFERENT:g} σ in {count} of {len(names)} combinations."
     columns: Columns = {
         "flight": lambda q: str(q["flight"]),
-        "parameter": parameter_label,
-        "value": with_uncertainty,
+        "parameter": label_parameter,
+        "value": format_value,
     }
     return [
         Section("Flight by flight", (text,), tabulate(different, columns, words=3) if count else None),
@@ -139,7 +139,7 @@ def _drifting(d: Json) -> list[Section]:
     rows = []
     for key in dict.fromkeys((q["name"], q["accelerometer"]) for q in d["states"]):
         own = [q for q in d["states"] if (q["name"], q["accelerometer"]) == key]
-        rows.append((parameter_label(own[0]), with_uncertainty(own[0]), with_uncertainty(own[-1])))
+        rows.append((label_parameter(own[0]), format_value(own[0]), format_value(own[-1])))
     return [
         Section(
             title="Drift",
@@ -161,7 +161,7 @@ def _certificate(rows: Sequence[Json]) -> Section:
     """Each parameter as planned and as reached, those that were not reached first."""
     reached = sum(q["reached"] for q in rows)
     columns: Columns = {
-        "parameter": parameter_label,
+        "parameter": label_parameter,
         "value": lambda q: numbers.with_unit(number(q["value"], 6), q["unit"]),
         "before": lambda q: number(q["std_before"], 2),
         "planned": lambda q: number(q["std_planned"], 2),
@@ -222,7 +222,7 @@ def describe_online(r: Json, output: str) -> Sections:
     """The result of ``compensate --calibration online``, written to a file."""
     within, forget = r["follows_within_s"], r["forget_s"]
     follows = "" if within is None else f" (time constant {number(within)} s)"
-    return plain_section(
+    return say_plainly(
         f"{output}: sample by sample, starting from the {r['started']}; noise {number(r['noise_Eo_per_rtHz'])} Eo/√Hz.",
         f"The gradient is modelled as a random walk of {number(r['walk_Eo_per_rts'])} Eo/√s{follows}; the parameters"
         f" {'never forget' if forget is None else f'forget within {number(forget)} s'}.",
@@ -269,7 +269,7 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
     failed = [r for r in s["flights"] if "verdict" not in r]
 
     def error(key: str) -> Callable[[Json], str]:
-        return lambda r: eotvos(r["error"][key])
+        return lambda r: format_error(r["error"][key])
 
     columns: Columns = {
         "flight": lambda r: str(r["flight"]),
@@ -278,7 +278,7 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
         "calibrated, Eo": error("calibrated"),
         "held out, Eo": error("holdout"),
         "after, Eo": error("after"),
-        "noise, Eo": lambda r: eotvos(r["noise_floor"]),
+        "noise, Eo": lambda r: format_error(r["noise_floor"]),
         "found": lambda r: " ".join(map(str, r["found"])),
     }
     bad = s["counts"]["error"] or s["counts"]["unexplained"]
@@ -292,7 +292,7 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
         for note in r["notes"]:
             about.setdefault(str(note), []).append(str(r["flight"]))
     if about:
-        noted = tuple((note, flights_text(names)) for note, names in about.items())
+        noted = tuple((note, write_flights(names)) for note, names in about.items())
         table = Table(("note", "flights"), noted, words=2)
         summary = f"{counted(len(noted), 'note')} on the flights"
         found.append(Section(title="Notes", table=table, detail=True, summary=summary))
@@ -302,7 +302,7 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
         note = "found: claimed; perhaps: explains as much as what is claimed; testable: the record could have shown it"
         found.append(Section("Effects", table=Table(heads, counts, note=note)))
     if s["unexplained_terms"]:
-        terms: Columns = {"harmonic × motion term": term_label, "flights": lambda t: str(t["flights"])}
+        terms: Columns = {"harmonic × motion term": label_term, "flights": lambda t: str(t["flights"])}
         found.append(
             Section("What no effect explains", table=tabulate(s["unexplained_terms"], terms, brief=8))
         )
@@ -324,7 +324,7 @@ def _trends(parameters: Sequence[Json]) -> Section:
         return numbers.with_unit(numbers.rounded(t["mean"], std), t["unit"])
 
     columns: Columns = {
-        "parameter": parameter_label,
+        "parameter": label_parameter,
         "flights": lambda t: str(t["dof"] + 1),
         "mean": mean,
         "scatter": lambda t: number(t["scatter"], 2),
@@ -346,11 +346,11 @@ def describe_next_motion(r: Json, output: str) -> Sections:
         gain = ", ".join(
             f"{k} {number(now[f'{k}_Eo'])} → {number(then[f'{k}_Eo'])} Eo" for k in ("inline", "cross")
         )
-        return plain_section(
+        return say_plainly(
             head, f"What the parameters' uncertainty adds to the compensated channels: {gain} rms."
         )
     if not r["separations"]:
-        return plain_section(
+        return say_plainly(
             head, "No effects remain to be separated: a multisine about all axes, which excites every effect."
         )
     said = [
@@ -360,7 +360,7 @@ def describe_next_motion(r: Json, output: str) -> Sections:
         f" ({number(x['now'], 2)} → {number(x['then'])} σ)"
         for x in r["separations"]
     ]
-    return plain_section(head, *said)
+    return say_plainly(head, *said)
 
 
 def describe_flight_file(f: Json) -> Sections:

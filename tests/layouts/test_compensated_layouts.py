@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.compensate import (
     Kind,
-    Prepared,
+    PreparedFlights,
     compensate_channel,
     make_channel,
     make_columns,
     prepare,
 )
-from ragg_runtime.compensation.segment import Channel
+from ragg_runtime.compensation.segment import OutputChannel
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight
@@ -47,7 +47,9 @@ def flown(which: str) -> tuple[Instrument, Flight]:
 
 
 @cache
-def compensated(which: str, kind: Kind) -> tuple[Prepared, list[Channel], dict[str, NDArray[Any]]]:
+def compensated(
+    which: str, kind: Kind
+) -> tuple[PreparedFlights, list[OutputChannel], dict[str, NDArray[Any]]]:
     sheet, flight = flown(which)
     model, _ = derive.derived((), (), sheet.form, sheet.layout)
     p = prepare(model, sheet, [flight], kind)

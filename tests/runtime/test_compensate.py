@@ -19,8 +19,14 @@ from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.compensation import compensate
-from ragg_runtime.compensation.compensate import Kind, Prepared, compensate_channel, make_channel, prepare
-from ragg_runtime.compensation.segment import Channel, Compensated, Quality, Segment
+from ragg_runtime.compensation.compensate import (
+    Kind,
+    PreparedFlights,
+    compensate_channel,
+    make_channel,
+    prepare,
+)
+from ragg_runtime.compensation.segment import ChannelSegment, Compensated, OutputChannel, Quality
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -31,13 +37,13 @@ from tests.runtime.flown_twice import BRIEF, DURATION, files, flights, new_model
 
 def compensated(
     s: Scenario, x: Flight, kind: Kind = "self", name: str = "fir"
-) -> tuple[Channel, Compensated]:
+) -> tuple[OutputChannel, Compensated]:
     c = make_channel(prepare(load.packaged(), s.sheet, [x], kind), 0, name)
     return c, compensate_channel(c)
 
 
 @cache
-def flown(seed: int, kind: Kind) -> tuple[Flight, Prepared]:
+def flown(seed: int, kind: Kind) -> tuple[Flight, PreparedFlights]:
     """A flight over a gradient, fitted."""
     s = scenario(seed, duration=DURATION, rate=RATE, gradient_rms=50e-9)
     x = s.simulate({}).flight()
@@ -171,7 +177,7 @@ def test_the_instruments_own_response_to_the_gradient_is_undone() -> None:
     s = dataclasses.replace(s, sheet=sheet, instrument=sheet)
     x = s.simulate({}).flight()
     c, found = compensated(s, x)
-    true, ideal = truth(x, c.demodulator), Segment(c, slice(0, len(x.time))).first_estimate()
+    true, ideal = truth(x, c.demodulator), ChannelSegment(c, slice(0, len(x.time))).first_estimate()
     ok = np.isfinite(found.gradient)
     assert np.std((found.gradient - true)[ok].imag) < 0.1 * np.std((ideal - true)[ok].imag)
 

@@ -90,7 +90,7 @@ def test_the_terminal_says_what_a_physicist_would(result: Result) -> None:
     assert "(-v)" in brief and "(-v)" not in full
     values: Any = result.diagnosis.ranking[0].parameters
     for q in values:
-        label = numbers.to_ascii(describe.parameter_label(q.as_json()))
+        label = numbers.to_ascii(describe.label_parameter(q.as_json()))
         assert label in full
         assert label not in brief or abs(q.value) > q.std
     assert "1e-2" not in brief and "< 1e-16" in brief
@@ -114,13 +114,13 @@ def test_every_verdict_has_its_sentence(result: Result) -> None:
     }
     left: Any = dict(d["unexplained"]) | {"terms": [term]}  # type: ignore[call-overload]
     partly = d | {"verdict": "partly-explained", "unexplained": left}
-    assert ". Not yet explained: " in describe.verdict_headline(partly)
-    assert describe.verdict_headline(partly).endswith(" Eo, mostly at cos 2Ωt × a_x.")
+    assert ". Not yet explained: " in describe.write_verdict(partly)
+    assert describe.write_verdict(partly).endswith(" Eo, mostly at cos 2Ωt × a_x.")
     nothing = d | {"verdict": "unexplained", "found": [], "unexplained": left}
-    assert describe.verdict_headline(nothing).startswith("Unexplained: ")
+    assert describe.write_verdict(nothing).startswith("Unexplained: ")
     assert "Not explained:" in render_text(describe.describe_diagnosis(nothing))
-    assert describe.verdict_headline(d | {"verdict": "adequate"}).startswith("Adequate: ")
-    failed = describe.verdict_headline(d | {"converged": False, "remark": "it was stopped"})
+    assert describe.write_verdict(d | {"verdict": "adequate"}).startswith("Adequate: ")
+    failed = describe.write_verdict(d | {"converged": False, "remark": "it was stopped"})
     assert failed == "No verdict: it was stopped."
 
 

@@ -19,7 +19,7 @@ from ragg_runtime.experiments.dynamic import (
     run_regular,
 )
 from ragg_runtime.experiments.multifrequency import find_centre, multifrequency, run_mass, subtract_centre
-from ragg_runtime.experiments.page import Entry, Experiment, judge, write_page
+from ragg_runtime.experiments.page import Experiment, PrintedEntry, judge, write_page
 from ragg_runtime.experiments.paper import Printed
 from ragg_runtime.experiments.runs import (
     Channels,
@@ -52,7 +52,7 @@ def beside_the_mass() -> tuple[Channels, dict[str, Channels]]:
     return find_centre(run, found["numerical"]), found
 
 
-def _row(rows: tuple[Entry, ...], quantity: str) -> Entry:
+def _row(rows: tuple[PrintedEntry, ...], quantity: str) -> PrintedEntry:
     (found,) = (r for r in rows if r.quantity == quantity)
     return found
 

@@ -31,7 +31,7 @@ from ragg_runtime.model.evaluate import named, output, vector, voltages
 from ragg_runtime.model.record import record
 from ragg_runtime.report import parameters, whiteness
 from ragg_runtime.report.page import Origin
-from ragg_runtime.report.pages import add_page, compare_page, diagnose_page
+from ragg_runtime.report.pages import write_addition, write_comparison, write_diagnosis
 from ragg_runtime.report.plots import draw_plot
 from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.wording import describe, numbers
@@ -185,9 +185,9 @@ def make(c: Case) -> dict[str, str]:
         {"action": "add", "effect": "cubic-input", "time": "2031-01-02T00:00:00Z", "before": e, "after": e},
     ]
     return {
-        "compare": compare_page(c.comparison, ORIGIN),
-        "diagnose": diagnose_page(c.diagnosis, ORIGIN),
-        "add": add_page(history, c.comparison, c.comparison, ORIGIN, c.diagnosis),
+        "compare": write_comparison(c.comparison, ORIGIN),
+        "diagnose": write_diagnosis(c.diagnosis, ORIGIN),
+        "add": write_addition(history, c.comparison, c.comparison, ORIGIN, c.diagnosis),
     }
 
 
@@ -228,7 +228,7 @@ def test_names_of_strangers_are_text(cubic: Case) -> None:
 
 
 def test_same_input_same_bytes(cubic: Case) -> None:
-    assert diagnose_page(cubic.diagnosis, ORIGIN) == pages(cubic)["diagnose"]
+    assert write_diagnosis(cubic.diagnosis, ORIGIN) == pages(cubic)["diagnose"]
 
 
 def test_page_says_how_to_make_it_again(cubic: Case) -> None:
@@ -259,7 +259,7 @@ def test_missing_effect_is_named_with_its_size(cubic: Case) -> None:
     assert cubic.diagnosis.found == ("cubic-input",)
     said = describe.describe_diagnosis(cubic.diagnosis.as_json())
     (line,) = [x for x in said[0].sentences if x.startswith("cubic-input: ")]
-    (best,) = describe.best_values(
+    (best,) = describe.choose_values(
         next(r.as_json() for r in cubic.diagnosis.ranking if r.effect == "cubic-input")
     )
     assert abs(best["value"]) == pytest.approx(4.0, rel=0.1)
@@ -274,7 +274,7 @@ def test_unexplained_remainder_is_not_given_a_name(cubic: Case) -> None:
     d = replace(cubic.diagnosis, verdict="unexplained", found=(), remainder=cubic.comparison.remainder)
     d = replace(d, target=d.fitted, coefficients=np.zeros(d.fitted.size), scored=cubic.comparison.scored)
     assert d.remainder.significant
-    said = Page(diagnose_page(d, ORIGIN)).text
+    said = Page(write_diagnosis(d, ORIGIN)).text
     assert "no effect of the catalogue accounts for" in said
     assert "Missing:" not in said
     assert numbers.product(str(d.terms()[0]["term"])) in said
@@ -289,7 +289,7 @@ def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
     after, before = compare.compare(extended, known, [cubic.flight]), cubic.comparison
     errors = {"before": before.as_json()["error"], "after": after.as_json()["error"]}
     step = {"action": "add", "effect": "cubic-input", "time": "2031-01-01T00:00:00Z"}
-    said = Page(add_page([step | errors], before, after, ORIGIN)).text
+    said = Page(write_addition([step | errors], before, after, ORIGIN)).text
     a, b = numbers.number(before.calibrated.rms_Eo), numbers.number(after.calibrated.rms_Eo)
     assert f"Added cubic-input: error {a} → {b} Eo" in said
     rows = {c.label: c for c in budget.contributions(after.fitted)}
@@ -407,7 +407,7 @@ def test_four_voltages_see_every_accelerometer(clean: Case) -> None:
     v = parameters.find_visibility(c.fitted)
     assert {d.pattern for d in v.unseen} <= {"A1", "A2", "A3", "A4"}
     assert v.determined > parameters.find_visibility(clean.comparison.fitted).determined
-    assert "<svg" in compare_page(c, ORIGIN)
+    assert "<svg" in write_comparison(c, ORIGIN)
 
 
 def test_whiteness_has_99_percent_bounds_and_finds_what_is_not_noise(clean: Case) -> None:
@@ -428,7 +428,7 @@ def test_whiteness_has_99_percent_bounds_and_finds_what_is_not_noise(clean: Case
     assert outside(noise, 0) < 0.03
     assert outside(noise, 1) < 0.03
     assert outside(noise + 0.3 * np.std(noise) * a_x / np.std(a_x), 1) > 0.03
-    assert whiteness.worst_channel(f, 0, noise + 0.3 * np.std(noise) * a_x / np.std(a_x)) == "a_x"
+    assert whiteness.find_worst_channel(f, 0, noise + 0.3 * np.std(noise) * a_x / np.std(a_x)) == "a_x"
     against = whiteness.plot_against(f, 0, noise, "a_x")
     assert np.mean(against.axes[1].curves[1].y) == pytest.approx(1.0, abs=0.05)
     with pytest.raises(UserError, match="no such channel"):

@@ -30,7 +30,7 @@ from ragg_runtime.studio import mapping, session, views
 from ragg_runtime.studio.files import Places
 from ragg_runtime.studio.routes import ACTIONS
 from ragg_runtime.studio.series import HEAD, sample
-from ragg_runtime.studio.session import Session, branches, lineage
+from ragg_runtime.studio.session import Session, split_history, trace_history
 from ragg_runtime.studio.views import find_missing, mathml
 from ragg_runtime.wording import numbers
 from tests.layouts import sheets
@@ -116,17 +116,17 @@ def test_a_window_of_a_series_loses_no_extreme_and_no_gap() -> None:
 def test_undo_and_redo_walk_along_a_branch() -> None:
     actions = ["new", "add", "add", "undo", "undo", "redo", "edit", "undo", "redo"]
     steps = [Step(a, "2026-01-01", text=str(n)) for n, a in enumerate(actions)]
-    assert branches(steps[:3]) == ([0, 1, 2], [])
-    assert branches(steps[:5]) == ([0], [2, 1])
-    assert branches(steps[:6]) == ([0, 1], [2])
-    assert branches(steps[:7]) == ([0, 1, 6], [])
-    assert branches(steps[:8]) == ([0, 1], [6])
-    assert branches(steps) == ([0, 1, 6], [])
+    assert split_history(steps[:3]) == ([0, 1, 2], [])
+    assert split_history(steps[:5]) == ([0], [2, 1])
+    assert split_history(steps[:6]) == ([0, 1], [2])
+    assert split_history(steps[:7]) == ([0, 1, 6], [])
+    assert split_history(steps[:8]) == ([0, 1], [6])
+    assert split_history(steps) == ([0, 1, 6], [])
     kept = [*steps[:2], Step("calibrate", "2026-01-01")]  # leaves the model as it is
-    assert branches([*kept, Step("undo", "2026-01-01", "0", text="0")]) == ([0], [1])
+    assert split_history([*kept, Step("undo", "2026-01-01", "0", text="0")]) == ([0], [1])
     went = [*steps[:4], Step("add", "2026-01-01", text="4"), Step("restore", "2026-01-01", "2", text="2")]
-    assert lineage(went[:5]) == [0, 1, 4]
-    assert lineage(went) == [0, 1, 2]  # what is shown is the state after step 2
+    assert trace_history(went[:5]) == [0, 1, 4]
+    assert trace_history(went) == [0, 1, 2]  # what is shown is the state after step 2
 
 
 def test_a_timeline_shows_gaps_and_lone_samples() -> None:
