@@ -49,6 +49,10 @@ SHORTEST = 128
 """Least number of samples of which noise can be estimated."""
 
 
+CONSTANT = Level()
+"""A level that follows nothing."""
+
+
 def estimate_noise(
     at: Point,
     o: Observation,
@@ -90,9 +94,12 @@ def estimate_noise(
     if apart is not None:
         parts = _parts(at, o, apart, chosen)
     means = averages(at, o, _unwhitened(o, apart)) if slow else None
-    noise = _of_level(parts, o, Level(), means)
+    noise = _of_level(parts, o, CONSTANT, means)
     level = _level(parts, o, noise)
-    if level.parts:
+    if (
+        level.parts
+    ):  # what is loud has been in the fit: of what is quiet columns have left more than the noise
+        parts = _parts(at, o, apart, chosen, level)
         noise = _of_level(parts, o, level, means)
     said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
     words = "; ".join(w for w in said if w is not None) or None
@@ -200,26 +207,30 @@ def _chosen(o: Observation, most: int, samples: int) -> list[Segment]:
     return [s for s in found if np.sum(o.record.valid[s.rows]) >= SHORTEST]
 
 
-def _parts(at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segment]) -> list[_Part]:
-    """What is left of some segments of the flight, of the series as they are or in combinations."""
+def _parts(
+    at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segment], level: Level = CONSTANT
+) -> list[_Part]:
+    """What is left of some segments of the flight, of the series as they are or in combinations, by a fit that weighs by a level."""
     band = unknown_gradient.band(o)
     rate = None if o.recorded.demodulated else o.record.rate
     random = {e.id for e in at.model.candidates if e.kind == "random"}
     shown = [(n, c.effect) for n, c in enumerate(at.candidates, len(at.base)) if c.effect in random]
 
-    def kept(x: Left) -> Left:
+    def kept(x: Left, loud: Array) -> Left:
+        x = replace(x, rest=x.rest * loud, shapes=x.shapes * loud)
         # of several segments only the means know what is slow
         return x if len(chosen) == 1 else replace(x, columns=np.empty(0), directions=np.empty(0))
 
     def part(piece: Piece) -> _Part:
-        valid = piece.observation.record.valid
+        r = piece.observation.record
+        valid, loud = r.valid, np.broadcast_to(level.of(r.quantity), r.valid.shape)[r.valid]
         each = np.split(piece.white[piece.heard], len(o.series), axis=1)
-        known = [partial(_through, piece, m, len(each)) for m in range(len(each))]
+        known = [partial(_through, piece, m, len(each), loud) for m in range(len(each))]
         return _Part(
             rows=piece.segment.rows,
             valid=valid,
             outputs=tuple(
-                kept(fit_columns(x, valid, rate, band, t)) for x, t in zip(each, known, strict=True)
+                kept(fit_columns(x, valid, rate, band, t), loud) for x, t in zip(each, known, strict=True)
             ),
             taken=sum(w.white.shape[1] for w in piece.windows) / len(o.series),
             random={
@@ -229,17 +240,18 @@ def _parts(at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segm
             },
         )
 
-    return list(pass_over(at, o, _unwhitened(o, apart), part, chosen=chosen))
+    return list(pass_over(at, o, _unwhitened(o, apart, level), part, chosen=chosen))
 
 
-def _unwhitened(o: Observation, apart: Array | None) -> NoiseModel:
-    """What leaves the series as they are, or in combinations."""
-    plain = NoiseModel.white(o.record.rate, len(o.series))
+def _unwhitened(o: Observation, apart: Array | None, level: Level = CONSTANT) -> NoiseModel:
+    """What leaves the series as they are, or in combinations, over a level."""
+    plain = replace(NoiseModel.white(o.record.rate, len(o.series)), level=level)
     return plain if apart is None else replace(plain, combinations=apart)
 
 
-def _through(piece: Piece, m: int, outputs: int, columns: Array) -> Array:
-    """Columns (k, rows) of one output without what an unknown gradient spans."""
+def _through(piece: Piece, m: int, outputs: int, loud: Array, columns: Array) -> Array:
+    """Columns (k, rows) of one output over a level (rows,), without what an unknown gradient spans."""
+    columns = columns / loud
     if not piece.windows:
         return columns
     wide = np.zeros((len(columns), outputs, columns.shape[1]))

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from ragg_runtime.base import false_alarms
+from ragg_runtime.estimation.scores import log_sf
 
 Array = NDArray[np.float64]
 
@@ -24,7 +25,10 @@ CHANGES = false_alarms.LEVEL
 """p-value, over all that is asked, from which the level follows something."""
 
 INTERVALS = 48
-"""Stretches of time whose levels are compared."""
+"""Intervals of time whose levels are compared."""
+
+FINEST = 512
+"""Most of those between which the level may change."""
 
 GROUPS = (*(np.arange(1, 8) / 8), 15 / 16, 31 / 32)
 """Shares of the samples, in the order of some quantity, at which groups end: forces have long tails, and there the noise is loudest."""
@@ -140,12 +144,14 @@ def estimated(
     asked = len(quantities) + len(rivals)
     rivals = {n: x for n, x in rivals.items() if _is_rival(white, x, quantities, asked)}
     while len(parts) < MOST:
-        tests = [(*_test(u, n, x), n) for n, x in (*quantities.items(), *rivals.items())]
-        log_p, part, name = min(tests, key=lambda t: (t[0], t[2]))
-        if part is None or name in rivals or log_p + np.log(asked) > np.log(CHANGES):
+        tests = {n: _test(u, n, x) for n, x in (*quantities.items(), *rivals.items())}
+        follows = {n: t for n, t in tests.items() if t.log_p + np.log(asked) < np.log(CHANGES)}
+        best = max(follows, key=lambda n: (follows[n].gain, n), default=None)
+        part = None if best is None else follows[best].part
+        if best is None or part is None or best in rivals:
             break
         parts.append(part)
-        u = u / part.of(quantities[name])
+        u = u / part.of(quantities[best])
     level = np.ones(len(white))
     for p in parts:
         level *= p.of(quantities[p.name])
@@ -158,29 +164,52 @@ def _is_rival(u: Array, variance: Array, quantities: Mapping[str, Array], asked:
     return bool(special.log_ndtr(-excess(X @ X.T)[0]) + np.log(asked) < np.log(CHANGES))
 
 
-def _test(u: Array, name: str, x: Array) -> tuple[float, Part | None]:
-    """Logarithm of the p-value that the mean square of u (N,) is the same in all groups of x (N,), and the level in each."""
+@dataclass(frozen=True)
+class _Follows:
+    """Whether the level follows a quantity: logarithm of the p-value that it does not, how it does, and what that gains in description.
+
+    ``gain``: of log likelihood less BIC's charge, with the squares' own fourth moment.
+    """
+
+    log_p: float = 0.0
+    part: Part | None = None
+    gain: float = 0.0
+
+
+def _test(u: Array, name: str, x: Array) -> _Follows:
+    """Of u (N,) in groups of x (N,), in each of which the mean square may be another."""
     edges = _edges(name, x)
     if not len(edges):
-        return 0.0, None
+        return _Follows()
     square = u**2
-    which = np.searchsorted(edges, x, side="right")
-    count, power = np.bincount(which), np.bincount(which, square)
+    count, power = _sums(edges, x, square)
     if len(count) <= len(edges) or np.min(count) < FEWEST:
-        return 0.0, None
+        return _Follows()
     mean = float(np.mean(square))
     ratio = float(np.mean(square**2)) / mean**2 - 1.0
-    mean_of: Array = power / count
-    chi2 = float(np.sum(count * (mean_of / mean - 1.0) ** 2)) / max(ratio, 1e-3)
-    log_p = float(np.log(max(float(special.chdtrc(len(edges), chi2)), 5e-324)))
-    if name == "time":
-        # the fourth moment without the changes themselves
-        inner = float(np.mean(square**2)) / float(np.average(mean_of**2, weights=count)) - 1.0
-        edges, mean_of = _stretches(edges, count.astype(np.float64), np.asarray(power), max(2.0, inner))
+    log_p = log_sf(float(np.sum(count * (power / count / mean - 1.0) ** 2)) / max(ratio, 1e-3), len(edges))
+    if name == "time":  # a burst is short
+        fine = np.quantile(x, np.linspace(0.0, 1.0, min(FINEST, len(x) // FEWEST) + 1)[1:-1])
+        edges = _intervals(fine, *_sums(fine, x, square), float(np.mean(square**2)))
         if not len(edges):
-            return 0.0, None
-    at = edges if name in STEPPED else np.bincount(which, x) / count
-    return max(log_p, -1e6), Part(name, np.asarray(at), np.sqrt(mean_of / mean))
+            return _Follows()
+        count, power = _sums(edges, x, square)
+    mean_of = power / count
+    inner = max(2.0, float(np.mean(square**2)) / float(np.average(mean_of**2, weights=count)) - 1.0)
+    gain = -0.5 * float(np.sum(count * np.log(np.maximum(mean_of / mean, 1e-300)))) * 2.0 / inner
+    at = edges if name in STEPPED else _sums(edges, x, x)[1] / count
+    each = 2.0 if name == "time" else 1.0  # an instant, too
+    return _Follows(
+        log_p,
+        Part(name, np.asarray(at), np.sqrt(mean_of / mean)),
+        gain - 0.5 * each * len(edges) * float(np.log(len(u))),
+    )
+
+
+def _sums(edges: Array, x: Array, values: Array) -> tuple[Array, Array]:
+    """Number and sum of values (N,) in each group of x (N,)."""
+    which = np.searchsorted(edges, x, side="right")
+    return np.bincount(which).astype(np.float64), np.bincount(which, values)
 
 
 def _edges(name: str, x: Array) -> Array:
@@ -196,11 +225,13 @@ def _edges(name: str, x: Array) -> Array:
     return edges[(edges > np.min(x)) & (edges <= np.max(x))]
 
 
-def _stretches(edges: Array, count: Array, power: Array, ratio: float) -> tuple[Array, Array]:
-    """Edges between stretches of constant level, and their mean squares: the partition of least Gaussian cost (BIC).
+def _intervals(edges: Array, count: Array, power: Array, fourth: float) -> Array:
+    """Edges between intervals of constant level: the partition of least Gaussian cost (BIC).
 
-    A change costs its level and its instant; ``ratio`` is the variance of squares over their squared mean, 2 of a Gaussian.
+    A change costs its level and its instant; ``fourth`` is the mean fourth power.
     """
+    # the variance of squares over their squared mean, 2 of a Gaussian, without the changes themselves
+    ratio = max(2.0, fourth / float(np.average((power / count) ** 2, weights=count)) - 1.0)
     n = len(count)
     C, S = (np.concatenate([[0.0], np.cumsum(v)]) for v in (count, power))
     penalty = 2.0 * np.log(C[-1]) * ratio / 2.0
@@ -215,7 +246,7 @@ def _stretches(edges: Array, count: Array, power: Array, ratio: float) -> tuple[
     while ends[-1] > 0:
         ends.append(int(last[ends[-1]]))
     cuts = np.array(ends[::-1])
-    return np.asarray(edges[cuts[1:-1] - 1]), np.asarray(np.diff(S[cuts]) / np.diff(C[cuts]))
+    return np.asarray(edges[cuts[1:-1] - 1])
 
 
 def in_words(level: Level) -> str | None:

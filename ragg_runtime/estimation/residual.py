@@ -230,7 +230,9 @@ def _fitted(
         rank=fit.rank,
         kept=_kept(wide[:-1], fit.directions, valid) if rate else np.empty(0),
         found=found,
-        shapes=np.array([fit.solution[a:b] @ wide[a:b] for a, b in pairwise(ends)]),
+        shapes=np.array([fit.solution[a:b] @ wide[a:b] for a, b in pairwise(ends)]).reshape(
+            -1, wide.shape[1]
+        ),
         columns=wide[:-1],
         directions=fit.directions,
         valid=valid,
