@@ -291,10 +291,13 @@ _NAMED = {
         "Gal": ("gal", "gals", "GAL"),
         "mGal": ("mgal", "mgals", "MGAL", "milligal", "milliGal"),
         "uGal": ("ugal", "µgal", "μgal", "microgal"),
-        "deg/s": ("dps", "DPS", "°/s", "deg/sec"),
-        "deg/h": ("dph", "degph", "°/h", "°/hr"),
+        "deg/s": ("dps", "DPS", "°/s", "º/s", "deg/sec"),
+        "deg/h": ("dph", "degph", "°/h", "º/h", "°/hr"),
         "mdeg/s": ("mdps", "MDPS"),
-        "degC": ("\u2103", "deg C", "° C", "deg.C", "Celsius", "CELSIUS", "DEGC"),
+        "degC": (
+            *("\u2103", "deg C", "° C", "deg.C", "Celsius", "CELSIUS", "DEGC"),
+            *("degrees_celsius", "degrees_Celsius", "degrees_C", "degreesC", "degree_C"),  # of CF
+        ),
         "deg": ("DEG", "degs", "DEGREES", "Degrees"),
         "rad": ("RAD", "rads"),
         "s": ("SEC", "Seconds", "SECONDS"),

@@ -26,6 +26,7 @@ from ragg_runtime.io.tables import (
     DataColumn,
     DataTable,
     decode_values,
+    join_nested,
     label,
     make_table,
     read_attributes,
@@ -143,7 +144,7 @@ def read_hdf5(path: Path) -> list[DataTable]:
         for place, group, arrays in _find_groups(file):
             if place.rsplit("/", 1)[-1] != "units":
                 tables += _read_group(path, place, group, arrays)
-    return tables
+    return join_nested(tables)
 
 
 def _find_groups(file: h5py.File) -> Iterator[tuple[str, h5py.Group, dict[str, h5py.Dataset]]]:
@@ -249,7 +250,7 @@ def read_matlab(path: Path) -> list[DataTable]:
     with report_damage(path, "MATLAB"):
         require_memory(path, 8.0 * sum(math.prod(shape) for _, shape, _ in whosmat(path)))
         found = loadmat(path, mat_dtype=False, simplify_cells=True)
-    return list(_read_structures({n: v for n, v in found.items() if not n.startswith("__")}))
+    return join_nested([*_read_structures({n: v for n, v in found.items() if not n.startswith("__")})])
 
 
 def read_matlab_text(item: object) -> str:

@@ -70,10 +70,9 @@ def make_flight(
     if need_output:
         _require_output(made, made.names, accelerometers)
     si, si_units = _convert(made, g0, accelerometers)
-    time = si.pop("time")
-    grid = make_grid(time, made.place)
+    grid = make_grid(si.pop("time"), made.place)
     notes = [*made.notes, *_leave_out_impossible(si, si_units), *grid.notes]
-    slower = _interpolate_slower(time, si, si_units, grid, notes)
+    slower = _interpolate_slower(si, si_units, grid, notes)
     _drop_empty(si, notes, made.place)
     if need_output:  # once more: of the columns that hold anything
         _require_output(made, (*si, *slower), accelerometers)
@@ -346,9 +345,10 @@ def judge_slow(time: Array, values: Array) -> SlowChannel | str:
 
 
 def _interpolate_slower(
-    time: Array, si: dict[str, Array], si_units: Mapping[str, str], grid: Grid, notes: list[str]
+    si: dict[str, Array], si_units: Mapping[str, str], grid: Grid, notes: list[str]
 ) -> dict[str, Array]:
     """Auxiliary channels of a lower rate on the whole grid; they are taken out of ``si``, as are those that cannot be."""
+    time = grid.time[grid.index]
     whole = float(time[-1] - time[0])
     # One value in two seconds: more often than that, blanks are bridged where they stand.
     most = 1000 + 2 * int(min(whole / BRIDGED, ENDLESS))

@@ -13,6 +13,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.names import LONGEST, is_column
@@ -143,7 +144,11 @@ def _write_file(table: DataTable, tables: Sequence[DataTable], page: _Page) -> N
 def _write_time(table: DataTable, page: _Page) -> None:
     page.lines.append("[time]")
     found = _find_instants(table)
-    fits = [c for c in table.columns if c.is_number and (r := role_of(c.name)) and r.name == "time"]
+    fits = [
+        c
+        for c in table.columns
+        if c.is_number and (r := role_of(c.name)) and r.name in ("time", "second_of_week")
+    ]
     if not fits:  # an index without a name, unless it counts the rows
         fits = [
             c for c in table.columns if c.is_number and c.name == table.index and np.any(c.values % 1 != 0)
@@ -186,10 +191,19 @@ def _find_instants(table: DataTable) -> tuple[tuple[str, ...], str, str] | None:
     if date is not None and clock is not None and date is not clock:
         form = _find_form(date).replace("iso", "date clock")
         return (date.name, clock.name), form, "likely: a date and a time of the day"
+    if clock is not None and clock.is_number and not clock.unit and _is_hhmmss(clock.values):
+        return (clock.name,), "clock", "likely: hhmmss"
     for c in texts:
         if c.values.dtype.kind == "m" or parts_of(_cell(c))[1]:
             return (c.name,), "clock", "certain: a time of the day, or an elapsed time"
     return None
+
+
+def _is_hhmmss(values: NDArray[np.float64]) -> bool:
+    """Whether numbers are times of the day such as 132850.4; below 100 they could be seconds."""
+    x = values[np.isfinite(values)]
+    whole = len(x) > 0 and 100 <= np.max(x) < 240000 and np.min(x) >= 0
+    return bool(whole and np.all(x % 100 < 61) and np.all(x // 100 % 100 < 60))
 
 
 def _find_form(c: DataColumn) -> str:
@@ -296,12 +310,12 @@ _DISCS = "1234ABC"
 _PAIRS = ("xx", "xy", "xz", "yy", "yz", "zz")
 _PLAIN = (
     ("time", r"t|time|(gps|utc|unix|imu|rec)_?(time|sec(onds?)?)|time_?(s|sec|gps|utc|1980|day)|sec(onds?)?|f_?time|fid(ucial)?"),
-    ("time", r"x_?value|timestamp|elapsed(_?time)?"),
+    ("time", r"x_?value|(time_?)?stamp|elapsed(_?time)?|zeit"),
     ("line", r"line|line_?(no|num|number|id|index)|(flight_?)?line"),
     ("week", r"(gps_?)?w(ee)?k(_?no|_?number)?"),
     ("second_of_week", r"(gps_?)?(sow|tow|sec(onds?)?_?(of|in)_?week|week_?sec(onds?)?|seconds_of_gps_week)|gps_?seconds?"),
     ("date", r"date|y{2,4}m{2}d{2}|utc_?date|gps_?date|datum"),
-    ("clock", r"hhmmss(_?s+)?|utc|clock|time|time_?of_?day|utc_?time|gps_?time"),
+    ("clock", r"hhmmss(_?s+)?|utc|clock|time|time_?of_?day|utc_?time|gps_?time|uhrzeit"),
     ("G_out", r"g_?out|(out(put)?|sum)(_?(volt(age)?|sum))?|ggi(_?(out|sum))?"),
     ("cross", r"cross(_?raw)?"),
     ("spin_angle", r"spin_?(angle|phase)|encoder(_?angle)?|disc_?angle"),
@@ -321,8 +335,8 @@ _ALL = (
     *(Role(f"omega_{x}", rf"(w|omega|{_GYRO})_?{x}|{x}_?({_GYRO})") for x, _, _ in _AXES),
     *(Role(f"omegadot_{x}", rf"(omega_?dot|alpha|ang(ular)?_?acc(el(eration)?)?)_?{x}") for x, _, _ in _AXES),
     *(Role(f"B_{x}", rf"(b|mag|field)_?{x}", "guess") for x, _, _ in _AXES),
-    *(Role(f"a_{x}", rf"({_ACC})_?{n}", "guess", why=_NUMBERED) for x, n, _ in _AXES),
-    *(Role(f"omega_{x}", rf"(gyro?|rate)_?{n}|{p}", "guess", why=_PQR) for x, n, p in _AXES),
+    *(Role(f"a_{x}", rf"(a|{_ACC})_?{n}", "guess", why=_NUMBERED) for x, n, _ in _AXES),
+    *(Role(f"omega_{x}", rf"(w|omega|gyro?|rate)_?{n}|{p}", "guess", why=_PQR) for x, n, p in _AXES),
     *(Role(f"Gamma_{x}", rf"(gamma|gradient|gg)_?({x}|{x[::-1]})") for x in _PAIRS),
     *(Role(f"Gamma_{x}", rf"[tg]_?({x}|{x[::-1]})", "guess", why="known beforehand?") for x in _PAIRS),
     Role("inline", r"in_?line(_?raw)?", scale=2.0, why=_HALF),

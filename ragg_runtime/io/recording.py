@@ -41,7 +41,8 @@ counters stand still nearly always."""
 
 _VECTOR = re.compile(r"(a|omega|omegadot|B)_([xyz])")
 _TENSOR = re.compile(r"Gamma_([xyz])([xyz])")
-_THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:,\d{3})+\s*")
+_THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?\s*")
+_POINTED = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:\.\d{3})+,\d*\s*")
 _NINES = re.compile(r"-?9{3,}(?:\.(?:0|25|9+))?")
 
 
@@ -258,7 +259,8 @@ def _read_numbers(c: DataColumn, table: DataTable, null: Null, remedy: str | Non
 def parse_numbers(texts: NDArray[np.object_]) -> Array:
     """Numbers (n,) of texts, NaN where they are none: with decimal commas, a minus of print or the D of Fortran, too.
 
-    Commas that may stand between thousands (1,234) are not taken for decimal ones.
+    Where a number has points and then a comma (1.234,5) the comma is decimal in all; where one has a point, commas stand between
+    thousands. Commas alone are decimal, unless all of them may stand between thousands (1,234).
     """
 
     def parse(text: str) -> float:
@@ -267,13 +269,17 @@ def parse_numbers(texts: NDArray[np.object_]) -> Array:
         except ValueError:
             return np.nan
 
-    found = np.array([parse(t) for t in texts], dtype=np.float64)
-    odd = [k for k in np.flatnonzero(np.isnan(found)) if texts[k] not in MISSING]
-    plain = [write_plain(str(texts[k])) for k in odd]
-    thousands = all(map(_THOUSANDS.fullmatch, filter(is_comma, plain)))
-    commas = not thousands and not any("." in str(t) for t in texts)
-    for k, text in zip(odd, plain, strict=True):
-        found[k] = parse(text.replace(",", ".") if commas and is_comma(text) else text)
+    plain = [write_plain(str(t)) for t in texts]
+    if any(map(_POINTED.fullmatch, plain)):
+        return np.array([parse(t.replace(".", "").replace(",", ".")) for t in plain])
+    points = any("." in t for t in plain)
+    decimal = not points and not all(map(_THOUSANDS.fullmatch, filter(is_comma, plain)))
+    found = np.array([parse(t) for t in plain], dtype=np.float64)
+    for k in np.flatnonzero(np.isnan(found)):
+        if points and _THOUSANDS.fullmatch(plain[k]):
+            found[k] = parse(plain[k].replace(",", ""))
+        elif decimal and is_comma(plain[k]):
+            found[k] = parse(plain[k].replace(",", "."))
     return found
 
 

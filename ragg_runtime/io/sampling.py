@@ -77,6 +77,7 @@ class Grid:
 def make_grid(time: Array, path: Path | str | None) -> Grid:
     """The grid of a record's instants (n,), s; UserError where they make none."""
     where = at(path, "column 'time'")
+    time, notes = _unroll(time)
     _require_increasing(time, path, where)
     steps = np.diff(time)
     step, span = _typical_step(steps), float(time[-1] - time[0])
@@ -100,15 +101,30 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
     rounded = unround(time, index)
     if rounded is None:
         whole = time if count == len(time) else np.interp(np.arange(count), index, time)
-        notes = _describe_gaps(time, jumps, step) + _describe_jitter(time, jumps, off, step)
+        notes += _describe_gaps(time, jumps, step) + _describe_jitter(time, jumps, off, step)
         return Grid(index, whole, step, tuple(notes))
     unit, first, step = rounded
-    notes = _describe_gaps(time, jumps, step)
+    notes += _describe_gaps(time, jumps, step)
     if unit > JITTER_NOTED * step:
         notes.append(
             f"the stamps are rounded to {unit:g} s: they are put on the even grid of {1 / step:.6g} Hz"
         )
     return Grid(index, np.asarray(first + step * np.arange(count), dtype=np.float64), step, tuple(notes))
+
+
+def _unroll(time: Array) -> tuple[Array, list[str]]:
+    """Seconds of the day or of the GPS week that go on over its end, and a note of it."""
+    back = np.diff(time, prepend=time[:1])
+    for period, name in ((86400.0, "day"), (604800.0, "week")):
+        if (
+            np.any(back < 0)
+            and np.min(time) >= 0
+            and np.max(time) <= period
+            and np.max(back[back < 0]) < -0.9 * period
+        ):
+            note = f"the seconds of the {name} begin anew on the way: counted on"
+            return time + period * np.cumsum(back < 0), [note]
+    return time, []
 
 
 def _typical_step(steps: Array) -> float:
@@ -313,6 +329,9 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
     if len(time) < 2:
         rows = f"{len(time)} row{'s' * (len(time) != 1)}"
         raise UserError("too few samples", where=path, found=rows, expected="at least 2, usually thousands")
+    if not np.all(np.isfinite(time)):
+        row = int(np.flatnonzero(~np.isfinite(time))[0])
+        raise UserError("the time is missing", where=where, found=f"row {row + 1}: {time[row]}")
     steps = np.diff(time)
     if np.all(steps > 0):
         return

@@ -185,8 +185,8 @@ def make_table(
     Parameters
     ----------
     arrays
-        Name and array: (n,), or (n, m), (m, n) with m up to ``WIDEST``, which give ``name_1`` ... ``name_m``. Anything
-        with ``shape`` that NumPy converts, perhaps with ``attrs``.
+        Name and array: (n,), or (n, m), (m, n) with m up to ``WIDEST``, which give ``name_1`` ... ``name_m`` (or ``a_x`` ...
+        of a vector ``a``). Anything with ``shape`` that NumPy converts, perhaps with ``attrs``.
     given
         Units by name, beside those in ``attrs`` and in the names themselves.
     about
@@ -234,12 +234,13 @@ def _is_unit_key(name: str) -> bool:
 
 
 def _spread(name: str, values: NDArray[Any], length: int) -> list[tuple[str, NDArray[Any]]]:
-    """The columns of an array: itself, or ``name_1`` ... of one of two dimensions."""
+    """The columns of an array: itself, or ``name_1`` ... of one of two dimensions (``a_x``, ``a_y``, ``a_z`` of ``a``)."""
     if values.ndim == 1:
         return [(name, values)]
     values = values if values.shape[0] == length else values.T
     width = values.shape[1]
-    return [(name if width == 1 else f"{name}_{k + 1}", values[:, k]) for k in range(width)]
+    axes = "xyz" if width == 3 and f"{name}_x" in SI_UNITS else range(1, width + 1)
+    return [(name if width == 1 else f"{name}_{k}", x) for k, x in zip(axes, values.T, strict=True)]
 
 
 def read_attributes(thing: Any) -> dict[str, Any]:
@@ -479,6 +480,24 @@ def line_name(value: object) -> str:
     except ValueError:
         return write_cell(value)
     return write_cell(number) if np.isfinite(number) else ""
+
+
+def join_nested(tables: Sequence[DataTable]) -> list[DataTable]:
+    """Groups in groups as one table: what has as many rows, and no name in common, is a part of the record around it."""
+    found: dict[str, DataTable] = {}
+    for t in tables:
+        place = t.part.strip("/")
+        around = place
+        while around and (around not in found):
+            around = around.rpartition("/")[0]
+        outer = found.get(around)
+        if outer is None or around == place or len(outer) != len(t) or {*outer.names} & {*t.names}:
+            found[place] = t
+            continue
+        stem = place.removeprefix(around).strip("/").replace("/", "_")
+        own = (replace(c, name=f"{stem}_{c.name}") for c in t.columns)
+        found[around] = replace(outer, columns=(*outer.columns, *own), notes=(*outer.notes, *t.notes))
+    return list(found.values())
 
 
 # --- memory --------------------------------------------------------------------------------------------

@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.io.array_files import of_arrow, report_damage
 from ragg_runtime.io.instants import parts_of
+from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.io.tables import (
     INDEX,
     MOST_COLUMNS,
@@ -44,7 +45,7 @@ LONGEST_LINE = 1 << 20
 """Characters of a line from which a file is no table."""
 
 _EXCEL_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
-_WORDS = "nan NaN NAN NaT NA N/A n/a <NA> null NULL None -nan nan(ind) -nan(ind)"
+_WORDS = "nan NaN NAN NaT NA N/A n/a n.a. <NA> null NULL None -nan nan(ind) -nan(ind)"
 _OF_C = tuple(f"{sign}1.#{word}" for sign in ("", "-") for word in ("IND", "QNAN", "INF"))
 MISSING = ("", "-", "--", "*", *_WORDS.split(), *_OF_C, *_EXCEL_ERRORS)
 """Cells that hold nothing."""
@@ -159,7 +160,7 @@ def _join_rows(above: Sequence[str], below: Sequence[str]) -> list[str]:
     for upper, lower in zip(above, below, strict=True):
         title = upper or (title if lower else "")
         (name, unit), (own, its) = read_heading(title), read_heading(lower)
-        whole = "_".join(filter(None, (name, own)))
+        whole = own if own in SI_UNITS else "_".join(filter(None, (name, own)))
         found.append(f"{whole} [{its or unit}]" if its or unit else whole)
     return found
 
@@ -169,11 +170,12 @@ def _join_rows(above: Sequence[str], below: Sequence[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class _Dialect:
-    """How a CSV file is written: ``lines`` stand before the first row, ``texts`` are columns that hold text."""
+    """How a CSV file is written: ``lines`` stand before the first row (``headings``), ``texts`` are columns that hold text."""
 
     delimiter: str
     decimal: str
     lines: int
+    headings: tuple[bytes, ...]
     header: Header
     texts: frozenset[int]
 
@@ -182,12 +184,18 @@ def read_csv(path: Path) -> list[DataTable]:
     """The CSV file as one table; UserError if it has no header or lines of different widths."""
     data, notes = _read_text(path)
     dialect = _look(data, path)
-    table = None
+    data = _drop_headers(data, dialect, notes)
+    table, passed = None, list[str]()
     while table is None:  # a column is of text as soon as one of its cells is no number
+        passed.clear()
         try:
-            table = _parse(data, dialect)
+            table = _parse(data, dialect, passed)
         except pa.ArrowInvalid as error:
             dialect = _changed(dialect, str(error), path)
+    if passed:
+        notes.append(
+            f"{len(passed)} line{'s' * (len(passed) > 1)} without data passed over: {', '.join(passed[:3])}"
+        )
     columns = []
     for k, x in enumerate(map(of_arrow, table.columns)):
         name, unit = dialect.header.names[k], dialect.header.units[k]
@@ -252,13 +260,15 @@ def _look(data: bytes, path: Path) -> _Dialect:
         raise UserError("the flight file has no header", where=path, expected="time [s],a_x [g],...")
     _, delimiter, header, rows, ends = best
     names, sample = header.names, rows[header.begins :]
+    above = ends[header.begins - 1] if header.begins else 0
     if len(names) > MOST_COLUMNS:
         raise too_wide(path, len(names))
     require_memory(path, len(data) * len(lines) / (sum(map(len, lines)) or 1) * len(names) * 8)
     return _Dialect(
         delimiter=delimiter,
         decimal="," if any(map(is_comma, itertools.chain(*sample))) else ".",
-        lines=ends[header.begins - 1] if header.begins else 0,
+        lines=above,
+        headings=tuple(x.encode() for x in lines[:above]),
         header=header,
         # names of lines are words, even where they are numbers
         texts=frozenset(k for k, n in enumerate(names) if n.casefold() == "line" or _holds_text(sample, k)),
@@ -289,14 +299,37 @@ def _holds_text(rows: Sequence[Sequence[str]], column: int) -> bool:
     return any(c.strip() not in MISSING and not is_number(c) for c in cells)
 
 
-def _parse(data: bytes, d: _Dialect) -> pa.Table:
-    """The columns as Arrow reads them; ArrowInvalid where a cell is no number or a line has another width."""
+def _drop_headers(data: bytes, d: _Dialect, notes: list[str]) -> bytes:
+    """The text without headings that stand in it again, as in files that were joined."""
+    begins, count = sum(map(len, d.headings)), 0
+    for heading in d.headings:
+        if d.delimiter.encode() in heading and data.find(b"\n" + heading, begins - 1) >= 0:
+            body = data[begins - 1 :]
+            count += body.count(b"\n" + heading)
+            data = data[: begins - 1] + body.replace(b"\n" + heading, b"\n\n")
+    if count:
+        notes.append(f"the header stands in the file again ({count} line{'s' * (count > 1)}): passed over")
+    return data
+
+
+def _parse(data: bytes, d: _Dialect, passed: list[str]) -> pa.Table:
+    """The columns as Arrow reads them; ArrowInvalid where a cell is no number or a line with data has another width.
+
+    Lines of another width that hold no data, such as remarks, go into ``passed``.
+    """
+
+    def judge(row: pyarrow.csv.InvalidRow) -> str:
+        if not row.text.startswith("#") and _is_data(row.text.split(d.delimiter)):
+            return "error"
+        passed.append(f"line {row.number} ({row.text[:40]!r})")
+        return "skip"
+
     kinds = {str(k): pa.string() if k in d.texts else pa.float64() for k in range(len(d.header.names))}
     # with several threads Arrow does not say in which row it stumbled
     options = pyarrow.csv.ReadOptions(
         skip_rows=d.lines, column_names=list(kinds), block_size=1 << 22, use_threads=False
     )
-    parse = pyarrow.csv.ParseOptions(delimiter=d.delimiter)
+    parse = pyarrow.csv.ParseOptions(delimiter=d.delimiter, invalid_row_handler=judge)
     convert = pyarrow.csv.ConvertOptions(column_types=kinds, null_values=MISSING, decimal_point=d.decimal)
     try:
         return pyarrow.csv.read_csv(pa.BufferReader(data), options, parse, convert)

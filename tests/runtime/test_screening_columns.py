@@ -11,7 +11,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.io.sampling import even_clock, find_clock_steps, make_grid
-from ragg_runtime.screening.repeated import leave_out_repeated
+from ragg_runtime.screening.repeated import leave_out_repeated, with_derived_acceleration
 from ragg_runtime.screening.spikes import find_glitches, find_spikes, leave_out_glitches
 from ragg_runtime.signals.resolution import find_step
 
@@ -62,6 +62,18 @@ def test_an_angular_acceleration_faster_than_the_held_rate_is_said(fast: bool) -
     flight = Flight(time=TIME, channels=columns, outputs={}, written=dict.fromkeys(ANGULAR_RATE, "rad/s"))
     (flag,) = leave_out_repeated(flight).flags
     assert flag.open == fast and ("derived from it, changes faster" in flag.reason) == fast
+
+
+def test_an_angular_acceleration_is_not_derived_across_a_gap() -> None:
+    lacking = np.abs(TIME - 300) < 2
+    x = np.interp(TIME, TIME[~lacking], SMOOTH[~lacking])
+    channels = dict.fromkeys(ANGULAR_RATE, x) | dict.fromkeys(ANGULAR_ACCELERATION, x)
+    given = dict.fromkeys(ANGULAR_RATE, "rad/s")
+    flight = Flight(TIME, channels, {}, valid=~lacking, written=given, lacking=lacking)
+    found = with_derived_acceleration(flight)
+    wrong = (found.channels["omegadot_x"] - np.gradient(SMOOTH, TIME, edge_order=2))[1:-1][found.valid[1:-1]]
+    near = np.abs(TIME[1:-1][found.valid[1:-1]] - 300) < 10
+    assert np.max(np.abs(wrong[near])) < 1.1 * np.max(np.abs(wrong[~near]))
 
 
 ANGLE = np.mod(2 * np.pi * 0.25 * TIME + 1, 2 * np.pi)
@@ -200,6 +212,14 @@ def test_stamps_that_are_too_coarse_are_no_doubled_rows(stamps: np.ndarray, word
         make_grid(stamps, None)
     said = str(caught.value)
     assert words in said and "time = row / " in said and "remove" not in said
+
+
+def test_a_pause_of_whole_samples_is_no_clock_that_was_set() -> None:
+    """Were each gap fitted as one, the jitter of the stamps beside it would change the rate."""
+    kept = np.ones(N, dtype=bool)
+    kept[np.add.outer(np.arange(500, 9500, 600), np.arange(40)).ravel()] = False
+    stamps = TIME + 1e-3 / 16 * NOISE
+    assert even_clock(stamps, kept)[1] == 1 / 16 and not any(c.part for c in find_clock_steps(stamps, kept))
 
 
 @pytest.mark.parametrize("size", [0.025, 0.7, 3.013, -0.025])

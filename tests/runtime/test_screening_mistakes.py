@@ -185,6 +185,23 @@ def test_a_clock_that_was_set_is_said_with_its_time(size: float) -> None:
     np.testing.assert_allclose(found.time, x.time, atol=1e-9)
 
 
+@pytest.mark.parametrize("size", [1e-5, 1e-3])
+def test_stamps_that_scatter_beside_even_samples_are_made_even(size: float) -> None:
+    x = flown(12)
+    e = size / x.rate * np.random.default_rng(1).standard_normal(len(x))
+    found = screen(MODEL, drawn(12).sheet, replace(x, time=x.time + e))
+    np.testing.assert_allclose(found.time, x.time, rtol=0, atol=size / x.rate / 10)
+
+
+def test_samples_that_were_taken_unevenly_keep_their_instants() -> None:
+    s = scenario(12, duration=100.0, rate=160.0)
+    x = s.simulate().flight()
+    k = 10 * np.arange(1, 1590) + np.random.default_rng(1).integers(-1, 2, 1589)
+    columns = {n: {c: v[k] for c, v in getattr(x, n).items()} for n in ("channels", "outputs")}
+    uneven = replace(x, time=x.time[k], valid=x.valid[k], **columns)
+    assert np.array_equal(screen(MODEL, s.sheet, uneven).time, uneven.time)
+
+
 @pytest.mark.usefixtures("no_timing")
 def test_columns_that_contradict_each_other_are_remarked() -> None:
     x = flown(12)

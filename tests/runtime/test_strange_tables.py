@@ -80,6 +80,16 @@ CSV = {
     "UTF-16": text(PLAIN, rows()).encode("utf-16"),
     "a remark in one row": text(PLAIN + ",remark", [[*r, "1" if k < 50 else "x"] for k, r in enumerate(rows())]),
     "an index that is time": text("," + PLAIN.partition(",")[2], rows([f"0 days 00:00:{t:09.6f}" for t in VALUES["time"]])),
+    "remarks among the rows and at the end": text(PLAIN, [*rows()[:9], ["# marker 5"], *rows()[9:], ["end", "of", "record"]]),
+    "joined from two": text(PLAIN, [*rows()[:9], [PLAIN], *rows()[9:]]),
+    "thousands": text("time [ms]," + PLAIN.partition(",")[2], rows([f'"{1000 * t:,.1f}"' for t in VALUES["time"]])),
+    "points between thousands": text(
+        "time [ms];" + ";".join(HEADER[1:]),
+        rows([f"{1000 * t:,.1f}".translate(str.maketrans(",.", ".,")) for t in VALUES["time"]]),
+        ";",
+        decimal=",",
+    ),
+    "over midnight": text(PLAIN, rows([(86398 + t) % 86400 for t in VALUES["time"]])),
     "row numbers in front": text("," + PLAIN, [[k, *r] for k, r in enumerate(rows())]),
 }  # fmt: skip
 
@@ -236,6 +246,8 @@ def test_codes_are_left_out_with_a_note_in_every_column(tmp_path: Path) -> None:
 
 def test_flights_in_memory() -> None:
     plain = {h: v for h, v in zip(HEADER, VALUES.values(), strict=True)}  # noqa: C416
+    vector = {h: v for h, v in plain.items() if h[:2] != "a_"}
+    vector["a [g]"] = np.stack([VALUES[f"a_{k}"] for k in "xyz"], axis=1)
     bare = {n: v for n, v in VALUES.items() if n != "time"}
     named = pd.DataFrame(bare, index=pd.Index(pd.to_timedelta(VALUES["time"], unit="s")))
     named.attrs = {"units": UNITS}
@@ -254,6 +266,7 @@ def test_flights_in_memory() -> None:
     for data, instants in (
         (plain, False),
         (pd.DataFrame(plain), False),
+        (vector, False),
         (pd.DataFrame(plain).iloc[::1].set_index(HEADER[0]), False),
         (named, False),
         (dated, True),
@@ -382,7 +395,7 @@ def test_what_a_file_holds(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("spelling", "unit"),
     [("Volt", "V"), ("DEG/S", "deg/s"), ("mdps", "mdeg/s"), ("\u2103", "degC"), ("m/s²", "m/s^2"), ("Deg/Hr", "deg/h"), ("volts", "V"),
-     ("mVolt", "mV"), ("G", "g"), ("C", "degC")],
+     ("mVolt", "mV"), ("G", "g"), ("C", "degC"), ("degrees_celsius", "degC")],
 )  # fmt: skip
 def test_spellings(spelling: str, unit: str) -> None:
     si = units(G0).base_unit(unit)
