@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
@@ -24,6 +24,9 @@ from ragg_runtime.io.mapping import UNKNOWN
 from ragg_runtime.io.record import ANGULAR_RATE, DEMODULATED, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.recording import find_spoiled, parse_numbers
 from ragg_runtime.io.tables import DataColumn, DataTable, is_unit, split_lines
+
+OUTPUTS = ("G_out", "V_", "inline")
+"""How channels begin of which one must be there."""
 
 _LOOKED_AT = 20_000  # rows of a sample
 _FEW = 5  # different cells that are no numbers, in a column of numbers
@@ -43,53 +46,41 @@ class Draft:
     notes: tuple[str, ...] = ()
 
 
-@dataclass
-class _Page:
-    """What has been written so far; ``odd``: columns of numbers -> their few cells that are none."""
-
-    lines: list[str]
-    odd: Mapping[str, Sequence[str]]
-    questions: list[str] = field(default_factory=list)
-    used: set[str] = field(default_factory=set)
-    sure: dict[str, str] = field(default_factory=dict)
-
-
 def draft_mapping(path: Path) -> Draft:
     """Look at the table of a file that has most of what a flight has, and write a mapping for it."""
     tables, table = _pick(read_tables(path), path)
     table, odd = _read_numbers(table)
-    head = [
-        f"# How ragg reads {_quoted(path.name)}: written by `ragg map`, to be looked over.",
-        '# certain: the name is ragg\'s own; likely: usual for it; guess: look twice. "?" waits for an answer.',
-    ]
-    page = _Page([*head, *(f"# {_quoted(n)}" for n in table.notes), ""], odd)
-    _write_file(table, tables, page)
-    _write_time(table, page)
-    _write_columns(table, page)
-    unused = [c for c in table.columns if c.name not in page.used]
-    if unused:
-        page.lines += [
-            "",
-            "# Not used (any column can be kept as an auxiliary channel under a name of its own):",
-        ]
-    for c in unused:
-        kept = f"{_key(c.name)} = {_entry(c.name, c.unit or UNKNOWN)}"
-        page.lines.append(f"# {kept}" if c.is_number else f"# no numbers: {_quoted(c.name)} ({_example(c)})")
+    questions: list[str] = []
+    line = next((n for n in table.names if ROLES["line"].fits(n)), None) if len(tables) == 1 else None
+    time, used = _draft_time(table, odd, questions)
+    rest = [c for c in table.columns if c.name not in (line, *used)]
+    taken = _take_roles(rest)
+    unused = [c for c in rest if c.name not in {c.name for c, _ in taken.values()}]
     texts = [f"{c.name}: no numbers ({_example(c)}), not used" for c in unused if not c.is_number]
-    lacking = [n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE) if n not in page.sure]
-    if not any(n.startswith(OUTPUTS) for n in page.sure):
+    lacking = [n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE) if n not in taken]
+    if not any(n.startswith(OUTPUTS) for n in taken):
         lacking.append("the output (G_out, V_1 ... or inline and cross)")
     said = [f"no column is recognised as {', '.join(lacking)}: name it in [columns]"] if lacking else []
+    lines = [
+        f"# How ragg reads {_quoted(path.name)}: written by `ragg map`, to be looked over.",
+        '# certain: the name is ragg\'s own; likely: usual for it; guess: look twice. "?" waits for an answer.',
+        *(f"# {_quoted(n)}" for n in table.notes),
+        "",
+        *_draft_file(table, tables, line),
+        *("[time]", *time, "", "[columns]"),
+        *(_draft_channel(n, c, role, odd, questions) for n, (c, role) in taken.items()),
+    ]
+    if unused:
+        lines += ["", "# Not used (any column can be kept as an auxiliary channel under a name of its own):"]
+    for c in unused:
+        kept = f"{_key(c.name)} = {_entry(c.name, c.unit or UNKNOWN)}"
+        lines.append(f"# {kept}" if c.is_number else f"# no numbers: {_quoted(c.name)} ({_example(c)})")
     return Draft(
-        text="\n".join([*page.lines, *(f"# {x}" for x in said)]) + "\n",
-        questions=tuple(page.questions),
-        sure=MappingProxyType(page.sure),
+        text="\n".join([*lines, *(f"# {x}" for x in said)]) + "\n",
+        questions=tuple(questions),
+        sure=MappingProxyType({n: role.sure for n, (_, role) in taken.items()}),
         notes=(*table.notes, *texts, *said),
     )
-
-
-OUTPUTS = ("G_out", "V_", "inline")
-"""How channels begin of which one must be there."""
 
 
 def sample_table(path: Path) -> DataTable:
@@ -122,57 +113,52 @@ def _read_numbers(table: DataTable) -> tuple[DataTable, dict[str, list[str]]]:
     return replace(table, columns=tuple(columns)), odd
 
 
-def _write_file(table: DataTable, tables: Sequence[DataTable], page: _Page) -> None:
-    lines = []
-    if table.part:
-        lines.append(f'part = "{_quoted(table.part)}"  # likely: the file holds several tables that differ')
-    name = next((n for n in table.names if ROLES["line"].fits(n)), None)
+def _draft_file(table: DataTable, tables: Sequence[DataTable], name: str | None) -> list[str]:
+    """Which part of the file, and which lines."""
+    above, lines = [], []
     if len(tables) > 1:
         shown = ", ".join(f'"{_quoted(str(t.line))}"' for t in tables[:6])
-        page.lines += [f"# {len(tables)} lines; [file] lines = [...] picks some: {shown}", ""]
-    elif name is not None:
-        page.used.add(name)
+        above = [f"# {len(tables)} lines; [file] lines = [...] picks some: {shown}", ""]
+    if table.part:
+        lines.append(f'part = "{_quoted(table.part)}"  # likely: the file holds several tables that differ')
+    if name is not None:
         line = f'line = "{_quoted(name)}"  # likely: tells flight lines apart; take it out if it does not'
         try:
             split_lines([table], name, None)
         except UserError:
             line = f"# {line}"
         lines.append(line)
-    page.lines += ["[file]", *lines, ""] if lines else []
+    return [*above, "[file]", *lines, ""] if lines else above
 
 
-def _write_time(table: DataTable, page: _Page) -> None:
-    page.lines.append("[time]")
-    found = _find_instants(table)
-    fits = [
-        c
-        for c in table.columns
-        if c.is_number and (r := role_of(c.name)) and r.name in ("time", "second_of_week")
-    ]
-    if not fits:  # an index without a name, unless it counts the rows
-        fits = [
-            c for c in table.columns if c.is_number and c.name == table.index and np.any(c.values % 1 != 0)
-        ]
-    if found is not None:
+# --- time ----------------------------------------------------------------------------------------------
+
+
+def _draft_time(
+    table: DataTable, odd: Mapping[str, Sequence[str]], questions: list[str]
+) -> tuple[list[str], tuple[str, ...]]:
+    """The lines of [time], and the names of its columns."""
+    if (found := _find_instants(table)) is not None:
         names, form, sure = found
-        page.used.update(names)
-        shown = ", ".join(f'"{_quoted(n)}"' for n in names)
-        page.lines.append(f"column = {shown if len(names) == 1 else f'[{shown}]'}  # {sure}")
-        page.lines += [f'format = "{form}"', ""]
+        asked = ""
         if form == UNKNOWN:
             asked = f'is {_example(table.column(names[0]))} "d/m/y" or "m/d/y"?'
-            page.questions.append(f"[time] format: {asked}")
-            page.lines[-2] += f"  # {asked}"
-    elif fits:
-        c = min(fits, key=lambda c: (c.name != "time", not c.unit))
-        page.used.add(c.name)
-        page.lines.append(f'column = "{_quoted(c.name)}"  # {"certain" if c.name == "time" else "likely"}')
-        unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", page, "[time]")
-        page.lines += [f'unit = "{unit}"{remark}', _null(c, page), ""]
-    else:
-        page.questions.append("[time] column: which column is time?")
-        page.lines.append(f'column = "{UNKNOWN}"  # no column has a name that is usual for time')
-        page.lines += [f'unit = "{UNKNOWN}"', ""]
+            questions.append(f"[time] format: {asked}")
+        shown = ", ".join(f'"{_quoted(n)}"' for n in names)
+        column = shown if len(names) == 1 else f"[{shown}]"
+        return [f"column = {column}  # {sure}", f'format = "{form}"' + f"  # {asked}" * bool(asked)], names
+    numbers = [c for c in table.columns if c.is_number]
+    fits = [c for c in numbers if (r := role_of(c.name)) and r.name in ("time", "second_of_week")]
+    if not fits:  # an index without a name, unless it counts the rows
+        fits = [c for c in numbers if c.name == table.index and np.any(c.values % 1 != 0)]
+    if not fits:
+        questions.append("[time] column: which column is time?")
+        remark = "no column has a name that is usual for time"
+        return [f'column = "{UNKNOWN}"  # {remark}', f'unit = "{UNKNOWN}"'], ()
+    c = min(fits, key=lambda c: (c.name != "time", not c.unit))
+    unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", questions, "[time]")
+    lines = [f'column = "{_quoted(c.name)}"  # {"certain" if c.name == "time" else "likely"}']
+    return [*lines, f'unit = "{unit}"' + f"  # {remark}" * bool(remark), *_draft_null(c, odd)], (c.name,)
 
 
 def _find_instants(table: DataTable) -> tuple[tuple[str, ...], str, str] | None:
@@ -185,7 +171,7 @@ def _find_instants(table: DataTable) -> tuple[tuple[str, ...], str, str] | None:
     texts = [c for c in table.columns if not c.is_number]
     texts.sort(key=lambda c: not ROLES["time"].fits(c.name))
     for c in texts:
-        if c.values.dtype.kind == "M" or all(parts_of(_cell(c))):
+        if c.values.dtype.kind == "M" or all(parts_of(_first_cell(c))):
             return (c.name,), _find_form(c), "certain: a date and a time"
     date, clock = by_role.get("date"), by_role.get("clock")
     if date is not None and clock is not None and date is not clock:
@@ -194,7 +180,7 @@ def _find_instants(table: DataTable) -> tuple[tuple[str, ...], str, str] | None:
     if clock is not None and clock.is_number and not clock.unit and _is_hhmmss(clock.values):
         return (clock.name,), "clock", "likely: hhmmss"
     for c in texts:
-        if c.values.dtype.kind == "m" or parts_of(_cell(c))[1]:
+        if c.values.dtype.kind == "m" or parts_of(_first_cell(c))[1]:
             return (c.name,), "clock", "certain: a time of the day, or an elapsed time"
     return None
 
@@ -213,41 +199,44 @@ def _find_form(c: DataColumn) -> str:
     return {"ymd": "iso", "dmy": "d/m/y", "mdy": "m/d/y"}.get(find_order(c.values) or "", UNKNOWN)
 
 
-def _cell(c: DataColumn) -> str:
+def _first_cell(c: DataColumn) -> str:
     """The first cell of a column that is not empty, as text."""
     return next((str(v) for v in c.values if str(v)), "")
 
 
 def _example(c: DataColumn) -> str:
-    return _quoted(repr(_cell(c)[:40])) if c.is_text else "dates"
+    return _quoted(repr(_first_cell(c)[:40])) if c.is_text else "dates"
 
 
-def _write_columns(table: DataTable, page: _Page) -> None:
-    page.lines.append("[columns]")
+# --- channels ------------------------------------------------------------------------------------------
+
+
+def _take_roles(columns: Sequence[DataColumn]) -> dict[str, tuple[DataColumn, Role]]:
+    """Channel -> its column: the surest name wins, then the order of the file."""
+    candidates = [(c, r) for c in columns if c.is_number and (r := role_of(c.name)) and r.name not in _TIMES]
     taken: dict[str, tuple[DataColumn, Role]] = {}
-    numbers = [c for c in table.columns if c.is_number and c.name not in page.used]
-    candidates = [(c, r) for c in numbers if (r := role_of(c.name)) and r.name not in _TIMES]
-    # The surest name wins a channel: certain before likely before guess, then the order of the file.
     for c, role in sorted(candidates, key=lambda x: x[1].rank):
         taken.setdefault(role.name, (c, role))
-    page.used.update(c.name for c, _ in taken.values())
-    for name in [n for n in dict.fromkeys([*SI_UNITS, *(r.name for _, r in candidates)]) if n in taken]:
-        c, role = taken[name]
-        unit, remark = _find_unit(c, name, page, f"[columns] {name}")
-        page.sure[name] = role.sure
-        further = [f"scale = {role.scale:g}"] if role.scale != 1.0 else []
-        entry = _entry(c.name, unit, *further, *filter(None, [_null(c, page)]))
-        comment = f"  # {role.sure}" + (f": {role.why}" if role.why else "") + remark.replace("  # ", "; ", 1)
-        page.lines.append(f"{_key(name)} = {entry}{comment}")
+    return {n: taken[n] for n in dict.fromkeys([*SI_UNITS, *(r.name for _, r in candidates)]) if n in taken}
 
 
-def _null(c: DataColumn, page: _Page) -> str:
+def _draft_channel(
+    name: str, c: DataColumn, role: Role, odd: Mapping[str, Sequence[str]], questions: list[str]
+) -> str:
+    """The line of a channel, with how sure it is."""
+    unit, remark = _find_unit(c, name, questions, f"[columns] {name}")
+    further = [f"scale = {role.scale:g}"] if role.scale != 1.0 else []
+    comment = role.sure + (f": {role.why}" if role.why else "") + (f"; {remark}" if remark else "")
+    return f"{_key(name)} = {_entry(c.name, unit, *further, *_draft_null(c, odd))}  # {comment}"
+
+
+def _draft_null(c: DataColumn, odd: Mapping[str, Sequence[str]]) -> list[str]:
     """What stands for missing values in a column: its cells that are no numbers."""
-    cells = ", ".join(f'"{_quoted(t)}"' for t in page.odd.get(c.name, ()))
-    return f"null = [{cells}]" if cells else ""
+    cells = ", ".join(f'"{_quoted(t)}"' for t in odd.get(c.name, ()))
+    return [f"null = [{cells}]"] if cells else []
 
 
-def _find_unit(c: DataColumn, name: str, page: _Page, where: str) -> tuple[str, str]:
+def _find_unit(c: DataColumn, name: str, questions: list[str], where: str) -> tuple[str, str]:
     """The unit to write and a remark; a question where the file gives none or one that cannot be."""
     stem = re.sub(r"_[^_]+$", "", name)
     si = SI_UNITS.get(name) or (SI_UNITS.get(stem) if stem in DEMODULATED else None)
@@ -255,10 +244,10 @@ def _find_unit(c: DataColumn, name: str, page: _Page, where: str) -> tuple[str, 
         return _quoted(c.unit), ""
     ending = _bare(c.name).rpartition("_")[2]
     if not c.unit and si is not None and is_unit(ending) and units(9.8).fits(ending, si):
-        return ending, "  # likely: the end of its name"
+        return ending, "likely: the end of its name"
     said = f"the file says {c.unit!r}, which is no unit of it" if c.unit else "the file gives none"
-    page.questions.append(f"{where}: unit of {c.name!r} ({said})")
-    return UNKNOWN, f"  # {_quoted(said)}"
+    questions.append(f"{where}: unit of {c.name!r} ({said})")
+    return UNKNOWN, _quoted(said)
 
 
 def _entry(column: str, unit: str, *further: str) -> str:
