@@ -196,7 +196,7 @@ def info(flight: Path, mapping: Path | None) -> None:
     said = describe_other.describe_flight_file(found.as_json())
 
     def page(origin: Origin) -> str:
-        usable = not any(r.refused for r in found.records)
+        usable = not any(r["refused"] for r in found.records)
         records = read_flights(flight, PAPER_G, mapping=how) if usable else []
         return pages.write_info(said, records, replace(origin, sources=[(found.path, found.sha256)]))
 

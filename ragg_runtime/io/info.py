@@ -30,40 +30,21 @@ Json = dict[str, Any]
 
 
 @dataclass(frozen=True)
-class RecordInfo:
-    """One record (a file, or a line of it).
-
-    ``name``, ``line`` (``None``: the file has only one record), ``rows``; ``start_s``, ``duration_s``, ``rate_Hz``
-    (``None`` where there is no uniform time), ``origin`` (the instant at which time is 0, ISO 8601, or ``None``);
-    ``gap_count``, ``missing`` samples in all gaps, ``gaps`` (the longest: from_s, to_s, samples); ``columns`` (name,
-    unit in the file, samples with and without a value, and minimum, maximum and mean in that unit); ``notes``: what was
-    assumed, left out or looks odd, in sentences; ``refused``: why the record is no flight as it stands, or ``None``.
-    """
-
-    name: str
-    line: str | None
-    rows: int
-    start_s: float | None
-    duration_s: float | None
-    rate_Hz: float | None
-    origin: str | None
-    gap_count: int
-    missing: int
-    gaps: list[Json]
-    columns: list[Json]
-    notes: list[str]
-    refused: str | None
-
-
-@dataclass(frozen=True)
 class FileInfo:
-    """A flight file: its ``path``, ``sha256``, ``format``, ``bytes``, and its ``records``, one for each line."""
+    """A flight file: its ``path``, ``sha256``, ``format``, ``bytes``, and its ``records``, one for each line, as JSON has them.
+
+    Of a record: ``name``, ``line`` (``None``: the file has only one record), ``rows``; ``start_s``, ``duration_s``,
+    ``rate_Hz`` (``None`` where there is no uniform time), ``origin`` (the instant at which time is 0, ISO 8601, or
+    ``None``); ``gap_count``, ``missing`` samples in all gaps, ``gaps`` (the longest: from_s, to_s, samples); ``columns``
+    (name, unit in the file, samples with and without a value, and minimum, maximum and mean in that unit); ``notes``: what
+    was assumed, left out or looks odd, in sentences; ``refused``: why the record is no flight as it stands, or ``None``.
+    """
 
     path: str
     sha256: str
     format: str
     bytes: int
-    records: list[RecordInfo]
+    records: list[Json]
 
     def as_json(self) -> Json:
         """All of it in the types of JSON."""
@@ -96,7 +77,7 @@ def describe_flight(path: Path | str, mapping: Mapped | None = None) -> FileInfo
     return FileInfo(str(path), file_digest(path), format_of(path).name, path.stat().st_size, records)
 
 
-def _describe_record(r: DataTable, name: str, several: bool) -> RecordInfo:
+def _describe_record(r: DataTable, name: str, several: bool) -> Json:
     notes, refused, grid = list(r.notes), None, None
     try:
         require_units(r.columns, r.place)
@@ -116,21 +97,21 @@ def _describe_record(r: DataTable, name: str, several: bool) -> RecordInfo:
         pass  # said in ``refused``
     gaps = [] if grid is None else _list_gaps(grid)
     longest = sorted(gaps, key=lambda g: -g["samples"])[:MOST_GAPS]
-    return RecordInfo(
-        name=f"{name}:{r.line}" if several else name,
-        line=r.line if several else None,
-        rows=len(r),
-        start_s=None if grid is None else float(grid.time[0]),
-        duration_s=None if grid is None else len(grid.time) * grid.step,
-        rate_Hz=None if grid is None else 1 / grid.step,
-        origin=None if r.origin is None else write_instant(r.origin),
-        gap_count=len(gaps),
-        missing=sum(g["samples"] for g in gaps),
-        gaps=sorted(longest, key=lambda g: g["from_s"]),
-        columns=list(map(_describe_column, r.columns)),
-        notes=notes,
-        refused=refused,
-    )
+    return {
+        "name": f"{name}:{r.line}" if several else name,
+        "line": r.line if several else None,
+        "rows": len(r),
+        "start_s": None if grid is None else float(grid.time[0]),
+        "duration_s": None if grid is None else len(grid.time) * grid.step,
+        "rate_Hz": None if grid is None else 1 / grid.step,
+        "origin": None if r.origin is None else write_instant(r.origin),
+        "gap_count": len(gaps),
+        "missing": sum(g["samples"] for g in gaps),
+        "gaps": sorted(longest, key=lambda g: g["from_s"]),
+        "columns": list(map(_describe_column, r.columns)),
+        "notes": notes,
+        "refused": refused,
+    }
 
 
 def _list_gaps(grid: Grid) -> list[Json]:

@@ -23,9 +23,6 @@ from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.record import SI_UNITS
 
-MOST_COLUMNS = 2000
-"""Columns of a file beyond which it is no record of an instrument, and would take minutes."""
-
 MOST_LINES = 20_000
 """Lines of a file, beyond which the column does not name lines: the largest surveys have some thousands."""
 
@@ -193,8 +190,6 @@ def make_table(
         Further fields of the table.
     """
     given, arrays = given or {}, list(arrays)
-    if len(arrays) > MOST_COLUMNS:
-        raise too_wide(None, len(arrays))
     sizes = [(read_heading(n)[0], max(x.shape)) for n, x in arrays if _is_narrow(x.shape)]
     common = Counter(size for _, size in sizes if size > 1).most_common(1)
     length = next((size for n, size in sizes if n == "time" and size > 1), common[0][0] if common else 1)
@@ -217,12 +212,6 @@ def make_table(
         shown = ", ".join(other[:6]) + (" ..." if len(other) > 6 else "")
         notes.append(f"passed over, not of the {length} rows of the table: {one_line(shown)}")
     return DataTable(tuple(columns), notes=tuple(notes), **about)
-
-
-def too_wide(where: Path | None, count: int) -> UserError:
-    """The refusal of a table of more than ``MOST_COLUMNS``."""
-    what, remedy = "the file has too many columns for a flight", "keep the columns that the instrument needs"
-    return UserError(what, where=where, found=count, expected=f"at most {MOST_COLUMNS}", remedy=remedy)
 
 
 def _is_narrow(shape: tuple[int, ...]) -> bool:

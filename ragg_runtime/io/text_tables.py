@@ -14,7 +14,7 @@ import re
 import zipfile
 import zlib
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import date, datetime, time, timedelta
 from pathlib import Path
@@ -31,18 +31,13 @@ from ragg_runtime.io.instants import parts_of
 from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.io.tables import (
     INDEX,
-    MOST_COLUMNS,
     DataColumn,
     DataTable,
     read_heading,
     read_units,
     require_memory,
-    too_wide,
     write_cell,
 )
-
-LONGEST_LINE = 1 << 20
-"""Characters of a line from which a file is no table."""
 
 _EXCEL_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
 _WORDS = "nan NaN NAN NaT NA N/A n/a n.a. <NA> null NULL None -nan nan(ind) -nan(ind)"
@@ -245,7 +240,7 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
 def _look(data: bytes, path: Path) -> _Dialect:
     """Delimiter, header and kinds of the columns, from the first lines."""
     stream = io.TextIOWrapper(io.BytesIO(data), "utf-8", newline="")
-    lines = list(itertools.islice(_read_lines(stream, path), _LOOKED_AT))
+    lines = list(itertools.islice(stream, _LOOKED_AT))
     best = None
     for delimiter in "\t;,|":
         try:
@@ -261,8 +256,6 @@ def _look(data: bytes, path: Path) -> _Dialect:
     _, delimiter, header, rows, ends = best
     names, sample = header.names, rows[header.begins :]
     above = ends[header.begins - 1] if header.begins else 0
-    if len(names) > MOST_COLUMNS:
-        raise too_wide(path, len(names))
     require_memory(path, len(data) * len(lines) / (sum(map(len, lines)) or 1) * len(names) * 8)
     return _Dialect(
         delimiter=delimiter,
@@ -273,17 +266,6 @@ def _look(data: bytes, path: Path) -> _Dialect:
         # names of lines are words, even where they are numbers
         texts=frozenset(k for k, n in enumerate(names) if n.casefold() == "line" or _holds_text(sample, k)),
     )
-
-
-def _read_lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
-    """The lines of a text; UserError at one too long to be a row of a table."""
-    number = 0
-    while line := stream.readline(LONGEST_LINE):
-        number += 1
-        if len(line) == LONGEST_LINE:
-            found = f"a line of more than {LONGEST_LINE} characters, beginning with {line[:20]!r}"
-            raise UserError(_NOT_CSV, where=at(path, f"line {number}"), found=found)
-        yield line
 
 
 def _read_rows(lines: Sequence[str], delimiter: str) -> tuple[list[list[str]], list[int]]:
@@ -384,7 +366,7 @@ def _read_sheet(name: str, rows: list[tuple[int, list[Any]]]) -> DataTable | Non
     data = cells[header.begins :]
     columns = tuple(
         DataColumn(n, header.units[k], _read_column([r[k] for r in data]))
-        for k, n in list(enumerate(header.names))[:MOST_COLUMNS]
+        for k, n in enumerate(header.names)
         if n
     )
     return DataTable(columns, line=name, part=name, counts=("row", rows[header.begins][0] if data else 1))

@@ -15,10 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.least_squares import triangle
+from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening.sampler import Rows
@@ -48,9 +47,12 @@ both alike (2 x 150 log 1.1)."""
 SETTLED = 0.999
 """Factor by which the noise must still fall for the estimate to go on."""
 
+TOGETHER = 4096
+"""Rows for which the model is evaluated at a time: a few hundred by themselves cost hardly less."""
+
 
 @dataclass(frozen=True)
-class Explained:
+class LinearFit:
     """What a model leaves of rows of a record once its parameters are fitted.
 
     Attributes
@@ -103,7 +105,7 @@ class Hypothesis:
     fitted
         What the model leaves if this is so.
     cost
-        Minus the logarithm of its probability beforehand.
+        What orders hypotheses that explain as much, the plainest first: far below ``mistakes.AS_GOOD``.
     kind
         ``record`` (units, signs, axes, clock: the record is refused), ``shift`` (motion and output apart in time), ``origin``
         (the disc angle counts from elsewhere) or ``sheet`` (it is less sure than it says).
@@ -115,164 +117,137 @@ class Hypothesis:
 
     what: str
     remedy: str
-    fitted: Explained
-    cost: float
+    fitted: LinearFit
+    cost: float = 0.0
     kind: str = "record"
     effects: tuple[str, ...] = ()
     calming: bool = True
 
-    def score(self, before: Explained) -> float:
-        """Minus the log of evidence times prior: one number for whatever may be wrong; ``before``: the record as it stands."""
+    def score(self, before: LinearFit) -> float:
+        """Minus the log evidence: one number for whatever may be wrong; ``before``: the record as it stands."""
         calmed = 0.0 if self.calming else max(0.0, before.surprise - self.fitted.surprise)
         return self.fitted.score + self.cost + calmed / 2
 
 
-def explain(model: Model, instrument: Instrument, rows: Rows) -> Explained:
+def fit_rows(model: Model, instrument: Instrument, rows: Rows) -> LinearFit:
     """Fit the model's parameters about the instrument's values, with their priors."""
-    return explain_all(model, instrument, [rows])[0]
+    return fit_each(model, instrument, [rows])[0]
 
 
-TOGETHER = 4096
-"""Rows for which the model is evaluated at a time: a few hundred by themselves cost hardly less."""
-
-
-def explain_all(model: Model, instrument: Instrument, many: Iterable[Rows]) -> list[Explained]:
+def fit_each(model: Model, instrument: Instrument, many: Iterable[Rows]) -> list[LinearFit]:
     """The same of several records, or of one with one mistake after the other undone: rows of the same output."""
-    about = _About.of(model, instrument)
-    found: list[Explained] = []
+    found: list[LinearFit] = []
     waiting: list[Rows] = []
     for rows in many:
         waiting.append(rows)
         if sum(len(r.time) for r in waiting) >= TOGETHER:
-            found += about.explained(waiting)
+            found += _fit_together(model, instrument, waiting)
             waiting = []
-    return found + about.explained(waiting)
+    return found + _fit_together(model, instrument, waiting)
 
 
-def low_passes(model: Model, instrument: Instrument, rows: Rows) -> Callable[[Array], Explained]:
+def _fit_together(model: Model, instrument: Instrument, many: Sequence[Rows]) -> list[LinearFit]:
+    if not many:
+        return []
+    c = _evaluate_columns(model, instrument, many)
+    edges = np.cumsum([0, *(len(r.time) for r in many)])
+    return [
+        c.fit(r, r.seen(np.concatenate([c.columns[:, :, a:b], _make_gradient(r)])), r.seen(c.nominal[:, a:b]))
+        for r, a, b in zip(many, edges, edges[1:], strict=False)
+    ]
+
+
+def fit_low_passes(model: Model, instrument: Instrument, rows: Rows) -> Callable[[Array], LinearFit]:
     """The same of channels as a function of the low-pass that made them, an odd number of taps no longer than that of the rows:
     the model is evaluated, and its spectrum taken, once.
     """
-    about = _About.of(model, instrument)
-    own, columns, nominal, eotvos = about.columns([rows])
-    raw = np.stack([*columns, *_gradient(rows), nominal])
+    c = _evaluate_columns(model, instrument, [rows])
+    raw = np.concatenate([c.columns, _make_gradient(rows), c.nominal[None]])
     carriers = 2 * np.stack([np.sin(2 * rows.phi), np.cos(2 * rows.phi)])
     n = len(rows.time)
     size = fft.next_fast_len(n + len(rows.taps), real=True)
     spectrum = fft.rfft(raw * carriers, size)
 
-    def explained(taps: Array) -> Explained:
+    def fit(taps: Array) -> LinearFit:
         half = len(taps) // 2
         seen = fft.irfft(spectrum * fft.rfft(taps, size), size)[:, :, half : half + n]
-        return about.fitted(own, rows, seen[:-1], seen[-1], eotvos)
+        return c.fit(rows, seen[:-1], seen[-1])
 
-    return explained
+    return fit
 
 
 @dataclass(frozen=True)
-class _About:
-    """A model at an instrument's values ``p``, and the parameters that are fitted with their places in ``p``."""
+class _Columns:
+    """A model about an instrument's values ``p`` at N rows of one output, before demodulation.
 
-    model: Model
-    layout: Layout
+    ``columns`` (n, m, N): by every parameter, whose ``places`` in ``p`` and prior widths, ``scales``, these are, Eo;
+    ``nominal`` (m, N): output at the sheet's values, V; ``eotvos``: V/Eo.
+    """
+
     p: Array
-    parameters: Sequence[tuple[design.Column, int]]
+    places: list[int]
+    scales: Array
+    columns: Array
+    nominal: Array
+    eotvos: float
 
-    @staticmethod
-    def of(model: Model, instrument: Instrument) -> _About:
-        return _About(
-            model=model,
-            layout=instrument.layout,
-            p=vector(model, instrument),
-            parameters=design.list_base_columns(model, instrument),
-        )
-
-    def explained(self, many: Sequence[Rows]) -> list[Explained]:
-        """Of rows of one output that are evaluated together."""
-        if not many:
-            return []
-        own, columns, nominal, eotvos = self.columns(many)
-        edges = np.cumsum([0, *(len(r.time) for r in many)])
-        found = []
-        for rows, start, stop in zip(many, edges, edges[1:], strict=False):
-            some = slice(start, stop)
-            stacked = np.stack([*columns[:, :, some], *_gradient(rows)])
-            found.append(self.fitted(own, rows, rows.seen(stacked), rows.seen(nominal[:, some]), eotvos))
-        return found
-
-    def columns(
-        self, many: Sequence[Rows]
-    ) -> tuple[Sequence[tuple[design.Column, int]], Array, Array, float]:
-        """Of rows of one output, all together, N: its parameters; columns (n, m, N), Eo, and output (m, N), V, at the sheet's
-        values, before demodulation; scale factor, V/Eo.
-        """
-        first = many[0]
-        o = first.output
-        eotvos = scale_factor(self.model, self.p, self.layout.outputs.index(o))
-        own = [
-            (c, i) for c, i in self.parameters if c.accelerometer is None or c.accelerometer - 1 in o.members
-        ]
-        volts, by = self._evaluated(many)
-        nominal = first.before_demodulation(volts, None)
-        columns = np.empty((len(own), *nominal.shape))
-        for column, (c, _) in zip(columns, own, strict=True):
-            column[:] = first.before_demodulation(by[c.name, c.accelerometer], c.accelerometer)
-            column *= c.scale / eotvos
-        return own, columns, nominal, eotvos
-
-    def fitted(
-        self,
-        own: Sequence[tuple[design.Column, int]],
-        rows: Rows,
-        seen: Array,
-        nominal: Array,
-        eotvos: float,
-    ) -> Explained:
+    def fit(self, rows: Rows, seen: Array, nominal: Array) -> LinearFit:
         """Rows fitted by what their output sees of the columns, (n, m, N), and of the model at the sheet's values, (m, N)."""
-        inner = rows.inner
+        inner, n = rows.inner, len(self.places)
         X = seen[:, :, inner].reshape(len(seen), -1)
-        y = ((rows.data[:, inner] - nominal[:, inner]) / eotvos).reshape(-1)
+        y = ((rows.data[:, inner] - nominal[:, inner]) / self.eotvos).reshape(-1)
         theta, kept, room = robust(X, y)
-        size = rows.data[:, inner] / eotvos
+        size = rows.data[:, inner] / self.eotvos
         size = (size - np.mean(size, axis=1, keepdims=True)).reshape(-1)
         moved = self.p.copy()
-        moved[[i for _, i in own]] += theta[: len(own)] * np.array([c.scale for c, _ in own])
-        return Explained(
+        moved[self.places] += theta[:n] * self.scales
+        return LinearFit(
             rms=float(np.sqrt(np.mean((y - theta @ X)[kept] ** 2))),
             size=float(np.sqrt(np.mean(size[kept] ** 2))),
             p=moved,
-            surprise=float(np.sum(theta[: len(own)] ** 2)),
+            surprise=float(np.sum(theta[:n] ** 2)),
             room=room,
             kept=float(np.mean(kept)),
         )
 
-    def _evaluated(self, many: Sequence[Rows]) -> tuple[Array, dict[tuple[str, int | None], Array]]:
-        """Voltages (members, n) at the rows of all, and their derivatives by every parameter: of one accelerometer (n,), of
-        all (members, n).
-        """
-        chain, members = self.model.chain, many[0].output.members
-        x = np.concatenate([r.inputs(chain) for r in many], axis=1)
-        time, phi = (np.concatenate(y) for y in ([r.time for r in many], [r.phi for r in many]))
-        cos_phi, sin_phi = np.cos(phi), np.sin(phi)
-        volts = np.empty((len(members), len(time)))
-        by: dict[tuple[str, int | None], Array] = {}
-        for k, j in enumerate(members):
-            q = chain.values_of(j, self.p)
-            volts[k] = chain.accelerometer(j, time, cos_phi, sin_phi, x, q)
-            slopes = chain.derivatives(j, time, cos_phi, sin_phi, x, q)
-            for (name, shared), slope in zip(chain.ROWS, slopes, strict=True):
-                if shared:
-                    by.setdefault((name, None), np.empty_like(volts))[k] = slope
-                else:
-                    by[name, j + 1] = slope
-        return volts, by
+
+def _evaluate_columns(model: Model, instrument: Instrument, many: Sequence[Rows]) -> _Columns:
+    """Of rows of one output, all together."""
+    first, chain, p = many[0], model.chain, vector(model, instrument)
+    members = first.output.members
+    eotvos = scale_factor(model, p, instrument.layout.outputs.index(first.output))
+    x = np.concatenate([r.inputs(chain) for r in many], axis=1)
+    time, phi = (np.concatenate(y) for y in ([r.time for r in many], [r.phi for r in many]))
+    cos_phi, sin_phi = np.cos(phi), np.sin(phi)
+    volts = np.empty((len(members), len(time)))
+    by: dict[tuple[str, int | None], Array] = {}
+    for k, j in enumerate(members):
+        q = chain.values_of(j, p)
+        volts[k] = chain.accelerometer(j, time, cos_phi, sin_phi, x, q)
+        slopes = chain.derivatives(j, time, cos_phi, sin_phi, x, q)
+        for (name, shared), slope in zip(chain.ROWS, slopes, strict=True):
+            if shared:
+                by.setdefault((name, None), np.empty_like(volts))[k] = slope
+            else:
+                by[name, j + 1] = slope
+    own = [(c, i) for c, i in list_base_columns(model, instrument) if (c.name, c.accelerometer) in by]
+    columns = [first.before_demodulation(by[c.name, c.accelerometer], c.accelerometer) for c, _ in own]
+    scales = np.array([c.scale for c, _ in own])
+    return _Columns(
+        p=p,
+        places=[i for _, i in own],
+        scales=scales,
+        columns=np.stack(columns) * (scales / eotvos)[:, None, None],
+        nominal=first.before_demodulation(volts, None),
+        eotvos=eotvos,
+    )
 
 
-def _gradient(rows: Rows) -> list[Array]:
-    """Columns of a constant gradient where none was recorded, before demodulation."""
-    if rows.gradient_recorded:
-        return []
+def _make_gradient(rows: Rows) -> Array:
+    """(0 or 2, m, N): columns of a constant gradient where none was recorded, before demodulation."""
     o = rows.output
+    if rows.gradient_recorded:
+        return np.empty((0, len(rows.data) if not rows.recorded.demodulated else 1, len(rows.time)))
     share = (
         np.array(o.carriers)[:, None] * np.array(o.radii)[:, None] / max((*o.radii, 1e-300)) / len(o.members)
     )
@@ -281,7 +256,7 @@ def _gradient(rows: Rows) -> list[Array]:
         carriers = [share.real * GRADIENT_SCALE * x for x in (np.sin(2 * rows.phi), np.cos(2 * rows.phi))]
     else:
         carriers = [x * GRADIENT_SCALE for x in ((share * turning).imag, (share * turning).real)]
-    return [rows.before_demodulation(x, None) for x in carriers]
+    return np.stack([rows.before_demodulation(x, None) for x in carriers])
 
 
 def robust(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_], float]:

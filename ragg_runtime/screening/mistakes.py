@@ -19,7 +19,7 @@ from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening import other_demodulator, timing
-from ragg_runtime.screening.linear_fit import INDEPENDENT, Explained, Hypothesis, explain, explain_all
+from ragg_runtime.screening.linear_fit import INDEPENDENT, Hypothesis, LinearFit, fit_each, fit_rows
 from ragg_runtime.screening.sampler import Rows, Sampler, stem_of
 from ragg_runtime.signals.derivative import differentiate
 
@@ -40,11 +40,9 @@ NAMED = INDEPENDENT * float(np.log(5.0))
 AS_GOOD = INDEPENDENT * float(np.log(1.1))
 """Difference in log evidence within which another hypothesis explains the record as well: what the choice of rows makes."""
 
-COST = 5.0
-"""Minus the logarithm of the probability of one of some two hundred mistakes; a step of plainness costs a half more."""
-
 WIDE, WIDE_K1 = 10.0, 100.0
-"""Times the usual errors of a test sheet that a sheet may be off; scale factors, of another range or instrument, by 10 %."""
+"""Times the usual errors of a test sheet that a sheet may be off; scale factors, of another range or instrument, by 10 %. A third
+and three times as much give the same answers (docs/contributors/decisions.md)."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +51,7 @@ class Finding:
 
     best: Hypothesis
     others: tuple[str, ...]
-    before: Explained
+    before: LinearFit
 
     @property
     def factor(self) -> float:
@@ -72,24 +70,26 @@ def find_mistake(model: Model, instrument: Instrument, s: Sampler) -> Finding | 
         The record.
     """
     rows = s.take(s.rows())
-    before = explain(model, instrument, rows)
+    before = fit_rows(model, instrument, rows)
     if before.rms < SUSPICIOUS and before.surprise < SURPRISING:
         return None
     tried = [*_sheets(model, instrument, rows), *_wrong(model, instrument, s, rows)]
-    tried += timing.hypotheses(model, instrument, s)
+    tried += timing.propose_times(model, instrument, s)
     found = _chosen(before, tried)
     if not s.recorded.demodulated or (found is not None and found.factor > 5.0):
         return found
-    made = other_demodulator.hypothesis(model, instrument, s)  # takes a while: if nothing else would do
+    made = other_demodulator.propose_demodulator(
+        model, instrument, s
+    )  # takes a while: if nothing else would do
     return _chosen(before, [*tried, made])
 
 
-def _chosen(before: Explained, tried: Sequence[Hypothesis]) -> Finding | None:
+def _chosen(before: LinearFit, tried: Sequence[Hypothesis]) -> Finding | None:
     """The best hypothesis that is plainly better than the record as it stands and than a model that says nothing.
 
     A record is not taken to be wrong where a sheet that is less sure explains it as it stands.
     """
-    sheets = [h.fitted.score + h.cost for h in tried if h.kind == "sheet"]
+    sheets = [h.fitted.score for h in tried if h.kind == "sheet"]
     stands = min(before.score, 0.0) - NAMED
     limit = min([stands, *(score - AS_GOOD for score in sheets)])
     order = sorted(((h.score(before), h) for h in tried), key=lambda x: x[0])
@@ -115,18 +115,17 @@ def _sheets(model: Model, instrument: Instrument, rows: Rows) -> Iterator[Hypoth
             for usual in [q.plausible_si(instrument.accelerometers[q.name], instrument.g0)]
         }
         wider = replace(instrument, widths={**instrument.widths, **widths})
-        fitted = explain(model, wider, rows)
+        fitted = fit_rows(model, wider, rows)
         yield Hypothesis(
             what=f"the sheet is less sure than it says: {_farthest(model, instrument, fitted)}",
             remedy="check it, or give the parameter a larger sigma in model.toml",
             fitted=fitted,
-            cost=COST / 2,
             kind="sheet",
             calming=len(factors) == 1,  # effects move angles and biases, but no scale factor by so much
         )
 
 
-def _farthest(model: Model, instrument: Instrument, fitted: Explained) -> str:
+def _farthest(model: Model, instrument: Instrument, fitted: LinearFit) -> str:
     """The parameters that lie farthest from their sheet, in its sigmas: both values of up to three."""
     sheet = vector(model, instrument)
     off = [((fitted.p[k] - sheet[k]) / c.scale, c, k) for c, k in list_base_columns(model, instrument)]
@@ -143,7 +142,7 @@ def _farthest(model: Model, instrument: Instrument, fitted: Explained) -> str:
 
 
 @dataclass(frozen=True)
-class Mistake:
+class ColumnMistake:
     """One possible mistake: in words, what to do, and rows as they stand -> rows without it.
 
     ``plainness``: of mistakes that explain a record equally well the smallest is named first.
@@ -159,17 +158,19 @@ def _wrong(model: Model, instrument: Instrument, s: Sampler, rows: Rows) -> list
     """The most promising mistakes of unit, sign and axis."""
     few = s.take(s.rows(most=FEW))
     possible = list(mistakes(rows, instrument.units, s.flight.written, derived=has_derived_rates(s.flight)))
-    rough = explain_all(model, instrument, (m.undo(few) for m in possible))
+    rough = fit_each(model, instrument, (m.undo(few) for m in possible))
     order = sorted(range(len(possible)), key=lambda k: rough[k].score + possible[k].plainness / 2)
     best = [possible[k] for k in order[:MOST_TRIED] if rough[k].score < rough[order[0]].score + NAMED]
-    fitted = explain_all(model, instrument, (m.undo(rows) for m in best))
+    fitted = fit_each(model, instrument, (m.undo(rows) for m in best))
     return [
-        Hypothesis(what=m.what, remedy=m.remedy, fitted=e, cost=COST + m.plainness / 2)
+        Hypothesis(what=m.what, remedy=m.remedy, fitted=e, cost=m.plainness / 2)
         for m, e in zip(best, fitted, strict=True)
     ]
 
 
-def mistakes(rows: Rows, known: Units, written: Mapping[str, str], *, derived: bool) -> Iterator[Mistake]:
+def mistakes(
+    rows: Rows, known: Units, written: Mapping[str, str], *, derived: bool
+) -> Iterator[ColumnMistake]:
     """Every mistake of units, signs, axes and order that such rows may hold.
 
     Parameters
@@ -187,15 +188,21 @@ def mistakes(rows: Rows, known: Units, written: Mapping[str, str], *, derived: b
     yield from _units_of_omega(known, written, derived)
     if rows.gradient_recorded:
         undo = _scaled(("Gamma",), -1.0)
-        yield Mistake("the sign of Gamma is reversed", "multiply Gamma by -1: f = a + ... - Gamma r", undo)
+        yield ColumnMistake(
+            "the sign of Gamma is reversed", "multiply Gamma by -1: f = a + ... - Gamma r", undo
+        )
         yield _in_unit("Gamma", "Eo", "s^-2", _scaled(("Gamma",), 1e-9))
         yield _in_unit("Gamma", "s^-2", "Eo", _scaled(("Gamma",), 1e9))
     yield from _axes(derived)
 
 
-def _in_unit(what: str, unit: str, given: str, undo: Callable[[Rows], Rows], plainness: int = 0) -> Mistake:
+def _in_unit(
+    what: str, unit: str, given: str, undo: Callable[[Rows], Rows], plainness: int = 0
+) -> ColumnMistake:
     verb = "are" if "," in what or " and " in what or "..." in what else "is"
-    return Mistake(f"{what} {verb} in {unit}, not in {given}", f"write the unit [{unit}]", undo, plainness)
+    return ColumnMistake(
+        f"{what} {verb} in {unit}, not in {given}", f"write the unit [{unit}]", undo, plainness
+    )
 
 
 def _scaled(stems: tuple[str, ...], factor: float) -> Callable[[Rows], Rows]:
@@ -210,9 +217,9 @@ def _output_scaled(factors: float | Array) -> Callable[[Rows], Rows]:
     return lambda rows: replace(rows, data=factors * rows.data)
 
 
-def _outputs(rows: Rows, known: Units, written: Mapping[str, str]) -> Iterator[Mistake]:
+def _outputs(rows: Rows, known: Units, written: Mapping[str, str]) -> Iterator[ColumnMistake]:
     what = f"{rows.names[0]} ... {rows.names[-1]}" if rows.recorded.separate else " and ".join(rows.names)
-    yield Mistake(f"the sign of {what} is reversed", f"multiply {what} by -1", _output_scaled(-1.0))
+    yield ColumnMistake(f"the sign of {what} is reversed", f"multiply {what} by -1", _output_scaled(-1.0))
     given = written.get(rows.names[0], "V")
     for unit, factor in _meant(known, given, ("V", "mV", "uV", "kV")):
         yield _in_unit(what, unit, given, _output_scaled(factor))
@@ -223,7 +230,7 @@ def _outputs(rows: Rows, known: Units, written: Mapping[str, str]) -> Iterator[M
         text = f"the order of {', '.join(rows.names)} is {', '.join(rows.names[k] for k in order)}"
         if len(swapped) == 2:
             text = f"{rows.names[swapped[0]]} and {rows.names[swapped[1]]} are exchanged"
-        yield Mistake(
+        yield ColumnMistake(
             text, "exchange the names of the columns", partial(_reordered, order=order), len(swapped)
         )
 
@@ -248,11 +255,11 @@ DEFINED = (1.0, -1.0, 2.0, -2.0, 0.5, -0.5)
 """Factors by which people define the channels otherwise: (Gamma_xx - Gamma_yy)/2, Gamma_yy - Gamma_xx, 2 Gamma_xy, ..."""
 
 
-def _demodulated(rows: Rows) -> Iterator[Mistake]:
+def _demodulated(rows: Rows) -> Iterator[ColumnMistake]:
     """Inline and cross with other units, names, signs or factors than Gamma_xx - Gamma_yy and Gamma_xy."""
     for factor, unit, given in ((1e-9, "Eo", "s^-2"), (1e9, "s^-2", "Eo")):
         yield _in_unit("inline and cross", unit, given, _output_scaled(factor))
-    yield Mistake(
+    yield ColumnMistake(
         "inline and cross are exchanged",
         "exchange their names",
         lambda r: replace(r, data=np.stack([-r.data[1] / 2, -2 * r.data[0]])),
@@ -262,12 +269,12 @@ def _demodulated(rows: Rows) -> Iterator[Mistake]:
         changed = [(n, x) for n, x in zip(("inline", "cross"), factors, strict=True) if x != 1.0]
         undo = _output_scaled(np.array(factors)[:, None])
         if factors == (-1.0, -1.0):
-            yield Mistake(
+            yield ColumnMistake(
                 "the sign of inline and cross is reversed", "multiply inline and cross by -1", undo, 2
             )
         elif changed:
             remedy = ", ".join(f"multiply {n} by {x:g}" for n, x in changed)
-            yield Mistake("; ".join(_defined(n, x) for n, x in changed), remedy, undo, 2 * len(changed))
+            yield ColumnMistake("; ".join(_defined(n, x) for n, x in changed), remedy, undo, 2 * len(changed))
 
 
 def _defined(name: str, undo: float) -> str:
@@ -290,7 +297,7 @@ def _meant(known: Units, given: str, possible: Sequence[str]) -> list[tuple[str,
     return found
 
 
-def _units_of_omega(known: Units, written: Mapping[str, str], derived: bool) -> Iterator[Mistake]:
+def _units_of_omega(known: Units, written: Mapping[str, str], derived: bool) -> Iterator[ColumnMistake]:
     both, columns = ("omega", "omegadot"), "omega_x, omega_y, omega_z"
     given = written.get("omega_x", "rad/s")
     for unit, factor in _meant(known, given, ("rad/s", "deg/s", "deg/h", "mrad/s", "urad/s")):
@@ -306,7 +313,7 @@ def _units_of_omega(known: Units, written: Mapping[str, str], derived: bool) -> 
         yield _in_unit("omegadot_x, omegadot_y, omegadot_z", unit, given, _scaled(("omegadot",), factor))
 
 
-def _axes(derived: bool) -> Iterator[Mistake]:
+def _axes(derived: bool) -> Iterator[ColumnMistake]:
     groups: list[tuple[tuple[str, ...], int]] = [
         (("a",), 0),
         (("omega", "omegadot"), 0),
@@ -318,7 +325,7 @@ def _axes(derived: bool) -> Iterator[Mistake]:
         if order == (0, 1, 2) and signs == (1, 1, 1):
             continue
         moved, flips = sum(order[k] != k for k in range(3)), sum(s < 0 for s in signs)
-        yield Mistake(
+        yield ColumnMistake(
             "; ".join(_axes_in_words(q, order, signs) for q in group if q != "omegadot"),
             "exchange the names of the columns or the signs, or turn the record into the measurement frame",
             partial(_turned, group=group, order=order, signs=signs),

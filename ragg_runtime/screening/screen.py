@@ -20,7 +20,7 @@ from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import EVEN
 from ragg_runtime.model.recorded import recorded
 from ragg_runtime.screening import checks
-from ragg_runtime.screening.linear_fit import INDEPENDENT, Explained, explain
+from ragg_runtime.screening.linear_fit import INDEPENDENT, LinearFit, fit_rows
 from ragg_runtime.screening.mistakes import NAMED, Finding, find_mistake
 from ragg_runtime.screening.repeated import leave_out_repeated, with_derived_acceleration
 from ragg_runtime.screening.sampler import Rows, Sampler, sampler_of
@@ -82,7 +82,7 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
         if _is_senseless(finding, instrument):
             raise _refuse(flight, finding)
         flight = flight.flagged([_remark(finding)])
-    fitted = explain(model, instrument, s.take(s.rows()))
+    fitted = fit_rows(model, instrument, s.take(s.rows()))
     flight = flight.flagged(_coarse_sensors(model, instrument.units, s, fitted))
     for place in places:
         s = sampler_of(flight, instrument, inputs, place)
@@ -115,7 +115,7 @@ def _others(f: Finding) -> str:
     return f" (or: {'; or: '.join(f.others)})" if f.others else ""
 
 
-def _left(e: Explained) -> str:
+def _left(e: LinearFit) -> str:
     if e.share < 1:
         return f"the model leaves {100 * e.share:.2g} % of the output unexplained"
     return f"the model misses the output by {e.share:.2g} times its size"
@@ -159,9 +159,9 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
     steps = find_clock_steps(x.time, x.present)
     inputs = tuple(model.chain.INPUTS)
 
-    def judge(flight: Flight) -> Explained:
+    def judge(flight: Flight) -> LinearFit:
         t = sampler_of(flight, instrument, inputs, s.place)
-        return explain(model, instrument, t.take(t.rows()))
+        return fit_rows(model, instrument, t.take(t.rows()))
 
     own = judge(x) if worst > EVEN or steps else None
     if own is None:
@@ -239,7 +239,7 @@ def _without_output_spikes(model: Model, instrument: Instrument, s: Sampler, fli
     """The flight without the spikes of an output, found in what the fitted model leaves."""
     if s.recorded.demodulated or not s.usable.any():
         return flight  # a demodulator has smeared them
-    fitted = explain(model, instrument, s.take(s.rows())).p
+    fitted = fit_rows(model, instrument, s.take(s.rows())).p
     found = np.array([find_spikes(e, s.usable) for e in _residual(model, s, fitted, slice(None))])
     flags = [
         Flag((name,), words_of(name, mask, flight.time), int(np.sum(mask)))
@@ -278,7 +278,7 @@ def resolution_of(flight: Flight) -> Mapping[str, float]:
     return {n: step for n, step in found.items() if step is not None}
 
 
-def _coarse_sensors(model: Model, known: Units, s: Sampler, fitted: Explained) -> list[Flag]:
+def _coarse_sensors(model: Model, known: Units, s: Sampler, fitted: LinearFit) -> list[Flag]:
     """Flags of motion sensors whose steps make a good part of what the fitted model leaves of the output."""
     x, rows = s.flight, s.take(s.rows())
     groups: dict[tuple[str, str], list[str]] = {}
@@ -305,7 +305,7 @@ def _coarse_sensors(model: Model, known: Units, s: Sampler, fitted: Explained) -
     return found
 
 
-def _made_of(model: Model, s: Sampler, rows: Rows, errors: Mapping[str, float], fitted: Explained) -> float:
+def _made_of(model: Model, s: Sampler, rows: Rows, errors: Mapping[str, float], fitted: LinearFit) -> float:
     """Eo rms: what random errors of this size, SI, of some channels make of the output."""
     rng = np.random.default_rng(0)
     moved = {n: rows.channels[n] + e * rng.standard_normal(len(rows.time)) for n, e in errors.items()}

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +14,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.sampling import find_clock_steps
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import disc_angle, start_of
-from ragg_runtime.screening.linear_fit import Hypothesis, explain, explain_all
+from ragg_runtime.screening.linear_fit import Hypothesis, fit_each, fit_rows
 from ragg_runtime.screening.sampler import Index, Rows, Sampler
 from ragg_runtime.signals.demodulate import demodulable, low_pass
 
@@ -47,61 +48,72 @@ TELLING_PHASE = 3e-5
 """Angle, rad, that an error of the spin rate may add up to over a record and stay unseen: of a gradient of 3000 Eo that is
 0.1 Eo. Further digits of a rate are noise of the search."""
 
-COST = 8.0
-"""Minus the logarithm of the probability of a mistake of timing: of one kind in ten, and of one value in some hundreds."""
+COST = 3.0
+"""What orders a mistake of timing after one of columns that explains as much."""
 
 
-def hypotheses(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
+@dataclass(frozen=True)
+class _Trial:
+    """A record that is compared with a model under one hypothesis after the other."""
+
+    model: Model
+    instrument: Instrument
+    s: Sampler
+
+    def judge(self, many: Iterable[Rows]) -> list[float]:
+        """Misfits of rows."""
+        return [e.misfit for e in fit_each(self.model, self.instrument, many)]
+
+    def find_best(self, rows: Index, name: str, grid: Iterable[float]) -> float:
+        """The value of an option of :meth:`Sampler.take` with which the model leaves least."""
+        values = [float(v) for v in grid]
+        return values[int(np.argmin(self.judge(self.s.take(rows, **cast("Any", {name: v})) for v in values)))]
+
+    def propose(
+        self, what: str, remedy: str, cost: float, rows: Rows | None = None, **options: Any
+    ) -> Hypothesis:
+        """The hypothesis, fitted to the rows that it makes, or to as many as a fit takes with these options."""
+        known = {k: options.pop(k) for k in ("kind", "effects", "calming") if k in options}
+        made = self.s.take(self.s.rows(), **options) if rows is None else rows
+        return Hypothesis(what, remedy, fit_rows(self.model, self.instrument, made), cost, **known)
+
+
+def propose_times(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
     """The best of each kind of mistake."""
-    found = _shifts(model, instrument, s)
+    t = _Trial(model, instrument, s)
+    found = _propose_shifts(t)
     if s.disc.spin_frequency == 0.0:
         return found
     if not s.recorded.demodulated:  # a demodulator at the wrong rate lets nothing through
-        found += _spin(model, instrument, s)
+        found += _propose_spin(t)
     if not s.has_encoder or s.recorded.demodulated:
-        found += _phase(model, instrument, s)
+        found += _propose_phase(t)
     if not s.has_encoder:
-        found += _origin(model, instrument, s)
-        found += [] if s.recorded.demodulated else _jump(model, instrument, s)
+        found += _propose_origin(t)
+        found += [] if s.recorded.demodulated else _propose_jump(t)
     return found
 
 
-def _misfits(model: Model, instrument: Instrument, many: Sequence[Rows]) -> list[float]:
-    return [e.misfit for e in explain_all(model, instrument, many)]
-
-
-def _spin(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
+def _propose_spin(t: _Trial) -> list[Hypothesis]:
     """The spin rate at which the model explains most, coarse to fine: half a turn of error at each step."""
-    f0, x = s.disc.spin_frequency, s.flight
-    turned = explain(model, instrument, s.take(s.rows(), backwards=True))
-    backwards = Hypothesis(
-        "the disc turns the other way",
-        "reverse the sign of spin_angle, or turn the axes of the record (y and z reversed)",
-        turned,
-        COST - 1.0,
-        calming=False,
-    )
-    late = 0.0 if s.has_encoder else abs(start_of(x, instrument))
+    s, x, f0 = t.s, t.s.flight, t.s.disc.spin_frequency
+    remedy = "reverse the sign of spin_angle, or turn the axes of the record (y and z reversed)"
+    backwards = t.propose("the disc turns the other way", remedy, COST - 1.0, backwards=True, calming=False)
+    late = 0.0 if s.has_encoder else abs(start_of(x, t.instrument))
     if late > LATEST:
         return [backwards]
-    best, width = f0, SPIN_RANGE * abs(f0)
+    best, width, last = f0, SPIN_RANGE * abs(f0), 0
     span = min(x.duration, 1.0 / width)
-
-    def left(rates: Sequence[float], last: int) -> list[float]:
-        rows = s.rows(0, last, 600)
-        return _misfits(model, instrument, [s.take(rows, spin_frequency=f) for f in rates])
-
-    while True:
+    while last < len(x):
         last = max(2, min(len(x), int(span * x.rate)))
         step = 0.1 / (late + last / x.rate)
         grid = best + step * np.arange(-np.ceil(width / step), np.ceil(width / step) + 1)
-        best = float(grid[int(np.argmin(left(grid.tolist(), last)))])
-        if last == len(x):
-            break
+        best = t.find_best(s.rows(0, last, 600), "spin_frequency", grid)
         width, span = 2 * step, span * 4
+    rows = s.rows(most=600)
     best = float(
         optimize.minimize_scalar(
-            lambda f: left([float(f)], len(x))[0],
+            lambda f: t.judge([s.take(rows, spin_frequency=float(f))])[0],
             bounds=(best - step, best + step),
             method="bounded",
             options={"xatol": 1e-9 * abs(f0)},
@@ -116,8 +128,8 @@ def _spin(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
         remedy = f'write spin_frequency = "{shown} Hz" in model.toml, or {remedy}'
     elif not s.has_encoder:
         return [backwards]
-    fitted = explain(model, instrument, s.take(s.rows(), spin_frequency=best))
-    return [Hypothesis(what, remedy, fitted, COST, effects=("spin-rate-offset",), calming=False), backwards]
+    effects = ("spin-rate-offset",)
+    return [t.propose(what, remedy, COST, spin_frequency=best, effects=effects, calming=False), backwards]
 
 
 def in_digits(f: float, duration: float) -> str:
@@ -127,97 +139,83 @@ def in_digits(f: float, duration: float) -> str:
     return next(x for x in texts if abs(float(x) - f) <= near)
 
 
-def _origin(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
+def _propose_origin(t: _Trial) -> list[Hypothesis]:
     """The disc angle counted from the first sample in the place of t = 0, or the other way round."""
-    x, f = s.flight, s.disc.spin_frequency
-    here = start_of(x, instrument)
-    origin = "zero" if here == float(x.time[0]) - (x.began or 0.0) else "first-sample"
-    there = start_of(x, replace(instrument, angle_origin=origin))
-    at_first = [float(disc_angle(np.zeros(1), f, t)[0]) for t in (here, there)]
-    if abs(_wrapped(at_first[1] - at_first[0])) < LEAST_PHASE:
+    x = t.s.flight
+    here = start_of(x, t.instrument)
+    origin, other = "first-sample", "zero"
+    if here == float(x.time[0]) - (x.began or 0.0):
+        origin, other = other, origin
+    there = start_of(x, replace(t.instrument, angle_origin=origin))
+    phase = _angle_at(t, there) - _angle_at(t, here)
+    if abs(_wrapped(phase)) < LEAST_PHASE:
         return []
-    other = "zero" if origin == "first-sample" else "first-sample"
     words = {"zero": "at t = 0", "first-sample": f"at the first sample (t = {x.time[0]:.6g} s)"}
-    return [
-        Hypothesis(
-            f"the disc stood at angle 0 {words[origin]}, not {words[other]}",
-            f'write angle_origin = "{origin}" under [model] of model.toml if that is so, else'
-            f' angle_origin = "{other}"; or record spin_angle',
-            explain(model, instrument, s.take(s.rows(), phase=at_first[1] - at_first[0])),
-            COST / 4,
-            kind="origin",
-        )
-    ]
+    what = f"the disc stood at angle 0 {words[origin]}, not {words[other]}"
+    remedy = (
+        f'write angle_origin = "{origin}" under [model] of model.toml if that is so, else'
+        f' angle_origin = "{other}"; or record spin_angle'
+    )
+    return [t.propose(what, remedy, 0.0, phase=phase, kind="origin")]
 
 
-def _phase(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
-    rows = s.rows(most=600)
+def _angle_at(t: _Trial, start: float) -> float:
+    """The disc angle, rad, so many seconds after angle 0."""
+    return float(disc_angle(np.zeros(1), t.s.disc.spin_frequency, start)[0])
 
-    def left(phases: Array) -> list[float]:
-        return _misfits(model, instrument, [s.take(rows, phase=float(a)) for a in phases])
 
-    best = _wrapped(_refined(left, np.deg2rad(np.arange(0.0, 360.0, 10.0)), np.deg2rad(10.0)))
+def _propose_phase(t: _Trial) -> list[Hypothesis]:
+    rows, step = t.s.rows(most=600), np.deg2rad(10.0)
+    best = t.find_best(rows, "phase", step * np.arange(36))
+    for _ in range(4):
+        step /= 4
+        best = t.find_best(rows, "phase", best + step * np.arange(-3, 4))  # the fourth either way is known
+    best = _wrapped(best)
     if abs(best) < LEAST_PHASE:
         return []
-    taken = float(disc_angle(np.zeros(1), s.disc.spin_frequency, start_of(s.flight, instrument))[0])
+    taken = _angle_at(t, start_of(t.s.flight, t.instrument))
     true, believed = (np.rad2deg(_wrapped(a)) for a in (taken + best, taken))
-    return [
-        Hypothesis(
-            f"the disc stood at {true:.4g} degrees at the first sample, not at {believed:.4g}"
-            " (a file cut out of a longer one?)",
-            "record spin_angle, or let time count from an instant of angle 0",
-            explain(model, instrument, s.take(s.rows(), phase=best)),
-            COST,
-            effects=("spin-phase-offset",),
-            calming=False,
-        )
-    ]
+    what = (
+        f"the disc stood at {true:.4g} degrees at the first sample, not at {believed:.4g}"
+        " (a file cut out of a longer one?)"
+    )
+    remedy = "record spin_angle, or let time count from an instant of angle 0"
+    return [t.propose(what, remedy, COST, phase=best, effects=("spin-phase-offset",), calming=False)]
 
 
 def _wrapped(angle: float) -> float:
     return float((angle + np.pi) % (2 * np.pi) - np.pi)
 
 
-def _refined(left: Callable[[Array], list[float]], grid: Array, step: float) -> float:
-    """Where least is left: of a grid, then four times as finely about the best, four times."""
-    best = float(grid[int(np.argmin(left(grid)))])
-    for _ in range(4):
-        step /= 4
-        near = np.asarray(best + step * np.arange(-3, 4), dtype=np.float64)  # the fourth either way is known
-        best = float(near[int(np.argmin(left(near)))])
-    return best
-
-
-def _jump(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
+def _propose_jump(t: _Trial) -> list[Hypothesis]:
     """The disc angle jumps on the way: rows were lost, or the clock was set, while disc and sampling went on."""
-    n = len(s.flight)
+    s, n = t.s, len(t.s.flight)
     rows, spacing = s.rows(most=400), n / (INSTANTS + 1)
 
-    def best_of(rows: Index, instants: ArrayLike, jumps: ArrayLike) -> tuple[float, float]:
+    def find_best(rows: Index, instants: ArrayLike, jumps: ArrayLike) -> tuple[float, float]:
         pairs = [(float(k), float(a)) for k in np.atleast_1d(instants) for a in np.atleast_1d(jumps)]
-        many = [s.take(rows, phase=np.where(rows >= k, a, 0.0)) for k, a in pairs]
-        return pairs[int(np.argmin(_misfits(model, instrument, many)))]
+        many = (s.take(rows, phase=np.where(rows >= k, a, 0.0)) for k, a in pairs)
+        return pairs[int(np.argmin(t.judge(many)))]
 
     everywhere = spacing * np.arange(1, INSTANTS + 1)
     small = np.array([2.0, 4.0, 8.0, 15.0])
-    at, jump = best_of(rows, everywhere, np.deg2rad([*-small, *small, *np.arange(30.0, 360.0, 30.0)]))
+    at, jump = find_best(rows, everywhere, np.deg2rad([*-small, *small, *np.arange(30.0, 360.0, 30.0)]))
     for _ in range(2):  # where the jump is wrong the instant is not told, and the other way round
         for step in np.deg2rad([8.0, 2.0, 0.5, 0.125]):
-            _, jump = best_of(rows, at, jump + step * np.arange(-3, 4))
-        at, _ = best_of(rows, everywhere, jump)
+            _, jump = find_best(rows, at, jump + step * np.arange(-3, 4))
+        at, _ = find_best(rows, everywhere, jump)
         for step in spacing / 2.0 ** np.arange(1, 10):
-            at, _ = best_of(rows, at + step * np.array([-1.0, 0.0, 1.0]), jump)
+            at, _ = find_best(rows, at + step * np.array([-1.0, 0.0, 1.0]), jump)
     if abs(_wrapped(jump)) < LEAST_STEP:
         return []
     beside = s.rows(max(0, int(at - n / 100)), int(at + n / 100) + 1, 64)
-    at, _ = best_of(np.union1d(rows, beside), beside, jump)
+    at, _ = find_best(np.union1d(rows, beside), beside, jump)
     rows = s.rows()
-    fitted = explain(model, instrument, s.take(rows, phase=np.where(rows >= at, jump, 0.0)))
-    what, remedy = _jump_in_words(s, int(at), jump)
-    return [Hypothesis(what, remedy, fitted, COST + float(np.log(n / 10.0)), calming=False)]
+    what, remedy = _describe_jump(s, int(at), jump)
+    return [t.propose(what, remedy, COST, s.take(rows, phase=np.where(rows >= at, jump, 0.0)), calming=False)]
 
 
-def _jump_in_words(s: Sampler, at: int, jump: float) -> tuple[str, str]:
+def _describe_jump(s: Sampler, at: int, jump: float) -> tuple[str, str]:
     x, turn = s.flight, 1.0 / abs(s.disc.spin_frequency)
     lost = float(np.mod(np.sign(s.disc.spin_frequency) * jump, 2 * np.pi)) / (2 * np.pi) * turn
     near = [c for c in find_clock_steps(x.time, x.present) if abs(c.row - at) < 64]
@@ -237,43 +235,42 @@ def _jump_in_words(s: Sampler, at: int, jump: float) -> tuple[str, str]:
     )
 
 
-def _shifts(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
+_SHIFTED: tuple[tuple[str, str, str, Callable[[int], dict[str, Any]]], ...] = (
+    ("the motion record is", "motion columns", "the output", lambda k: {"motion_later": k}),
+    ("a_x, a_y, a_z are", "columns", "the output", lambda k: {"motion_later": k, "of": ("a",)}),
+    ("the output is", "output column", "motion and disc angle", lambda k: {"output_later": -k}),
+)
+"""What may be late: in words, the columns, against what, and how rows of it are taken."""
+
+
+def _propose_shifts(t: _Trial) -> list[Hypothesis]:
     """Motion, specific force alone, and output apart in time: candidates from a cross-correlation, judged by the model."""
-    rows, rate = s.rows(most=400), s.flight.rate
-    waiting = [k for k in _lags(instrument, s) if k != 0]
-    kinds: list[Callable[[Sampler, Index, int], Rows]] = [
-        lambda s, r, k: s.take(r, motion_later=k),
-        lambda s, r, k: s.take(r, motion_later=k, of=("a",)),
-        lambda s, r, k: s.take(r, output_later=-k),
-    ]
+    s, rate = t.s, t.s.flight.rate
+    rows = s.rows(most=400)
+    waiting = [k for k in _lags(t.instrument, s) if k != 0]
     tried: dict[int, list[float]] = {}
     while waiting and len(tried) < MOST_SHIFTS:
-        each = [_misfits(model, instrument, [kind(s, rows, k) for k in waiting]) for kind in kinds]
+        each = [t.judge(s.take(rows, **shift(k)) for k in waiting) for *_, shift in _SHIFTED]
         tried |= {k: list(misfits) for k, *misfits in zip(waiting, *each, strict=True)}
-        best = [min(tried, key=lambda k: tried[k][way]) for way in range(len(kinds))]
+        best = [min(tried, key=lambda k: tried[k][way]) for way in range(len(_SHIFTED))]
         near = {k + d or d for k in best for d in (-1, 1)}  # beyond 0, which is the record as it stands
         waiting = sorted(near - set(tried))
-    if not tried:
-        return []
     found = []
-    for kind, k, name in zip(
-        kinds, best, ("the motion record is", "a_x, a_y, a_z are", "the output is"), strict=True
-    ):
-        by = f"{abs(k) / rate:.6g} s"
-        late = (k > 0) == (name != "the output is")
-        against = "motion and disc angle" if name == "the output is" else "the output"
-        which = {"the motion record is": "motion columns", "the output is": "output column"}.get(
-            name, "columns"
-        )
+    for (name, columns, against, shift), k in zip(_SHIFTED, best if tried else (), strict=False):
+        by, whole = f"{abs(k) / rate:.6g} s", columns != "columns"
+        late = "late" if (k > 0) == (name != "the output is") else "early"
+        what = f"{name} {by} ({abs(k)} sample{'s' * (abs(k) > 1)}) {late} against {against}"
+        effects = ("time-offset",) if whole else ()
+        cost = COST if whole else COST + 1.0
         found.append(
-            Hypothesis(
-                f"{name} {by} ({abs(k)} sample{'s' * (abs(k) > 1)}) {'late' if late else 'early'} against {against}",
-                f"shift the {which} by {by}",
-                explain(model, instrument, kind(s, s.rows(), k)),
-                COST + (1.0 if which == "columns" else 0.0),
+            t.propose(
+                what,
+                f"shift the {columns} by {by}",
+                cost,
                 kind="shift",
                 calming=False,
-                effects=() if which == "columns" else ("time-offset",),
+                effects=effects,
+                **shift(k),
             )
         )
     return found

@@ -122,5 +122,5 @@ def test_differing_tables_ask_for_a_choice(tmp_path: Path) -> None:
 @pytest.mark.parametrize("text", ["a" * (3 << 20), HEADER + "1" * (3 << 20), "# " + "a" * (3 << 20)])
 def test_a_line_without_end(tmp_path: Path, text: str) -> None:
     (tmp_path / "flight.csv.gz").write_bytes(gzip.compress(text.encode()))
-    with pytest.raises(UserError, match="a line of more than"):
+    with pytest.raises(UserError, match="not a table"):
         read_flight(tmp_path / "flight.csv.gz", 9.8)

@@ -56,7 +56,7 @@ HIDDEN: dict[str, dict[str, Any]] = {
 @pytest.fixture
 def no_timing(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without the mistakes of time, whose search takes most of it: for what is about others."""
-    monkeypatch.setattr(timing, "hypotheses", lambda *_: [])
+    monkeypatch.setattr(timing, "propose_times", lambda *_: [])
 
 
 @pytest.mark.parametrize("seed", range(2))

@@ -371,14 +371,14 @@ def test_what_a_file_holds(tmp_path: Path) -> None:
     (tmp_path / "x.csv").write_text(text(PLAIN + ",fuel", [[*r, 1.5] for r in kept]))
     found = describe_flight(tmp_path / "x.csv")
     (record,) = found.records
-    assert (record.rows, record.rate_Hz, record.gap_count, record.missing) == (
+    assert (record["rows"], record["rate_Hz"], record["gap_count"], record["missing"]) == (
         N - 3,
         pytest.approx(RATE),
         2,
         3,
     )
-    assert (record.gaps[0]["from_s"], record.gaps[0]["samples"]) == (19 / RATE, 2)
-    assert record.refused is not None and "'fuel'" in record.refused
+    assert (record["gaps"][0]["from_s"], record["gaps"][0]["samples"]) == (19 / RATE, 2)
+    assert record["refused"] is not None and "'fuel'" in record["refused"]
     json = found.as_json()["records"][0]
     assert json["columns"][-1] == {
         "name": "fuel",
@@ -389,7 +389,7 @@ def test_what_a_file_holds(tmp_path: Path) -> None:
     }
     (tmp_path / "x.csv").write_text(text(PLAIN, kept))
     (record,) = describe_flight(tmp_path / "x.csv").records
-    assert record.refused is None and any("2 gaps" in n for n in record.notes)
+    assert record["refused"] is None and any("2 gaps" in n for n in record["notes"])
 
 
 @pytest.mark.parametrize(
