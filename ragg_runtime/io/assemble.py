@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -304,44 +303,31 @@ sinusoid that is one of eight values in a period; between the values, where half
 fourth of it at most, rms a twentieth."""
 
 
-@dataclass(frozen=True)
-class SlowChannel:
-    """The values of a channel at its own instants, and its step, s."""
+def interpolate_slow(time: Array, values: Array, at: Array) -> Array | str:
+    """A channel of a lower rate, from its values (n,) and their instants, s, at other ones, (N,).
 
-    time: Array
-    values: Array
-    step: float
-
-    @property
-    def covered(self) -> float:
-        """Time, s, in which there is a value."""
-        steps = np.diff(self.time)
-        return float(np.sum(steps[steps <= BRIDGED_STEPS * self.step]))
-
-    def at(self, time: Array) -> Array:
-        """(N,): interpolated; NaN before the first value, after the last and in gaps of more than ``BRIDGED_STEPS`` steps."""
-        after = np.clip(np.searchsorted(self.time, time), 1, len(self.time) - 1)
-        wide = self.time[after] - self.time[after - 1] > BRIDGED_STEPS * self.step
-        lost = wide & (time > self.time[after - 1]) & (time < self.time[after])
-        lost |= (time < self.time[0]) | (time > self.time[-1])
-        return np.where(lost, np.nan, np.interp(time, self.time, self.values))
-
-
-def judge_slow(time: Array, values: Array) -> SlowChannel | str:
-    """The channel, from its values (n,) and their instants, s; or why it cannot be interpolated linearly, in words."""
+    NaN before the first value, after the last and in gaps of more than ``BRIDGED_STEPS`` steps. Or why it cannot be interpolated
+    linearly, in words.
+    """
     if len(values) < FEWEST_VALUES:
         return f"it has {len(values)} value{'s' * (len(values) != 1)}"
-    steps = np.diff(time)
+    steps, whole = np.diff(time), float(at[-1] - at[0])
     step = float(np.median(steps))
     if np.mean(np.abs(steps - step) <= 0.5 * step) < REGULAR:
         return "it is not recorded at regular intervals"
-    a, b = steps[:-1], steps[1:]
+    near = steps <= BRIDGED_STEPS * step
+    a, b, both = steps[:-1], steps[1:], near[:-1] & near[1:]
     between = (values[:-2] * b + values[2:] * a) / (a + b)
-    near = np.maximum(a, b) <= BRIDGED_STEPS * step
-    error = float(np.sqrt(np.mean((values[1:-1] - between)[near] ** 2))) if near.any() else np.inf
+    error = float(np.sqrt(np.mean((values[1:-1] - between)[both] ** 2))) if both.any() else np.inf
     if error > SLOW * float(np.std(values)):
         return f"it changes too fast for one value in {step:.3g} s"
-    return SlowChannel(time, values, step)
+    covered = float(np.sum(steps[near]))
+    if covered < (1 - MOST_UNUSED) * whole:
+        return f"its values cover {covered:.4g} s of {whole:.4g} s"
+    after = np.clip(np.searchsorted(time, at), 1, len(time) - 1)
+    lost = ~near[after - 1] & (at > time[after - 1]) & (at < time[after])
+    lost |= (at < time[0]) | (at > time[-1])
+    return np.where(lost, np.nan, np.interp(at, time, values))
 
 
 def _interpolate_slower(
@@ -358,14 +344,14 @@ def _interpolate_slower(
         count = int(np.sum(there))
         if not 0 < count < min((1 - SPARSE) * len(there), most + 1):
             continue
-        values = si.pop(name)[there]
-        channel = judge_slow(time[there], np.unwrap(values) if si_units[name] == "rad" else values)
-        if isinstance(channel, SlowChannel) and channel.covered < (1 - MOST_UNUSED) * whole:
-            channel = f"its values cover {channel.covered:.4g} s of {whole:.4g} s"
-        lacking = count_samples(len(there) - count)
-        if isinstance(channel, SlowChannel):
-            found[name] = channel.at(grid.time)
-            notes.append(f"{name}: recorded every {channel.step:.4g} s; interpolated (at {lacking})")
+        values, lacking = si.pop(name)[there], count_samples(len(there) - count)
+        if si_units[name] == "rad":
+            values = np.unwrap(values)
+        made = interpolate_slow(time[there], values, grid.time)
+        if isinstance(made, str):
+            notes.append(f"{name}: without a value at {lacking}; left out: {made}")
         else:
-            notes.append(f"{name}: without a value at {lacking}; left out: {channel}")
+            found[name] = made
+            step = float(np.median(np.diff(time[there])))
+            notes.append(f"{name}: recorded every {step:.4g} s; interpolated (at {lacking})")
     return found

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, Literal, TypeVar
+from typing import Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +13,8 @@ from ragg_runtime.base.threads import stretches
 Array = NDArray[np.float64]
 Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])
 
-PERIOD = 6
-"""Length of the transforms of :func:`convolved` over that of the filter: about there a sample costs least."""
+BLOCK = 1 << 22
+"""Numbers that :func:`convolved` transforms at a time: memory for the rest is not needed."""
 
 GROUP = 4
 """Columns that are transformed at a time: more leave the cache."""
@@ -71,39 +70,22 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
     return result
 
 
-TOGETHER = 8
-"""Blocks of :func:`convolved` that are transformed together: two of them in one go of the processor, all in cache."""
-
 Series = TypeVar("Series", NDArray[np.float64], NDArray[np.complex64], NDArray[np.complex128])
 
 
 def convolved(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "valid") -> Series:
-    """Series x (..., N), real or complex, convolved with taps (k,) along the last axis, by overlap and save.
+    """Series x (..., N), real or complex, convolved with taps (k,) along the last axis, in the series' own precision.
 
-    In the series' own precision. ``valid``: N - k + 1 samples, where the filter has seen nothing but the series;
-    ``same`` and ``full`` as NumPy's ``convolve``, the series continued by zeros.
+    ``valid``: N - k + 1 samples, where the filter has seen nothing but the series; ``same`` and ``full``: the series continued
+    by zeros.
     """
-    k = len(taps)
-    if mode != "valid":
-        before = k - 1 - (k - 1) // 2 if mode == "same" else k - 1
-        after = (k - 1) // 2 if mode == "same" else k - 1
-        x = np.pad(x, [(0, 0)] * (x.ndim - 1) + [(before, after)])
-    n = x.shape[-1] - k + 1
-    if n < 1:
+    from scipy.signal import oaconvolve  # slow to import
+
+    n, k = x.shape[-1], len(taps)
+    if n < k and mode == "valid":
         return np.empty((*x.shape[:-1], 0), dtype=x.dtype)
-    real = not np.iscomplexobj(x)
-    forward: Callable[..., Any] = fft.rfft if real else fft.fft
-    backward: Callable[..., Any] = fft.irfft if real else fft.ifft
-    size = fft.next_fast_len(min(x.shape[-1], max(PERIOD * k, 4096)), real=real)
-    gain = forward(taps.astype(x.real.dtype), size)
-    found = np.empty((*x.shape[:-1], n), dtype=x.dtype)
-    step = size - k + 1
-    whole = (n // step) * step
-    for some in stretches(n // step, TOGETHER):
-        blocks = np.lib.stride_tricks.sliding_window_view(x, size, axis=-1)[..., ::step, :]
-        y = backward(forward(blocks[..., some, :], size) * gain, size)[..., k - 1 :]
-        found[..., some.start * step : some.stop * step] = y.reshape(*x.shape[:-1], -1)
-    if whole < n:
-        y = backward(forward(x[..., whole:], size) * gain, size)
-        found[..., whole:] = y[..., k - 1 : k - 1 + n - whole]
-    return found
+    rows, own = x.reshape(-1, n), taps[None].astype(x.real.dtype)
+    found = np.empty((len(rows), {"valid": n - k + 1, "same": n, "full": n + k - 1}[mode]), dtype=x.dtype)
+    for some in stretches(len(rows), max(1, BLOCK // n)):
+        found[some] = oaconvolve(rows[some], own, mode, axes=-1)
+    return found.reshape(*x.shape[:-1], -1)

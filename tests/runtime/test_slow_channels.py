@@ -11,7 +11,7 @@ import pytest
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight, read_flight, write_flight
-from ragg_runtime.io.assemble import BRIDGED_STEPS, SlowChannel, judge_slow
+from ragg_runtime.io.assemble import BRIDGED_STEPS, interpolate_slow
 from ragg_runtime.simulate import simulated
 
 G0 = 9.8
@@ -73,21 +73,17 @@ def test_a_record_that_lacks_half_of_its_samples_is_refused(name: str, hot: Flig
 
 def test_judgement() -> None:
     t = np.arange(0.0, 1000.0, 10.0)
-    slow = judge_slow(t, 290 + np.sin(2 * np.pi * t / 400))
-    assert isinstance(slow, SlowChannel)
     fine = np.arange(0.0, 989.0, 0.5)
-    assert np.max(np.abs(slow.at(fine) - 290 - np.sin(2 * np.pi * fine / 400))) < 0.01
-    assert "fast" in str(judge_slow(t, np.sin(2 * np.pi * t / 30)))
-    assert "regular" in str(
-        judge_slow(np.cumsum(np.random.default_rng(2).exponential(10.0, 100)), np.zeros(100))
-    )
-    assert "3 values" in str(judge_slow(t[:3], t[:3]))
+    slow = interpolate_slow(t, 290 + np.sin(2 * np.pi * t / 400), fine)
+    assert np.max(np.abs(slow - 290 - np.sin(2 * np.pi * fine / 400))) < 0.01
+    assert "fast" in str(interpolate_slow(t, np.sin(2 * np.pi * t / 30), fine))
+    irregular = np.cumsum(np.random.default_rng(2).exponential(10.0, 100))
+    assert "regular" in str(interpolate_slow(irregular, np.zeros(100), fine))
+    assert "3 values" in str(interpolate_slow(t[:3], t[:3], fine))
     holes = np.r_[t[:40], t[44:]]  # one gap of five steps
-    slow = judge_slow(holes, 290 + holes / 1e3)
-    assert isinstance(slow, SlowChannel)
-    assert np.isnan(slow.at(np.array([400.0, 395.0, 425.0]))).tolist() == [True, True, True]
-    assert np.isfinite(slow.at(np.array([390.0, 440.0, 990.0, 0.0]))).all()
-    assert np.isnan(slow.at(np.array([991.0, -1.0]))).all()
+    at = np.array([-1.0, 0.0, 390.0, 395.0, 400.0, 425.0, 440.0, 990.0, 991.0])
+    slow = interpolate_slow(holes, 290 + holes / 1e3, at)
+    assert np.isnan(slow).tolist() == [True, False, False, True, True, True, False, False, True]
     assert BRIDGED_STEPS < 5
 
 
