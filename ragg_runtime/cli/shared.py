@@ -63,9 +63,9 @@ class OutputFile(click.Path):
         name = os.fsdecode(super().convert(value, param, ctx))
         path = Path(name)
         if not self.records and path.is_file() and path.stat().st_size:
-            from ragg_runtime.io.files import ending_of  # only here: to import it takes a while
+            from ragg_runtime.io.files import find_ending  # only here: to import it takes a while
 
-            if ending_of(path.name) is not None:
+            if find_ending(path.name) is not None:
                 raise _over("a record", path, "a file that is not empty, with the ending of a flight file")
             if path.name in _OF_A_MODEL and (path.resolve().parent / "model.toml").is_file():
                 raise _over("a file of a model directory", path, path.name)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ragg_runtime.identification.ranking import Ranked
 from ragg_runtime.identification.result import Diagnosis, Reason
 from ragg_runtime.io import Flight
-from ragg_runtime.screening.repeated import with_derived_acceleration
+from ragg_runtime.screening.repeated import derive_acceleration
 
 ALIKE = 3.0
 """Standard errors within which an effect is as large as what the sensors' steps feign."""
@@ -88,7 +88,7 @@ def _rounded_again(x: Flight, residual: NDArray[np.float64]) -> Flight:
     name, G = next(iter((n, v) for n, v in x.outputs.items() if not n.startswith("V_")))
     moved = {n: x.channels[n] + q * rng.uniform(-0.5, 0.5, len(x)) for n, q in x.resolution.items()}
     changed = replace(x, channels={**x.channels, **moved}, outputs={name: G - residual}, flags=())
-    return with_derived_acceleration(changed) if any(n.startswith("omega_") for n in moved) else changed
+    return derive_acceleration(changed) if any(n.startswith("omega_") for n in moved) else changed
 
 
 def _is_alike(found: Ranked, made: Ranked | None) -> bool:

@@ -80,7 +80,7 @@ def read_parquet(path: Path) -> list[DataTable]:
         unnamed = field.name.startswith("__index_level_")
         name = INDEX if unnamed else field.name
         index = read_heading(name)[0] if unnamed or field.name in labels else index
-        found = of_arrow(values)
+        found = convert_arrow(values)
         said = (field.metadata or {}).get(b"units", b"").decode("utf-8", "replace")
         arrays.append((name, label(np.zeros(len(values), "V1") if found is None else found, {"units": said})))
     return [make_table(arrays, given, index=index)]
@@ -94,7 +94,7 @@ def _read_json(text: bytes) -> dict[str, Any]:
     return found if isinstance(found, dict) else {}
 
 
-def of_arrow(column: pa.ChunkedArray) -> NDArray[Any] | None:
+def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any] | None:
     """Numbers, texts or instants of a column of Arrow; ``None`` for anything else. Its own ``to_numpy`` may load pandas."""
     kind = column.type.value_type if pa.types.is_dictionary(column.type) else column.type
     if pa.types.is_string(kind) or pa.types.is_large_string(kind) or pa.types.is_time(kind):

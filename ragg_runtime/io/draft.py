@@ -19,7 +19,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.names import LONGEST, is_column
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.files import read_tables
-from ragg_runtime.io.instants import find_order, parts_of
+from ragg_runtime.io.instants import find_order, find_parts
 from ragg_runtime.io.mapping import UNKNOWN
 from ragg_runtime.io.record import ANGULAR_RATE, DEMODULATED, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.recording import find_spoiled, parse_numbers
@@ -171,7 +171,7 @@ def _find_instants(table: DataTable) -> tuple[tuple[str, ...], str, str] | None:
     texts = [c for c in table.columns if not c.is_number]
     texts.sort(key=lambda c: not ROLES["time"].fits(c.name))
     for c in texts:
-        if c.values.dtype.kind == "M" or all(parts_of(_first_cell(c))):
+        if c.values.dtype.kind == "M" or all(find_parts(_first_cell(c))):
             return (c.name,), _find_form(c), "certain: a date and a time"
     date, clock = by_role.get("date"), by_role.get("clock")
     if date is not None and clock is not None and date is not clock:
@@ -180,7 +180,7 @@ def _find_instants(table: DataTable) -> tuple[tuple[str, ...], str, str] | None:
     if clock is not None and clock.is_number and not clock.unit and _is_hhmmss(clock.values):
         return (clock.name,), "clock", "likely: hhmmss"
     for c in texts:
-        if c.values.dtype.kind == "m" or parts_of(_first_cell(c))[1]:
+        if c.values.dtype.kind == "m" or find_parts(_first_cell(c))[1]:
             return (c.name,), "clock", "certain: a time of the day, or an elapsed time"
     return None
 

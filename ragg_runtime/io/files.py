@@ -108,14 +108,14 @@ ENDINGS: Mapping[str, Format] = {e: f for f in FORMATS for e in f.endings}
 """File name endings and the format that they stand for."""
 
 
-def ending_of(name: str) -> str | None:
+def find_ending(name: str) -> str | None:
     """The longest known ending of a file name."""
     return max((e for e in ENDINGS if name.lower().endswith(e)), key=len, default=None)
 
 
-def format_of(path: Path) -> Format:
+def find_format(path: Path) -> Format:
     """The format by the ending of the name; UserError for any other."""
-    ending = ending_of(path.name)
+    ending = find_ending(path.name)
     if ending is not None:
         return ENDINGS[ending]
     raise UserError(
@@ -129,7 +129,7 @@ def format_of(path: Path) -> Format:
 
 def require_writable(path: Path) -> Callable[[Path, Sequence[DataColumn]], None]:
     """The writer of a file; UserError for formats that are read alone."""
-    kind = format_of(path)
+    kind = find_format(path)
     if kind.write is not None:
         return kind.write
     raise UserError(
@@ -173,7 +173,7 @@ def read_tables(source: Any) -> list[DataTable]:
     """All tables of a file, by the ending of its name and its content, or of a flight in memory."""
     if not isinstance(source, Path):
         return tabulate(source)
-    kind = format_of(source)
+    kind = find_format(source)
     _require_content(source, kind)
     try:
         return kind.read(source)
@@ -262,7 +262,7 @@ def read_flight(source: Any, g0: float, *, line: str | None = None, **options: A
 
 def flight_name(path: Path) -> str:
     """The file's name without its ending; the folder's where the file is just called ``flight``."""
-    stem = path.name[: len(path.name) - len(ending_of(path.name) or "")]
+    stem = path.name[: len(path.name) - len(find_ending(path.name) or "")]
     folder = path.resolve().parent.name
     # it is told on terminals and in reports: what would steer them, or pass for a line of ours, is written out
     return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)

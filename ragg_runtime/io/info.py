@@ -13,7 +13,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import file_digest
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.assemble import make_flight
-from ragg_runtime.io.files import flight_name, format_of, read_recordings, write_instant
+from ragg_runtime.io.files import find_format, flight_name, read_recordings, write_instant
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.io.record import is_disc_angle
 from ragg_runtime.io.recording import require_units
@@ -74,7 +74,7 @@ def describe_flight(path: Path | str, mapping: Mapped | None = None) -> FileInfo
     path = Path(path)
     made = read_recordings(path, mapping, lenient=True)
     records = [_describe_record(r, flight_name(path), len(made) > 1) for r in made]
-    return FileInfo(str(path), file_digest(path), format_of(path).name, path.stat().st_size, records)
+    return FileInfo(str(path), file_digest(path), find_format(path).name, path.stat().st_size, records)
 
 
 def _describe_record(r: DataTable, name: str, several: bool) -> Json:

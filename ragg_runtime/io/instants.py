@@ -71,14 +71,14 @@ def _match(text: str) -> re.Match[str] | None:
     return _STAMP.fullmatch(re.sub(r"^(\d{8}|\d{4}-\d\d-\d\d)[T ](\d\d)(\d\d)(\d\d)", r"\1T\2:\3:\4", text))
 
 
-def parts_of(text: str) -> tuple[bool, bool]:
+def find_parts(text: str) -> tuple[bool, bool]:
     """Whether there is a date in a stamp, and whether a time."""
     m = _match(text.strip())
     dated = m is not None and m["date"] is not None and _read_date(_date_in(m), "dmy") is not None
     return dated, m is not None and (m["h"] is not None or m["days"] is not None)
 
 
-def order_of(format_: str) -> str | None:
+def parse_order(format_: str) -> str | None:
     """``dmy``, ``mdy`` or ``ymd`` of ``d/m/y``, ``mm/dd/yyyy``, ``%d.%m.%Y %H:%M:%S``; ``None``: no such format."""
     letters = "".join(dict.fromkeys(re.findall("[dmy]", format_.casefold())))
     return letters if letters in ("dmy", "mdy", "ymd") and re.match(r"\W*[dmy]", format_.casefold()) else None
@@ -115,12 +115,12 @@ def read_stamps(
     if len(columns) == 2:
         dates = [_write_date(v) for v in first]
         texts = [f"{d} {c}" if d and c else "" for d, c in zip(dates, texts, strict=True)]
-    order = None if way is None else order_of(way)
+    order = None if way is None else parse_order(way)
     fast = _read_iso(texts) if order in (None, "ymd") else None
     return _read_texts(texts, order, where, row) if fast is None else _count(fast)
 
 
-def count_from(values: Array, epoch: str) -> Stamps | None:
+def count_seconds_since(values: Array, epoch: str) -> Stamps | None:
     """Stamps (n,) since a date as instants; ``None`` if the date is none."""
     try:
         start = read_stamps([np.array([epoch], dtype=object)], None, "")

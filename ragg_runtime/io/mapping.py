@@ -21,7 +21,7 @@ from ragg_runtime.base.files import read_text
 from ragg_runtime.base.names import is_column, read_name
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.instants import WAYS, order_of
+from ragg_runtime.io.instants import WAYS, parse_order
 
 UNKNOWN = "?"
 """What ``ragg map`` writes where the answer is not in the file."""
@@ -170,12 +170,12 @@ def _read_time(raw: Mapping[str, Any], form: Any, null: Null, where: str) -> Tim
     columns = raw.get("column")
     names = (columns,) if isinstance(columns, str) else tuple(columns) if isinstance(columns, list) else ()
     written = _read_word(form, "format", where) or ""
-    if written not in ("seconds", *WAYS) and order_of(written) is None:
+    if written not in ("seconds", *WAYS) and parse_order(written) is None:
         known = "seconds, " + ", ".join(f"{n} ({example})" for n, (_, example) in WAYS.items())
         near = did_you_mean(written, ("seconds", *WAYS))
         raise _refuse("no such format of time", where, written, known, near)
     count = WAYS[written][0] if written in WAYS else 1
-    both = order_of(written) is not None and len(names) == 2  # the date and the time of the day
+    both = parse_order(written) is not None and len(names) == 2  # the date and the time of the day
     if (len(names) != count and not both) or not all(isinstance(n, str) and n for n in names):
         how, example = ("two columns", '["DATE", "CLOCK"]') if count == 2 else ("one column", '"..."')
         raise _refuse(f"time as {written!r} needs {how}", where, columns, f"column = {example}")

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError, at, one_line
 from ragg_runtime.base.names import EXPECTED, is_column
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.instants import WAYS, Stamps, count_from, read_stamps
+from ragg_runtime.io.instants import WAYS, Stamps, count_seconds_since, read_stamps
 from ragg_runtime.io.mapping import Entry, Mapped, Null, TimeEntry
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
-from ragg_runtime.io.tables import DataColumn, DataTable, choose_tables, line_name, split_lines
+from ragg_runtime.io.tables import DataColumn, DataTable, choose_tables, name_line, split_lines
 from ragg_runtime.io.text_tables import MISSING, is_comma, write_plain
 
 Array = NDArray[np.float64]
@@ -109,7 +109,7 @@ def _require_names(table: DataTable, mapping: Mapped, place: Path | str) -> None
 
 
 def _pick_lines(lines: list[DataTable], names: Sequence[str] | None, place: Path | str) -> list[DataTable]:
-    wanted = {line_name(n) for n in names or ()}
+    wanted = {name_line(n) for n in names or ()}
     if lost := sorted(wanted - {str(t.line) for t in lines}):
         expected = ", ".join(str(t.line) for t in lines[:20])
         raise UserError("the file has no such line", where=place, found=", ".join(lost), expected=expected)
@@ -209,7 +209,9 @@ def _read_time(
         first = _read_numbers(first, table, t.null, remedy)
         unit, _, epoch = first.unit.partition(" since ")
         first = replace(first, name="time", unit=t.unit or unit)
-        stamps = count_from(units(9.8).to_si(first.values, unit, "s", where), epoch) if epoch else None
+        stamps = (
+            count_seconds_since(units(9.8).to_si(first.values, unit, "s", where), epoch) if epoch else None
+        )
     else:
         stamps = read_stamps([c.values for c in columns], t.format, where, table.row)
     return (first, None) if stamps is None else (DataColumn("time", "s", stamps.values), stamps)

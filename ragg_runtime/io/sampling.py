@@ -263,7 +263,7 @@ def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]
     return found if len(found) <= MOST_SET else []
 
 
-def even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, float]:
+def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, float]:
     """First instant and interval, s, of the steady clock by which the samples were taken, whatever their stamps say.
 
     ``time``, ``present`` (N,) as in :func:`find_clock_steps`; what a clock was set by is not counted.

@@ -437,7 +437,7 @@ def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | s
     different, first, inverse = np.unique(
         values.astype(str) if values.dtype.kind == "O" else values, return_index=True, return_inverse=True
     )
-    texts = [line_name(v) for v in different]
+    texts = [name_line(v) for v in different]
     named = list(dict.fromkeys(texts[k] for k in np.argsort(first) if texts[k]))
     number = {text: k for k, text in enumerate(named)}
     which = np.array([number.get(text, -1) for text in texts], dtype=np.int64)[inverse]
@@ -462,7 +462,7 @@ def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | s
     ]
 
 
-def line_name(value: object) -> str:
+def name_line(value: object) -> str:
     """The name of a line: 1010 of 1010.0, in numbers or in text; ``""`` where nothing stands."""
     try:
         number = float(str(value))

@@ -26,8 +26,8 @@ import pyarrow.csv
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
-from ragg_runtime.io.array_files import of_arrow, report_damage
-from ragg_runtime.io.instants import parts_of
+from ragg_runtime.io.array_files import convert_arrow, report_damage
+from ragg_runtime.io.instants import find_parts
 from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.io.tables import (
     INDEX,
@@ -118,7 +118,7 @@ def _is_filled(cell: Any) -> bool:
 def _is_data(row: Sequence[Any]) -> bool:
     """Whether more cells of a row are numbers or instants than are text."""
     filled = list(filter(_is_filled, row))
-    values = sum(not isinstance(c, str) or is_number(c) or any(parts_of(c)) for c in filled)
+    values = sum(not isinstance(c, str) or is_number(c) or any(find_parts(c)) for c in filled)
     return values > 0 and 2 * values > len(filled)
 
 
@@ -192,7 +192,7 @@ def read_csv(path: Path) -> list[DataTable]:
             f"{len(passed)} line{'s' * (len(passed) > 1)} without data passed over: {', '.join(passed[:3])}"
         )
     columns = []
-    for k, x in enumerate(map(of_arrow, table.columns)):
+    for k, x in enumerate(map(convert_arrow, table.columns)):
         name, unit = dialect.header.names[k], dialect.header.units[k]
         assert x is not None
         if name:

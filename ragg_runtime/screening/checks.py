@@ -47,7 +47,7 @@ _FACTORS = (
 )
 
 
-def require(model: Model, instrument: Instrument, flight: Flight) -> None:
+def require_comparable(model: Model, instrument: Instrument, flight: Flight) -> None:
     """UserError if the flight cannot be compared with this model at all."""
     where = flight.path or flight.name
     for e in model.effects:
@@ -112,7 +112,7 @@ def _fast_enough(name: str, flight: Flight, usable: NDArray[np.bool_], f: float)
         )
 
 
-def remarks(instrument: Instrument, flight: Flight) -> list[Flag]:
+def list_remarks(instrument: Instrument, flight: Flight) -> list[Flag]:
     """Columns that stand still or contradict each other, with the likely mistake."""
     encoders = (x for d in instrument.layout.discs for x in _encoder(d, flight))
     noted = (*_rates(flight), *encoders, *_angle_origin(instrument, flight))

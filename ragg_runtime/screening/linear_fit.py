@@ -196,7 +196,7 @@ class _Columns:
         inner, n = rows.inner, len(self.places)
         X = seen[:, :, inner].reshape(len(seen), -1)
         y = ((rows.data[:, inner] - nominal[:, inner]) / self.eotvos).reshape(-1)
-        theta, kept, room = robust(X, y)
+        theta, kept, room = fit_robustly(X, y)
         size = rows.data[:, inner] / self.eotvos
         size = (size - np.mean(size, axis=1, keepdims=True)).reshape(-1)
         moved = self.p.copy()
@@ -259,21 +259,21 @@ def _make_gradient(rows: Rows) -> Array:
     return np.stack([rows.before_demodulation(x, None) for x in carriers])
 
 
-def robust(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_], float]:
+def fit_robustly(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_], float]:
     """Coefficients (n,) of columns X (n, rows), the rows that are no outliers of the fit, and what is told of the coefficients."""
     kept = np.ones(len(y), dtype=np.bool_)
-    theta, room = shrunken(X, y)
+    theta, room = fit_shrunken(X, y)
     for _ in range(10):
         left = np.abs(y - theta @ X)
         now = left <= OUTLIER * float(np.quantile(left, QUARTILE)) / QUARTILE_OF_NORMAL
         if np.array_equal(now, kept) or np.sum(now) < 2 * len(X):
             break
         kept = now
-        theta, room = shrunken(X[:, kept], y[kept])
+        theta, room = fit_shrunken(X[:, kept], y[kept])
     return theta, kept, room
 
 
-def shrunken(X: Array, y: Array) -> tuple[Array, float]:
+def fit_shrunken(X: Array, y: Array) -> tuple[Array, float]:
     """Coefficients (n,) of columns X (n, rows), each with a prior of unit width, and what y tells of them; y's noise is estimated.
 
     The noise is what the fit leaves: starting from "all is noise" it falls until fit and noise agree.

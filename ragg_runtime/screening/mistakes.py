@@ -20,7 +20,7 @@ from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening import other_demodulator, timing
 from ragg_runtime.screening.linear_fit import INDEPENDENT, Hypothesis, LinearFit, fit_each, fit_rows
-from ragg_runtime.screening.sampler import Rows, Sampler, stem_of
+from ragg_runtime.screening.sampler import Rows, Sampler, find_stem
 from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
@@ -157,7 +157,9 @@ class ColumnMistake:
 def _wrong(model: Model, instrument: Instrument, s: Sampler, rows: Rows) -> list[Hypothesis]:
     """The most promising mistakes of unit, sign and axis."""
     few = s.take(s.rows(most=FEW))
-    possible = list(mistakes(rows, instrument.units, s.flight.written, derived=has_derived_rates(s.flight)))
+    possible = list(
+        list_mistakes(rows, instrument.units, s.flight.written, derived=has_derived_rates(s.flight))
+    )
     rough = fit_each(model, instrument, (m.undo(few) for m in possible))
     order = sorted(range(len(possible)), key=lambda k: rough[k].score + possible[k].plainness / 2)
     best = [possible[k] for k in order[:MOST_TRIED] if rough[k].score < rough[order[0]].score + NAMED]
@@ -168,7 +170,7 @@ def _wrong(model: Model, instrument: Instrument, s: Sampler, rows: Rows) -> list
     ]
 
 
-def mistakes(
+def list_mistakes(
     rows: Rows, known: Units, written: Mapping[str, str], *, derived: bool
 ) -> Iterator[ColumnMistake]:
     """Every mistake of units, signs, axes and order that such rows may hold.
@@ -207,7 +209,7 @@ def _in_unit(
 
 def _scaled(stems: tuple[str, ...], factor: float) -> Callable[[Rows], Rows]:
     def undo(rows: Rows) -> Rows:
-        changed = {n: factor * x for n, x in rows.channels.items() if stem_of(n) in stems}
+        changed = {n: factor * x for n, x in rows.channels.items() if find_stem(n) in stems}
         return replace(rows, channels={**rows.channels, **changed})
 
     return undo

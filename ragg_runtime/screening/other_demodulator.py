@@ -68,7 +68,7 @@ def propose_demodulator(model: Model, instrument: Instrument, s: Sampler) -> Hyp
     )
 
 
-def families() -> Iterator[Family]:
+def list_families() -> Iterator[Family]:
     """Every kind of low-pass; a causal one also with what it delays slow things by taken back."""
     for n in ORDERS:
         slow = 1.0 / (2 * np.pi * np.sin(np.pi / (2 * n)))
@@ -83,7 +83,7 @@ def _find_best(share: Callable[[Demodulation], float], rate: float) -> Demodulat
     """The low-pass that leaves the least share: the best corner of every family, then a finer one of those that promise most."""
     corners = np.array([f for f in CORNERS if f < rate / 4])
     found: list[tuple[float, Family, float]] = []
-    for family in families() if len(corners) else ():
+    for family in list_families() if len(corners) else ():
         k = int(np.argmin([share(family(float(f))) for f in corners]))
         between = corners[max(k - 1, 0)], corners[min(k + 1, len(corners) - 1)]
         corner = _refine(family, share, between, ROUGH)

@@ -93,11 +93,11 @@ def leave_out_repeated(flight: Flight) -> Flight:
     rates = [r for name, r in found if name in ANGULAR_RATE]
     if rates:
         stuck = np.any([r.left_out for r in rates if r.how == "stuck"] or [~np.ones_like(valid)], axis=0)
-        changed = with_derived_acceleration(changed, stuck)
+        changed = derive_acceleration(changed, stuck)
     return changed.flagged(_flags(found, flight))
 
 
-def with_derived_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
+def derive_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
     """The flight with its angular acceleration derived anew, unless it was recorded; rates are ``stuck`` (N,) somewhere."""
     if not x.written or ANGULAR_ACCELERATION[0] in x.written or ANGULAR_ACCELERATION[0] not in x.channels:
         return x

@@ -171,7 +171,7 @@ class Sampler:
             phi = x.channels[self.disc.angle_column][rows]
         else:
             phi = disc_angle(time, f, start)
-        moved = {name for name in (*x.channels, *self.derived) if stem_of(name) in of}
+        moved = {name for name in (*x.channels, *self.derived) if find_stem(name) in of}
         channels = {
             name: v[rows + motion_later] if name in moved else v[rows]
             for name, v in (*x.channels.items(), *self.derived.items())
@@ -204,12 +204,12 @@ class Sampler:
         return [self.flight.outputs[v] for v in self.columns]
 
 
-def stem_of(name: str) -> str:
+def find_stem(name: str) -> str:
     """``a`` of ``a_x`` and of its time derivative ``d_a_x``."""
     return differentiated(name).rsplit("_", 1)[0]
 
 
-def sampler_of(
+def make_sampler(
     flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (), place: int = 0
 ) -> Sampler:
     """Prepare a flight for taking rows; ``inputs`` are the names that the model asks for, ``place`` the output.

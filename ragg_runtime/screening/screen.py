@@ -14,7 +14,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import Units
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag
-from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, even_clock, find_clock_steps
+from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, find_clock_steps, fit_even_clock
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import EVEN
@@ -22,9 +22,9 @@ from ragg_runtime.model.recorded import recorded
 from ragg_runtime.screening import checks
 from ragg_runtime.screening.linear_fit import INDEPENDENT, LinearFit, fit_rows
 from ragg_runtime.screening.mistakes import NAMED, Finding, find_mistake
-from ragg_runtime.screening.repeated import leave_out_repeated, with_derived_acceleration
-from ragg_runtime.screening.sampler import Rows, Sampler, sampler_of
-from ragg_runtime.screening.spikes import find_spikes, leave_out_glitches, words_of
+from ragg_runtime.screening.repeated import derive_acceleration, leave_out_repeated
+from ragg_runtime.screening.sampler import Rows, Sampler, make_sampler
+from ragg_runtime.screening.spikes import describe_spikes, find_spikes, leave_out_glitches
 from ragg_runtime.signals.angular_acceleration import wide_weights
 from ragg_runtime.signals.resolution import find_step
 
@@ -67,16 +67,16 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
         If the flight cannot be compared with the model: it is too short, too slow, lacks a channel, or holds
         a mistake of units, signs, axes, order or clock, which the message names.
     """
-    flight = leave_out_repeated(replace(flight, resolution=resolution_of(flight)))
-    checks.require(model, instrument, flight)
-    flight = leave_out_glitches(flight).flagged(checks.remarks(instrument, flight))
+    flight = leave_out_repeated(replace(flight, resolution=find_resolutions(flight)))
+    checks.require_comparable(model, instrument, flight)
+    flight = leave_out_glitches(flight).flagged(checks.list_remarks(instrument, flight))
     layout, inputs = instrument.layout, tuple(model.chain.INPUTS)
     places = [k for k in range(len(layout.outputs)) if recorded(flight, layout, k)]
-    s = sampler_of(flight, instrument, inputs, places[0])
+    s = make_sampler(flight, instrument, inputs, places[0])
     if not s.usable.any():
         return flight
     flight = _with_right_clock(model, instrument, s)
-    s = sampler_of(flight, instrument, inputs, places[0])
+    s = make_sampler(flight, instrument, inputs, places[0])
     finding = find_mistake(model, instrument, s)
     if finding is not None:
         if _is_senseless(finding, instrument):
@@ -85,7 +85,7 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     fitted = fit_rows(model, instrument, s.take(s.rows()))
     flight = flight.flagged(_coarse_sensors(model, instrument.units, s, fitted))
     for place in places:
-        s = sampler_of(flight, instrument, inputs, place)
+        s = make_sampler(flight, instrument, inputs, place)
         flight = flight.flagged(_saturated(s))
         flight = _without_output_spikes(model, instrument, s, flight)
     return flight
@@ -154,13 +154,13 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
     x = s.flight
     if s.recorded.demodulated or len(x) < LEAST:
         return x
-    first, step = even_clock(x.time, x.present)
+    first, step = fit_even_clock(x.time, x.present)
     worst = float(np.max(np.abs(x.time - first - step * np.arange(len(x)))[x.present])) / step
     steps = find_clock_steps(x.time, x.present)
     inputs = tuple(model.chain.INPUTS)
 
     def judge(flight: Flight) -> LinearFit:
-        t = sampler_of(flight, instrument, inputs, s.place)
+        t = make_sampler(flight, instrument, inputs, s.place)
         return fit_rows(model, instrument, t.take(t.rows()))
 
     own = judge(x) if worst > EVEN or steps else None
@@ -177,20 +177,20 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
             f"the stamps step {where} (was the clock set?), but sampling went on: the times are those of the sample"
             f" count ({np.exp(gain):.3g} times less is left unexplained)"
         )
-        return with_derived_acceleration(_evenly(x, several[-k])).flagged([Flag(("time",), text, len(x))])
+        return derive_acceleration(_evenly(x, several[-k])).flagged([Flag(("time",), text, len(x))])
     broken = [_pause(c) for c in steps if c.part]
     even = _evenly(x, [])
     if (
         broken
         or worst <= EVEN
-        or not _is_even(model, s, sampler_of(even, instrument, inputs, s.place), own.p)
+        or not _is_even(model, s, make_sampler(even, instrument, inputs, s.place), own.p)
     ):
         return x.flagged(broken)
     text = (
         f"the instants in the file scatter by up to {worst:.2g} of a step, but the output was sampled evenly: the times"
         " are replaced by even ones"
     )
-    return with_derived_acceleration(even).flagged([Flag(("time",), text, len(x))] * (worst > JITTER_NOTED))
+    return derive_acceleration(even).flagged([Flag(("time",), text, len(x))] * (worst > JITTER_NOTED))
 
 
 def _is_even(model: Model, s: Sampler, even: Sampler, p: Array) -> bool:
@@ -210,7 +210,7 @@ def _is_even(model: Model, s: Sampler, even: Sampler, p: Array) -> bool:
 
 def _evenly(x: Flight, steps: Sequence[ClockStep]) -> Flight:
     """The flight with even times; rows that lack where the clock was set are no rows."""
-    first, step = even_clock(x.time, x.present)
+    first, step = fit_even_clock(x.time, x.present)
     kept = np.ones(len(x), dtype=np.bool_)
     for c in steps:
         before = np.flatnonzero(x.present[: c.row])
@@ -242,7 +242,7 @@ def _without_output_spikes(model: Model, instrument: Instrument, s: Sampler, fli
     fitted = fit_rows(model, instrument, s.take(s.rows())).p
     found = np.array([find_spikes(e, s.usable) for e in _residual(model, s, fitted, slice(None))])
     flags = [
-        Flag((name,), words_of(name, mask, flight.time), int(np.sum(mask)))
+        Flag((name,), describe_spikes(name, mask, flight.time), int(np.sum(mask)))
         for name, mask in zip(s.columns, found, strict=True)
         if mask.any()
     ]
@@ -270,7 +270,7 @@ def _residual(model: Model, s: Sampler, fitted: Array, rows: slice) -> Array:
 # --- the steps of motion sensors -----------------------------------------------------------------------
 
 
-def resolution_of(flight: Flight) -> Mapping[str, float]:
+def find_resolutions(flight: Flight) -> Mapping[str, float]:
     """Step of every recorded motion column, SI; of the angular acceleration only where the file has it."""
     names = [*SPECIFIC_FORCE, *ANGULAR_RATE]
     names += [n for n in ANGULAR_ACCELERATION if n in flight.written]

@@ -17,7 +17,7 @@ from ragg_runtime.io.record import (
     Flag,
     is_disc_angle,
 )
-from ragg_runtime.screening.repeated import with_derived_acceleration
+from ragg_runtime.screening.repeated import derive_acceleration
 from ragg_runtime.signals.derivative import runs
 
 Array = NDArray[np.float64]
@@ -109,12 +109,12 @@ def leave_out_glitches(flight: Flight) -> Flight:
         mask, channels[name] = find(flight.channels[name], flight.valid)
         if mask.any():
             valid &= ~mask
-            flags[name] = Flag((name,), words_of(name, mask, flight.time), int(np.sum(mask)))
+            flags[name] = Flag((name,), describe_spikes(name, mask, flight.time), int(np.sum(mask)))
     if not flags:
         return flight
     changed = replace(flight, channels=channels, valid=valid)
     if ANGULAR_ACCELERATION[0] not in flight.written and any(n in ANGULAR_RATE for n in flags):
-        changed = with_derived_acceleration(changed)
+        changed = derive_acceleration(changed)
         flags = {n: f for n, f in flags.items() if n not in ANGULAR_ACCELERATION}
     return changed.flagged(list(flags.values()))
 
@@ -185,7 +185,7 @@ def _spread(x: Array, at: NDArray[np.intp]) -> Array:
     return np.asarray(ordered[:, 22] - ordered[:, 2])
 
 
-def words_of(name: str, mask: Mask, time: Array) -> str:
+def describe_spikes(name: str, mask: Mask, time: Array) -> str:
     """How many spikes, where, what was done with them."""
     places = np.flatnonzero(mask)
     instants = ", ".join(f"{time[k]:.10g}" for k in places[:3])

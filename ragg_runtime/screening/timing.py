@@ -119,12 +119,12 @@ def _propose_spin(t: _Trial) -> list[Hypothesis]:
             options={"xatol": 1e-9 * abs(f0)},
         ).x
     )
-    shown, remedy = in_digits(best, x.duration), "record spin_angle"
+    shown, remedy = write_rate(best, x.duration), "record spin_angle"
     what = f"the spin rate is {shown} Hz, not the model's {f0:.9g} Hz ({100 * (best / f0 - 1):+.2g} %)"
     if s.has_encoder:
         what = f"{s.disc.angle_column} is not the angle of the disc, which turns at {shown} Hz from angle 0 at the first sample"
         remedy = f"check the encoder and its zero, or leave {s.disc.angle_column} out"
-    if float(shown) != float(in_digits(f0, x.duration)):
+    if float(shown) != float(write_rate(f0, x.duration)):
         remedy = f'write spin_frequency = "{shown} Hz" in model.toml, or {remedy}'
     elif not s.has_encoder:
         return [backwards]
@@ -132,7 +132,7 @@ def _propose_spin(t: _Trial) -> list[Hypothesis]:
     return [t.propose(what, remedy, COST, spin_frequency=best, effects=effects, calming=False), backwards]
 
 
-def in_digits(f: float, duration: float) -> str:
+def write_rate(f: float, duration: float) -> str:
     """A spin rate, Hz, with the fewest digits that this record does not tell from it."""
     near = TELLING_PHASE / (2 * np.pi * duration)
     texts = (f"{f:.{n}g}" for n in range(3, 18))  # seventeen are the number itself
@@ -225,12 +225,11 @@ def _describe_jump(s: Sampler, at: int, jump: float) -> tuple[str, str]:
             f"the stamps step by {gaps[0].size:.4g} s at t = {gaps[0].time:.6g} s, while sampling went on: was the clock set?",
             f"give the times by the sample count: time = row / {x.rate:.6g} Hz",
         )
-    rows, repeated = round(lost * x.rate), round((turn - lost) * x.rate)
-    count = min(rows, repeated)
-    some = f"{count} row{'s are' if count != 1 else ' is'} "
-    some += f"missing ({lost:.4g} s)" if rows <= repeated else "doubled"
+    rows = round(lost * x.rate)
+    some = f"{rows} row{'s are' if rows != 1 else ' is'} missing"
     return (
-        f"some rows were lost at t = {x.time[at]:.5g} s: {some} there, or whole turns of the disc ({turn:.4g} s) more",
+        f"some rows were lost at t = {x.time[at]:.5g} s: {some} there ({lost:.4g} s), or whole turns of the disc ({turn:.4g} s)"
+        f" more; or {round((turn - lost) * x.rate)} are doubled",
         "let time be that of the recorder, not of the row number; or split the record there, or record spin_angle",
     )
 

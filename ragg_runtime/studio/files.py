@@ -16,7 +16,7 @@ from starlette.requests import ClientDisconnect, Request
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io.draft import draft_mapping
-from ragg_runtime.io.files import ENDINGS, ending_of
+from ragg_runtime.io.files import ENDINGS, find_ending
 from ragg_runtime.workspace import Loaded
 
 LISTED = 500
@@ -84,7 +84,7 @@ def _kind_of(e: os.DirEntry[str]) -> str | None:
         return "model" if Path(e.path, "model.toml").is_file() else "folder"
     if e.name.lower().endswith(".toml"):
         return "sheet"
-    return "flight" if ending_of(e.name) else None
+    return "flight" if find_ending(e.name) else None
 
 
 def _size_of(e: os.DirEntry[str]) -> int:
@@ -139,7 +139,7 @@ def make_safe(name: str) -> str:
     """A name for an uploaded flight: one part, no control characters, of a known ending; or UserError."""
     plain = unicodedata.normalize("NFC", name).replace("\\", "/").split("/")[-1]
     plain = re.sub(r"[^\w.+ ()-]", "_", plain).strip(" .")
-    ending = ending_of(plain)
+    ending = find_ending(plain)
     if ending is None or len(plain) == len(ending):
         expected = "a name that ends in " + ", ".join(ENDINGS)
         raise UserError("this is not a flight file", where=name[:200], expected=expected)

@@ -147,7 +147,7 @@ def test_a_failed_writer_leaves_the_old_file(
         target.write_bytes(b"half")
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setitem(files.ENDINGS, suffix, replace(files.format_of(path), write=full))
+    monkeypatch.setitem(files.ENDINGS, suffix, replace(files.find_format(path), write=full))
     with pytest.raises(UserError, match="No space left"):
         write_flight(flight(), path)
     assert path.read_bytes() == b"old"

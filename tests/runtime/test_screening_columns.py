@@ -10,8 +10,8 @@ import pytest
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
-from ragg_runtime.io.sampling import even_clock, find_clock_steps, make_grid
-from ragg_runtime.screening.repeated import leave_out_repeated, with_derived_acceleration
+from ragg_runtime.io.sampling import find_clock_steps, fit_even_clock, make_grid
+from ragg_runtime.screening.repeated import derive_acceleration, leave_out_repeated
 from ragg_runtime.screening.spikes import find_glitches, find_spikes, leave_out_glitches
 from ragg_runtime.signals.resolution import find_step
 
@@ -70,7 +70,7 @@ def test_an_angular_acceleration_is_not_derived_across_a_gap() -> None:
     channels = dict.fromkeys(ANGULAR_RATE, x) | dict.fromkeys(ANGULAR_ACCELERATION, x)
     given = dict.fromkeys(ANGULAR_RATE, "rad/s")
     flight = Flight(TIME, channels, {}, valid=~lacking, written=given, lacking=lacking)
-    found = with_derived_acceleration(flight)
+    found = derive_acceleration(flight)
     wrong = (found.channels["omegadot_x"] - np.gradient(SMOOTH, TIME, edge_order=2))[1:-1][found.valid[1:-1]]
     near = np.abs(TIME[1:-1][found.valid[1:-1]] - 300) < 10
     assert np.max(np.abs(wrong[near])) < 1.1 * np.max(np.abs(wrong[~near]))
@@ -219,7 +219,9 @@ def test_a_pause_of_whole_samples_is_no_clock_that_was_set() -> None:
     kept = np.ones(N, dtype=bool)
     kept[np.add.outer(np.arange(500, 9500, 600), np.arange(40)).ravel()] = False
     stamps = TIME + 1e-3 / 16 * NOISE
-    assert even_clock(stamps, kept)[1] == 1 / 16 and not any(c.part for c in find_clock_steps(stamps, kept))
+    assert fit_even_clock(stamps, kept)[1] == 1 / 16 and not any(
+        c.part for c in find_clock_steps(stamps, kept)
+    )
 
 
 @pytest.mark.parametrize("size", [0.025, 0.7, 3.013, -0.025])
@@ -229,7 +231,7 @@ def test_a_step_of_the_clock_is_found_with_its_time(size: float, digits: int) ->
     valid = np.isin(np.arange(len(g.time)), g.index)
     (step,) = find_clock_steps(g.time, valid)
     assert step.size == pytest.approx(size, abs=1e-3) and abs(step.time - 125 - size) < 0.1
-    assert even_clock(g.time, valid)[1] == pytest.approx(1 / 16, rel=1e-7)
+    assert fit_even_clock(g.time, valid)[1] == pytest.approx(1 / 16, rel=1e-7)
     with pytest.raises(UserError, match=r"step back by 10 s at t = 125 s: was the clock set"):
         make_grid(TIME - 10.0 * (TIME > 125), None)
 

@@ -17,9 +17,9 @@ from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.screening import mistakes, other_demodulator, screen, timing
-from ragg_runtime.screening.linear_fit import shrunken
+from ragg_runtime.screening.linear_fit import fit_shrunken
 from ragg_runtime.screening.mistakes import Finding, find_mistake
-from ragg_runtime.screening.sampler import sampler_of
+from ragg_runtime.screening.sampler import make_sampler
 from ragg_runtime.signals.demodulate import demodulate
 
 G0 = 9.8
@@ -37,7 +37,7 @@ def flown(seed: int, effects: dict[str, Any] | None = None, trim: Any = "matched
 
 
 def found_in(x: Flight, sheet: Any) -> Finding | None:
-    return find_mistake(MODEL, sheet, sampler_of(x, sheet, tuple(MODEL.chain.INPUTS)))
+    return find_mistake(MODEL, sheet, make_sampler(x, sheet, tuple(MODEL.chain.INPUTS)))
 
 
 def changed(x: Flight, change: Callable[[str, np.ndarray], np.ndarray]) -> Flight:
@@ -132,7 +132,7 @@ def test_the_spin_rate_is_measured(error: float) -> None:
     ("measured", "shown"), [(0.25000001, "0.25"), (0.250012503, "0.2500125"), (0.25, "0.25")]
 )
 def test_a_spin_rate_has_the_digits_that_the_record_tells(measured: float, shown: str) -> None:
-    assert timing.in_digits(measured, 300.0) == shown
+    assert timing.write_rate(measured, 300.0) == shown
 
 
 @pytest.mark.parametrize(("samples", "of"), [(1, ("a_", "om")), (-200, ("a_", "om")), (32, ("a_",))])
@@ -235,7 +235,7 @@ def demodulated(s: Scenario, x: Flight, low_pass: Any = None) -> Flight:
 @pytest.fixture
 def channels_alone(monkeypatch: pytest.MonkeyPatch, no_timing: None) -> None:
     """Of all mistakes those of channels alone: each is tried on 3,000 rows."""
-    monkeypatch.setattr(mistakes, "mistakes", lambda rows, *_, **__: mistakes._demodulated(rows))
+    monkeypatch.setattr(mistakes, "list_mistakes", lambda rows, *_, **__: mistakes._demodulated(rows))
 
 
 @pytest.mark.usefixtures("channels_alone")
@@ -254,8 +254,8 @@ def test_channels_that_are_defined_otherwise_are_named() -> None:
 
 @pytest.mark.usefixtures("channels_alone")
 def test_another_demodulator_is_named_with_its_order_and_corner(monkeypatch: pytest.MonkeyPatch) -> None:
-    own = [m for m in other_demodulator.families() if m(0.1).order == 3]
-    monkeypatch.setattr(other_demodulator, "families", lambda: iter(own))
+    own = [m for m in other_demodulator.list_families() if m(0.1).order == 3]
+    monkeypatch.setattr(other_demodulator, "list_families", lambda: iter(own))
     s, x = drawn(14), flown(14)
     sections = signal.butter(3, 0.15, fs=x.rate, output="sos")
     found = found_in(demodulated(s, x, lambda z: signal.sosfilt(sections, z)), s.sheet)
@@ -281,7 +281,7 @@ def test_the_fit_finds_parameters_and_noise_by_itself() -> None:
     X = rng.normal(size=(10, 1000)) * 10.0 ** np.arange(-4, 6)[:, None]
     theta = rng.normal(size=10)
     y = theta @ X + 0.01 * rng.normal(size=1000)
-    found, _ = shrunken(X, y)
+    found, _ = fit_shrunken(X, y)
     assert np.std(y - found @ X) == pytest.approx(0.01, rel=0.05)
     assert found[4:] == pytest.approx(theta[4:], abs=2e-3)
     assert abs(found[0]) < 1.0  # hardly observable: the prior holds it
