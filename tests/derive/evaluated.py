@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 
 import numpy as np
 import sympy as sp
@@ -39,26 +39,26 @@ class Evaluated:
     """A program as a function: values by symbol name -> outputs by name, each an array."""
 
     program: Program
-    inputs: tuple[str, ...]
-    function: Callable[..., Sequence[Array]]
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        return tuple(s.name for s in self.program.inputs)
+
+    @cached_property
+    def function(self) -> Callable[..., Sequence[Array]]:
+        """Compiled with SymPy's NumPy printer, once it is called."""
+        outputs = [e for _, e in self.program.outputs]
+        return sp.lambdify(  # type: ignore[no-any-return]
+            self.program.inputs,
+            outputs,
+            "numpy",
+            printer=NumPyPrinter(UNORDERED),
+            cse=lambda _: (list(self.program.assignments), outputs),
+        )
 
     def __call__(self, values: Mapping[str, Array | float]) -> dict[str, Array]:
         found = self.function(*(values[n] for n in self.inputs))
         return {n: np.asarray(v, dtype=float) for (n, _), v in zip(self.program.outputs, found, strict=True)}
-
-
-def evaluated(program: Program) -> Evaluated:
-    """Compile a straight-line program with SymPy's NumPy printer."""
-    inputs = program.inputs
-    outputs = [e for _, e in program.outputs]
-    function = sp.lambdify(
-        inputs,
-        outputs,
-        "numpy",
-        printer=NumPyPrinter(UNORDERED),
-        cse=lambda _: (list(program.assignments), outputs),
-    )
-    return Evaluated(program, tuple(s.name for s in inputs), function)
 
 
 def neutral_values(effects: Sequence[Effect]) -> dict[sp.Symbol, sp.Expr]:
@@ -70,7 +70,7 @@ def neutral_values(effects: Sequence[Effect]) -> dict[sp.Symbol, sp.Expr]:
 def voltage(effects: tuple[Effect, ...], order: Order, kinematics: Kinematics = "platform") -> Evaluated:
     """V of the generic accelerometer with ``effects``, their parameters open."""
     a = accelerometer(effects, order, kinematics=kinematics)
-    return evaluated(settled(a.tape.assignments, {}).program([("V", a.voltage)]))
+    return Evaluated(settled(a.tape.assignments, {}).program([("V", a.voltage)]))
 
 
 @cache
@@ -82,7 +82,7 @@ def signatures(effects: tuple[Effect, ...], order: Order) -> Evaluated:
     a = accelerometer(effects, order, candidates=effects)
     at, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, neutral_values(effects)))
     rows = [(e.symbol(q).name, by(e.symbol(q))) for e in effects for q in e.parameters if q.fitted]
-    return evaluated(at.program([("V", a.voltage), *rows]))
+    return Evaluated(at.program([("V", a.voltage), *rows]))
 
 
 @cache
@@ -92,7 +92,7 @@ def base_derivatives(order: Order) -> Evaluated:
     at, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, {}))
     gamma = [f"Gamma_{k}" for k in ("xx", "xy", "xz", "yy", "yz", "zz")]
     names = [q.name for q in ACCELEROMETER] + gamma
-    return evaluated(at.program([(n, by(symbol(n))) for n in names]))
+    return Evaluated(at.program([(n, by(symbol(n))) for n in names]))
 
 
 def si(unit: str) -> float:

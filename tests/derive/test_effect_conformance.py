@@ -12,7 +12,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from evaluated import G0, LIKE_REFERENCE, evaluated, neutral_values, place, si, signatures, voltage
+from evaluated import G0, LIKE_REFERENCE, Evaluated, neutral_values, place, si, signatures, voltage
 from numpy.typing import NDArray
 
 from derive.chain import accelerometer
@@ -446,7 +446,7 @@ def test_derivatives_hold_where_the_effect_is_strong(effect: Effect) -> None:
     channels = _nothing()[0]
     a = accelerometer((effect,), PAPER)
     whole, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, {}))
-    rows = evaluated(whole.program([(q.name, by(effect.symbol(q))) for q in fitted]))
+    rows = Evaluated(whole.program([(q.name, by(effect.symbol(q))) for q in fitted]))
     at = {effect.symbol(q).name: reach(effect, q, 3e-3) for q in fitted}
     for q in fitted:
         name = effect.symbol(q).name

@@ -14,7 +14,7 @@ from derive.effects import catalogue
 from derive.pipeline import STARRED, starred
 from derive.propagation import MOTION_NUMBERS, collect, ideal
 from derive.tape import About, Tape, partials
-from tests.derive.evaluated import evaluated, neutral_values
+from tests.derive.evaluated import Evaluated, neutral_values
 
 X, Y, Z = sp.symbols("x y z", real=True)
 
@@ -95,7 +95,7 @@ def test_signatures_are_the_derivatives_of_the_whole_model_at_neutral_values() -
     names = sorted({s.name for program in (short, whole) for s in program.inputs})
     values = {n: rng.normal(size=5) for n in names}
     values |= {s.name: np.full(5, float(v)) for s, v in neutral_values(effects).items()}
-    found, expected = evaluated(short)(values), evaluated(whole)(values)
+    found, expected = Evaluated(short)(values), Evaluated(whole)(values)
     rows = [n for n in found if n in expected]
     assert len(rows) == len(found) >= 8
     for n in rows:

@@ -26,10 +26,10 @@ DAY = re.compile(r"20\d\d-\d\d-\d\d")
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A model and a flight of a few minutes."""
+    """A model and a flight of two minutes."""
     folder = tmp_path_factory.mktemp("provenance")
     m = api.new(folder / "model")
-    flight = simulated(m.instrument, [], seed=1, duration=240.0, rate=8.0)
+    flight = simulated(m.instrument, [], seed=1, duration=120.0, rate=8.0)
     write_flight(flight, folder / "flight.parquet")
     return folder
 

@@ -12,13 +12,14 @@ from ragg_runtime.io import Flight
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import screen
+from tests.rate import RATE
 
 STEP = 32 / 65536 * 9.8
 """m/s^2: 16 bits over +-16 g."""
 
 
 def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect() -> None:
-    s, model = scenario(3, duration=150.0, trim="table-v"), packaged()
+    s, model = scenario(3, duration=150.0, rate=RATE, trim="table-v"), packaged()
     x = s.simulate().flight()
     coarse = {n: np.round(x.channels[n] / STEP) * STEP for n in ("a_x", "a_y", "a_z")}
     still = {"a_x": np.full(len(x), float(np.mean(x.channels["a_x"])))}

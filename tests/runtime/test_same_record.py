@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from flights_of_a_survey import in_process
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
@@ -14,6 +15,7 @@ from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.io.record import distinct
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.simulate import simulated
+from ragg_runtime.survey import run
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +25,7 @@ def model(tmp_path_factory: pytest.TempPathFactory) -> api.Loaded:
 
 @pytest.fixture(scope="module")
 def flight(model: api.Loaded) -> Flight:
-    return simulated(model.instrument, [], seed=1, duration=150.0, rate=16.0)
+    return simulated(model.instrument, [], seed=1, duration=150.0, rate=8.0)
 
 
 def test_in_two_formats_and_units_it_is_refused_everywhere(
@@ -61,12 +63,15 @@ def test_other_records_are_others(flight: Flight) -> None:
     distinct(flights)
 
 
-def test_a_survey_counts_one_record_once(model: api.Loaded, flight: Flight, tmp_path: Path) -> None:
+def test_a_survey_counts_one_record_once(
+    model: api.Loaded, flight: Flight, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run, "examine_here", in_process)
     write_flight(flight, tmp_path / "a.parquet")
     write_flight(flight, tmp_path / "b.csv")
     kept = tmp_path / "kept.jsonl"
     for _ in range(2):
-        s = api.survey(model, [tmp_path / "b.csv", tmp_path / "a.parquet"], jobs=1, resume=kept)
+        s = api.survey(model, [tmp_path / "b.csv", tmp_path / "a.parquet"], resume=kept)
         assert [("verdict" in r, "error" in r) for r in s.records] == [(True, True), (False, True)]
         assert "the same record as" in s.records[1]["error"]["message"]
         assert "content" not in s.records[0]

@@ -15,7 +15,7 @@ from ragg_runtime.io.assemble import BRIDGED_STEPS, interpolate_slow
 from ragg_runtime.simulate import simulated
 
 G0 = 9.8
-HIDDEN = "thermal-scale:dK1_dT=0/0/6e-7/0"
+HIDDEN = "thermal-scale:dK1_dT=0/0/2e-7/0"
 
 
 @pytest.fixture(scope="module")

@@ -27,7 +27,7 @@ def test_a_flight_with_such_a_name(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     m = api.new("model")
-    write_flight(simulated(m.instrument, [], seed=1, duration=240.0, rate=16.0), "plain.parquet")
+    write_flight(simulated(m.instrument, [], seed=1, duration=60.0, rate=8.0), "plain.parquet")
     shutil.move("plain.parquet", f"{NAME}.parquet")
     main(["compare", "model", f"{NAME}.parquet", "--json", "out.json", "--report", "out.html"])
     said = capsys.readouterr()

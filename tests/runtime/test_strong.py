@@ -16,7 +16,6 @@ from ragg_runtime.cli.main import main
 from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.identification import contenders, strong
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.strong import Stage, with_steps
@@ -216,27 +215,3 @@ def test_a_step_in_one_voltage_is_placed_to_the_sample() -> None:
     flight = s.simulate(effects).flight(voltages=True)
     _, _, instants = with_steps(fit(load.packaged(), s.sheet, observations_of([flight], s.sheet)))
     assert instants["gain-step"] == 65.375  # the first sample after it
-
-
-def test_a_term_like_an_effect_of_one_size_alone_is_searched_for_at_no_length(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    # V_1 feels the disc's spin through omega_z; at this size that is nothing of the catalogue, and nothing else comes near it
-    tried: list[list[str]] = []
-
-    def scored(*arguments: Any) -> contenders.Left:
-        tried.append([e.id for e in arguments[2].effects])
-        return left(*arguments)
-
-    left = contenders.left
-    monkeypatch.setattr(contenders, "left", scored)
-    s = scenario(57, duration=300.0, rate=RATE)
-    run = s.simulate()
-    flight = run.flight()
-    term = 0.02 * flight.channels["omega_z"] / np.std(flight.channels["omega_z"])
-    d = diagnosed(s, dataclasses.replace(flight, outputs={"G_out": flight.outputs["G_out"] + term}))
-    assert ["disc-spin"] in tried
-    assert len(tried) <= strong.CONTENDERS
-    assert (d.verdict, d.found) == ("unexplained", ())
-    first = d.remainder.searches[0].terms[0].term
-    assert (first.harmonic, first.product) == ("const", "omega_z")
