@@ -6,7 +6,7 @@ A date whose day and month could change places is refused until ``format`` says 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from types import MappingProxyType
@@ -182,7 +182,14 @@ def _read_texts(values: Sequence[str], order: str | None, where: str, row: Calla
     dates = dict.fromkeys(d for m in known.values() if (d := _date_in(m)))
     dated, days = bool(dates), dict[str, int | None]({"": 0})
     if dated and order is None and all(m and _date_in(m) for m in matches.values()):
-        order = _find_order(list(dates), where)
+        order = find_order(dates)
+        if order is None:
+            raise UserError(
+                "a date could be day/month or month/day",
+                where=where,
+                found=repr(next(filter(_NUMBERS.fullmatch, dates))),
+                remedy='say in a mapping which it is: [time] format = "d/m/y" or "m/d/y"; or write yyyy-mm-dd',
+            )
     days |= {d: _read_date(d, order or "dmy") for d in dates}
     total = np.full(len(values), _NONE)
     for k, m in matches.items():
@@ -226,30 +233,16 @@ def _read_clock(m: re.Match[str]) -> int | None:
     return total + days
 
 
-def find_order(values: NDArray[Any]) -> str | None:
-    """``ymd``, ``dmy`` or ``mdy`` of dates (n,) as text; ``None`` where two are possible."""
+def find_order(values: Iterable[Any]) -> str | None:
+    """``ymd``, ``dmy`` or ``mdy`` of stamps as text, by all their dates; ``None`` where two are possible."""
     matches = (_match(str(t).strip()) for t in dict.fromkeys(values))
-    try:
-        return _find_order(list(dict.fromkeys(d for m in matches if m and (d := _date_in(m)))), "")
-    except UserError:
-        return None
-
-
-def _find_order(dates: Sequence[str], where: str) -> str:
-    """The order of day, month and year, by all dates; UserError if two are possible."""
+    dates = dict.fromkeys(_date_in(m) for m in matches if m)
     numbers = [m for d in dates if (m := _NUMBERS.fullmatch(d))]
     if all(len(m[1]) == 4 for m in numbers):
         return "ymd"
     if any(m[2] == "." or int(m[1]) > 12 for m in numbers):  # with dots the day is first
         return "dmy"
-    if any(int(m[3]) > 12 for m in numbers):
-        return "mdy"
-    raise UserError(
-        "a date could be day/month or month/day",
-        where=where,
-        found=repr(numbers[0][0]),
-        remedy='say in a mapping which it is: [time] format = "d/m/y" or "m/d/y"; or write yyyy-mm-dd',
-    )
+    return "mdy" if any(int(m[3]) > 12 for m in numbers) else None
 
 
 def _read_date(text: str, order: str) -> int | None:

@@ -263,21 +263,30 @@ def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]
     return found if len(found) <= MOST_SET else []
 
 
-def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, float]:
-    """First instant and interval, s, of the steady clock by which the samples were taken, whatever their stamps say.
+def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, float, Array]:
+    """The steady clock by which the samples were taken, whatever their stamps say.
 
-    ``time``, ``present`` (N,) as in :func:`find_clock_steps`; what a clock was set by is not counted.
+    Parameters
+    ----------
+    time, present : (N,) array
+        As in :func:`find_clock_steps`.
+
+    Returns
+    -------
+    float, float, (N,) array
+        First instant and interval, s; by how much, s, the clock of each stamp had been set, by other than whole intervals.
     """
-    k = np.flatnonzero(present)
-    places = [k.astype(np.float64), np.ones(len(k))]
-    places += [(k >= c.row).astype(np.float64) for c in find_clock_steps(time, present) if c.part]
-    X, t = np.stack(places, axis=1), time[k] - time[0]
+    k, every = np.flatnonzero(present), np.arange(len(time))
+    places = [np.ones(len(time))]
+    places += [(every >= c.row).astype(np.float64) for c in find_clock_steps(time, present) if c.part]
+    whole = np.stack([every, *places], axis=1)
+    X, t = whole[k], time[k] - time[0]
     fitted = np.linalg.lstsq(X, t, rcond=None)[0]
-    set_by, scatter = X[:, 2:] @ fitted[2:], float(np.std(t - X @ fitted))
+    set_by, scatter = whole[:, 2:] @ fitted[2:], float(np.std(t - X @ fitted))
     # A clock is set to a round rate: take it where the instants cannot tell it from the fitted one.
     known = 4 * scatter * np.sqrt(np.linalg.pinv(X.T @ X, hermitian=True)[0, 0])
     step = _round_rate(float(fitted[0]), known)
-    return float(time[0] + np.mean(t - set_by - step * k)), step
+    return float(time[0] + np.mean(t - set_by[k] - step * k)), step, set_by
 
 
 # --- in words ------------------------------------------------------------------------------------------

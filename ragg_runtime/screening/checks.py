@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -69,46 +71,36 @@ def require_comparable(model: Model, instrument: Instrument, flight: Flight) -> 
             expected=f"more than {1 / f:.6g} s (spin_frequency {f:.6g} Hz), usually half an hour",
             remedy="give a longer record; check the unit of time (s, ms, min) and spin_frequency",
         )
-    if f > 0 and flight.rate <= 4 * f:
-        raise UserError(
-            "the flight is sampled too slowly for the disc",
-            where=where,
-            found=f"{flight.rate:.6g} Hz",
-            expected=f"more than {4 * f:.6g} Hz: the gradient appears at twice the spin rate of {f:.6g} Hz",
-            remedy="give the record at its full rate; check the unit of time (s, ms, min) and spin_frequency",
-        )
-    for name, values in flight.outputs.items():
-        if name not in instrument.layout.columns:
-            continue
-        usable = flight.valid & np.isfinite(values)
-        if name not in DEMODULATED:
-            _fast_enough(name, flight, usable, f)
-        still = _one_value(values[usable])
+    _require_rate("flight", where, flight.rate, f"{flight.rate:.6g} Hz", f)
+    for name in [n for n in flight.outputs if n in instrument.layout.columns]:
+        usable = np.flatnonzero(flight.valid & np.isfinite(flight.outputs[name]))
+        place = at(where, f"column {name!r}")
+        if name not in DEMODULATED and len(usable) > 1:  # perhaps recorded more seldom than the motion
+            rate = flight.rate / float(np.median(np.diff(usable)))
+            _require_rate("output", place, rate, f"{rate:.6g} Hz, beside motion at {flight.rate:.6g} Hz", f)
+        still = _find_one_value(flight.outputs[name][usable])
         if still is not None:
             raise UserError(
                 "the output does not change",
-                where=at(where, f"column {name!r}"),
-                found=f"{still:.6g} V in all {np.count_nonzero(usable)} samples",
+                where=place,
+                found=f"{still:.6g} V in all {len(usable)} samples",
                 expected="the voltage of a turning disc",
                 remedy="a stuck or disconnected recorder? check the column",
             )
 
 
-def _fast_enough(name: str, flight: Flight, usable: NDArray[np.bool_], f: float) -> None:
-    """UserError if an output before demodulation was recorded more seldom than the motion, and too seldom for the disc."""
-    if f == 0.0 or 2 * np.count_nonzero(usable[1:] & usable[:-1]) > len(usable):
-        return  # most have a neighbour, and the flight is fast enough
-    at_samples = np.flatnonzero(usable)
-    if len(at_samples) < 2:
-        return
-    rate = flight.rate / float(np.median(np.diff(at_samples)))
-    if rate <= 4 * f:
+def _require_rate(what: str, where: Path | str, rate: float, found: str, f: float) -> None:
+    """UserError if a flight or its output has too few samples, Hz, for a disc at ``f``, Hz."""
+    if f > 0.0 and rate <= 4 * f:
+        further = "; check the unit of time (s, ms, min) and spin_frequency"
+        if what == "output":
+            further = ", or demodulated (inline and cross) before it is thinned out"
         raise UserError(
-            "the output is sampled too slowly for the disc",
-            where=at(flight.path or flight.name, f"column {name!r}"),
-            found=f"{rate:.6g} Hz, beside motion at {flight.rate:.6g} Hz",
+            f"the {what} is sampled too slowly for the disc",
+            where=where,
+            found=found,
             expected=f"more than {4 * f:.6g} Hz: the gradient appears at twice the spin rate of {f:.6g} Hz",
-            remedy="give the output at its full rate, or demodulated (inline and cross) before it is thinned out",
+            remedy=f"give it at its full rate{further}",
         )
 
 
@@ -122,7 +114,7 @@ def list_remarks(instrument: Instrument, flight: Flight) -> list[Flag]:
 def _still(flight: Flight) -> list[Flag]:
     """Motion columns that hold one value throughout: nothing is claimed of an output whose motion is not known."""
     names = [n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE) if n in flight.channels]
-    still = [n for n in names if _one_value(flight.channels[n][flight.valid]) is not None]
+    still = [n for n in names if _find_one_value(flight.channels[n][flight.valid]) is not None]
     if not still:
         return []
     text = "the motion does not change at all: a record at rest determines little of an instrument"
@@ -133,7 +125,7 @@ def _still(flight: Flight) -> list[Flag]:
     ]
 
 
-def _one_value(x: Array) -> float | None:
+def _find_one_value(x: Array) -> float | None:
     """The one value that a column holds; ``None`` if it changes, or holds none."""
     return float(x[0]) if len(x) and not np.any(x != x[0]) else None
 

@@ -154,8 +154,9 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
     x = s.flight
     if s.recorded.demodulated or len(x) < LEAST:
         return x
-    first, step = fit_even_clock(x.time, x.present)
-    worst = float(np.max(np.abs(x.time - first - step * np.arange(len(x)))[x.present])) / step
+    first, step, set_by = fit_even_clock(x.time, x.present)
+    instants = first + step * np.arange(len(x)) + set_by
+    worst = float(np.max(np.abs(x.time - instants)[x.present])) / step
     steps = find_clock_steps(x.time, x.present)
     inputs = tuple(model.chain.INPUTS)
 
@@ -168,7 +169,7 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
         return x
     several = [steps, *([c] for c in steps if len(steps) > 1)] if steps else []
     gain, k = max(
-        ((own.misfit - judge(_evenly(x, some)).misfit, -k) for k, some in enumerate(several)),
+        ((own.misfit - judge(_by_count(x, some)).misfit, -k) for k, some in enumerate(several)),
         default=(0.0, 0),
     )
     if INDEPENDENT * gain > NAMED:
@@ -177,15 +178,11 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
             f"the stamps step {where} (was the clock set?), but sampling went on: the times are those of the sample"
             f" count ({np.exp(gain):.3g} times less is left unexplained)"
         )
-        return derive_acceleration(_evenly(x, several[-k])).flagged([Flag(("time",), text, len(x))])
-    broken = [_pause(c) for c in steps if c.part]
-    even = _evenly(x, [])
-    if (
-        broken
-        or worst <= EVEN
-        or not _is_even(model, s, make_sampler(even, instrument, inputs, s.place), own.p)
-    ):
-        return x.flagged(broken)
+        return derive_acceleration(_by_count(x, several[-k])).flagged([Flag(("time",), text, len(x))])
+    x = x.flagged([_pause(c) for c in steps if c.part])
+    even = replace(x, time=instants, began=(x.began or 0.0) + float(instants[0] - x.time[0]))
+    if worst <= EVEN or not _is_even(model, s, make_sampler(even, instrument, inputs, s.place), own.p):
+        return x
     text = (
         f"the instants in the file scatter by up to {worst:.2g} of a step, but the output was sampled evenly: the times"
         " are replaced by even ones"
@@ -208,9 +205,9 @@ def _is_even(model: Model, s: Sampler, even: Sampler, p: Array) -> bool:
     return bool(np.sum(d * e) < 0.5 * np.sum(d * d))
 
 
-def _evenly(x: Flight, steps: Sequence[ClockStep]) -> Flight:
-    """The flight with even times; rows that lack where the clock was set are no rows."""
-    first, step = fit_even_clock(x.time, x.present)
+def _by_count(x: Flight, steps: Sequence[ClockStep]) -> Flight:
+    """The flight with times by the sample count; rows that lack where the clock was set are no rows."""
+    first, step, _ = fit_even_clock(x.time, x.present)
     kept = np.ones(len(x), dtype=np.bool_)
     for c in steps:
         before = np.flatnonzero(x.present[: c.row])

@@ -13,8 +13,8 @@ from ragg_runtime.base.threads import stretches
 Array = NDArray[np.float64]
 Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])
 
-BLOCK = 1 << 22
-"""Numbers that :func:`convolved` transforms at a time: memory for the rest is not needed."""
+BLOCK = 1 << 18
+"""Numbers that :func:`convolved` transforms at a time; longer series by overlap and add."""
 
 GROUP = 4
 """Columns that are transformed at a time: more leave the cache."""
@@ -79,7 +79,7 @@ def convolved(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "
     ``valid``: N - k + 1 samples, where the filter has seen nothing but the series; ``same`` and ``full``: the series continued
     by zeros.
     """
-    from scipy.signal import oaconvolve  # slow to import
+    from scipy.signal import fftconvolve, oaconvolve  # slow to import
 
     n, k = x.shape[-1], len(taps)
     if n < k and mode == "valid":
@@ -87,5 +87,5 @@ def convolved(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "
     rows, own = x.reshape(-1, n), taps[None].astype(x.real.dtype)
     found = np.empty((len(rows), {"valid": n - k + 1, "same": n, "full": n + k - 1}[mode]), dtype=x.dtype)
     for some in stretches(len(rows), max(1, BLOCK // n)):
-        found[some] = oaconvolve(rows[some], own, mode, axes=-1)
+        found[some] = (oaconvolve if n > BLOCK else fftconvolve)(rows[some], own, mode, axes=-1)
     return found.reshape(*x.shape[:-1], -1)
