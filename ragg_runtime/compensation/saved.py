@@ -26,6 +26,10 @@ LEAST = 1e-3
 """Least diagonal number of the square root of the information: the sheet alone, in its own units, says 1."""
 
 
+FITTED = ("name", "accelerometer", "effect", "scale", "unit", "unit_factor")
+"""What is kept of a fitted parameter, beside its place."""
+
+
 @dataclass(frozen=True)
 class Saved:
     """A calibration as it was kept.
@@ -62,15 +66,7 @@ class Saved:
             "values": self._by_name(self.p),
             "sheet": self._by_name(self.sheet),
             "fitted": [
-                {
-                    "name": c.name,
-                    "accelerometer": c.accelerometer,
-                    "effect": c.effect,
-                    "place": int(k),
-                    "scale": c.scale,
-                    "unit": c.unit,
-                    "unit_factor": c.unit_factor,
-                }
+                {"place": int(k)} | {name: getattr(c, name) for name in FITTED}
                 for c, k in zip(self.columns, self.index, strict=True)
             ],
             "square_root_information": [
@@ -146,10 +142,7 @@ def _parse(e: Mapping[str, Any]) -> Saved:
     if [(str(name), len(values)) for name, values in e["sheet"].items()] != list(layout):
         raise ValueError("sheet and values name different parameters")
     p, sheet = (np.concatenate([*e[k].values()]).astype(np.float64) for k in ("values", "sheet"))
-    columns = tuple(
-        Column(**{k: c[k] for k in ("name", "accelerometer", "scale", "unit", "unit_factor", "effect")})
-        for c in e["fitted"]
-    )
+    columns = tuple(Column(**{name: c[name] for name in FITTED}) for c in e["fitted"])
     if not all(c.scale > 0.0 and c.unit_factor > 0.0 for c in columns):
         raise ValueError("a scale or unit_factor is not positive")
     index = np.array([int(c["place"]) for c in e["fitted"]], dtype=np.intp)
@@ -200,39 +193,36 @@ def load_saved(kept: str | None, where: Path, model: Model, instrument: Instrume
         If there is none, if it is damaged, or of another model.
     """
     again = f"calibrate: ragg calibrate {where.parent} FLIGHT... --save"
+
+    def refuse(
+        what: str, found: str | None = None, expected: str | None = None, remedy: str = again
+    ) -> UserError:
+        return UserError(what, where=where, found=found, expected=expected, remedy=remedy)
+
     if kept is None:
         raise UserError("the model has no saved calibration", where=where.parent, remedy=again)
     saved = read_saved(kept, str(where))
     effects, form = tuple(e.id for e in model.effects), instrument.form.words()
     if (saved.layout, saved.effects, saved.form) != (tuple(model.chain.PARAMETERS), effects, form):
-        raise UserError(
+        raise refuse(
             "the saved calibration belongs to another model",
-            where=where,
-            found=f"{saved.form}, effects {', '.join(saved.effects) or 'none'}, made {saved.time}",
-            expected=f"{form}, effects {', '.join(effects) or 'none'}",
-            remedy=again,
+            f"{saved.form}, effects {', '.join(saved.effects) or 'none'}, made {saved.time}",
+            f"{form}, effects {', '.join(effects) or 'none'}",
         )
     present = list_base_columns(model, instrument)
     places = {(c.name, c.accelerometer): k for c, k in present}
     for c, k in zip(saved.columns, saved.index, strict=True):
         if places.get((c.name, c.accelerometer)) != k:
-            raise UserError(
-                "the saved calibration names a parameter that the model does not fit",
-                where=where,
-                found=c.label,
-                remedy=did_you_mean(c.name, [name for name, _ in places]) or again,
-            )
+            near = did_you_mean(c.name, [name for name, _ in places]) or again
+            what = "the saved calibration names a parameter that the model does not fit"
+            raise refuse(what, c.label, remedy=near)
     nominal = vector(model, instrument)
     given = np.setdiff1d(np.arange(len(nominal)), saved.index)
     if not np.array_equal(saved.p[given], nominal[given]):
-        raise UserError(
-            "model.toml was changed since the calibration was saved: values that are not fitted differ",
-            where=where,
-            found=f"a calibration made {saved.time}",
-            remedy=again,
-        )
+        what = "model.toml was changed since the calibration was saved: values that are not fitted differ"
+        raise refuse(what, f"a calibration made {saved.time}")
     if not scale_factor(model, saved.p) > 0.0:
-        raise UserError("the saved calibration has no positive scale factor", where=where, remedy=again)
+        raise refuse("the saved calibration has no positive scale factor")
     return _rescale(saved, present)
 
 

@@ -172,7 +172,7 @@ def test_what_has_not_converged_says_so_and_adds_nothing(
         assert "not converged: it was stopped" in str(result["reason"])
     assert not c.adequate
     assert (d.verdict, d.found) == ("partly-explained", ("cubic-input",))
-    assert describe.verdict_headline(d.as_json()).startswith("Partly explained: cubic-input.")
+    assert describe.write_verdict(d.as_json()).startswith("Partly explained: cubic-input.")
     assert "Note: the calibration has not converged: it was stopped" in str(
         describe.describe_diagnosis(d.as_json())
     )

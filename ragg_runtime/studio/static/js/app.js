@@ -6,7 +6,7 @@
 import { applyView, takeView } from "./apply.js";
 import { ask, doing, events, Refused, trouble } from "./api.js";
 import { filesView } from "./files.js";
-import { fill, h } from "./dom.js";
+import { fill, h, keys } from "./dom.js";
 import { historyView, parametersView, sheetView } from "./model.js";
 import { known, look, on, recall, server, view } from "./store.js";
 import { loopView } from "./loop.js";
@@ -97,13 +97,7 @@ const KEYS = {
   ...Object.fromEntries(VIEWS.map(([id], k) => [String(k + 1), () => look({ view: id })])),
 };
 
-addEventListener("keydown", (e) => {
-  if (e.ctrlKey || e.metaKey || e.altKey || /^(input|textarea|select)$/i.test(e.target.tagName) || document.querySelector("dialog[open]")) return;
-  const key = KEYS[e.key];
-  if (!key) return;
-  e.preventDefault();
-  key();
-});
+keys((e) => (KEYS[e.key] ? void KEYS[e.key]() : false));
 
 let asked = 0;
 async function refresh() {

@@ -91,6 +91,17 @@ export const counted = (n) => n.toLocaleString("en").replaceAll(",", "\u202f");
 const RAISED = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
 export const superscript = (n) => String(n).replace(/./g, (c) => RAISED[c]);
 
+/** Keys of the page, but for what is typed and while a dialog is open; `handle` returns false for those that are not its own. */
+export function keys(handle) {
+  const heard = (e) => {
+    const typing = /^(textarea|select)$/i.test(e.target.tagName) || (e.target.tagName === "INPUT" && e.target.type !== "checkbox");
+    if (e.ctrlKey || e.metaKey || e.altKey || typing || document.querySelector("dialog[open]")) return;
+    if (handle(e) !== false) e.preventDefault();
+  };
+  addEventListener("keydown", heard);
+  return () => removeEventListener("keydown", heard);
+}
+
 /** Runs f once things have been quiet for so long. */
 export function calm(f, wait) {
   let timer = 0;

@@ -1,6 +1,6 @@
 // The effects, best first: evidence, equation, physics, what absorbs them; a tick shows what it would do.
 import { ask, doing, Refused } from "./api.js";
-import { fill, h, maths, number } from "./dom.js";
+import { fill, h, keys, maths, number } from "./dom.js";
 import { look, on, server, view } from "./store.js";
 
 let pointed = "";
@@ -104,8 +104,7 @@ export function effectsPane(box) {
 
   const commit = () => view.ticked.length && doing("add", { effects: view.ticked });
 
-  const keys = (e) => {
-    if (e.ctrlKey || e.metaKey || e.altKey || /^(textarea|select)$/i.test(e.target.tagName) || (e.target.tagName === "INPUT" && e.target.type !== "checkbox")) return;
+  const pressed = (e) => {
     const items = [...box.querySelectorAll(".ranking .title")].filter((b) => b.checkVisibility());
     const at = items.findIndex((b) => b.closest("li").contains(document.activeElement));
     if (e.key === "j" || e.key === "k") {
@@ -115,11 +114,10 @@ export function effectsPane(box) {
       const id = items[at].closest("li").dataset.effect;
       if (!items[at].closest("li").querySelector("input").disabled) tick(id);
     } else if (e.key === "a") commit();
-    else return;
-    e.preventDefault();
+    else return false;
+    return true;
   };
-  addEventListener("keydown", keys);
-  const off = [on("ticked open", marks), on("foreseen ticked", footer), () => removeEventListener("keydown", keys)];
+  const off = [on("ticked open", marks), on("foreseen ticked", footer), keys(pressed)];
   return { known, gone: () => off.forEach((f) => f()) };
 }
 

@@ -1,6 +1,6 @@
 // The linked figures of one flight: one window of time, one band of frequencies, one term; what is marked in one is marked in all.
 import { ask, doing, Refused, series, spectrogram } from "./api.js";
-import { calm, counted, fill, h, number, pictureNode } from "./dom.js";
+import { calm, counted, fill, h, keys, number, pictureNode } from "./dom.js";
 import { curvesText, fileName, frame, heatTable, tableText } from "./drawings.js";
 import { look, on, server, view } from "./store.js";
 import { overview, ramp, spectrogramPlot, spectrumLines, spectrumPlot, timePlot } from "./curves.js";
@@ -218,7 +218,7 @@ export function figures(box) {
     on("pointed", pointing),
     on("term", () => (drawResidual(), plots.spectrum.marked(), plots.spectrogram.marked(), drawHeatTable())),
     on("low high", () => (drawResidual(), plots.spectrum.marked(), plots.spectrogram.marked(), drawHeatTable())),
-    windowKeys(),
+    keys((e) => (KEYS[e.key] ? void KEYS[e.key]() : false)),
     () => document.removeEventListener("themed", drawHeatTable),
   ];
   document.addEventListener("themed", drawHeatTable);
@@ -314,18 +314,6 @@ const KEYS = {
   f: () => server.state && server.state.flights.length && goto((view.flight + 1) % server.state.flights.length),
   o: () => flight() && (flight().parts || []).length > 1 && look({ output: (view.output + 1) % flight().parts.length }),
 };
-
-/** Listens to the keys of the window; call what it returns to stop. */
-export function windowKeys() {
-  const keys = (e) => {
-    if (e.ctrlKey || e.metaKey || e.altKey || /^(textarea|select)$/i.test(e.target.tagName) || (e.target.tagName === "INPUT" && e.target.type !== "checkbox")) return;
-    if (!KEYS[e.key] || document.querySelector("dialog[open]")) return;
-    e.preventDefault();
-    KEYS[e.key]();
-  };
-  addEventListener("keydown", keys);
-  return () => removeEventListener("keydown", keys);
-}
 
 /** Which segment of the flight is shown, in words. */
 export const windowText = () => {
