@@ -1,250 +1,347 @@
-"""Plots of a result as inline SVG: curves over time or frequency, and bars."""
+"""Plots of a result as inline SVG: curves, bars, matrices; without fonts, links or dates, the same bytes each time."""
 
 from __future__ import annotations
 
+import html
+import io
+import json
+import re
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import resources
 from typing import Any
 
+import matplotlib
 import numpy as np
 from matplotlib.axes import Axes as Drawn
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.collections import PatchCollection
+from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
 from matplotlib.transforms import blended_transform_factory
 from numpy.typing import NDArray
 
-from ragg_runtime.report import draw
 from ragg_runtime.wording import numbers
 from ragg_runtime.wording.sections import Axes, Bars, Curve, Curves, Matrix, Plot
 
 Array = NDArray[np.float64]
 
 COLOURS = {
-    "residual": draw.RESIDUAL,
-    "envelope": draw.RESIDUAL_LIGHT,
-    "before": draw.BEFORE,
-    "noise": draw.NOISE,
-}
+    "ink": "#1a1a1a", "quiet": "#6b7075", "rule": "#d9dcdf", "line": "#8a8f94", "grid": "#eceeef", "paper": "#ffffff",
+    "residual": "#1f4e79", "envelope": "#b9cde0", "before": "#a3a8ad", "noise": "#b4531f",
+}  # fmt: skip
+"""The colours by their names in the page's style sheet, which has each for light and for dark. Noise is always dashed, too: it must be
+distinguishable in black and white."""
 
-HALO = {"facecolor": draw.PAPER, "edgecolor": "none", "pad": 0.6}
+NAMES = {colour: name for name, colour in COLOURS.items()}
+
+WIDTH = 9.6
+"""Width of every figure, inches: at the page's width a point is a little more than a pixel."""
+
+HALO = {"facecolor": COLOURS["paper"], "edgecolor": "none", "pad": 0.6}
 """Behind a value that may lie on a line."""
 
 
 def draw_plot(plot: Plot) -> str:
     """The plot as an inline ``<svg>`` element."""
-    with draw.style():
+    with _style():
         if isinstance(plot, Matrix):
-            return draw_matrix(plot)
-        return draw_curves(plot) if isinstance(plot, Curves) else draw_bars(plot)
+            return _draw_matrix(plot)
+        return _draw_curves(plot) if isinstance(plot, Curves) else _draw_bars(plot)
 
 
 def draw_file(plot: Plot) -> str:
     """The plot as an SVG document of its own, in light colours."""
     text = draw_plot(plot)
-    for colour, name in draw.NAMES.items():
+    for name, colour in COLOURS.items():
         text = text.replace(f"var(--{name})", colour)
     own = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
-    return text.replace("<svg ", f'<svg {own} font-family="sans-serif" style="background: {draw.PAPER}" ', 1)
+    return text.replace(
+        "<svg ", f'<svg {own} font-family="sans-serif" style="background: {COLOURS["paper"]}" ', 1
+    )
 
 
-def draw_curves(plot: Curves) -> str:
+@contextmanager
+def _style() -> Iterator[None]:
+    """Matplotlib's defaults with the report's look, whatever the user's own settings; names in any script."""
+    sheet = resources.files("ragg_runtime.report").joinpath("templates", "report.mplstyle")
+    with warnings.catch_warnings(), matplotlib.rc_context():
+        # a glyph that the measuring font lacks is still drawn, by the reader's browser
+        warnings.filterwarnings("ignore", message=r"Glyph .* missing from")
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(matplotlib.rc_params_from_file(str(sheet), use_default_template=False))
+        yield
+
+
+def _make_figure(height: float) -> Figure:
+    """A figure ``height`` inches high, in constrained layout."""
+    made = Figure(figsize=(WIDTH, height), layout="constrained")
+    FigureCanvasSVG(made)
+    return made
+
+
+# --- curves --------------------------------------------------------------------------------------------
+
+
+def _draw_curves(plot: Curves) -> str:
     """Axes below each other, each with its curves, the noise dashed."""
     shares = [a.share for a in plot.axes]
-    fig = draw.figure(plot.height * sum(shares) + 0.3)
+    fig = _make_figure(plot.height * sum(shares) + 0.3)
     found = fig.subplots(len(plot.axes), 1, squeeze=False, height_ratios=shares)[:, 0]
+    noise: dict[str, Any] = {"color": COLOURS["noise"], "linestyle": "--", "linewidth": 1.0, "zorder": 3}
     for ax, axes in zip(found, plot.axes, strict=True):
         for curve in axes.curves:
             _draw_curve(ax, curve)
         if np.isfinite(axes.level):
-            for sign in (1, -1) if axes.signed else (1,):
-                label = None if sign < 0 else "± noise, 1 sigma" if axes.signed else "noise"
-                ax.axhline(
-                    sign * axes.level, color=draw.NOISE, linestyle="--", linewidth=1.0, zorder=3, label=label
-                )
-        _limit(ax, axes)
+            ax.axhline(axes.level, label="± noise, 1 sigma" if axes.signed else "noise", **noise)
+            if axes.signed:
+                ax.axhline(-axes.level, **noise)
+        _set_limits(ax, axes)
         for x, text in axes.marks:
-            _mark(ax, x, text)
+            ax.axvline(x, color=COLOURS["quiet"], linewidth=0.6, linestyle=":", zorder=0.5)
+            at = blended_transform_factory(ax.transData, ax.transAxes)
+            away: dict[str, Any] = {"xytext": (3, -2), "textcoords": "offset points", "va": "top"}
+            ax.annotate(text, (x, 1.0), xycoords=at, fontsize=9, color=COLOURS["quiet"], **away)
         if axes.frame is not None:
-            ax.axvspan(*axes.frame, facecolor="none", edgecolor=draw.NOISE, linewidth=0.9)
+            ax.axvspan(*axes.frame, facecolor="none", edgecolor=COLOURS["noise"], linewidth=0.9)
         ax.set_ylabel(axes.y_label)
-        if axes.title:
-            ax.set_title(numbers.short(axes.title, 70))
-        draw.legend(ax, 3)
-        draw.live(ax, plot.unit)
+        ax.set_title(numbers.short(axes.title, 70))
+        _add_legend(ax, 3)
+        ax.set_gid(plot.unit)  # the page's script reads out and zooms all that is drawn by now
     found[-1].set_xlabel(plot.x_label)
-    return draw.svg(fig, plot.key, plot.caption)
+    return _write_svg(fig, plot.key, plot.caption)
 
 
 def _draw_curve(ax: Drawn, c: Curve) -> None:
     colour = COLOURS[c.role]
-    dashes = "--" if c.role == "noise" else "-"
     if c.kind == "steps":
         ax.stairs(c.y, c.x, color=colour, linewidth=c.width, label=c.name, baseline=None)
-        return
-    if c.kind == "line":
+    elif c.kind == "line":
+        dashes = "--" if c.role == "noise" else "-"
         ax.plot(c.x, c.y, dashes, color=colour, linewidth=c.width, label=c.name)
-        return
-    assert c.high is not None
-    if c.kind == "band":
-        ax.fill_between(c.x, c.y, c.high, color=colour, linewidth=0, label=c.name)
     else:
-        ax.fill_between(c.x, c.y, c.high, facecolor="none", edgecolor=colour, linewidth=0.6, label=c.name)
+        assert c.high is not None
+        outline: dict[str, Any] = {"facecolor": "none", "edgecolor": colour, "linewidth": 0.6}
+        look = {"color": colour, "linewidth": 0} if c.kind == "band" else outline
+        ax.fill_between(c.x, c.y, c.high, label=c.name, **look)
 
 
-def _limit(ax: Drawn, axes: Axes) -> None:
+def _set_limits(ax: Drawn, axes: Axes) -> None:
     """Limits that show every curve and the noise; of a logarithmic pair of axes a decade at least."""
-    if axes.ends is not None:
-        ax.set_xlim(*axes.ends)
     every = np.concatenate([x for c in axes.curves for x in (c.y, c.high) if x is not None])
     every = every[np.isfinite(every)]
     if axes.log:
-        _limit_log(ax, axes, every[every > 0.0])
-        return
-    top = max([float(np.max(np.abs(every))) if len(every) else 0.0, np.nan_to_num(axes.level), 1e-12])
-    if axes.signed and np.isfinite(axes.level):
-        ax.set_ylim(-1.2 * top, 1.2 * top)
-    elif not axes.signed:
-        ax.set_ylim(0.0, 1.3 * top)
+        low, high = _find_log_limits(axes, every[every > 0.0])
+        ax.set_xscale("log")
+        ax.set_yscale("log")
+        ax.set_ylim(low, high)
+    else:
+        top = max([float(np.max(np.abs(every), initial=0.0)), float(np.nan_to_num(axes.level)), 1e-12])
+        if axes.signed and np.isfinite(axes.level):
+            ax.set_ylim(-1.2 * top, 1.2 * top)
+        elif not axes.signed:
+            ax.set_ylim(0.0, 1.3 * top)
+    if axes.ends is not None:
+        ax.set_xlim(*axes.ends)
+    if axes.log:
+        _set_log_ticks(ax, "x")
+        _set_log_ticks(ax, "y")
 
 
-def _limit_log(ax: Drawn, axes: Axes, every: Array) -> None:
+def _find_log_limits(axes: Axes, every: Array) -> tuple[float, float]:
     low, high = float(np.min(every)) / 1.4, float(np.max(every)) * 1.8
     for c in axes.curves:
         if c.role == "noise":
             # where an unknown gradient is taken out, the residual has a notch that says nothing
             low = max(low, float(np.min(c.y[c.y > np.max(c.y) / 1e2])) / 4.0)
-    if high / low < 10.0:
-        spread = np.sqrt(10.0 * low / high)
-        low, high = low / spread, high * spread
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_ylim(low, high)
-    if axes.ends is not None:
-        ax.set_xlim(*axes.ends)
-    draw.set_log_ticks(ax, "x")
-    draw.set_log_ticks(ax, "y")
+    spread = max(1.0, float(np.sqrt(10.0 * low / high)))
+    return low / spread, high * spread
 
 
-def _mark(ax: Drawn, x: float, text: str) -> None:
-    ax.axvline(x, color=draw.QUIET, linewidth=0.6, linestyle=":", zorder=0.5)
-    at = blended_transform_factory(ax.transData, ax.transAxes)
-    ax.annotate(
-        text,
-        (x, 1.0),
-        xycoords=at,
-        xytext=(3, -2),
-        textcoords="offset points",
-        va="top",
-        fontsize=9,
-        color=draw.QUIET,
-    )
+def _set_log_ticks(ax: Drawn, which: str) -> None:
+    """Plain numbers on a logarithmic axis; 2 and 5 labelled as well where it spans little."""
+    axis, (low, high) = (ax.xaxis, ax.get_xlim()) if which == "x" else (ax.yaxis, ax.get_ylim())
+    few = high / low < (3000.0 if which == "x" else 300.0)
+    axis.set_major_locator(LogLocator(10.0, (1.0, 2.0, 5.0) if few else (1.0,), numticks=12))
+    between = LogLocator(10.0, tuple(range(2, 10)), numticks=40) if high / low < 1e6 else FixedLocator([])
+    axis.set_minor_locator(between)
+    axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}" if 1e-4 < v < 1e5 else numbers.number(v, 1)))
+    axis.set_minor_formatter(NullFormatter())
 
 
-def draw_bars(plot: Bars) -> str:
+def _add_legend(ax: Drawn, columns: int) -> None:
+    """A legend in one line above the axes, at the right."""
+    ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns, borderaxespad=0.2)
+
+
+# --- bars and matrices ---------------------------------------------------------------------------------
+
+
+def _draw_bars(plot: Bars) -> str:
     """Bars with their values beside them, a dashed line or dashed ticks where the noise is."""
-    count = len(plot.bars)
-    fig = draw.figure(2.8 if plot.upright else 0.75 + 0.245 * count)
+    count, up = len(plot.bars), plot.upright
+    fig = _make_figure(2.8 if up else 0.75 + 0.245 * count)
     ax = fig.subplots()
-    place = np.arange(count, dtype=np.float64) if plot.upright else np.arange(count, dtype=np.float64)[::-1]
-    values = np.array([b.value for b in plot.bars])
-    low, shown = _scale(plot, values)
-    colours = [draw.RESIDUAL if b.strong else draw.BEFORE for b in plot.bars]
-    if plot.upright:
+    place = np.arange(count, dtype=np.float64)
+    low, shown = _scale_bars(plot)
+    colours = [COLOURS["residual" if b.strong else "before"] for b in plot.bars]
+    if up:
         ax.bar(place, shown - low, 0.56, bottom=low, color=colours)
     else:
         ax.barh(place, shown - low, 0.6, left=low, color=colours)
     for k, b in enumerate(plot.bars):
         text = numbers.number(b.value) if np.isfinite(b.value) else "certain"
         # beside a lying bar nothing may lie below the value
-        end = shown[k] if plot.upright else max([shown[k], *(d for d in b.dots if np.isfinite(d))])
-        at = (place[k], end) if plot.upright else (end, place[k])
+        end = shown[k] if up else max([shown[k], *(d for d in b.dots if np.isfinite(d))])
+        at = (place[k], end) if up else (end, place[k])
         away: dict[str, Any] = (
-            {"xytext": (0, 4), "ha": "center"} if plot.upright else {"xytext": (4, 0), "va": "center"}
+            {"xytext": (0, 4), "ha": "center"} if up else {"xytext": (4, 0), "va": "center"}
         )
         ax.annotate(text, at, textcoords="offset points", fontsize=9, bbox=HALO, **away)
-    _draw_levels(ax, plot, place)
-    _draw_dots(ax, plot, place, low)
-    _label_bars(ax, plot, place, low, float(np.max(shown, initial=1e-12)))
-    return draw.svg(fig, plot.key, plot.caption)
+    known = np.array([n for n, b in enumerate(plot.bars) if np.isfinite(b.noise)], dtype=np.intp)
+    if len(known):
+        level, line = [plot.bars[n].noise for n in known], ax.hlines if up else ax.vlines
+        ends = place[known] - 0.4, place[known] + 0.4
+        line(level, *ends, color=COLOURS["noise"], linestyle="--", label="noise alone")
+    if plot.threshold is not None:
+        value, text = plot.threshold
+        across = ax.axhline if up else ax.axvline
+        across(value, color=COLOURS["noise"], linestyle="--", linewidth=1.0, label=text)
+    for j, (name, marker) in enumerate(zip(plot.dots, "oD", strict=False)):
+        dots = np.array([b.dots[j] if j < len(b.dots) else np.nan for b in plot.bars])
+        kept = np.isfinite(dots) & (dots > low)
+        x, y = (place[kept] + 0.35, dots[kept]) if up else (dots[kept], place[kept])
+        look: dict[str, Any] = {"color": COLOURS["ink"], "markerfacecolor": COLOURS["paper"]}
+        ax.plot(x, y, marker, markersize=4.5, label=name, **look)
+    _label_bars(ax, plot, low, float(np.max(shown, initial=1e-12)))
+    return _write_svg(fig, plot.key, plot.caption)
 
 
-def _scale(plot: Bars, values: Array) -> tuple[float, Array]:
+def _scale_bars(plot: Bars) -> tuple[float, Array]:
     """Where bars begin, and where they end: what is infinite is drawn beyond the others."""
-    finite = values[np.isfinite(values)]
-    top = max([float(np.max(finite, initial=0.0)), plot.threshold[0] if plot.threshold else 0.0, 1e-12])
+    values, level = np.array([b.value for b in plot.bars]), plot.threshold[0] if plot.threshold else 0.0
+    top = max([float(np.max(values[np.isfinite(values)], initial=0.0)), level, 1e-12])
     shown = np.where(np.isfinite(values), values, 2.0 * top)
     if not plot.log:
         return 0.0, np.nan_to_num(shown)
-    least = min([*(v for v in shown if v > 0.0), plot.threshold[0] if plot.threshold else np.inf])
-    low = max(float(least) / 2.0, top / 1e6)
+    low = max(min([*(float(v) for v in shown if v > 0.0), level or np.inf]) / 2.0, top / 1e6)
     return low, np.maximum(shown, low)
 
 
-def _draw_levels(ax: Drawn, plot: Bars, place: Array) -> None:
-    known = [n for n, b in enumerate(plot.bars) if np.isfinite(b.noise)]
-    if known:
-        level = [plot.bars[n].noise for n in known]
-        line = ax.hlines if plot.upright else ax.vlines
-        line(
-            level,
-            place[known] - 0.4,
-            place[known] + 0.4,
-            color=draw.NOISE,
-            linestyle="--",
-            label="noise alone",
-        )
-    if plot.threshold is not None:
-        value, text = plot.threshold
-        across = ax.axhline if plot.upright else ax.axvline
-        across(value, color=draw.NOISE, linestyle="--", linewidth=1.0, label=text)
-
-
-def _draw_dots(ax: Drawn, plot: Bars, place: Array, low: float) -> None:
-    for j, (name, marker) in enumerate(zip(plot.dots, "oD", strict=False)):
-        value = np.array([b.dots[j] if j < len(b.dots) else np.nan for b in plot.bars])
-        kept = np.isfinite(value) & (value > low)
-        x, y = (place[kept] + 0.35, value[kept]) if plot.upright else (value[kept], place[kept])
-        ax.plot(x, y, marker, color=draw.INK, markerfacecolor=draw.PAPER, markersize=4.5, label=name)
-
-
-def _label_bars(ax: Drawn, plot: Bars, place: Array, low: float, top: float) -> None:
-    limit, scale = (ax.set_ylim, ax.set_yscale) if plot.upright else (ax.set_xlim, ax.set_xscale)
+def _label_bars(ax: Drawn, plot: Bars, low: float, top: float) -> None:
+    count, up = len(plot.bars), plot.upright
+    limit, scale = (ax.set_ylim, ax.set_yscale) if up else (ax.set_xlim, ax.set_xscale)
     if plot.log:
         scale("log")
         limit(low, top * (top / low) ** 0.14)
-        draw.set_log_ticks(ax, "y" if plot.upright else "x")
+        _set_log_ticks(ax, "y" if up else "x")
     else:
         limit(0.0, 1.18 * max(top, plot.threshold[0] if plot.threshold else 0.0))
-    across = "x" if plot.upright else "y"
-    length = 56 if not plot.upright else 28 if len(plot.bars) < 6 else 16
+    length = 56 if not up else 28 if count < 6 else 16
     texts = ["\n".join(numbers.short(part, length) for part in b.label.split("\n")) for b in plot.bars]
-    if plot.upright:
-        ax.set_xticks(place, texts)
-        ax.set_xlim(-0.6, max(len(place), 4) - 0.4)
+    if up:
+        ax.set_xticks(range(count), texts)
+        ax.set_xlim(-0.6, max(count, 4) - 0.4)
         ax.set_ylabel(plot.axis)
     else:
-        ax.set_yticks(place, texts)
-        ax.set_ylim(-0.6, len(place) - 0.4)
+        ax.set_yticks(range(count), texts)
+        ax.set_ylim(count - 0.4, -0.6)
         ax.set_xlabel(plot.axis)
-    draw.hide_ticks(ax, across)
+    ax.tick_params(axis="x" if up else "y", length=0)  # labels of categories need no tick marks and no grid
+    (ax.xaxis if up else ax.yaxis).grid(False)
     if ax.get_legend_handles_labels()[1]:
-        draw.legend(ax, 3)
+        _add_legend(ax, 3)
 
 
-def draw_matrix(plot: Matrix) -> str:
+def _draw_matrix(plot: Matrix) -> str:
     """Squares below the diagonal whose areas are the sizes of the entries; those of less than 0.1 are left out."""
     count = len(plot.names)
-    fig = draw.figure(max(2.0, 0.17 * count + 1.4))
+    fig = _make_figure(max(2.0, 0.17 * count + 1.4))
     ax = fig.subplots()
-    for sign, colour, words in ((1.0, draw.RESIDUAL, "positive"), (-1.0, draw.NOISE, "negative")):
+    for sign, colour, words in ((1.0, "residual", "positive"), (-1.0, "noise", "negative")):
         found = [(i, j, float(plot.values[i, j]) * sign) for i in range(count) for j in range(i)]
         sides = [(i, j, 0.94 * np.sqrt(r)) for i, j, r in found if r > 0.1]
         squares = [Rectangle((j - s / 2, i - s / 2), s, s) for i, j, s in sides]
-        ax.add_collection(PatchCollection(squares, facecolor=colour, edgecolor="none"))
-        ax.plot([], [], "s", color=colour, label=words)
+        ax.add_collection(PatchCollection(squares, facecolor=COLOURS[colour], edgecolor="none"))
+        ax.plot([], [], "s", color=COLOURS[colour], label=words)
     names = [numbers.short(x, 24) for x in plot.names]
     ax.set_xticks(range(count), names, rotation=90)
     ax.set_yticks(range(count), names)
     ax.set(xlim=(-0.6, count - 0.4), ylim=(count - 0.4, -0.6), aspect="equal")
     ax.tick_params(labelsize=7, length=0)
     ax.grid(False)
-    draw.legend(ax, 2)
-    return draw.svg(fig, plot.key, plot.caption)
+    _add_legend(ax, 2)
+    return _write_svg(fig, plot.key, plot.caption)
+
+
+# --- the SVG -------------------------------------------------------------------------------------------
+
+
+def _write_svg(made: Figure, key: str, label: str) -> str:
+    """The figure as an inline ``<svg>`` element; ids begin with ``key``, ``label`` is its alternative text."""
+    live = [(ax, str(ax.get_gid())) for ax in made.axes if ax.get_gid()]
+    curves = [_name_parts(ax, n) for n, (ax, _) in enumerate(live)]
+    buffer = io.StringIO()
+    with matplotlib.rc_context({"svg.hashsalt": key}):
+        nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
+        made.savefig(buffer, format="svg", metadata=nothing)
+    text = buffer.getvalue()
+    text = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->", "", text[text.index("<svg") :], flags=re.DOTALL)
+    head, body = text.split(">", 1)
+    view = re.search(r'viewBox="[^"]*"', head)
+    assert view is not None
+    body = re.sub(r"<[^>]*>", lambda tag: _rewrite_tag(tag[0], key), body)
+    body = re.sub(r"\n\s*", "\n", body)
+    axes = [_describe_axes(ax, unit, own) for (ax, unit), own in zip(live, curves, strict=True)]
+    data = html.escape(json.dumps({"name": key, "axes": axes}, separators=(",", ":")))
+    shown = f' data-live="{data}"' if axes else ""
+    return f'<svg {view[0]} role="img" aria-label="{html.escape(numbers.clean(label))}"{shown}>{body}'
+
+
+def _name_parts(ax: Drawn, n: int) -> list[str]:
+    """Ids for what moves in an axes (``c0-1`` ...) and for its two scales; the labels, empty where there is none."""
+    ax.set_gid(f"a{n}")
+    ax.xaxis.set_gid(f"x{n}")
+    ax.yaxis.set_gid(f"y{n}")
+    artists = [*ax.collections, *ax.patches, *ax.lines]
+    for kind, parts in (("c", artists), ("t", ax.texts)):
+        for k, part in enumerate(parts):
+            part.set_gid(f"{kind}{n}-{k}")
+    return [x if (x := str(a.get_label())) and not x.startswith("_") else "" for a in artists]
+
+
+def _describe_axes(ax: Drawn, unit: str, curves: list[str]) -> dict[str, Any]:
+    """Where an axes lies in the drawing, what it spans (first, last, whether logarithmic), and what it holds."""
+    figure = ax.get_figure()
+    assert isinstance(figure, Figure)
+    wide, high = (72.0 * x for x in figure.get_size_inches())
+    b = ax.get_position()
+    spans = (ax.get_xlim(), ax.get_xscale()), (ax.get_ylim(), ax.get_yscale())
+    x, y = ([*(float(f"{v:.9g}") for v in ends), float(scale == "log")] for ends, scale in spans)
+    return {
+        "box": [round(v, 2) for v in (b.x0 * wide, (1.0 - b.y1) * high, b.width * wide, b.height * high)],
+        "x": x,
+        "y": y,
+        "units": [unit, ax.get_ylabel().rpartition(", ")[2]],
+        "curves": curves,
+        "texts": len(ax.texts),
+    }
+
+
+def _rewrite_tag(tag: str, key: str) -> str:
+    """A tag with ids of its own figure, colours by name, the reader's own sans-serif, and coordinates to 0.01 pt."""
+    tag = re.sub(
+        r"(: )(#[0-9a-f]{6})\b", lambda c: f"{c[1]}var(--{NAMES[c[2]]})" if c[2] in NAMES else c[0], tag
+    )
+    tag = re.sub(r"(\.\d\d)\d+", r"\1", tag)
+    tag = re.sub(r'( d=")([^"]*)', lambda d: d[1] + re.sub(r"\s*([A-Za-z])\s*", r"\1", d[2]), tag)
+    tag = tag.replace(' id="', f' id="{key}-').replace('href="#', f'href="#{key}-')
+    tag = tag.replace("url(#", f"url(#{key}-")
+    tag = re.sub(
+        r"font: (?:(\d+) )?([\d.]+px) [^;\"]*",
+        lambda f: f"font-size: {f[2]}" + (f"; font-weight: {f[1]}" if f[1] else ""),
+        tag,
+    )
+    return re.sub(r"font-family: [^;\"]*(?:; )?", "", tag)
