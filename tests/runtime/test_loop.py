@@ -4,19 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import subprocess
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from commands import ragg
 
-from benchmarks.sheet import model_text
 from ragg_runtime.identification.comparison import compare, nominal_residual
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.io import Flight, write_flight
+from ragg_runtime.io import Flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulate import demodulate
@@ -25,7 +20,6 @@ from tests.runtime.diagnosed import diagnosed
 
 G0 = 9.8
 DURATION = 300.0
-ERROR = {"rms_V", "rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz"}
 
 
 def flown(seed: int, effects: dict[str, Any] | None = None, **options: Any) -> tuple[Scenario, Flight]:
@@ -146,67 +140,6 @@ def test_demodulated_channels_alone_tell_as_much_as_they_can() -> None:
     assert d.verdict == "missing-effect"
     assert "thermal-scale" in claimed(d)
     assert d.before.inline_Eo > 30 * d.after.inline_Eo
-
-
-def strict(text: str) -> Any:
-    def refuse(name: str) -> None:
-        raise AssertionError(f"{name} is not JSON")
-
-    return json.loads(text, parse_constant=refuse)
-
-
-def test_the_commands_speak_the_interface(tmp_path: Path) -> None:
-    s, x = flown(48, {"thermal-scale": HIDDEN["thermal-scale"]})
-    flight, sheet, model = (tmp_path / n for n in ("flight.parquet", "sheet.toml", "model"))
-    write_flight(x, flight)
-    sheet.write_text(model_text(s.sheet))
-    assert ragg("new", model, "--from", sheet).returncode == 0
-    before = (model / "model.toml").read_text()
-
-    found = strict(ragg("compare", model, flight, "--json", "-").stdout)
-    assert {
-        "effects",
-        "samples",
-        "duration_s",
-        "rate_Hz",
-        "error",
-        "noise_floor",
-        "adequate",
-        "where",
-    } <= set(found)
-    assert found["adequate"] is False
-    assert found["samples"] == 2400
-    assert all(set(found["error"][k]) == ERROR for k in ("nominal", "calibrated", "holdout"))
-    assert set(found["where"]) == {"harmonics", "time", "motion"}
-    assert {"harmonic", "term", "share"} <= set(found["where"]["motion"][0])
-
-    found = strict(ragg("diagnose", model, flight, "--json", "-", "--report", tmp_path / "d.html").stdout)
-    assert found["verdict"] == "missing-effect"
-    assert found["found"] == ["thermal-scale"]
-    first = found["ranking"][0]
-    assert {"effect", "p_value", "delta_bic", "error_before", "error_after", "error_after_holdout"} <= set(
-        first
-    )
-    assert set(first["parameters"][0]) == {"name", "accelerometer", "value", "std", "unit"}
-    assert (tmp_path / "d.html").read_text().startswith("<!")
-
-    found = strict(ragg("add", model, "thermal-scale", flight, "--json", "-").stdout)
-    assert {"effect", "before", "after", "parameters"} <= set(found)
-    noise = found["after"]["calibrated"]["rms_Eo"]
-    assert noise < 0.9 * found["before"]["calibrated"]["rms_Eo"]
-    assert (model / "generated" / "manifest.json").is_file()
-    words = [sys.executable, "-m", "ragg_runtime", "compare", model, flight, "--json", "-"]
-    again = subprocess.run(words, capture_output=True, text=True, check=True, timeout=120)
-    assert strict(again.stdout)["adequate"] is True
-
-    again = ragg("add", model, "thermal-scale", flight)
-    assert again.returncode == 2
-    assert "already" in again.stderr
-    assert ragg("remove", model, "thermal-scale").returncode == 0
-    assert (model / "model.toml").read_text() == before
-    assert not (model / "generated").exists()
-    steps = strict(ragg("history", model, "--json", "-").stdout)["steps"]
-    assert [s["action"] for s in steps] == ["new", "add", "remove"]
 
 
 def test_saturation_of_the_output_is_recognised() -> None:

@@ -1,11 +1,15 @@
-"""README's five minutes, as they are typed."""
+"""README's five minutes, as they are typed; and what its commands say as JSON is what the interface promises."""
 
 from __future__ import annotations
 
+import json
 import re
 import shlex
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pyarrow.parquet as pq
 import pytest
@@ -41,13 +45,14 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 
 @pytest.fixture(scope="module")
 def said(clone: Path) -> dict[str, str]:
-    """Each command of the block and what it printed. ``make demo`` has run: it makes the environment."""
+    """Each command of the block and what it printed, its JSON kept beside. ``make demo`` has run: it makes the environment."""
     first, *lines = SHELL.splitlines()
     assert first == "make demo && . .venv/bin/activate"
     found = {}
     for line in lines:
         program, command, *rest = shlex.split(line, comments=True)
-        done = ragg(command, *rest)
+        more = ["--json", f"{command}.json"] if command in ("compare", "diagnose", "add", "history") else []
+        done = ragg(command, *rest, *more)
         assert (program, done.returncode) == ("ragg", 0), line + done.stderr
         found[command] = done.stdout
     return found
@@ -77,3 +82,51 @@ def test_the_python_of_the_five_minutes_works_as_typed(clone: Path) -> None:
     assert d.found == ("thermal-scale",)  # type: ignore[attr-defined]
     assert step.after.adequate  # type: ignore[attr-defined]
     assert made["analytical"] and made["simplified"]
+
+
+ERROR = {"rms_V", "rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz"}
+DIAGNOSIS = {"verdict", "ranking", "found", "not_testable", "unexplained"}
+RANKED = {"effect", "p_value", "delta_bic", "error_before", "error_after", "error_after_holdout"}
+
+
+def strict(text: str) -> Any:
+    def refuse(name: str) -> None:
+        raise AssertionError(f"{name} is not JSON")
+
+    return json.loads(text, parse_constant=refuse)
+
+
+def test_the_commands_speak_the_interface(said: dict[str, str], clone: Path) -> None:
+    compared, diagnosed, added, history = (
+        strict((clone / f"{n}.json").read_text()) for n in ("compare", "diagnose", "add", "history")
+    )
+    assert {"effects", "duration_s", "rate_Hz", "noise_floor", "where"} <= set(compared)
+    assert (compared["adequate"], compared["samples"]) == (False, SAMPLES)
+    assert all(set(compared["error"][k]) == ERROR for k in ("nominal", "calibrated", "holdout"))
+    assert set(compared["where"]) == {"harmonics", "time", "motion"}
+    assert {"harmonic", "term", "share"} <= set(compared["where"]["motion"][0])
+    assert set(diagnosed) >= DIAGNOSIS
+    assert (diagnosed["verdict"], diagnosed["found"]) == ("missing-effect", ["thermal-scale"])
+    first = diagnosed["ranking"][0]
+    assert set(first) >= RANKED
+    assert set(first["parameters"][0]) == {"name", "accelerometer", "value", "std", "unit"}
+    assert (clone / "diagnosis.html").read_text().startswith("<!")
+    assert {"effect", "before", "after", "parameters"} <= set(added)
+    assert added["after"]["calibrated"]["rms_Eo"] < 0.9 * added["before"]["calibrated"]["rms_Eo"]
+    assert [s["action"] for s in history["steps"]] == ["new", "add"]
+
+
+def test_a_process_of_its_own_sees_the_model_and_removing_makes_it_what_it_was(
+    said: dict[str, str], clone: Path
+) -> None:
+    flight = "examples/demo-flight.parquet"
+    assert (clone / "my-model" / "generated" / "manifest.json").is_file()
+    words = [sys.executable, "-m", "ragg_runtime", "compare", "my-model", flight, "--json", "-"]
+    again = subprocess.run(words, capture_output=True, text=True, check=True, timeout=120)
+    assert strict(again.stdout)["adequate"] is True
+    refused = ragg("add", "my-model", "thermal-scale", flight)
+    assert (refused.returncode, "already" in refused.stderr) == (2, True)
+    assert ragg("remove", "my-model", "thermal-scale").returncode == 0
+    assert ragg("new", "another").returncode == 0
+    assert (clone / "my-model" / "model.toml").read_text() == (clone / "another" / "model.toml").read_text()
+    assert not (clone / "my-model" / "generated").exists()
