@@ -67,7 +67,7 @@ class Bounds:
             if platform.machine() in ("x86_64", "AMD64")
             else tuple(f for f in FLAGS if "prefer" not in f)
         )
-        self._library = compile_c("bounds", SOURCE % {"sum": streams, "lanes": LANES}, flags=flags)
+        self._library = compile_c("bounds", SOURCE % {"sum": streams, "lanes": LANES}, flags)
         self._library.arithmetic.restype = ctypes.c_double
 
     def traffic(self, t: Array, x: Array, out: Array) -> None:

@@ -26,7 +26,6 @@ Rival = Callable[[Array, Array, Array], None]
 Program = Sequence[tuple[str, Any]]
 INPUTS = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z", "omegadot_x", "omegadot_y", "omegadot_z",
           "Gamma_xx", "Gamma_xy", "Gamma_xz", "Gamma_yy", "Gamma_yz", "Gamma_zz")  # fmt: skip
-FLAGS = ("-O3", "-march=native", "-ffp-contract=fast", "-fno-math-errno", "-fPIC", "-shared")
 
 
 def aligned(x: Array) -> Array:
@@ -113,50 +112,6 @@ def lambdify(code: Program, f: float) -> Rival:
     return run
 
 
-def numba(code: Program, f: float) -> Rival:
-    import math
-
-    nb = importlib.import_module("numba")
-    lines = python_source(code, "", "math").splitlines()[1:-1]
-    loads = [f"        {n} = x[{k}, i]" for k, n in enumerate(INPUTS)]
-    source = "\n".join(
-        ["def g(t, x, out):", "    for i in range(t.shape[0]):", *loads,
-         f"        phi = {2 * np.pi * f!r} * t[i]",
-         "        cos_phi, sin_phi = math.cos(phi), math.sin(phi)",
-         *(f"    {line}" for line in lines), "        out[i] = G", ""]
-    )  # fmt: skip
-    return nb.njit(_function(source, {"math": math}))  # type: ignore[no-any-return]
-
-
-def jax(code: Program, f: float) -> Rival:
-    j = importlib.import_module("jax")
-    j.config.update("jax_enable_x64", True)
-    jnp = importlib.import_module("jax.numpy")
-    g = _function(python_source(code, f"def g(cos_phi, sin_phi, {ARGUMENTS}):", "jnp"), {"jnp": jnp})
-
-    @j.jit  # type: ignore[untyped-decorator]
-    def whole(t: Any, x: Any) -> Any:
-        phi = 2 * np.pi * f * t
-        return g(jnp.cos(phi), jnp.sin(phi), *x)
-
-    there: dict[int, tuple[Any, Any]] = {}
-
-    def run(t: Array, x: Array, out: Array) -> None:
-        if id(x) not in there:  # bringing the series over is not timed
-            there.clear()
-            there[id(x)] = (j.numpy.asarray(t), tuple(j.numpy.asarray(row) for row in x))
-        found = whole(*there[id(x)])
-        found.block_until_ready()
-        run.found = found  # type: ignore[attr-defined]
-
-    return run
-
-
-def result(rival: Any, out: Array) -> Array:
-    """What a rival has just computed: JAX writes into arrays of its own."""
-    return np.asarray(rival.found) if hasattr(rival, "found") else out
-
-
 def heyoka(code: Program, f: float) -> Rival:
     hy = importlib.import_module("heyoka")
     variables = hy.make_vars("t", *INPUTS)
@@ -180,86 +135,17 @@ def _folder() -> tempfile.TemporaryDirectory[str]:
     return tempfile.TemporaryDirectory()
 
 
-def compile_c(name: str, text: str, compiler: str = "gcc", flags: Sequence[str] = FLAGS) -> ctypes.CDLL:
-    """C (or C++) text -> loaded library."""
+def compile_c(name: str, text: str, flags: Sequence[str]) -> ctypes.CDLL:
+    """C text -> loaded library."""
     place = Path(_folder().name)
-    source = place / (f"{name}.cpp" if compiler.endswith("++") else f"{name}.c")
+    source, made = place / f"{name}.c", place / f"{name}.so"
     source.write_text(text, "utf-8")
-    subprocess.run(
-        [compiler, *flags, str(source), "-lm", "-o", str(place / f"{name}.so")],
-        check=True,
-        capture_output=True,
-    )
-    return ctypes.CDLL(str(place / f"{name}.so"))
-
-
-def _loop(library: ctypes.CDLL) -> Rival:
-    def run(t: Array, x: Array, out: Array) -> None:
-        library.run(
-            ctypes.c_size_t(len(t)),
-            ctypes.c_void_p(t.ctypes.data),
-            ctypes.c_void_p(x.ctypes.data),
-            ctypes.c_void_p(out.ctypes.data),
-        )
-
-    return run
-
-
-def casadi(code: Program, f: float) -> Rival:
-    ca = importlib.import_module("casadi")
-    t, inputs = ca.SX.sym("t"), [ca.SX.sym(n) for n in INPUTS]
-    phi = 2 * np.pi * f * t
-    g = _function(python_source(code, f"def g(cos_phi, sin_phi, {ARGUMENTS}):", "ca"), {"ca": ca})
-    function = ca.Function("g", [t, *inputs], [g(ca.cos(phi), ca.sin(phi), *inputs)])
-    generator = ca.CodeGenerator("g", {"with_header": False})
-    generator.add(function)
-    text = generator.dump()
-    loop = (
-        "#include <stddef.h>\n"
-        "void run(size_t n, const double *t, const double *x, double *out) {\n"
-        "  for (size_t i = 0; i < n; ++i) {\n    const double *arg[16]; double *res[1];\n"
-        "    arg[0] = t + i;\n    for (int k = 0; k < 15; ++k) arg[k + 1] = x + k * n + i;\n"
-        "    res[0] = out + i;\n    g(arg, res, 0, 0, 0);\n  }\n}\n"
-    )
-    return _loop(compile_c("casadi_g", text + loop))
-
-
-def symforce(code: Program, f: float) -> Rival:
-    """C++ by symforce's code generator, without the headers that scalars do not need."""
-    importlib.import_module("symforce").set_epsilon_to_number()  # there is nothing singular; it asks for one
-    sf = importlib.import_module("symforce.symbolic")
-    codegen = importlib.import_module("symforce.codegen")
-    inputs = [sf.Symbol(n) for n in ("cos_phi", "sin_phi", *INPUTS)]
-    space = {s.name: s for s in inputs}
-    g = _function(python_source(code, f"def g(cos_phi, sin_phi, {ARGUMENTS}):", "sf"), {"sf": sf})
-    values = importlib.import_module("symforce.values").Values
-    generator = codegen.Codegen(
-        inputs=values(**space),
-        outputs=values(G=g(*inputs)),
-        config=codegen.CppConfig(),
-        name="g",
-        return_key="G",
-    )
-    folder = Path(_folder().name) / "symforce"
-    made = generator.generate_function(output_dir=folder, skip_directory_nesting=True)
-    header = next(file for file in made.generated_files if file.suffix == ".h")
-    text = "\n".join(x for x in header.read_text("utf-8").splitlines() if not x.startswith("#include <Eigen"))
-    rows = ", ".join(f"x[{k} * n + i]" for k in range(len(INPUTS)))
-    loop = (
-        '\nextern "C" void run(size_t n, const double *t, const double *x, double *out) {\n'
-        "  for (size_t i = 0; i < n; ++i) {\n"
-        f"    const double phi = {2 * np.pi * f!r} * t[i];\n"
-        f"    out[i] = sym::G<double>(std::cos(phi), std::sin(phi), {rows});\n  }}\n}}\n"
-    )
-    return _loop(compile_c("symforce_g", f"#include <cmath>\n#include <cstddef>\n{text}{loop}", "g++"))
+    subprocess.run(["gcc", *flags, str(source), "-lm", "-o", str(made)], check=True, capture_output=True)
+    return ctypes.CDLL(str(made))
 
 
 RIVALS: Mapping[str, Callable[[Program, float], Rival]] = {
     "heyoka cfunc": heyoka,
-    "JAX jit": jax,
-    "numba": numba,
-    "symforce C++": symforce,
-    "CasADi C": casadi,
     "NumPy in blocks": numpy_blocks,
     "SymPy lambdify": lambdify,
 }
@@ -273,6 +159,4 @@ def available(p: Array) -> tuple[dict[str, Rival], dict[str, str]]:
             made[name] = make(code, float(p[1]))
         except ModuleNotFoundError as error:
             missing[name] = f"{error.name} is not installed"
-        except (OSError, subprocess.CalledProcessError) as error:
-            missing[name] = f"cannot be compiled: {error}"
     return made, missing

@@ -102,7 +102,7 @@ def prepared(spec: Spec) -> Prepared:
         oracle = Oracle(w, plain.flight("plain", voltages=w.output == "voltages"), loudness, lost)
         hidden = _hidden(spec, oracle)
         if spec.kind == "outside":
-            at = outside.World(
+            at = outside.Surroundings(
                 time=plain.time,
                 phi=2 * np.pi * w.scenario.sheet.spin_frequency * plain.time,
                 channels=plain.channels,

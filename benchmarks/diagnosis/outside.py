@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class World:
+class Surroundings:
     """What a term may depend on: (N,) series, (4, N) forces in the accelerometers' nominal axes."""
 
     time: Array
@@ -96,7 +96,7 @@ def _late(x: Array, rate: float, delay: float) -> Array:
     return np.asarray(np.interp(time - delay, time, x))
 
 
-TERMS: Mapping[str, Callable[[World], Array]] = {
+TERMS: Mapping[str, Callable[[Surroundings], Array]] = {
     "omega_z": lambda w: _first(w["omega_z"]),
     "omega_x cos phi": lambda w: _first(w["omega_x"] * np.cos(w.phi)),
     "omegadot_x^2": lambda w: _first(w["omegadot_x"] ** 2),
@@ -128,7 +128,7 @@ TERMS: Mapping[str, Callable[[World], Array]] = {
 }
 """Terms by name, of which the dictionary of the diagnosis holds many."""
 
-FURTHER: Mapping[str, Callable[[World], Array]] = {
+FURTHER: Mapping[str, Callable[[Surroundings], Array]] = {
     "dead zone of f_i": lambda w: _first(np.clip(w.f_i[0], -0.4 * _rms(w.f_i[0]), 0.4 * _rms(w.f_i[0]))),
     "play in f_i (hysteresis)": lambda w: _first(_play(w.f_i[0], 0.3 * _rms(w.f_i[0]))),
     "f_i^2 temperature": lambda w: _first(w.f_i[0] ** 2 * w.change("temperature")),
@@ -163,7 +163,7 @@ class Outside:
     with_mimics: float
 
 
-def drawn(oracle: Oracle, w: World, name: str, strength: float) -> Outside:
+def drawn(oracle: Oracle, w: Surroundings, name: str, strength: float) -> Outside:
     """A term of this strength beyond the calibration and all effects of the catalogue together."""
     k = w.scenario.instrument.accelerometers
     unit = combine((k["k_VI"] * k["K1"])[:, None] * ({**TERMS, **FURTHER})[name](w))

@@ -52,7 +52,7 @@ def test_the_simulator_confirms_the_strength(effect: str) -> None:
 def test_what_is_outside_keeps_its_strength_beyond_the_catalogue(name: str) -> None:
     w, plain, oracle, _ = prepared("white")
     phi = 0.5 * np.pi * plain.time
-    at = outside.World(plain.time, phi, plain.channels, plain.G_out, 16.0, 400.0, w.scenario)
+    at = outside.Surroundings(plain.time, phi, plain.channels, plain.G_out, 16.0, 400.0, w.scenario)
     term = outside.drawn(oracle, at, name, 10.0)
     assert oracle.beyond_all(term.change) == pytest.approx(10.0, rel=1e-6)
     assert term.with_mimics >= 10.0

@@ -3,26 +3,77 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from benchmarks.promises import fitted, flown
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
-from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.fitted import Fitted, about, fit
+from ragg_runtime.estimation.observation import Observation, observations_of
+from ragg_runtime.estimation.regressors import Point, grouped, residual_of
 from ragg_runtime.identification import motion_design, next_motion, selection
 from ragg_runtime.identification.selection import Field, field_of
-from ragg_runtime.io import write_flight
+from ragg_runtime.io import Flight, write_flight
+from ragg_runtime.model.model import packaged
 from ragg_runtime.next_flight import next_flight, write_motion
+from ragg_runtime.reference.effects import EffectValues
+from ragg_runtime.reference.motion import Motion, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.simulate import simulated
 
 LAG = {"lag": {"tau": [2e-9, 0, 0, 0]}}
 PAIRS = [("lag", "time-offset"), ("lag", "arm-stretch")]
+
+
+def fitted(s: Scenario, *flights: Flight) -> Fitted:
+    return fit(packaged(), s.sheet, observations_of(flights, s.sheet))
+
+
+def flown(
+    s: Scenario, sinusoids: Sequence[tuple[str, float, float, float]], effects: EffectValues
+) -> Callable[[str], float]:
+    """Fly sinusoids about the mean of a flight; of a rival, how many sigma it is ruled out by both flights.
+
+    The mean significance: what the reference's own effect (the output with it less that without, noise left out), whitened with
+    the noise that the fit of both flights estimates, has beyond the model's parameters and the rival's.
+    """
+    t = np.arange(int(s.duration * s.rate)) / s.rate
+    parts = {}
+    for group in ("a", "omega"):
+        for k, signal in zip("xyz", getattr(s.motion, group), strict=True):
+            own = [x for x in sinusoids if x[0] == f"{group}_{k}"]
+            parts[f"{group}_{k}"] = Sinusoids(
+                float(np.mean(signal.value(t))), [x[2] for x in own], [x[1] for x in own], [x[3] for x in own]
+            )
+    x, y, z, wx, wy, wz = (parts[n] for n in next_motion.AXES)
+    other = replace(s, motion=Motion((x, y, z), (wx, wy, wz)), seed=s.seed + 100_000)
+    runs = [(w.simulate(effects), w.simulate()) for w in (s, other)]
+    both = fitted(s, *(a.flight() for a, _ in runs))
+    at = Point(both.model, both.instrument, both.calibration.p, False)
+    clean: list[Observation] = []
+    for k, (with_it, without) in enumerate(runs):
+        a, b = (
+            observations_of([replace(q.flight(), outputs=dict(q.outputs_noise_free))], s.sheet)[0]
+            for q in (with_it, without)
+        )
+        rest = residual_of(at, b)
+        clean.append(replace(a, series=tuple(np.atleast_2d(a.data - rest)), flight=k))
+    signal = about(both.model, both.instrument, clean, both.calibration)
+    n = both.n_base
+    columns = grouped(both.candidates)
+
+    def shown(rival: str) -> float:
+        picked = [*range(n), *(n + k for k, _ in columns[rival]), -1]
+        rows = signal.data[:, picked]
+        prior = np.eye(n, rows.shape[1])
+        return float(abs(np.linalg.qr(np.vstack([rows, prior]), mode="r")[-1, -1]))
+
+    return shown
 
 
 @pytest.fixture(scope="module")
