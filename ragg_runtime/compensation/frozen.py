@@ -256,7 +256,7 @@ def warn_of_change(made: str, change: CalibrationChange) -> str:
     """What is said of a compensation by a calibration, made at that instant, that does not hold."""
     p = numbers.probability(change.log10_p)
     return (
-        f"The calibration of {made} does NOT hold here: the step to a fit to this record has chi-square "
+        f"The calibration of {made} does NOT hold here: against parameters fitted to this record chi-square is "
         f"{change.chi2:.4g} in {len(change.z)} directions (p {p if p.startswith('<') else f'= {p}'}). Motion errors beyond the "
         "stated uncertainty may remain; no sample is marked good. What changed: ragg compare --frozen"
     )

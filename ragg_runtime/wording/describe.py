@@ -192,11 +192,11 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     """The result of ``compare --frozen``; ``again`` is the command that calibrates anew."""
     h = c["frozen"]
     frozen, free = c["error"]["calibrated"], h["free"]["calibrated"]
-    holds = "holds" if h["holds"] else "does NOT hold"
+    holds, on = "holds" if h["holds"] else "does NOT hold", write_flights(list(h["flights"]))
     head = (
-        f"The saved calibration {holds} here: it leaves {format_error(frozen)} Eo, parameters fitted to this record"
+        f"The calibration on {on} {holds} here: it leaves {format_error(frozen)} Eo, parameters fitted to this record"
         f" {format_error(free)} Eo; the noise floor is {format_error(c['noise_floor'])} Eo.",
-        f"It was made {h['made']} on {write_flights(list(h['flights']))}. Test against parameters fitted to this record: chi-square"
+        f"It was made {h['made'][:16].replace('T', ' ')} UTC. Test against parameters fitted to this record: chi-square"
         f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions (p {_equals(h['log10_p'])}).",
     )
     rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))

@@ -283,7 +283,7 @@ def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(tmp_p
         change = {"value": row["values"], "unit": row["unit"], "sigma": None, "fixed": True}
         assert c.post("/api/do/edit", json={"values": {"K1": change}}).status_code == 202
         state = settled(c, diagnosed=False)
-        assert "The saved calibration" in state["validation"][0]["sentences"][0]
+        assert "The calibration on b " in state["validation"][0]["sentences"][0]
         residual = c.get("/api/series", params={"what": "residual", "flight": 1, "points": 20000}).content
         assert struct.unpack_from("<4sI", residual)[1] == 1920
     instrument = load_model_dir(model).instrument
