@@ -82,6 +82,7 @@ def read_parquet(path: Path) -> list[DataTable]:
         index = read_heading(name)[0] if unnamed or field.name in labels else index
         found = convert_arrow(values)
         said = (field.metadata or {}).get(b"units", b"").decode("utf-8", "replace")
+        said = "1" if not said and pa.types.is_boolean(field.type) else said
         arrays.append((name, label(np.zeros(len(values), "V1") if found is None else found, {"units": said})))
     return [make_table(arrays, given, index=index)]
 

@@ -170,13 +170,18 @@ def _find_instants(table: DataTable) -> tuple[tuple[str, ...], str, str] | None:
         return (by_role["week"].name, by_role["second_of_week"].name), "gps", "likely: GPS week and seconds"
     texts = [c for c in table.columns if not c.is_number]
     texts.sort(key=lambda c: not ROLES["time"].fits(c.name))
+    date, clock = by_role.get("date"), by_role.get("clock")
+    pair = None
+    if date is not None and clock is not None and date is not clock:
+        form = _find_form(date).replace("iso", "date clock")
+        pair = (date.name, clock.name), form, "likely: a date and a time of the day"
+        if len(np.unique(date.values)) < len(table):  # no instants: it repeats itself
+            return pair
     for c in texts:
         if c.values.dtype.kind == "M" or all(find_parts(_first_cell(c))):
             return (c.name,), _find_form(c), "certain: a date and a time"
-    date, clock = by_role.get("date"), by_role.get("clock")
-    if date is not None and clock is not None and date is not clock:
-        form = _find_form(date).replace("iso", "date clock")
-        return (date.name, clock.name), form, "likely: a date and a time of the day"
+    if pair is not None:
+        return pair
     if clock is not None and clock.is_number and not clock.unit and _is_hhmmss(clock.values):
         return (clock.name,), "clock", "likely: hhmmss"
     for c in texts:
@@ -305,7 +310,7 @@ _PLAIN = (
     ("second_of_week", r"(gps_?)?(sow|tow|sec(onds?)?_?(of|in)_?week|week_?sec(onds?)?|seconds_of_gps_week)|gps_?seconds?"),
     ("date", r"date|y{2,4}m{2}d{2}|utc_?date|gps_?date|datum"),
     ("clock", r"hhmmss(_?s+)?|utc|clock|time|time_?of_?day|utc_?time|gps_?time|uhrzeit"),
-    ("G_out", r"g_?out|(out(put)?|sum)(_?(volt(age)?|sum))?|ggi(_?(out|sum))?"),
+    ("G_out", r"[guv]_?out|(out(put)?|sum)(_?(volt(age)?|sum))?|ggi(_?(out|sum))?"),
     ("cross", r"cross(_?raw)?"),
     ("spin_angle", r"spin_?(angle|phase)|encoder(_?angle)?|disc_?angle"),
     ("temperature", r"temp(erature)?(_?[a-z0-9]+)?"),
@@ -316,7 +321,7 @@ _PLAIN = (
 )  # fmt: skip
 """Channel and the usual names of a column of it."""
 
-_ACC, _GYRO = r"accel(eration)?|acc", r"gyro?|(ang(ular)?_?)?(rate|velocity)"
+_ACC, _GYRO = r"(linear_?)?accel(eration)?|acc", r"gyro?|(ang(ular)?_?)?(rate|vel(ocity)?)"
 _NUMBERED, _PQR = "a number in the place of an axis", "roll, pitch and yaw rate?"
 _ALL = (
     *(Role(name, pattern) for name, pattern in _PLAIN),
@@ -326,6 +331,7 @@ _ALL = (
     *(Role(f"B_{x}", rf"(b|mag|field)_?{x}", "guess") for x, _, _ in _AXES),
     *(Role(f"a_{x}", rf"(a|{_ACC})_?{n}", "guess", why=_NUMBERED) for x, n, _ in _AXES),
     *(Role(f"omega_{x}", rf"(w|omega|gyro?|rate)_?{n}|{p}", "guess", why=_PQR) for x, n, p in _AXES),
+    *(Role(f"omega_{x}", rf"g_?{x}", "guess", why="a gyroscope?") for x, _, _ in _AXES),
     *(Role(f"Gamma_{x}", rf"(gamma|gradient|gg)_?({x}|{x[::-1]})") for x in _PAIRS),
     *(Role(f"Gamma_{x}", rf"[tg]_?({x}|{x[::-1]})", "guess", why="known beforehand?") for x in _PAIRS),
     Role("inline", r"in_?line(_?raw)?", scale=2.0, why=_HALF),

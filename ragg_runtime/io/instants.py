@@ -39,7 +39,8 @@ WAYS: Mapping[str, tuple[int, str]] = MappingProxyType(
 
 _EPOCH = datetime(1970, 1, 1)
 _SECOND = 10**9
-_DAY = 86400 * _SECOND
+_DAY, _HOUR = 86400 * _SECOND, 3600 * _SECOND
+_NO_HOUR = "000000"
 _NONE = np.iinfo(np.int64).min
 _NOTHING = ("NaT", "nan", "NaN", "None", "null", "-", "--")
 _STAMP = re.compile(
@@ -67,7 +68,8 @@ class Stamps:
 
 
 def _match(text: str) -> re.Match[str] | None:
-    """A stamp taken apart; 20260301T132850.4 is 2026-03-01T13:28:50.4."""
+    """A stamp taken apart; 20260301T132850.4 is 2026-03-01T13:28:50.4, and 28:50.4 (as Excel shows times) 0:28:50.4."""
+    text = re.sub(r"^(\d\d:\d\d[.,]\d+)$", rf"{_NO_HOUR}:\1", text)
     return _STAMP.fullmatch(re.sub(r"^(\d{8}|\d{4}-\d\d-\d\d)[T ](\d\d)(\d\d)(\d\d)", r"\1T\2:\3:\4", text))
 
 
@@ -160,7 +162,7 @@ def _write_date(value: Any) -> str:
         return "" if np.isnat(value) else str(value.astype("datetime64[D]"))
     if isinstance(value, float):
         return f"{value:.0f}" if np.isfinite(value) else ""
-    return str(value).strip()
+    return str(value).strip().removesuffix("T00:00:00")
 
 
 def _read_iso(values: Sequence[str]) -> Nanoseconds | None:
@@ -202,6 +204,9 @@ def _read_texts(values: Sequence[str], order: str | None, where: str, row: Calla
     if leaps:  # the seconds after it have the numbers that they would have had without it
         after = np.arange(len(total)) > leaps[-1]
         total[after & (total != _NONE)] += _SECOND
+    if known and all(m["h"] == _NO_HOUR for m in known.values()):  # minutes and seconds begin anew every hour
+        hours = np.cumsum(np.diff(total, prepend=total[:1]) < -_HOUR // 2) * _HOUR
+        return Stamps(np.where(total == _NONE, np.nan, (total + hours) / _SECOND))
     if not dated and any(m["days"] or int(m["h"]) > 23 for m in known.values()):
         return Stamps(np.where(total == _NONE, np.nan, total / _SECOND), instants=False)
     return _count(total, dated, ("a leap second (hh:mm:60) is counted",) if leaps else ())

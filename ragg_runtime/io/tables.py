@@ -204,8 +204,9 @@ def make_table(
             continue
         title, unit = read_heading(name)
         said = next(filter(None, (_read_text(v) for k, v in attributes.items() if _is_unit_key(k))), unit)
-        for own, part in _spread(title, values, length):
-            unit_of = given.get(own) or given.get(name) or given.get(title) or said
+        said = "1" if getattr(x, "dtype", None) == np.bool_ and not said else said
+        for own, unit, part in _spread(title, values, length, attributes):
+            unit_of = given.get(own) or given.get(name) or given.get(title) or unit or said
             columns.append(DataColumn(own, unit_of.strip(), part))
     notes = list(about.pop("notes", ()))
     if other:
@@ -222,14 +223,25 @@ def _is_unit_key(name: str) -> bool:
     return name.casefold() in ("units", "unit")
 
 
-def _spread(name: str, values: NDArray[Any], length: int) -> list[tuple[str, NDArray[Any]]]:
-    """The columns of an array: itself, or ``name_1`` ... of one of two dimensions (``a_x``, ``a_y``, ``a_z`` of ``a``)."""
+def _spread(
+    name: str, values: NDArray[Any], length: int, attributes: Mapping[str, Any]
+) -> list[tuple[str, str, NDArray[Any]]]:
+    """The columns of an array with their units, if each has its own: itself, or of two dimensions ``name_1`` ...
+
+    A vector ``a`` gives ``a_x``, ``a_y``, ``a_z``; lists of names and units in its attributes are taken.
+    """
     if values.ndim == 1:
-        return [(name, values)]
+        return [(name, "", values)]
     values = values if values.shape[0] == length else values.T
     width = values.shape[1]
     axes = "xyz" if width == 3 and f"{name}_x" in SI_UNITS else range(1, width + 1)
-    return [(name if width == 1 else f"{name}_{k}", x) for k, x in zip(axes, values.T, strict=True)]
+    lists = {k.casefold(): np.ravel(v) for k, v in attributes.items() if np.size(v) == width > 1}
+    titles = [
+        write_cell(n) for n in next((lists[k] for k in ("columns", "names", "fields") if k in lists), ())
+    ]
+    units = [write_cell(u) for u in next((lists[k] for k in ("units", "unit") if k in lists), [""] * width)]
+    titles = titles or [name if width == 1 else f"{name}_{k}" for k in axes]
+    return list(zip(titles, units, values.T, strict=True))
 
 
 def read_attributes(thing: Any) -> dict[str, Any]:

@@ -276,7 +276,10 @@ def test_tables_of_records_in_hdf5(tmp_path: Path) -> None:
         file["df/table"] = block
         file["df/table"].attrs["values_block_0_kind"] = np.bytes_(pickled)
         file["df/table"].attrs["index_kind"] = np.bytes_("timedelta64")
-    for name, instants in (("a", False), ("b", False)):
+    with h5py.File(tmp_path / "c.h5", "w") as file:
+        file["all"] = np.stack([x.time, *values], axis=1)
+        file["all"].attrs.update({"columns": ["time", *names], "units": ["s", *units]})
+    for name, instants in (("a", False), ("b", False), ("c", False)):
         found = read_flight(tmp_path / f"{name}.h5", G0)
         assert found.instants == instants
         assert np.diff(found.time) == pytest.approx(np.diff(x.time), abs=1e-9)

@@ -118,6 +118,7 @@ DATES: dict[str, tuple[list[Any], bool]] = {
     "day of the year": (stamps("2026-03-01 10:00:00", "%Y-%jT%H:%M:%S.%f"), True),
     "time of the day over midnight": (stamps("2026-03-01 23:59:58", "%H:%M:%S.%f"), True),
     "more than a day": ([f"{23 + k // 32}:{59 - k // 32 * 59:02d}:{k % 32 / 16 + 58 - k // 32 * 58:09.6f}" for k in range(N)], False),
+    "minutes and seconds": ([f"{int((t + 3598) % 3600) // 60:02d}:{(t + 58) % 60:07.4f}" for t in VALUES["time"]], True),
     "days of Python": ([f"1 days 0:00:{k / 16:09.6f}" for k in range(N)], False),
     "a leap second": (
         [f"2016-12-31T23:59:{59 + k / 16:07.4f}Z" if k < 32 else f"2017-01-01T00:00:{(k - 32) / 16:07.4f}Z" for k in range(N)],
@@ -183,6 +184,18 @@ def test_excel_as_people_write_it(tmp_path: Path) -> None:
             VALUES["time"], abs=6e-4
         )  # openpyxl rounds to milliseconds
         assert read.channels["a_y"] == pytest.approx(VALUES["a_y"] * G0)
+
+
+def test_dates_and_times_in_two_columns_of_a_sheet(tmp_path: Path) -> None:
+    book, start = openpyxl.Workbook(), datetime(2026, 3, 1, 23, 59, 58)
+    book.active.append(["Date", "Time", *HEADER[1:]])
+    for t, row in zip(VALUES["time"], rows(), strict=True):
+        at = start + timedelta(seconds=float(t))
+        book.active.append([at.date(), at.time(), *map(float, row[1:])])
+    book.save(tmp_path / "x.xlsx")
+    made = draft_mapping(tmp_path / "x.xlsx")
+    found = read_flight(tmp_path / "x.xlsx", G0, mapping=parse_mapping(made.text, tmp_path))
+    assert np.diff(found.time) == pytest.approx(1 / RATE, abs=6e-4) and found.instants
 
 
 NOISE = 290 + np.random.default_rng(3).normal(size=500)
