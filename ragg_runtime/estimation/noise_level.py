@@ -209,7 +209,7 @@ def _test(u: Array, name: str, x: Array) -> _Follows:
 def _sums(edges: Array, x: Array, values: Array) -> tuple[Array, Array]:
     """Number and sum of values (N,) in each group of x (N,)."""
     which = np.searchsorted(edges, x, side="right")
-    return np.bincount(which).astype(np.float64), np.bincount(which, values)
+    return np.bincount(which).astype(np.float64), np.bincount(which, values).astype(np.float64)
 
 
 def _edges(name: str, x: Array) -> Array:

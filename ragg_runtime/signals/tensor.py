@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 
 Array = NDArray[np.float64]
+Axis = Sequence[float] | Array
 
 COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
 
@@ -59,7 +60,7 @@ def seen(first: Array, second: Array) -> Array:
     return np.array(rows)
 
 
-def across(axes: tuple[Sequence[float], Sequence[float]], inline: Array, cross: Array) -> Array:
+def across(axes: tuple[Axis, Axis], inline: Array, cross: Array) -> Array:
     """(6, N): the tensor across a disc's two axes that it sees as these channels (N,); in their unit."""
     first, second = (np.array(a, dtype=np.float64) for a in axes)
     one = (np.outer(first, first) - np.outer(second, second)) / 2
@@ -74,7 +75,7 @@ _TRACELESS = np.array(
 """The six components by xx, xy, xz, yy, yz: zz = -(xx + yy)."""
 
 
-def tensor(axes: Sequence[tuple[Sequence[float], Sequence[float]]], channels: Array, std: Array) -> Tensor:
+def tensor(axes: Sequence[tuple[Axis, Axis]], channels: Array, std: Array) -> Tensor:
     """The tensor that agrees best with channels (2 discs, N), inline and cross of each disc in turn.
 
     Parameters

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from types import MappingProxyType
 
 import numpy as np
 
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
-from ragg_runtime.reference import simulate
+from ragg_runtime.reference import EffectValues, simulate
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.instruments import perturbed
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from tests.rate import RATE
 
 
-def flown_by(
-    sheet: Instrument, duration: float, effects: Mapping[str, Mapping[str, object]] = MappingProxyType({})
-) -> Flight:
+def flown_by(sheet: Instrument, duration: float, effects: EffectValues = MappingProxyType({})) -> Flight:
     """``duration`` s of an instrument that the sheet knows to a third of its errors, with white noise of 2 Eo/sqrt(Hz)."""
     white = eotvos_noise(2e-9, 0.1)
     s = simulate(

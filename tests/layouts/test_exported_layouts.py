@@ -9,6 +9,7 @@ import sys
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -43,7 +44,8 @@ def contents() -> Contents:
 
 def test_harmonics_go_with_values_and_an_example() -> None:
     """The series of every output, put together with what stands beside it, gives the answer of the example."""
-    files, code = api.FORMS["harmonics"](contents()), {}
+    files = api.FORMS["harmonics"](contents())
+    code: dict[str, Any] = {}
     exec(files["harmonics.py"], code)
     (kept,) = (json.loads(text) for name, text in files.items() if name.endswith(".json"))
     p = np.concatenate([x["values"] for x in kept["parameters"]])

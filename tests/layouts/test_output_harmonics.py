@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -59,7 +61,7 @@ def test_combinations_of_other_layouts() -> None:
 
 def test_the_gradient_has_the_gain_that_the_demodulator_takes() -> None:
     i = parse_instrument(sheets.sheet(sheets.complements(), 8, size=0.0))
-    code: dict = {}
+    code: dict[str, Any] = {}
     exec(derive.harmonics_of(i)["harmonics.py"], code)
     model, _ = derive.derived((), (), i.form, i.layout)
     k1 = i.accelerometers["k_VI"] * i.accelerometers["K1"]

@@ -16,6 +16,7 @@ from ragg_runtime.identification import several_outputs
 from ragg_runtime.identification.strong import Stage
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model import derive
+from ragg_runtime.reference import EffectValues
 from ragg_runtime.signals.tensor import tensor
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by
@@ -134,7 +135,7 @@ def test_a_step_is_found_in_several_outputs(hidden: str | None, values: dict[str
     sheet = parse_instrument(sheets.sheet(sheets.complements(), 8, sheets.FULL))
     candidates = tuple(e for e in catalogue() if e.id in STEPS)
     model, _ = derive.derived((), candidates, sheet.form, sheet.layout)
-    effects = {} if hidden is None else {hidden: {**values, "t_step": AT}}
+    effects: EffectValues = {} if hidden is None else {hidden: {**values, "t_step": AT}}
     flight = flown_by(sheet, 120.0, effects)
     stage = Stage.of(fit(model, sheet, observations_of([flight], sheet)))
     assert stage.choice.chosen == (() if hidden is None else (hidden,))
