@@ -26,7 +26,8 @@ from benchmarks.diagnosis.strength import Hidden, Oracle
 from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io.record import SI_UNITS
-from ragg_runtime.reference.effects import EffectValues
+from ragg_runtime.reference.effects import EffectValues, resolve
+from ragg_runtime.reference.effects.output import record_output
 from ragg_runtime.reference.simulate import Simulation, combine, simulate
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.fir import convolved
@@ -99,7 +100,8 @@ def prepared(spec: Spec) -> Prepared:
     if spec.kind != "quiet":
         changed = kind.change(channels, Recorded(plain.G_out_noise_free, 1.0, w.scenario.rate), spec.rng(4))
         lost = np.isnan(changed["G_out"])
-        oracle = Oracle(w, plain.flight("plain", voltages=w.output == "voltages"), loudness, lost)
+        flight = plain.flight("plain", voltages=w.output == "voltages")
+        oracle = Oracle(w, flight, loudness, lost, spec.catalogue)
         hidden = _hidden(spec, oracle)
         if spec.kind == "outside":
             at = outside.Surroundings(
@@ -113,7 +115,7 @@ def prepared(spec: Spec) -> Prepared:
             )
             term = outside.drawn(oracle, at, outside.name_of(spec), 10.0)
     values = {h.effect: h.values for h in hidden}
-    recorder = {e: values.pop(e) for e in ("quantisation", "saturation") if e in values}
+    recorder = {e: values.pop(e) for e in ("output-curve", "quantisation", "saturation") if e in values}
     sim = _simulated(w, values) if values else plain
     return Prepared(w, _recorded(spec, w, sim, loudness, term, recorder), hidden, term)
 
@@ -166,11 +168,7 @@ def _recorded(
     rms = float(np.std(combine(noise))) or 1e-12 * float(np.std(x["G_out"]))
     clean = x["G_out"] - combine(noise)
     x = records.KINDS[spec.record].change(x, Recorded(clean, rms, s.rate), spec.rng(4))
-    if "saturation" in recorder:
-        x["G_out"] = np.clip(x["G_out"], -recorder["saturation"]["V_max"], recorder["saturation"]["V_max"])
-    if "quantisation" in recorder:
-        q = recorder["quantisation"]["q"]
-        x["G_out"] = np.round(x["G_out"] / q) * q
+    x["G_out"] = record_output(x["G_out"], resolve(recorder))
     return _channels(w, x) if w.output == "channels" else x
 
 

@@ -145,6 +145,14 @@ FURTHER: Mapping[str, Callable[[Surroundings], Array]] = {
 }
 """Further terms, of which it holds most in no such form."""
 
+SINCE: Mapping[str, str] = {
+    "misalignment jump": "misalignment-step",
+    "misalignment drift": "misalignment-drift",
+    "cube of G_out (converter)": "output-curve",
+    "square of G_out (converter)": "output-curve",
+}
+"""Those that have become effects of the catalogue since the terms were chosen: naming these is right."""
+
 NAMES = (*TERMS, *FURTHER)
 
 

@@ -8,7 +8,8 @@
 - Nothing hidden: *right* if ``adequate``, or if nothing is claimed but what was done to the record (``allowed``); *said* if the
   verdict is ``unexplained``, or the record refused, with a remark that says what is wrong with it; *unexplained* without one.
   Of records in which nothing follows the motion ``unexplained`` and refused are *right*, all else *wrong*.
-- Outside the catalogue: any claim is *wrong*; *right* is ``unexplained``; ``adequate`` is *silent*, a refused record *said*.
+- Outside the catalogue: any claim is *wrong*, but of a term that has become an effect since; *right* is
+  ``unexplained``; ``adequate`` is *silent*, a refused record *said*.
 - A false alarm is, of a tame record, any verdict but ``adequate`` or a claim of what is allowed.
 """
 
@@ -22,6 +23,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.diagnosis import records
+from benchmarks.diagnosis.outside import SINCE
 
 Line = Mapping[str, Any]
 """The JSON object of one flight (``fly``), with its ``id``, ``kind`` and ``record``."""
@@ -88,8 +90,9 @@ def outcome(x: Line) -> str:
     kind = records.KINDS[x["record"]]
     silent = x["verdict"] == "adequate"
     if x["kind"] == "outside":
+        since = SINCE.get(x["outside"][0].replace(";", ","), "")
         if x["found"]:
-            return "wrong"
+            return "right" if len(x["found"]) == 1 and since in group(x, x["found"][0]) else "wrong"
         return "silent" if silent else "said" if x["verdict"] == "refused" else "right"
     if kind.nothing:
         return "wrong" if silent or x["found"] else "right"

@@ -10,7 +10,7 @@ norm of what is clipped, at least ten samples).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -34,13 +34,13 @@ Mask = NDArray[np.bool_]
 LARGEST, LARGEST_STRONG = 30.0, 1000.0
 """Plausible sizes beyond which an effect is not hidden: up to 10 sigma, and above."""
 
-LONGEST: Mapping[str, float] = {"lag": 0.03, "gyro-delay": 0.1, "time-offset": 0.1}
+LONGEST: Mapping[str, float] = {"lag": 0.03, "gyro-delay": 0.1, "imu-skew": 0.1, "time-offset": 0.1}
 """s: what the simulator can do, and a Taylor series describes."""
 
 NEVER = ("arm-length", "disc-spin", "imu-saturation", "second-order-misalignment")
 """Effects that are not hidden: nature knows them at one size alone, or a sheet as sure as these does not offer them."""
 
-FILTERS = ("lag", "output-filter", "second-order-loop")
+FILTERS = ("imu-filter", "lag", "output-filter", "second-order-loop")
 """No filter at all with the other sign."""
 
 COVARIANCES = ("angular-jitter", "vibration-level", "vibration-rectification")
@@ -72,9 +72,17 @@ class Hidden:
 class Oracle:
     """A flight without effects, whitened with the noise as it is: what strengths are measured on."""
 
-    def __init__(self, w: World, flight: Flight, loudness: Loudness, lost: Mask | None = None) -> None:
-        """``lost``: samples whose output is missing."""
+    def __init__(
+        self,
+        w: World,
+        flight: Flight,
+        loudness: Loudness,
+        lost: Mask | None = None,
+        catalogue: Container[str] | None = None,
+    ) -> None:
+        """``lost``: samples whose output is missing; ``catalogue``: the effects that there are (``None``: all)."""
         self.model, self.flight = packaged(), flight
+        known = [e for e in self.model.candidates if catalogue is None or e.id in catalogue]
         self.o = observe(flight, w.known)
         self.valid = self.o.record.valid if lost is None else self.o.record.valid & ~lost
         i = w.known.accelerometers
@@ -84,8 +92,10 @@ class Oracle:
         self.rms = np.sqrt(w.density * flight.rate / 2 * variance)
         self.taps = whitening(loudness, flight.rate, len(flight))
         p = vector(self.model, w.known)
-        self.raw = linearise(Point(self.model, w.known, p, with_candidates=True), self.o)[:-1]
-        self.columns = design.list_candidate_columns(self.model, w.known)
+        every, ids = design.list_candidate_columns(self.model, w.known), {e.id for e in known}
+        only = tuple(n for n, c in enumerate(every) if c.effect in ids)
+        self.raw = linearise(Point(self.model, w.known, p, with_candidates=True, only=only), self.o)[:-1]
+        self.columns = [every[n] for n in only]
         self.n = len(self.raw) - len(self.columns)
         white = self.whitened(self.raw)
         self.rows = white.shape[1]
@@ -96,7 +106,7 @@ class Oracle:
         self.Q = _orthonormal(np.concatenate(base))
         self.white = white[self.n :]
         self.left = self.projected(self.white)
-        self.kinds = {e.id: e.kind for e in self.model.candidates if e.id not in NEVER}
+        self.kinds = {e.id: e.kind for e in known if e.id not in NEVER}
 
     def whitened(self, x: Array) -> Array:
         """(k, rows) of columns (k, m, N), V."""

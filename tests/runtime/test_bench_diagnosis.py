@@ -81,8 +81,12 @@ def line(kind: str, verdict: str, found: list[str], hidden: list[str], **more: A
         (line("quiet", "missing-effect", ["lag"], []), "wrong"),
         (line("quiet", "missing-effect", ["quantisation"], [], record="coarse"), "right"),
         (line("quiet", "adequate", [], [], record="shuffled"), "wrong"),
-        (line("outside", "unexplained", [], []), "right"),
-        (line("outside", "partly-explained", ["lag"], []), "wrong"),
+        (line("outside", "unexplained", [], [], outside=["omega_z", 9.0]), "right"),
+        (line("outside", "partly-explained", ["lag"], [], outside=["omega_z", 9.0]), "wrong"),
+        (
+            line("outside", "missing-effect", ["misalignment-step"], [], outside=["misalignment jump", 9.0]),
+            "right",
+        ),
     ],
 )
 def test_scoring(x: dict[str, Any], outcome: str) -> None:
