@@ -53,6 +53,7 @@ def simulated(
     hidden: Sequence[str],
     *,
     seed: int = 0,
+    instrument_seed: int = 0,
     duration: float = 1800.0,
     rate: float = 16.0,
     noise: float = 2.0,
@@ -70,6 +71,8 @@ def simulated(
     ----------
     hidden
         ``ID:NAME=VALUE[,NAME=VALUE]``, values in the effect's display units, four joined by ``/``.
+    seed, instrument_seed
+        Of motion, gradient and noise; and of how the true instrument differs from its sheet, the same in all its flights.
     duration, rate, noise
         s, Hz, Eo/sqrt(Hz) of the cross channel.
     sheet_error
@@ -95,7 +98,7 @@ def simulated(
         flown, duration, rate = _recorded(record, start)
     with _bounded():
         s = reference.simulate(
-            perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
+            perturbed(instrument, np.random.default_rng([instrument_seed, 10]), sheet_error),
             flown,
             duration,
             rate,

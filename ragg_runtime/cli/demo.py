@@ -25,7 +25,9 @@ def make_flight(path: Path) -> None:
     """Write the flight: twelve minutes at 1 g in turbulence, with a temperature-dependent scale factor in A3."""
     effect, name, values = HIDDEN
     hidden = f"{effect}:{name}={'/'.join(f'{x:g}' for x in values)}"
-    write_flight(simulated(api.example(), [hidden], seed=2026, duration=720.0, rate=16.0), path)
+    write_flight(
+        simulated(api.example(), [hidden], seed=2026, instrument_seed=2026, duration=720.0, rate=16.0), path
+    )
 
 
 def run_demo(output: Path, flight: Path | None = None) -> None:

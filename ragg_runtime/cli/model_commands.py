@@ -131,7 +131,11 @@ def history(model_dir: Path) -> None:
     metavar="ID:NAME=VALUE[,NAME=...]",
     help="Hide an effect in the flight; VALUE in the effect's units, four values joined by /.",
 )
-@click.option("--seed", type=click.IntRange(0), default=0, show_default=True)
+@click.option(
+    "--seed", type=click.IntRange(0), default=0, show_default=True, help="Of motion, gradient and noise."
+)
+@click.option("--instrument-seed", type=click.IntRange(0), default=0, show_default=True,
+              help="Which true instrument: all flights of one number are of the same.")  # fmt: skip
 @click.option("--duration", type=Finite(1.0), default=1800.0, show_default=True, help="s")
 @click.option("--rate", type=Finite(1.0), default=16.0, show_default=True, help="Hz")
 @click.option("--noise", type=Finite(0.0), default=2.0, show_default=True, help="Eo/sqrt(Hz)")
