@@ -50,7 +50,8 @@ class EffectParameter:
         Parameter of the accelerometers (``K1`` ...) that tells of what grade the sensors are: where a sheet gives it a sigma
         larger than is plausible of a navigation instrument, what is plausible here is as many times larger.
     late
-        Quantities (``a``, ``omega``, ``omegadot``) that stand in the record by its value, s, later than they were true: a fit
+        Quantities (``a``, ``omega``, ``omegadot``, or a component, ``a_x``) that stand in the record by its value, s, later
+        than they were true: a fit
         takes them from there, so that ``sensing`` has to describe only what is left of it.
     growing
         Whether they are later by that in every second of the record.

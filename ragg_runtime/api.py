@@ -53,6 +53,7 @@ from ragg_runtime.model.catalogue import Catalogue, effects
 from ragg_runtime.model.directory import CALIBRATION, Step, replace_model_dir
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model, missing_channels
+from ragg_runtime.model.record import recorded_channels
 from ragg_runtime.wording import describe, describe_other
 from ragg_runtime.wording.sections import render_notebook
 from ragg_runtime.workspace import (
@@ -294,7 +295,7 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
             remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
         )
     for x in flights:
-        missing = missing_channels(offered, x.channels)
+        missing = missing_channels(offered, recorded_channels(x, m.instrument.layout))
         if missing:
             raise UserError(
                 f"the effect {effect} needs a channel that the flight lacks",

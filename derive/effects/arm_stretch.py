@@ -23,9 +23,10 @@ EFFECT = Effect(
         r" \times \dot R_j \bm e_r + \ddot R_j \bm e_r"
     ),
     limits=(
-        "Linear, without resonance, with the force at the unstretched position. A steady horizontal force stretches "
-        "and releases the arm once a turn: what the stretch's own velocity feels on the turning disc (Coriolis) "
-        "exceeds what the longer arm does, and looks mostly like a scale factor."
+        "Linear, without resonance (that of an accelerometer is second-order-loop, that of the disc's mount imu-filter), "
+        "with the force at the unstretched position. A steady horizontal force stretches and releases the arm once a "
+        "turn: what the stretch's own velocity feels on the turning disc (Coriolis) exceeds what the longer arm does, and"
+        " looks mostly like a scale factor."
     ),
     parameters=(EffectParameter("c_r", "c_r", "um/g", "stretch per radial specific force", 0.1),),
     instrument=instrument,

@@ -24,8 +24,9 @@ EFFECT = Effect(
     ),
     equation=r"V_j \leftarrow V_j + b_j\,\ddot V_j",
     limits=(
-        "First order in b, for what is slow against the loop. The delay itself is lag; b that all accelerometers share "
-        "is output-filter. The simulator has loops without a resonance (b not negative)."
+        "First order in b, for what is slow against the loop. The delay itself is lag; b that all accelerometers share is"
+        " output-filter; of the motion alone imu-filter. A mount that resonates at w has b = -1/w^2. The simulator has "
+        "loops without a resonance (b not negative)."
     ),
     parameters=(
         EffectParameter("b", "b", "s^2", "curvature of the loop's response at low frequencies", 1e-8),

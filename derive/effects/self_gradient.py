@@ -29,8 +29,9 @@ EFFECT = Effect(
     source="self-gradient modelling of airborne gradiometers (paper, Section I: self-gradient modeling)",
     equation=r"\bm\Gamma \leftarrow \bm\Gamma + \bm G_{roll} \sin(roll) + \bm G_{pitch} \sin(pitch)",
     limits=(
-        "First harmonic of small attitude angles. Parts that move with the instrument are constant and no "
-        "effect; fuel burn is not covered. Without roll, or pitch, in the record its five values are left out."
+        "First harmonic of small attitude angles; masses fixed to one rigid carrier, and its fuel, are carrier-gradient. "
+        "Parts that move with the instrument are constant and no effect. Without roll, or pitch, in the record its five "
+        "values are left out."
     ),
     channels=ATTITUDE,
     either=True,

@@ -16,7 +16,7 @@ from ragg_runtime.estimation.least_squares import Linear, Minimum, join, minimis
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation
-from ragg_runtime.estimation.regressors import Column, Point, spelt
+from ragg_runtime.estimation.regressors import Column, Point, spelt, tested_columns
 from ragg_runtime.estimation.unknown_gradient import Window
 from ragg_runtime.estimation.whitening import Piece, heard, pass_over, take_excerpt
 from ragg_runtime.instrument.instrument import Instrument
@@ -169,7 +169,8 @@ class _Task:
 
     def noise(self, x: Array) -> list[NoiseModel]:
         """NoiseModel of every flight from what nothing explains about x."""
-        everything = Point(self.model, self.instrument, self.vector(x), with_candidates=True)
+        tested = tested_columns(self.model, self.instrument, [o.record for o in self.observations])
+        everything = Point(self.model, self.instrument, self.vector(x), with_candidates=True, only=tested)
         return [estimate_noise(everything, o) for o in self.observations]
 
     def size(self, noise: Sequence[NoiseModel]) -> float:

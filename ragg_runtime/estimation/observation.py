@@ -108,6 +108,8 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
         there = np.isfinite([flight.outputs[c] for c in columns]).all(axis=0) & r.valid
         r = replace(r, every=_spacing(there))
     series = form.series([flight.outputs[c] for c in columns], r, k_ggi)
+    if not (form.demodulated or form.separate):
+        r = replace(r, reading=series[0])
     if form.demodulated:
         inside = np.zeros(len(r.time), dtype=bool)  # elsewhere the demodulator has not seen enough
         inside[r.low_pass.before : len(r.time) - r.low_pass.ahead] = True
@@ -120,14 +122,14 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     for name in imu_saturation.CHANNELS:
         if name in flight.channels and _at_top(flight.channels[name], valid):
             valid &= ~imu_saturation.clipped(flight.channels[name], valid)
-    wide = r.wide
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
-        wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
+        r = replace(r, wide={n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()})
+        r = replace(r, reading=None if r.reading is None else np.nan_to_num(r.reading))
     name = flight.name if len(layout.outputs) == 1 else f"{flight.name}: {o.name}"
     slopes = (a["k_VI"] * a["K1"])[list(o.members)]
     return Observation(
         recorded=form,
-        record=replace(r, valid=valid, wide=wide),
+        record=replace(r, valid=valid),
         series=series,
         name=name,
         output=o,

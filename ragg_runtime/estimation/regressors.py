@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -104,6 +104,19 @@ def list_candidate_columns(model: Model, instrument: Instrument) -> list[Column]
     return [c for e in model.candidates if e.kind != "output" for c, _ in _of_effect(e, known, instrument)]
 
 
+def tested_columns(model: Model, instrument: Instrument, records: Sequence[Record]) -> tuple[int, ...]:
+    """Places among the candidates' columns of those of which all records have what the effect needs: others are zero."""
+    have = [r.recorded for r in records]
+    effects = {e.id: e for e in model.candidates}
+
+    def is_tested(c: Column) -> bool:
+        e = effects[c.effect or ""]
+        own = next(q.channel for q in e.parameters if c.name == f"{e.id}.{q.name}")
+        return not any(e.missing(h) for h in have) and (own is None or any(own in h for h in have))
+
+    return tuple(n for n, c in enumerate(list_candidate_columns(model, instrument)) if is_tested(c))
+
+
 def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Column, str]]:
     columns = []
     places = instrument.layout.names
@@ -197,7 +210,9 @@ class Point:
     @cached_property
     def candidates(self) -> list[Column]:
         """Those of the candidate effects whose columns are wanted."""
-        every = list_candidate_columns(self.model, self.instrument) if self.with_candidates else []
+        if not self.with_candidates:
+            return []
+        every = list_candidate_columns(self.model, self.instrument)
         return every if self.only is None else [every[n] for n in self.only]
 
     @cached_property
@@ -219,6 +234,9 @@ def linearise(at: Point, o: Observation, residual: Array | None = None) -> Array
     ``residual`` (m, N): that of a thinned observation, where it is known already.
     """
     r, p = about(at.model, o.record, at.p)
+    V = _voltages(at, o, r, p)
+    if r.reading is not None:  # in a column of what was read the noise would explain itself
+        r = replace(r, reading=np.pad(o.output.combined(V), r.halo, mode="edge"))
     n_base = len(at.base)
     columns = np.zeros((n_base + len(at.candidates) + 1, len(o.series), len(r.time)))
     _put_derivatives(columns, at.model.evaluators("chain"), at.base, r, o, p)
@@ -228,7 +246,7 @@ def linearise(at: Point, o: Observation, residual: Array | None = None) -> Array
     for column in columns[:-1] if o.recorded.demodulated else ():
         column[:] = o.recorded.through(column, r)
     if o.thin is None:
-        columns[-1] = o.data - _predict(at, o, r, p)
+        columns[-1] = o.data - observed(o, V, None)
     else:
         columns[-1] = thin_residual(at, o.thin) if residual is None else residual
     for k, c in enumerate((*at.base, *at.candidates)):
@@ -259,10 +277,10 @@ def _put_derivatives(
                 columns[n, series, some] += scale * slopes[of]
 
 
-def _predict(at: Point, o: Observation, r: Record, p: Array) -> Array:
-    """What is observed of the outputs themselves, (m, N), V."""
-    V = at.model.evaluators("chain").voltages(r.time, r.inputs(at.model.chain), p, r.phi, o.output.members)
-    return observed(o, V, None)
+def _voltages(at: Point, o: Observation, r: Record, p: Array) -> Array:
+    """Those of the output's accelerometers, (members, N), V."""
+    x = r.inputs(at.model.chain)
+    return at.model.evaluators("chain").voltages(r.time, x, p, r.phi, o.output.members)
 
 
 def thin_residual(at: Point, thin: Thin) -> Array:
@@ -274,4 +292,5 @@ def thin_residual(at: Point, thin: Thin) -> Array:
 def residual_of(at: Point, o: Observation) -> Array:
     """Residual (m, N), V, at a point; between its neighbours where a sample is not valid."""
     r, p = about(at.model, o.record, at.p)
-    return np.stack([bridge_gaps(x, r.valid) for x in o.data - _predict(at, o, r, p)])
+    left = o.data - observed(o, _voltages(at, o, r, p), None)
+    return np.stack([bridge_gaps(x, r.valid) for x in left])

@@ -254,6 +254,7 @@ def _kept(o: Observation, thin: Thin) -> Observation:
         r,
         time=time,
         wide=wide,
+        reading=None if r.reading is None else series[0],
         rate=r.rate / thin.every,
         valid=_supported(r.valid, thin),
         halo=(0, 0),

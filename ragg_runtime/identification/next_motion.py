@@ -220,21 +220,26 @@ class Alternatives:
         return found
 
     @cached_property
-    def at(self) -> Point:
-        """About what motions are linearised: of the candidates no columns but those that are needed."""
-        n = self.f.n_base
+    def needed(self) -> list[int]:
+        """The columns of candidates without which no separation is known."""
         signals = {
             int(k) for s in self.strengths.values() for k in np.flatnonzero(np.any(s.directions, axis=1))
         }
-        needed = sorted({*self.places[n:], *signals})
-        return replace(self.f.prepared[0].at, only=tuple(k - n for k in needed))
+        return sorted({*self.places[self.f.n_base :], *signals})
+
+    @cached_property
+    def at(self) -> Point:
+        """About what motions are linearised: of the candidates no columns but those that are needed."""
+        at, n = self.f.prepared[0].at, self.f.n_base
+        known = range(len(at.candidates)) if at.only is None else at.only
+        return replace(at, only=tuple(known[k - n] for k in self.needed))
 
     def rows(
         self, motion: Sequence[Sinusoid], *, simulated: float = SIMULATED, duration: float = DURATION
     ) -> Array:
         """R factor (k, k) of [places | directions] of a motion, ``simulated`` s of it, weighted for ``duration``, whitened."""
         X = whitened_motion(self.f, self.at, motion, simulated)
-        there = [*range(self.f.n_base), *(self.f.n_base + k for k in self.at.only or ())]
+        there = [*range(self.f.n_base), *self.needed]
         directions = np.hstack([s.directions for s in self.strengths.values()])[there]
         X = np.concatenate([X[[there.index(k) for k in self.places]], directions.T @ X])
         return np.asarray(np.sqrt(duration / simulated) * triangle(X))
@@ -263,6 +268,7 @@ def whitened_motion(f: Fitted, at: Point, motion: Sequence[Sinusoid], simulated:
     channels = _continued(f, n)
     channels |= moved(channels, motion, time)
     r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
+    r = replace(r, reading=None if r.reading is None else np.zeros(n))  # what it is the model says
     series = (np.zeros(n),) * len(o.series)
     made = replace(o, record=r, series=series, name="motion", thin=None)
 

@@ -194,7 +194,7 @@ def placed(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
 def list_not_testable(f: Fitted, field: Field) -> list[NotTestable]:
     found = []
     for e in f.model.candidates:
-        missing = sorted({c for o in f.observations for c in e.missing(o.record.wide)})
+        missing = sorted({c for o in f.observations for c in e.missing(o.record.recorded)})
         if missing:
             found.append(NotTestable(e.id, f"the flight has no channel {', '.join(missing)}"))
         elif e.id in field.candidates and not field.testable(e.id):

@@ -259,7 +259,7 @@ def field_of(
 
 def testable_effects(f: Fitted) -> list[str]:
     """Deterministic candidates of which every flight has the channels, and that are no error of the sheet."""
-    have = [set(o.record.wide) for o in f.observations]
+    have = [o.record.recorded for o in f.observations]
     return [
         e.id
         for e in f.model.candidates

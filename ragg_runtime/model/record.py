@@ -13,7 +13,7 @@ from generated import folded
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import Vector3, gain
+from ragg_runtime.instrument.layout import Layout, Vector3, gain
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import RATES, SPECIFIC_FORCE
 from ragg_runtime.model.model import Chain
@@ -36,6 +36,9 @@ Array = NDArray[np.float64]
 HALO = 32
 """Samples on either side that a part of a record keeps, so that second derivatives come out as in the whole."""
 
+
+READING = "G_out"
+"""The channel by which a chain sees what the converter of its own output has given, whatever that output is called."""
 
 SPIN = ("d_spin_angle", "d2_spin_angle")
 """Rate and acceleration of the disc angle: in every record, with an encoder or without."""
@@ -62,6 +65,7 @@ class Record:
     what this is a part of. ``resolution``: column -> the step in which it was recorded, SI; columns that are not in it have
     none to speak of. ``instants`` (before + N + after,): times of all samples of a part.
     ``input_axes``: cosine and sine of the angle of each of the output's accelerometers, and its share in the power of equal noises.
+    ``reading``: the output as its converter gave it, (before + N + after,) V; ``None`` where something else is fitted.
     """
 
     time: Array
@@ -81,11 +85,17 @@ class Record:
     resolution: Mapping[str, float] = field(default_factory=dict)
     start: float = 0.0
     input_axes: tuple[tuple[float, float, float], ...] = ((1.0, 0.0, 0.5), (0.0, 1.0, 0.5))
+    reading: Array | None = None
 
     @cached_property
     def low_pass(self) -> Demodulator:
         """What inline and cross have passed."""
         return kernel(self.demodulation, self.rate)
+
+    @property
+    def recorded(self) -> frozenset[str]:
+        """The channels that an effect may need and this has."""
+        return frozenset((*self.wide, *([] if self.reading is None else [READING])))
 
     @cached_property
     def channels(self) -> Mapping[str, Array]:
@@ -197,7 +207,8 @@ class Record:
         first, last = max(0, a - HALO), min(n, b + HALO)
         wanted = [k for k in self.wide if only is None or k in only or k == self.angle_column]
         wide = {k: np.array(self.wide[k][first:last]) for k in wanted}
-        for x in wide.values():
+        reading = None if self.reading is None else np.array(self.reading[first:last])
+        for x in (*wide.values(), *([] if reading is None else [reading])):
             if not np.isfinite(np.dot(x, x)):  # cheap, and true wherever something is not finite
                 x[~np.isfinite(x)] = 0.0
         return replace(
@@ -208,6 +219,7 @@ class Record:
             halo=(a - first, last - b),
             whole=self.whole or self,
             instants=np.array(self.time[first:last]),
+            reading=reading,
         )
 
     def moved(self, moves: Mapping[str, tuple[float, float]]) -> Record:
@@ -216,7 +228,7 @@ class Record:
         at = np.arange(samples, dtype=np.float64)
         time = float(self.time[0]) + (at - self.halo[0]) / self.rate
         for quantity, (offset, drift) in moves.items():
-            names = [n for k in "xyz" if (n := f"{quantity}_{k}") in wide]
+            names = [n for n in (quantity, *(f"{quantity}_{k}" for k in "xyz")) if n in wide]
             there = np.clip(at + (offset + drift * time) * self.rate, -1.0, samples)
             wide |= dict(zip(names, interpolated([wide[n] for n in names], there), strict=True))
         return replace(self, wide=wide)
@@ -237,6 +249,8 @@ class Record:
     def _wide(self, name: str) -> Array | None:
         if name in self.wide:
             return self.wide[name]
+        if name == READING:
+            return self.reading
         if name in SPIN:
             encoder, length = self.wide.get(self.angle_column), len(self.time) + sum(self.halo)
             return spin(
@@ -355,6 +369,12 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         start=start_of(flight, instrument),
         input_axes=tuple((*cs, float(w)) for cs, w in zip(o.angles, power / np.sum(power), strict=True)),
     )
+
+
+def recorded_channels(flight: Flight, layout: Layout) -> frozenset[str]:
+    """The channels of a flight that an effect may need."""
+    read = any(o.name in flight.outputs for o in layout.outputs)
+    return frozenset((*flight.channels, *([READING] if read else [])))
 
 
 def differentiated(name: str) -> str:

@@ -59,13 +59,14 @@ def plausible(
 
 
 def further(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
-    """What only some carriers record: heading, fuel on board, and levels of vibration above the recorder's bandwidth."""
+    """What only some carriers record: heading, fuel on board, levels of vibration above the recorder's bandwidth, a loop's current."""
     burning = rng.uniform(0.02, 0.06)  # kg/s
     return {
         "yaw": _slow(rng, float(rng.uniform(-3.0, 3.0)), 0.5).value,
         "fuel_mass": lambda time: np.asarray(500.0 - burning * time),
         "vibration_rms": _slow(rng, 0.5, 0.1).value,
         "angular_vibration_rms": _slow(rng, 1e-4, 2e-5).value,
+        "balance_current": lambda time: np.asarray(-1e-3 * np.expm1(-time / 400.0)),  # a loop that settles
     }
 
 

@@ -85,7 +85,8 @@ class Chain:
         """V_1 ... V_n without noise, (n, N) V, at (N,) s; ``angle_error`` (N,) rad: random part of phi."""
         present = self._unfiltered(time, 0.0, angle_error)
         change = np.zeros_like(present)
-        for delay, weight in transducer.averaging(self.effects):
+        b = float(self.effects["output-filter"]["b"]) if "output-filter" in self.effects else 0.0
+        for delay, weight in transducer.averaging(b):
             change += weight * (self._unfiltered(time, delay, angle_error) - present)
         widths = transducer.widths(self.effects, self.size)
         for width in np.unique(widths[widths > 0]):
@@ -180,7 +181,9 @@ class Chain:
         actual = mount(place, k["beta_x"], k["beta_z"], self.rotations)
         nominal, triad = self._nominal_force(j, actual, radius, instant, shake)
         angles = (k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])
-        C = frame_rotation(*geometry.misalignment(j, angles, nominal, self.effects), self.misalignment)
+        time, auxiliaries = instant.time, instant.auxiliaries
+        turned = geometry.misalignment(j, angles, nominal, time, auxiliaries, self.effects)
+        C = frame_rotation(*turned, self.misalignment)
         measured = _rows(C, nominal)
         kappa = transducer.angles_in_second_order(self.effects)
         i, o, p = measured
@@ -190,17 +193,18 @@ class Chain:
             i, o, p = (n + kappa * (m - n) for n, m in zip(unturned, measured, strict=True))
         bracket = (
             measured[0]
-            + transducer.bias(j, k["K0"], instant.time, instant.auxiliaries, self.effects)
-            + k["K2"] * i**2
+            + transducer.bias(j, k["K0"], time, auxiliaries, self.effects)
+            + transducer.curvature(j, k["K2"], time, auxiliaries, self.effects) * i**2
             + k["K5"] * o**2
             + k["K7"] * p**2
             + k["K4"] * i * p
             + k["K6"] * i * o
             + k["K8"] * o * p
-            + transducer.further_terms(j, measured, triad, instant.motion, instant.auxiliaries, self.effects)
+            + transducer.further_terms(j, measured, triad, instant.motion, auxiliaries, self.effects)
         )
+        bracket = bracket * transducer.torqued(j, triad, auxiliaries, self.effects)
         bracket = transducer.converted(j, bracket, self.effects)
-        gain = transducer.gain(j, instant.time, instant.auxiliaries, self.effects)
+        gain = transducer.gain(j, time, auxiliaries, self.effects)
         return np.asarray(k["k_VI"] * k["K1"] * gain * bracket, dtype=np.float64)
 
     def _nominal_force(

@@ -18,6 +18,7 @@ from ragg_runtime.reference.effects import EffectValues, Injected, channels_need
 from ragg_runtime.reference.effects.geometry import Kinematics, random_angle, spin_share
 from ragg_runtime.reference.effects.output import record_output
 from ragg_runtime.reference.effects.sensing import record_motion
+from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
 from ragg_runtime.reference.gravity import COMPONENTS, Gravity
 from ragg_runtime.reference.motion import Motion
 from ragg_runtime.reference.rotation import Rotations
@@ -214,7 +215,10 @@ def _turning(given: Mapping[str, Turning], layout: Layout) -> Mapping[str, Turni
 def _channels(
     chain: Chain, time: Array, record_gradient: bool, turning: Mapping[str, Turning]
 ) -> dict[str, Array]:
-    recorded = record_motion(chain.motion, time, chain.effects)
+    warmth = (
+        chain.auxiliaries["temperature"](time) if "imu-thermal" in chain.effects else REFERENCE_TEMPERATURE
+    )
+    recorded = record_motion(chain.motion, time, chain.effects, warmth)
     channels = {
         f"{quantity}_{axis}": values[k]
         for quantity, values in (

@@ -73,6 +73,12 @@ def _rate_of(s: Sinusoids) -> Sinusoids:
     return Sinusoids(0.0, omega * np.asarray(s.amplitude), s.frequency, np.asarray(s.phase) + np.pi / 2)
 
 
+def _averaged(s: Sinusoids, b: float) -> Sinusoids:
+    """Over the interval sqrt(24 b)."""
+    shares = np.sinc(np.asarray(s.frequency) * np.sqrt(24 * b))
+    return Sinusoids(s.mean, np.asarray(s.amplitude) * shares, s.frequency, s.phase)
+
+
 INSTRUMENT = _instrument()
 _RNG = np.random.default_rng(21)
 _A = tuple(_signal(_RNG, m, 0.3) for m in (0.15, -0.2, 1.0))
@@ -93,6 +99,7 @@ AUXILIARIES = {
     "fuel_mass": _signal(_RNG, 400.0, 90.0).value,
     "vibration_rms": _signal(_RNG, 0.3, 0.05).value,
     "angular_vibration_rms": _signal(_RNG, 3e-4, 5e-5).value,
+    "balance_current": _signal(_RNG, 1e-3, 2e-4).value,
 }
 EOTVOS_VOLTS = float(np.mean(INSTRUMENT.accelerometers["k_VI"] * INSTRUMENT.accelerometers["K1"])) * 1e-10
 """Volts of one accelerometer for a gradient of 1 Eo across a radius of 0.1 m."""
@@ -113,6 +120,8 @@ CHANNEL_UNIT = {
     "fuel_mass": "kg",
     "vibration_rms": "m/s^2",
     "angular_vibration_rms": "rad/s",
+    "balance_current": "A",
+    "G_out": "V",
 }
 
 
@@ -138,10 +147,14 @@ def _reference(
     drift = float(effects.get("clock-drift", {}).get("epsilon", 0.0))
     channels["d_temperature"] = _rate_of(TEMPERATURE).value(found.time)
     recorded = found.time - drift * found.time
+    skew, filtered = effects.get("imu-skew", {}), effects.get("imu-filter", {})
     for name, signals in (("a", _A), ("omegadot", [_rate_of(s) for s in _OMEGA])):
+        b = float(filtered.get("b_a" if name == "a" else "b_w", 0.0))
         for k, s in zip("xyz", signals, strict=True):
-            channels[f"d_{name}_{k}"] = _rate_of(s).value(recorded, late)
-            channels[f"d2_{name}_{k}"] = _rate_of(_rate_of(s)).value(recorded, late)
+            by = late + (float(skew.get(f"delta_{k}", 0.0)) if name == "a" else 0.0)
+            channels[f"d_{name}_{k}"] = _rate_of(_averaged(s, b)).value(recorded, by)
+            channels[f"d2_{name}_{k}"] = _rate_of(_rate_of(_averaged(s, b))).value(recorded, by)
+    channels["G_out"] = found.G_out
     phi = disc_angle(INSTRUMENT.spin_frequency, found.time)
     spin = np.full(found.time.size, 2 * np.pi * INSTRUMENT.spin_frequency)
     channels |= {"d_spin_angle": spin, "d2_spin_angle": 0 * spin}
@@ -178,8 +191,16 @@ def _jitter(value: Mapping[str, float]) -> Record:
     return _reference({"spin-phase-offset": {"phi_0": sum(value.values())}})
 
 
+def _curved(value: Mapping[str, float]) -> Record:
+    # what the converter makes of the sum, all voltages have lost alike
+    channels, V = _reference({"output-curve": value})
+    G = _nothing()[0]["G_out"]
+    return channels, V * (channels["G_out"] / G)
+
+
 DIRECT: Mapping[str, Callable[[Mapping[str, float]], Record]] = {
     "magnetic-bias": _magnetic,
+    "output-curve": _curved,
     "spin-rate-jitter": _jitter,
 }
 """Effects that the reference knows as a random process, or but along the nominal axes, written down again."""
@@ -196,10 +217,15 @@ ALONGSIDE: Mapping[str, Mapping[str, float]] = {
     "vibration-level": {"L_xx": 2e4, "L_yy": 2e4, "L_zz": 2e4},
 }
 
-ONE_SIDED = frozenset({"lag", "output-filter", "second-order-loop"})
+ONE_SIDED = frozenset({"imu-filter", "lag", "output-filter", "second-order-loop"})
 """The simulator looks backwards only, or has no resonances."""
 
-TOLERANCE: Mapping[str, float] = {"lag": 3e-5, "output-filter": 1e-4, "second-order-loop": 3e-4}
+TOLERANCE: Mapping[str, float] = {
+    "lag": 3e-5,
+    "imu-filter": 1e-4,
+    "output-filter": 1e-4,
+    "second-order-loop": 3e-4,
+}
 """The lag is derived for the input force; the simulator delays the second-order terms (1e-5 of it), too. Filter and loop
 are derived to first order in b; the simulator averages over an interval, and over past and future."""
 
@@ -257,8 +283,11 @@ FARTHEST = {
     ("gyro-delay", "delta_w"): 1e-4,
     ("gyro-delay", "delta_d"): 1e-4,
     ("second-order-loop", "b"): 3e-5,
+    ("imu-filter", "b_a"): 3e-5,
+    ("imu-filter", "b_w"): 3e-5,
+    **{("imu-thermal", f"ds_{k}_dT"): 1e-3 for k in "xy"},
 }
-"""What hardly shows by itself would have to be so large that its square does: rad/s, s, s^2."""
+"""What hardly shows by itself would have to be so large that its square does: rad/s, s, s^2, 1/K."""
 
 
 def reach(effect: Effect, q: EffectParameter, share: float) -> float:

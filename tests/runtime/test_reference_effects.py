@@ -32,6 +32,7 @@ AUXILIARIES = {
     "fuel_mass": lambda t: 400.0 + 0 * t,
     "vibration_rms": lambda t: 0.5 + 0 * t,
     "angular_vibration_rms": lambda t: 0.01 + 0 * t,
+    "balance_current": lambda t: 0.01 + 0 * t,
 }
 
 
@@ -94,14 +95,21 @@ SIZES = {
     "1/(K/s)": 1e-4,
     "(m/s^2)/(rad/s)^2": 1e-4,
     "s^2": 1e-4,
+    "1/V": 1e-9,
+    "1/V^2": 1e-13,
+    "rad/K": 1e-6,
+    "1/(m/s^2)/K": 1e-7,
+    "1/(m/s^2)/s": 1e-8,
+    "1/T": 1.0,
+    "1/A": 1e-3,
 }
 RECORD_ONLY = {
     "time-offset", "clock-drift", "imu-lever-arm", "imu-misalignment", "gyro-scale", "gyro-delay",
     "gyro-bias",
     "gyro-g-sensitivity", "imu-acceleration-scale", "imu-acceleration-bias", "imu-acceleration-misalignment",
-    "imu-saturation",
+    "imu-saturation", "imu-filter", "imu-skew", "imu-acceleration-quadratic", "imu-thermal", "gyro-misalignment",
 }  # fmt: skip
-OUTPUT_ONLY = {"saturation", "quantisation"}
+OUTPUT_ONLY = {"saturation", "quantisation", "output-curve"}
 
 
 def _some(effect: str) -> dict[str, object]:

@@ -1,8 +1,8 @@
 /* Signatures: what each candidate effect would add to V_j.
  *
  * Derived; do not edit: change the derivation and derive again. Units are SI, outputs V.
- * Effects beyond the paper's instrument: adc-nonlinearity, angular-jitter, anisoinertia, arm-length, arm-sag, arm-stretch, bearing-run-out, bias-drift, bias-step, clock-drift, cubic-cross, cubic-input, encoder-harmonic, fuel-gradient, gain-drift, gain-step, gradient-offset, gyro-bias, gyro-delay, gyro-g-sensitivity, gyro-scale, imu-acceleration-bias, imu-acceleration-misalignment, imu-acceleration-scale, imu-lever-arm, imu-misalignment, lag, magnetic-bias, mount-compliance, near-mass, odd-quadratic, output-filter, output-gain-step, pendulum-angular, pressure-bias, second-order-loop, second-order-misalignment, self-gradient, self-gradient-yaw, spin-axis-tilt, spin-axis-wobble, spin-phase-offset, spin-rate-jitter, spin-rate-offset, spin-servo, thermal-bias, thermal-lag, thermal-scale, time-offset, vibration-level, vibration-rectification.
- * Inputs, one series each: a_x a_y a_z omega_x omega_y omega_z omegadot_x omegadot_y omegadot_z Gamma_xx Gamma_xy Gamma_xz Gamma_yy Gamma_yz Gamma_zz B_x B_y B_z angular_vibration_rms d2_a_x d2_a_y d2_a_z d2_omegadot_x d2_omegadot_y d2_omegadot_z d2_spin_angle d_a_x d_a_y d_a_z d_omegadot_x d_omegadot_y d_omegadot_z d_spin_angle d_temperature fuel_mass pitch pressure roll temperature vibration_rms yaw
+ * Effects beyond the paper's instrument: adc-nonlinearity, angular-jitter, anisoinertia, arm-length, arm-sag, arm-stretch, balancing-loop, bearing-run-out, bias-drift, bias-step, carrier-gradient, clock-drift, cubic-cross, cubic-input, encoder-harmonic, fuel-gradient, gain-drift, gain-step, gradient-offset, gyro-bias, gyro-delay, gyro-g-sensitivity, gyro-misalignment, gyro-scale, imu-acceleration-bias, imu-acceleration-misalignment, imu-acceleration-quadratic, imu-acceleration-scale, imu-filter, imu-lever-arm, imu-misalignment, imu-skew, imu-thermal, lag, magnetic-axial-bias, magnetic-bias, magnetic-scale, misalignment-drift, misalignment-step, mount-compliance, near-mass, odd-quadratic, output-curve, output-filter, output-gain-step, pendulum-angular, pressure-bias, second-order-drift, second-order-loop, second-order-misalignment, self-gradient, self-gradient-yaw, spin-axis-tilt, spin-axis-wobble, spin-phase-offset, spin-rate-jitter, spin-rate-offset, spin-servo, thermal-bias, thermal-lag, thermal-misalignment, thermal-scale, thermal-second-order, time-offset, vibration-level, vibration-rectification.
+ * Inputs, one series each: a_x a_y a_z omega_x omega_y omega_z omegadot_x omegadot_y omegadot_z Gamma_xx Gamma_xy Gamma_xz Gamma_yy Gamma_yz Gamma_zz B_x B_y B_z G_out angular_vibration_rms balance_current d2_a_x d2_a_y d2_a_z d2_omegadot_x d2_omegadot_y d2_omegadot_z d2_spin_angle d_a_x d_a_y d_a_z d_omegadot_x d_omegadot_y d_omegadot_z d_spin_angle d_temperature fuel_mass pitch pressure roll temperature vibration_rms yaw
  * Parameters: one value, or four in the order A1, A2, A3, A4, one after the other:
  *   radius (1): nominal distance of the accelerometers from the disc centre
  *   spin_frequency (1): rotation frequency of the disc
@@ -31,9 +31,9 @@
 extern "C" {
 #endif
 
-#define RAGG_SIGNATURES_INPUTS 41
+#define RAGG_SIGNATURES_INPUTS 43
 #define RAGG_SIGNATURES_PARAMETERS 62
-#define RAGG_SIGNATURES_ROWS 162
+#define RAGG_SIGNATURES_ROWS 201
 
 /* V_1 ... V_4 over n instants t, s: V[j * n + i]. angle is the disc angle, rad, or NULL for
  * 2 pi spin_frequency t. */
@@ -56,6 +56,7 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   arm-length.delta_R
  *   arm-sag.c_z
  *   arm-stretch.c_r
+ *   balancing-loop.dK1_di
  *   bearing-run-out.c_x1
  *   bearing-run-out.s_x1
  *   bearing-run-out.c_y1
@@ -70,6 +71,16 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   bearing-run-out.s_z2
  *   bias-drift.dK0_dt
  *   bias-step.dK0
+ *   carrier-gradient.G_xx
+ *   carrier-gradient.G_xy
+ *   carrier-gradient.G_xz
+ *   carrier-gradient.G_yy
+ *   carrier-gradient.G_yz
+ *   carrier-gradient.F_xx
+ *   carrier-gradient.F_xy
+ *   carrier-gradient.F_xz
+ *   carrier-gradient.F_yy
+ *   carrier-gradient.F_yz
  *   clock-drift.epsilon
  *   cubic-cross.K_iio
  *   cubic-cross.K_iip
@@ -115,6 +126,12 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   gyro-g-sensitivity.d_zx
  *   gyro-g-sensitivity.d_zy
  *   gyro-g-sensitivity.d_zz
+ *   gyro-misalignment.m_xy
+ *   gyro-misalignment.m_xz
+ *   gyro-misalignment.m_yx
+ *   gyro-misalignment.m_yz
+ *   gyro-misalignment.m_zx
+ *   gyro-misalignment.m_zy
  *   gyro-scale.s_x
  *   gyro-scale.s_y
  *   gyro-scale.s_z
@@ -127,17 +144,33 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   imu-acceleration-misalignment.m_yz
  *   imu-acceleration-misalignment.m_zx
  *   imu-acceleration-misalignment.m_zy
+ *   imu-acceleration-quadratic.q_x
+ *   imu-acceleration-quadratic.q_y
  *   imu-acceleration-scale.s_x
  *   imu-acceleration-scale.s_y
  *   imu-acceleration-scale.s_z
+ *   imu-filter.b_a
+ *   imu-filter.b_w
  *   imu-lever-arm.l_x
  *   imu-lever-arm.l_y
  *   imu-lever-arm.l_z
  *   imu-misalignment.e_x
  *   imu-misalignment.e_y
  *   imu-misalignment.e_z
+ *   imu-skew.delta_x
+ *   imu-skew.delta_y
+ *   imu-thermal.db_x_dT
+ *   imu-thermal.db_y_dT
+ *   imu-thermal.ds_x_dT
+ *   imu-thermal.ds_y_dT
  *   lag.tau
+ *   magnetic-axial-bias.dK0_dBz
  *   magnetic-bias.dK0_dB
+ *   magnetic-scale.dK1_dB
+ *   misalignment-drift.dvartheta_y_dt
+ *   misalignment-drift.dvartheta_z_dt
+ *   misalignment-step.dvartheta_y
+ *   misalignment-step.dvartheta_z
  *   mount-compliance.c_yx
  *   mount-compliance.c_yy
  *   mount-compliance.c_yz
@@ -161,10 +194,13 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   near-mass.T_yyyy
  *   near-mass.T_yyyz
  *   odd-quadratic.K_oq
+ *   output-curve.c_2
+ *   output-curve.c_3
  *   output-filter.b
  *   output-gain-step.g
  *   pendulum-angular.K_pa
  *   pressure-bias.dK0_dp
+ *   second-order-drift.dK2_dt
  *   second-order-loop.b
  *   second-order-misalignment.kappa
  *   self-gradient.G_xx_roll
@@ -193,7 +229,10 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   thermal-bias.dK0_dT
  *   thermal-lag.dK0_dTdot
  *   thermal-lag.dK1_dTdot
+ *   thermal-misalignment.dvartheta_y_dT
+ *   thermal-misalignment.dvartheta_z_dT
  *   thermal-scale.dK1_dT
+ *   thermal-second-order.dK2_dT
  *   time-offset.delta_t
  *   vibration-level.L_xx
  *   vibration-level.L_xy

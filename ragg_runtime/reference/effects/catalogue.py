@@ -40,7 +40,9 @@ def _shared(unit: str, *names: str, neutral: float = 0.0) -> dict[str, Parameter
     return {name: Parameter(unit, neutral=neutral) for name in names}
 
 
-_TURNING = tuple(f"G_{c}_{axis}" for axis in ("roll", "pitch") for c in ("xx", "xy", "xz", "yy", "yz"))
+_TRACELESS = ("xx", "xy", "xz", "yy", "yz")
+_PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
+_TURNING = tuple(f"G_{c}_{axis}" for axis in ("roll", "pitch") for c in _TRACELESS)
 
 CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "cubic-input": _each("1/(m/s^2)^2", "K_iii"),
@@ -75,7 +77,7 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "gyro-g-sensitivity": _shared("(rad/s)/(m/s^2)", *(f"d_{i}{k}" for i in "xyz" for k in "xyz")),
     "imu-acceleration-scale": _shared("1", "s_x", "s_y", "s_z"),
     "imu-acceleration-bias": _shared("m/s^2", "b_x", "b_y", "b_z"),
-    "imu-acceleration-misalignment": _shared("rad", "m_xy", "m_xz", "m_yx", "m_yz", "m_zx", "m_zy"),
+    "imu-acceleration-misalignment": _shared("rad", *(f"m_{p}" for p in _PAIRS)),
     "clock-drift": _shared("1", "epsilon"),
     "bias-step": _each("m/s^2", "dK0") | _shared("s", "t_step"),
     "output-gain-step": _shared("1", "g") | _shared("s", "t_step"),
@@ -102,6 +104,22 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "bearing-run-out": _shared("m", *(f"{a}_{k}{n}" for n in (1, 2) for k in "xyz" for a in "cs")),
     "adc-nonlinearity": _each("m/s^2", "h"),
     "second-order-loop": _each("s^2", "b"),
+    "output-curve": _shared("1/V", "c_2") | _shared("1/V^2", "c_3"),
+    "thermal-misalignment": _each("rad/K", "dvartheta_y_dT", "dvartheta_z_dT"),
+    "thermal-second-order": _each("1/(m/s^2)/K", "dK2_dT"),
+    "misalignment-drift": _each("rad/s", "dvartheta_y_dt", "dvartheta_z_dt"),
+    "misalignment-step": _each("rad", "dvartheta_y", "dvartheta_z") | _shared("s", "t_step"),
+    "second-order-drift": _each("1/(m/s^2)/s", "dK2_dt"),
+    "imu-filter": _shared("s^2", "b_a", "b_w"),
+    "imu-skew": _shared("s", "delta_x", "delta_y"),
+    "gyro-misalignment": _shared("rad", *(f"m_{p}" for p in _PAIRS)),
+    "imu-acceleration-quadratic": _shared("1/(m/s^2)", "q_x", "q_y"),
+    "imu-thermal": _shared("(m/s^2)/K", "db_x_dT", "db_y_dT") | _shared("1/K", "ds_x_dT", "ds_y_dT"),
+    "magnetic-scale": _each("1/T", "dK1_dB"),
+    "magnetic-axial-bias": _each("(m/s^2)/T", "dK0_dBz"),
+    "carrier-gradient": _shared("1/s^2", *(f"G_{c}" for c in _TRACELESS))
+    | _shared("1/s^2/kg", *(f"F_{c}" for c in _TRACELESS)),
+    "balancing-loop": _each("1/A", "dK1_di"),
     "saturation": _shared("V", "V_max", neutral=np.inf),
     "imu-saturation": _shared("m/s^2", "a_max", neutral=np.inf)
     | _shared("rad/s", "omega_max", neutral=np.inf),
@@ -143,10 +161,19 @@ def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
     if effect == "self-gradient":
         turning = any(value != 0 for name, value in parameters.items() if name.endswith("_pitch"))
         return ("roll", "pitch") if turning else ("roll",)
+    if effect == "carrier-gradient":
+        fuel = any(value != 0 for name, value in parameters.items() if name.startswith("F_"))
+        return ("roll", "pitch", "yaw", "fuel_mass") if fuel else ("roll", "pitch", "yaw")
     return {
         "thermal-bias": ("temperature",),
         "thermal-scale": ("temperature",),
         "thermal-lag": ("temperature",),
+        "thermal-misalignment": ("temperature",),
+        "thermal-second-order": ("temperature",),
+        "imu-thermal": ("temperature",),
+        "balancing-loop": ("balance_current",),
+        "magnetic-scale": ("B_x", "B_y"),
+        "magnetic-axial-bias": ("B_x", "B_y", "B_z"),
         "pressure-bias": ("pressure",),
         "magnetic-bias": ("B_x", "B_y", "B_z"),
         "vibration-level": ("vibration_rms",),

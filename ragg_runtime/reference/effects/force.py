@@ -23,14 +23,13 @@ def attraction(r: Array, auxiliaries: Mapping[str, Array], effects: Injected) ->
             if axis in auxiliaries:
                 total = total + contract(_turned(masses, axis), r) * np.sin(auxiliaries[axis])
     if standing := effects.get("gradient-offset"):
-        xx, xy, xz, yy, yz = (standing[f"G_{c}"] for c in ("xx", "xy", "xz", "yy", "yz"))
-        total = total + contract(np.array([xx, xy, xz, yy, yz, -(xx + yy)]), r)
+        total = total + contract(_five(standing, "G"), r)
     if tanks := effects.get("fuel-gradient"):
-        xx, xy, xz, yy, yz = (tanks[f"G_{c}"] for c in ("xx", "xy", "xz", "yy", "yz"))
-        fuel = auxiliaries["fuel_mass"]
-        total = total + contract(np.array([xx, xy, xz, yy, yz, -(xx + yy)]), r) * fuel
+        total = total + contract(_five(tanks, "G"), r) * auxiliaries["fuel_mass"]
     if carrier := effects.get("self-gradient-yaw"):
         total = total + _yawed(carrier, r, auxiliaries["yaw"]) - _yawed(carrier, r, np.zeros(r.shape[1]))
+    if rigid := effects.get("carrier-gradient"):
+        total = total + _carried(rigid, r, auxiliaries)
     if near := effects.get("near-mass"):
         total = total + np.einsum("ijk,jn,kn->in", third_order_tensor(near), r, r) / 2
         total = total + np.einsum("ijkl,jn,kn,ln->in", fourth_order_tensor(near), r, r, r) / 6
@@ -49,6 +48,32 @@ def _yawed(carrier: Values, r: Array, yaw: Array) -> Array:
     d, xy, xz, yz = (carrier[f"G_{k}"] for k in ("d", "xy", "xz", "yz"))
     u, v, w = d * x + xy * y + xz * z, xy * x - d * y + yz * z, xz * x + yz * y
     return np.stack([c * u - s * v, s * u + c * v, w])
+
+
+def _carried(carrier: Values, r: Array, auxiliaries: Mapping[str, Array]) -> Array:
+    """Attraction (3, N) m/s^2 of carrier and fuel: at r as it stands in the carrier, less that of the level carrier without fuel."""
+    attitude = [auxiliaries[n] for n in ("yaw", "pitch", "roll")]
+    seen = np.array(r)
+    for (a, b), angle in zip(_PLANES, attitude, strict=True):
+        c, s = np.cos(angle), np.sin(angle)
+        seen[a], seen[b] = c * seen[a] + s * seen[b], c * seen[b] - s * seen[a]
+    pulled = contract(_five(carrier, "G"), seen)
+    if "fuel_mass" in auxiliaries:
+        pulled = pulled + contract(_five(carrier, "F"), seen) * auxiliaries["fuel_mass"]
+    for (a, b), angle in zip(_PLANES[::-1], attitude[::-1], strict=True):
+        c, s = np.cos(angle), np.sin(angle)
+        pulled[a], pulled[b] = c * pulled[a] - s * pulled[b], c * pulled[b] + s * pulled[a]
+    return np.asarray(pulled - contract(_five(carrier, "G"), r))
+
+
+_PLANES = ((0, 1), (2, 0), (1, 2))
+"""Axes from which to which a turn about z, y and x goes."""
+
+
+def _five(values: Values, name: str) -> Array:
+    """A gradient's six components of its five independent ones."""
+    xx, xy, xz, yy, yz = (values[f"{name}_{c}"] for c in ("xx", "xy", "xz", "yy", "yz"))
+    return np.array([xx, xy, xz, yy, yz, -(xx + yy)])
 
 
 def jittered(r: Array, auxiliaries: Mapping[str, Array], effects: Injected) -> Array | float:

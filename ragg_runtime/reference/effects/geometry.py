@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected
+from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
 from ragg_runtime.reference.rotation import by_vector
 from ragg_runtime.reference.taylor import Taylor, stacked
 
@@ -112,17 +114,35 @@ def arm_length(j: int, radius: float, f: tuple[Array, Array, Array], effects: In
     return length
 
 
+Angle: TypeAlias = Array | float
+
+
 def misalignment(
-    j: int, angles: tuple[float, float, float], f: tuple[Array, Array, Array], effects: Injected
-) -> tuple[Array | float, Array | float, Array | float]:
+    j: int,
+    angles: tuple[float, float, float],
+    f: tuple[Array, Array, Array],
+    time: Array,
+    auxiliaries: Mapping[str, Array],
+    effects: Injected,
+) -> tuple[Angle, Angle, Angle]:
     """Misalignment angles of accelerometer j under the specific force f_x, f_y, f_z, rad."""
-    about_x, about_y, about_z = angles
-    compliance = effects.get("mount-compliance")
-    if compliance is None:
-        return angles
-    c = {name: value[j] for name, value in compliance.items()}
-    return (
-        about_x,
-        about_y + c["c_yx"] * f[0] + c["c_yy"] * f[1] + c["c_yz"] * f[2],
-        about_z + c["c_zx"] * f[0] + c["c_zy"] * f[1] + c["c_zz"] * f[2],
-    )
+    about_x: Angle = angles[0]
+    about_y: Angle = angles[1]
+    about_z: Angle = angles[2]
+    if warped := effects.get("thermal-misalignment"):
+        warmer = auxiliaries["temperature"] - REFERENCE_TEMPERATURE
+        about_y = about_y + warped["dvartheta_y_dT"][j] * warmer
+        about_z = about_z + warped["dvartheta_z_dT"][j] * warmer
+    if creep := effects.get("misalignment-drift"):
+        about_y, about_z = (
+            about_y + creep["dvartheta_y_dt"][j] * time,
+            about_z + creep["dvartheta_z_dt"][j] * time,
+        )
+    if slip := effects.get("misalignment-step"):
+        later = time >= slip["t_step"]
+        about_y, about_z = about_y + slip["dvartheta_y"][j] * later, about_z + slip["dvartheta_z"][j] * later
+    if compliance := effects.get("mount-compliance"):
+        c = {name: value[j] for name, value in compliance.items()}
+        about_y = about_y + c["c_yx"] * f[0] + c["c_yy"] * f[1] + c["c_yz"] * f[2]
+        about_z = about_z + c["c_zx"] * f[0] + c["c_zy"] * f[1] + c["c_zz"] * f[2]
+    return about_x, about_y, about_z

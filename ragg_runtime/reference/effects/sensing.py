@@ -7,25 +7,46 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected, Values
+from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE, averaging
 from ragg_runtime.reference.motion import Motion, MotionState
 from ragg_runtime.reference.rotation import by_vector
 
 Array = NDArray[np.float64]
 
 
-def record_motion(motion: Motion, time: Array, effects: Injected) -> MotionState:
-    """What the motion sensor reports at (N,) s: lever arm, misalignment, scale, lean, stray and delay, in that order."""
+def record_motion(
+    motion: Motion, time: Array, effects: Injected, temperature: Array | float = REFERENCE_TEMPERATURE
+) -> MotionState:
+    """What the motion sensor, at a temperature in K, reports at (N,) s: lever arm, misalignment, scale, lean, stray and delay, in
+    that order.
+    """
     delay = float(effects["time-offset"]["delta_t"]) if "time-offset" in effects else 0.0
     if drift := effects.get("clock-drift"):
         time = time - drift["epsilon"] * time
     true = motion.at(time, delay)
     a, omega, omegadot = true.a, true.omega, true.omegadot
+    if skewed := effects.get("imu-skew"):
+        a = np.stack(
+            [
+                motion.a[0].value(time, delay + float(skewed["delta_x"])),
+                motion.a[1].value(time, delay + float(skewed["delta_y"])),
+                a[2],
+            ]
+        )
     if lever := effects.get("imu-lever-arm"):
         arm = np.array([lever["l_x"], lever["l_y"], lever["l_z"]])[:, None]
         a = a + np.cross(omegadot, arm, axis=0) + np.cross(omega, np.cross(omega, arm, axis=0), axis=0)
     if late := effects.get("gyro-delay"):
         omega = motion.at(time, delay + float(late["delta_w"])).omega
         omegadot = motion.at(time, delay + float(late["delta_d"])).omegadot
+    if filtered := effects.get("imu-filter"):
+        a = a + sum(w * (motion.at(time, delay + d).a - true.a) for d, w in averaging(float(filtered["b_a"])))
+        for d, w in averaging(float(filtered["b_w"])):
+            past = motion.at(time, delay + d)
+            omega, omegadot = (
+                omega + w * (past.omega - true.omega),
+                omegadot + w * (past.omegadot - true.omegadot),
+            )
     if turned := effects.get("imu-misalignment"):
         # Components along axes turned by e: the inverse rotation of the vector.
         to_sensor = by_vector([turned["e_x"], turned["e_y"], turned["e_z"]]).T
@@ -33,6 +54,9 @@ def record_motion(motion: Motion, time: Array, effects: Injected) -> MotionState
     if scale := effects.get("gyro-scale"):
         factor = 1 + np.array([scale["s_x"], scale["s_y"], scale["s_z"]])[:, None]
         omega, omegadot = factor * omega, factor * omegadot
+    if leaning := effects.get("gyro-misalignment"):
+        axes = _leaning(leaning)
+        omega, omegadot = axes @ omega, axes @ omegadot
     if force := effects.get("gyro-g-sensitivity"):
         D = np.array([[force[f"d_{i}{k}"] for k in "xyz"] for i in "xyz"])
         jerk = np.stack([s.rate(time, delay) for s in motion.a])
@@ -40,12 +64,22 @@ def record_motion(motion: Motion, time: Array, effects: Injected) -> MotionState
     if rates := effects.get("gyro-bias"):
         omega = omega + _vector(rates, "b")
     if skew := effects.get("imu-acceleration-misalignment"):
-        lean = np.array([[1.0 if i == k else skew[f"m_{i}{k}"] for k in "xyz"] for i in "xyz"])
-        a = lean @ a
+        a = _leaning(skew) @ a
+    if curved := effects.get("imu-acceleration-quadratic"):
+        a = np.stack(
+            [2 * x / (1 + np.sqrt(1 - 4 * curved[f"q_{k}"] * x)) for k, x in zip("xy", a, strict=False)]
+            + [a[2]]
+        )
     if scale := effects.get("imu-acceleration-scale"):
         a = (1 + _vector(scale, "s")) * a
     if offset := effects.get("imu-acceleration-bias"):
         a = a + _vector(offset, "b")
+    if warm := effects.get("imu-thermal"):
+        warmer = temperature - REFERENCE_TEMPERATURE
+        level = [
+            (1 + warm[f"ds_{k}_dT"] * warmer) * a[n] + warm[f"db_{k}_dT"] * warmer for n, k in enumerate("xy")
+        ]
+        a = np.stack([*level, a[2]])
     if ends := effects.get("imu-saturation"):
         a_max, omega_max = float(ends["a_max"]), float(ends["omega_max"])
         if min(a_max, omega_max) <= 0:
@@ -55,6 +89,11 @@ def record_motion(motion: Motion, time: Array, effects: Injected) -> MotionState
         omegadot = np.where(np.abs(omega) > omega_max, 0.0, omegadot)  # a gyroscope at its end stands still
         a, omega = np.clip(a, -a_max, a_max), np.clip(omega, -omega_max, omega_max)
     return MotionState(a, omega, omegadot)
+
+
+def _leaning(skew: Values) -> Array:
+    """(3, 3): what axes that lean report of a vector."""
+    return np.array([[1.0 if i == k else float(skew[f"m_{i}{k}"]) for k in "xyz"] for i in "xyz"])
 
 
 def _vector(values: Values, name: str) -> Array:

@@ -59,9 +59,23 @@ def gain(j: int, time: Array, auxiliaries: Mapping[str, Array], effects: Injecte
         factor = factor * (1 + step["dK1"][j] * (time >= step["t_step"]))
     if common := effects.get("output-gain-step"):
         factor = factor * (1 + common["g"] * (time >= common["t_step"]))
+    if balanced := effects.get("balancing-loop"):
+        factor = factor * (1 + balanced["dK1_di"][j] * auxiliaries["balance_current"])
     if warming := effects.get("thermal-lag"):
         factor = factor * (1 + warming["dK1_dTdot"][j] * auxiliaries[RATE_OF_TEMPERATURE])
     return factor
+
+
+def curvature(
+    j: int, K2: float, time: Array, auxiliaries: Mapping[str, Array], effects: Injected
+) -> Array | float:
+    """K2 of accelerometer j at the time, s^2/m."""
+    value: Array | float = K2
+    if warm := effects.get("thermal-second-order"):
+        value = value + warm["dK2_dT"][j] * (auxiliaries["temperature"] - REFERENCE_TEMPERATURE)
+    if aged := effects.get("second-order-drift"):
+        value = value + aged["dK2_dt"][j] * time
+    return value
 
 
 def angles_in_second_order(effects: Injected) -> float:
@@ -118,7 +132,22 @@ def further_terms(
     if magnetic := effects.get("magnetic-bias"):
         field = np.stack([auxiliaries[f"B_{axis}"] for axis in "xyz"])
         total = total + magnetic["dK0_dB"][j] * np.sum(field * triad[0].value, axis=0)
+    if across := effects.get("magnetic-axial-bias"):
+        total = total + across["dK0_dBz"][j] * _along(triad[2], auxiliaries)
     return total
+
+
+def _along(axis: Taylor, auxiliaries: Mapping[str, Array]) -> Array:
+    """Magnetic field along an axis (3, N), T."""
+    x, y, z = axis.value
+    return np.asarray(auxiliaries["B_x"] * x + auxiliaries["B_y"] * y + auxiliaries["B_z"] * z)
+
+
+def torqued(j: int, triad: Triad, auxiliaries: Mapping[str, Array], effects: Injected) -> Array | float:
+    """Factor by which the field in the torquer's gap changes the current of accelerometer j."""
+    flux = effects.get("magnetic-scale")
+    level = {**auxiliaries, "B_z": np.zeros(1)}
+    return 1.0 if flux is None else 1 + flux["dK1_dB"][j] * _along(triad[0], level)
 
 
 def converted(j: int, bracket: Array, effects: Injected) -> Array:
@@ -161,11 +190,10 @@ def lag_quadrature(tau: float) -> tuple[tuple[float, float], ...]:
     return tuple((tau * float(x), float(w)) for x, w in zip(_NODES, _WEIGHTS, strict=True))
 
 
-def averaging(effects: Injected) -> tuple[tuple[float, float], ...]:
-    """Delays (s) and weights of the output's average over its converter's interval T, centred; empty: there is none."""
-    b = float(effects["output-filter"]["b"]) if "output-filter" in effects else 0.0
+def averaging(b: float) -> tuple[tuple[float, float], ...]:
+    """Delays (s) and weights of an average over a converter's interval T, centred, b = T^2/24; empty: there is none."""
     if b < 0:
-        raise UserError("b of output-filter must not be negative", found=f"{b:g} s^2")
+        raise UserError("b of a filter must not be negative", found=f"{b:g} s^2")
     half = np.sqrt(24 * b) / 2
     nodes, weights = np.polynomial.legendre.leggauss(5)
     return tuple((half * float(x), float(w) / 2) for x, w in zip(nodes, weights, strict=True)) if b else ()

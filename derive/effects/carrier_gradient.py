@@ -1,0 +1,56 @@
+"""Gradient of the carrier's masses and fuel, at any attitude."""
+
+import sympy as sp
+
+from derive.context import Context
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import Motion, turn
+
+COMPONENTS = ("xx", "xy", "xz", "yy", "yz")
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    attitude = sp.eye(3)
+    for n, angle in zip((2, 1, 0), ("yaw", "pitch", "roll"), strict=True):
+        attitude = attitude * turn(sp.eye(3)[:, n], c.channel(angle), None)
+    R = sp.Matrix(3, 3, lambda i, k: c.tape.let(f"attitude_{'xyz'[i]}{'xyz'[k]}", attitude[i, k]))
+
+    def of_mass(name: str) -> sp.Matrix:
+        xx, xy, xz, yy, yz = (p[f"{name}_{k}"] for k in COMPONENTS)
+        return sp.Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, -(xx + yy)]])
+
+    level, fuel = of_mass("G"), of_mass("F") * c.channel("fuel_mass")
+    return m._replace(Gamma=m.Gamma + R * (level + fuel) * R.T - level)
+
+
+EFFECT = Effect(
+    id="carrier-gradient",
+    title="Self-gradient of carrier and fuel",
+    physics=(
+        "The stabilised instrument keeps its attitude while the carrier turns around it: the gradient of its masses, and "
+        "that of the fuel that is left, turn with roll, pitch and yaw as one rigid body."
+    ),
+    source="Sensors 19, 1950 (2019); US 11372130: self-gradient of a carrier from its attitude and fuel",
+    equation=(
+        r"\bm\Gamma \leftarrow \bm\Gamma + \bm R (\bm G + \bm F m_{fuel}) \bm R^T - \bm G,\;"
+        r" \bm R = \bm R_z(yaw) \bm R_y(pitch) \bm R_x(roll)"
+    ),
+    limits=(
+        "Masses fixed to the carrier, fuel at one place. Angles that are not recorded, or fuel, count as zero. The level "
+        "carrier is gradient-offset, its fuel fuel-gradient; to first order in small angles it is a self-gradient of five "
+        "values instead of ten, turned about the vertical alone self-gradient-yaw."
+    ),
+    channels=("roll", "pitch", "yaw"),
+    either=True,
+    parameters=tuple(
+        EffectParameter(
+            f"{n}_{k}", f"{n}_{{{k}}}", unit, f"gradient {k} of {of}", size, shared=True, channel=channel
+        )
+        for n, unit, of, size, channel in (
+            ("G", "Eo", "the level carrier", 100.0, None),
+            ("F", "Eo/kg", "fuel, per mass", 0.01, "fuel_mass"),
+        )
+        for k in COMPONENTS
+    ),
+    sensing=sensing,
+)

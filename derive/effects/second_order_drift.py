@@ -1,0 +1,27 @@
+"""Second-order coefficient linear in time."""
+
+from collections.abc import Mapping
+
+import sympy as sp
+
+from derive.context import Context
+from derive.effect import Effect, EffectParameter, Values
+
+
+def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+    return {"K2": k["K2"] + p.dK2_dt * c.time}
+
+
+EFFECT = Effect(
+    id="second-order-drift",
+    title="Drift of the second-order coefficient",
+    physics="Magnet and hinge age or warm: the curvature of an accelerometer's characteristic creeps with them.",
+    source="IEEE Std 1293, stability of the model's coefficients",
+    equation=r"K_2 \leftarrow K_2 + \partial_t K_2\, t",
+    limits=(
+        "Linear over the record, from the instant 0 of its time column. K5 of an accelerometer is K2 of its neighbours on "
+        "the disc; under a steady weight the drifts of K4, K7 and K8 are gain-drift, bias-drift and misalignment-drift."
+    ),
+    parameters=(EffectParameter("dK2_dt", r"\partial_t K_2", "ug/g^2/s", "rate of K2", 1e-4, like="K2"),),
+    instrument=instrument,
+)

@@ -1,0 +1,33 @@
+"""Second-order coefficients proportional to temperature."""
+
+from collections.abc import Mapping
+
+import sympy as sp
+
+from derive.context import Context
+from derive.effect import Effect, EffectParameter, Values
+from derive.effects.thermal_scale import REFERENCE_KELVIN
+
+
+def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+    return {"K2": k["K2"] + p.dK2_dT * (c.channel("temperature") - REFERENCE_KELVIN)}
+
+
+EFFECT = Effect(
+    id="thermal-second-order",
+    title="Temperature coefficient of the second-order coefficient",
+    physics=(
+        "What bends an accelerometer's characteristic, the flux that the torquer's own current weakens and the hinge's "
+        "compliance, changes with temperature as bias and scale factor do."
+    ),
+    source="IEEE Std 1293, temperature sensitivity of the model's coefficients: K2 by some per cent in ten kelvin",
+    equation=r"K_2 \leftarrow K_2 + \partial_T K_2 (T - 293.15\,\mathrm{K})",
+    limits=(
+        "Linear in one temperature. K5 of an accelerometer is K2 of its neighbours on the disc, and K6 lies beside both. "
+        "Where the pendulous axis carries a steady weight K4, K7 and K8 with temperature are thermal-scale, thermal-bias "
+        "and thermal-misalignment."
+    ),
+    channels=("temperature",),
+    parameters=(EffectParameter("dK2_dT", r"\partial_T K_2", "ug/g^2/K", "change of K2", 0.03, like="K2"),),
+    instrument=instrument,
+)
