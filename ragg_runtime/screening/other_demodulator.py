@@ -30,11 +30,8 @@ ORDERS = (1, 2, 3, 4, 6, 8)
 FLAT = 0.443
 """Half-power frequency of a moving average times its length."""
 
-ROUGH, FINE = 1e-2, 1e-4
-"""Relative precision of a corner that is searched for: of each kind of low-pass, and of the best ``PROMISING`` of them."""
-
-PROMISING = 6
-"""Low-passes that are looked at finely."""
+FINE = 1e-4
+"""Relative precision of a corner that is searched for."""
 
 HIGHEST = 0.45
 """Times the sampling rate: no low-pass is sought beyond, for half the rate is what a digital one can have at most."""
@@ -80,30 +77,18 @@ def list_families() -> Iterator[Family]:
 
 
 def _find_best(share: Callable[[Demodulation], float], rate: float) -> Demodulation:
-    """The low-pass that leaves the least share: the best corner of every family, then a finer one of those that promise most."""
-    corners = np.array([f for f in CORNERS if f < rate / 4])
-    found: list[tuple[float, Family, float]] = []
-    for family in list_families() if len(corners) else ():
-        k = int(np.argmin([share(family(float(f))) for f in corners]))
-        between = corners[max(k - 1, 0)], corners[min(k + 1, len(corners) - 1)]
-        corner = _refine(family, share, between, ROUGH)
-        found.append((share(family(corner)), family, corner))
+    """The low-pass that leaves the least share: of every family the best corner, between the neighbours of the best of a few."""
+    corners = [f for f in CORNERS if f < rate / 4]
     best, least = Demodulation(kind="none"), share(Demodulation(kind="none")) / CLEARLY
-    for _, family, corner in sorted(found, key=lambda x: x[0])[:PROMISING]:
-        fine = family(_refine(family, share, (corner / 1.05, corner * 1.05), FINE))
+    for family in list_families() if corners else ():
+        corner = min(corners, key=lambda f, family=family: share(family(f)))  # type: ignore[misc]
+        found = optimize.minimize_scalar(
+            lambda x, family=family: np.log(max(share(family(float(np.exp(x)))), 1e-300)),
+            bounds=(np.log(corner / 2), np.log(2 * corner)),
+            method="bounded",
+            options={"xatol": FINE},
+        )
+        fine = family(float(np.exp(found.x)))
         if share(fine) < least:
             best, least = fine, share(fine)
     return best
-
-
-def _refine(
-    family: Family, share: Callable[[Demodulation], float], between: tuple[float, float], precision: float
-) -> float:
-    """The corner, between two, Hz, of the low-pass that leaves least."""
-    x = optimize.minimize_scalar(
-        lambda x: np.log(max(share(family(float(np.exp(x)))), 1e-300)),
-        bounds=(float(np.log(between[0])), float(np.log(between[1]))),
-        method="bounded",
-        options={"xatol": precision},
-    ).x
-    return float(np.exp(x))
