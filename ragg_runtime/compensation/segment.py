@@ -24,7 +24,6 @@ from ragg_runtime.model import lateness
 from ragg_runtime.model.evaluate import Evaluator, scale_factor, vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
-from ragg_runtime.signals.means import between
 from ragg_runtime.signals.tensor import across
 
 Array = NDArray[np.float64]
@@ -260,7 +259,9 @@ class ChannelSegment:
         """(2, N) Eo^2: of inline and cross, by the parameters."""
         found = self.by_parameters()
         total = np.stack([np.sum(found.real**2, axis=0), np.sum(found.imag**2, axis=0)])
-        return between(total, self.coarse[0], len(self.k))
+        few = self.coarse[0]  # means of so many samples each, linear between their centres
+        centres = few * np.arange(total.shape[1]) + (few - 1) / 2
+        return np.stack([np.interp(np.arange(len(self.k)), centres, x) for x in total])
 
     def nominal(self) -> Array:
         """(N,) V: the residual with the sheet's values and without a gradient, 0 where there is no sample."""

@@ -13,10 +13,10 @@ from scipy.signal import periodogram
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag, is_disc_angle
 from ragg_runtime.signals.angular_acceleration import derive_accelerations
+from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 MOTION = (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION)
@@ -138,11 +138,10 @@ def _repeated(x: Array, there: Mask, turning: bool = False) -> _Repeated | None:
         return None  # it does not change at all
     step = find_step(x[there]) if equal.any() else None
     coarse = step is not None and np.median(moves) < COARSE * step and not turning
-    if np.sum(equal) >= HELD * np.sum(pairs) and not coarse:
-        runs = _runs(equal)
-        if np.max(runs[:, 1] - runs[:, 0]) < HELD * len(x):
-            kept = there & ~np.r_[False, equal]
-            return _Repeated("repeated", there & ~kept, float(np.median(np.diff(np.flatnonzero(kept)))))
+    held = np.sum(equal) >= HELD * np.sum(pairs) and not coarse
+    if held and max(r.stop + 1 - r.start for r in runs(equal)) < HELD * len(x):
+        kept = there & ~np.r_[False, equal]
+        return _Repeated("repeated", there & ~kept, float(np.median(np.diff(np.flatnonzero(kept)))))
     joined = None if turning else _joined(x, there)  # the angle of a disc is a line
     if joined is not None:
         return joined
@@ -167,12 +166,6 @@ def _joined(x: Array, there: Mask) -> _Repeated | None:
     return _Repeated("joined by straight lines", there & ~kept, float(every))
 
 
-def _runs(equal: Mask) -> Index:
-    """(n, 2): first sample and the one after the last of every run of equal values, by its pairs (N - 1,)."""
-    edges = np.flatnonzero(np.diff(np.r_[False, equal, False].astype(np.int8)))
-    return np.stack([edges[::2], edges[1::2] + 1], axis=1)
-
-
 def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
     """(N,): samples in runs of equal values that are too long for how often the column repeats a value beside them.
 
@@ -181,19 +174,18 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
     of its own, unless the column leaps there.
     """
     found = np.zeros(len(x), dtype=np.bool_)
-    runs = _runs(equal)
+    equals = np.array([(r.start, r.stop + 1) for r in runs(equal)], dtype=np.intp).reshape(-1, 2)
     low, high = np.min(x[there]), np.max(x[there])
     moves = np.abs(np.diff(x, prepend=x[:1], append=x[-1:]))
-    inside = (x[runs[:, 0]] != low) & (x[runs[:, 0]] != high)
-    sudden = np.minimum(moves[runs[:, 0]], moves[runs[:, 1]]) > SUDDEN * np.median(moves[1:-1][~equal])
-    runs = runs[(runs[:, 1] - runs[:, 0] >= 4) & (inside | sudden)]
-    if not len(runs):
-        return found
+    first, last = equals[:, 0], equals[:, 1] - 1
+    inside = (x[first] != low) & (x[first] != high)
+    sudden = np.minimum(moves[first], moves[last + 1]) > SUDDEN * np.median(moves[1:-1][~equal])
+    kept = (last - first >= 3) & (inside | sudden)
+    first, last = first[kept], last[kept]
     long = np.zeros(len(equal), dtype=np.bool_)
-    for first, last in runs[runs[:, 1] - runs[:, 0] >= BESIDE]:
-        long[first : last - 1] = True  # a run beside another says nothing of the column
+    for a, b in zip(first, last, strict=True):
+        long[a:b] |= b - a + 1 >= BESIDE  # a run beside another says nothing of the column
     before = np.r_[0, np.cumsum(equal & ~long)]
-    first, last = runs[:, 0], runs[:, 1] - 1
     reach = np.maximum(BESIDE, last - first)
     left, right = np.maximum(first - reach, 0), np.minimum(last + reach, len(equal))
     same = before[first] - before[left] + before[right] - before[last]
