@@ -7,10 +7,10 @@ import hashlib
 import json
 import os
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
 import click
 
@@ -20,17 +20,19 @@ from ragg_runtime.survey.examine import Job, Record, split_line
 
 KIND = "ragg survey"
 
+PARTS = {
+    "model": "model.toml",
+    "program": "version of the program",
+    "mapping": "mapping of the flights' columns",
+}
+"""What must be the same for figures to be in one table, by its key in the first line of a results file."""
+
 
 def make_head(job: Job) -> Record:
     """The first line of a results file: figures under the same head may be in one table."""
-    head: Record = {
-        "kind": KIND,
-        "model": hashlib.sha256(job.text.encode()).hexdigest(),
-        "program": dict(job.program),
-    }
-    if job.mapping is not None:
-        head["mapping"] = hashlib.sha256(job.mapping[0].encode()).hexdigest()
-    return head
+    digests = {"model": job.text} | ({} if job.mapping is None else {"mapping": job.mapping[0]})
+    head = {name: hashlib.sha256(text.encode()).hexdigest() for name, text in digests.items()}
+    return {"kind": KIND, "program": dict(job.program), **head}
 
 
 @dataclass(frozen=True)
@@ -47,14 +49,10 @@ class Journal:
 
     def _write(self, content: Record) -> None:
         text = json.dumps(content, allow_nan=False, separators=(",", ":"))
-        try:
+        with _writing(self.path):
             self.stream.write(f"{text}\n".encode())
             self.stream.flush()
             os.fsync(self.stream.fileno())
-        except OSError as error:
-            raise UserError(
-                "the results file cannot be written", where=self.path, found=error.strerror
-            ) from None
 
     def read(self, files: Sequence[str]) -> dict[str, Record]:
         """Records that still hold, by file: same model, program and content, no error. UserError for another survey's."""
@@ -63,7 +61,7 @@ class Journal:
         whole = text[: text.rfind(b"\n") + 1]  # a line that was cut off is done again
         lines = [self._parse(line) for line in whole.splitlines()]
         if text and (not lines or lines[0].get("kind") != KIND):
-            raise self._foreign(text)
+            raise self._refuse(text)
         if lines:
             self._require_same(lines[0])
             self.stream.truncate(len(whole))
@@ -72,13 +70,8 @@ class Journal:
         records = {r["file"]: r for r in (x.get("record", {}) for x in lines[1:]) if "verdict" in r}
         return {f: records[f] for f in files if f in records and records[f]["sha256"] == digest_file(f)}
 
-    def _require_same(self, found: Record) -> None:
-        parts = {
-            "model": "model.toml",
-            "program": "version of the program",
-            "mapping": "mapping of the flights' columns",
-        }
-        for key, what in parts.items():
+    def _require_same(self, found: Mapping[str, Any]) -> None:
+        for key, what in PARTS.items():
             if found.get(key) != self.head.get(key):
                 raise UserError(
                     f"these results are of another {what}",
@@ -94,10 +87,10 @@ class Journal:
         except (ValueError, RecursionError):
             record = None
         if not isinstance(record, dict):
-            raise self._foreign(line)
+            raise self._refuse(line)
         return record
 
-    def _foreign(self, found: bytes) -> UserError:
+    def _refuse(self, found: bytes) -> UserError:
         return UserError(
             "not a results file of a survey",
             where=self.path,
@@ -116,27 +109,29 @@ def digest_file(file: str) -> str | None:
 
 
 @contextlib.contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    """What goes wrong with a results file is one message."""
+    try:
+        yield
+    except TimeoutError:
+        remedy = "wait until it has ended, or name another file"
+        raise UserError("another survey is writing to this results file", where=path, remedy=remedy) from None
+    except OSError as error:
+        remedy = "name a file in a folder that exists and that you may write to"
+        raise UserError(
+            "the results file cannot be written", where=path, found=error.strerror, remedy=remedy
+        ) from None
+
+
+@contextlib.contextmanager
 def open_journal(path: Path, job: Job) -> Iterator[Journal]:
     """Open or make a results file; UserError if that cannot be done or another survey is writing to it."""
     with contextlib.ExitStack() as held:
-        try:
+        with _writing(path):
             if path.exists() and not path.is_file():
                 raise OSError(22, "it is not a regular file")
             stream = held.enter_context(path.open("a+b"))
             held.enter_context(locked(path, 0.0))
-        except TimeoutError:
-            raise UserError(
-                "another survey is writing to this results file",
-                where=path,
-                remedy="wait until it has ended, or name another file",
-            ) from None
-        except OSError as error:
-            raise UserError(
-                "the results file cannot be written",
-                where=path,
-                found=error.strerror,
-                remedy="name a file in a folder that exists and that you may write to",
-            ) from None
         yield Journal(path, stream, make_head(job))
 
 
