@@ -331,7 +331,7 @@ def find_codes(values: Array, *, known_only: bool = False) -> list[float]:
         return [c for c in usual if c < 0 or c >= 1e20]
     found = [c for c in usual if _is_isolated(x[(x == c) | ~np.isin(x, usual)], c, rest, QUIET)]
     if not known_only:
-        _strip_extremes(x[~np.isin(x, found)], _is_unusual_code, found)
+        _strip_extremes(x[~np.isin(x, found)] if found else x, _is_unusual_code, found)
     return found
 
 
