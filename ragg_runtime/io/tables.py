@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError, at, one_line
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.record import SI_UNITS
+from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 
 MOST_LINES = 20_000
 """Lines of a file, beyond which the column does not name lines: the largest surveys have some thousands."""
@@ -484,7 +484,10 @@ def name_line(value: object) -> str:
 
 
 def join_nested(tables: Sequence[DataTable]) -> list[DataTable]:
-    """Groups in groups as one table: what has as many rows, and no name in common, is a part of the record around it."""
+    """Groups in groups as one table: what has as many rows, and no name in common, is a part of the record around it.
+
+    A record that has all of the motion needs nothing further, and units may lack in what stands beside it.
+    """
     found: dict[str, DataTable] = {}
     for t in tables:
         place = t.part.strip("/")
@@ -492,7 +495,13 @@ def join_nested(tables: Sequence[DataTable]) -> list[DataTable]:
         while around and (around not in found):
             around = around.rpartition("/")[0]
         outer = found.get(around)
-        if outer is None or around == place or len(outer) != len(t) or {*outer.names} & {*t.names}:
+        if (
+            outer is None
+            or around == place
+            or len(outer) != len(t)
+            or {*outer.names} & {*t.names}
+            or {*SPECIFIC_FORCE, *ANGULAR_RATE} <= {*outer.names}
+        ):
             found[place] = t
             continue
         stem = place.removeprefix(around).strip("/").replace("/", "_")

@@ -300,14 +300,24 @@ def test_a_workspace_of_matlab(tmp_path: Path) -> None:
         "comment": "calm",
         "fs": 16.0,
     }
-    whole |= {"settings": {"gain": np.ones(5), "name": "x"}, "aux": {"load": np.arange(60.0)}}
+    whole |= {"settings": {"gain": np.ones(5), "name": "x"}}
     whole |= {n: v for n, v in {**x.channels, **x.outputs}.items() if not n.startswith("a_")}
     whole["units"] = {n: str(x.units.get(n, "m/s^2")) for n in whole if n in (*x.units, "a")}
     savemat(tmp_path / "x.mat", whole)
     (table,) = (r for r in read_recordings(tmp_path / "x.mat", lenient=True))
-    assert {"time", "a_x", "a_z", "G_out", "aux_load"} <= {*table.names}
+    assert {"time", "a_x", "a_z", "G_out"} <= {*table.names}
     assert table.column("a_y").unit == "m/s^2"
     assert any("'window' (16)" in n for n in table.notes)
+
+
+def test_structures_in_a_record_belong_to_it(tmp_path: Path) -> None:
+    x = flight(60)
+    log = {"t": x.time, "acc": {k: x.channels[f"a_{k}"] for k in "xyz"}, "set": {"gain": np.ones(5)}}
+    log["imu"] = {"gyro": {k: x.channels[f"omega_{k}"] for k in "xyz"}, "late": {"t": x.time}}
+    savemat(tmp_path / "x.mat", {"log": log})
+    first, *rest = files.read_tables(tmp_path / "x.mat")
+    axes = [f"{n}_{k}" for n in ("acc", "imu_gyro") for k in "xyz"]
+    assert first.names == ("t", *axes) and [t.part for t in rest] == ["log/set", "log/imu/late"]
 
 
 def test_a_workbook_is_not_computed_and_read_beyond_its_dimension(tmp_path: Path) -> None:
