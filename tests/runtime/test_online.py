@@ -158,7 +158,7 @@ def test_the_command_follows_a_flight_within_its_uncertainty(
     write_flight(flight, tmp_path / "two.parquet")
     out = ("-o", tmp_path / "o.csv", "--json", tmp_path / "o.json")
     told = run("compensate", model, tmp_path / "two.parquet", "--calibration", "online", *out)
-    assert "followed within 0.796 s" in told
+    assert "time constant 0.796 s" in told
     rows = np.genfromtxt(tmp_path / "o.csv", delimiter=",", names=True)
     assert len(rows) == 3200 / RATE / UPDATE - 1
     c = flight.channels
