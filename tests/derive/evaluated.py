@@ -40,7 +40,7 @@ class Evaluated:
 
     program: Program
 
-    @property
+    @cached_property
     def inputs(self) -> tuple[str, ...]:
         return tuple(s.name for s in self.program.inputs)
 

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import ctypes
+import hashlib
+import os
 import subprocess
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -99,27 +102,21 @@ class Library:
 NATIVE = ("-march=native",)
 
 
-def committed(
-    folder: Path, processor: Sequence[str] = NATIVE, names: Sequence[str] = ()
-) -> dict[str, Library]:
-    """The packaged models, all or some, by name, compiled by gcc with every warning an error."""
-    names = names or sorted(f.stem for f in SOURCES.glob("*.c"))
-    file = folder / "packaged.so"
-    compile_with(
-        "gcc",
-        [
-            *STRICT,
-            "-O3",  # vectors, and the scalar code for what they leave over
-            *processor,
-            "-ffp-contract=off",
-            "-shared",
-            "-fPIC",
-            *(str(SOURCES / f"{n}.c") for n in names),
-            "-lm",
-            "-o",
-            str(file),
-        ],
-    )
+@cache
+def committed(processor: Sequence[str] = NATIVE, names: tuple[str, ...] = ()) -> dict[str, Library]:
+    """The packaged models, all or some, by name, compiled by gcc with every warning an error; once for all tests."""
+    names = names or tuple(sorted(f.stem for f in SOURCES.glob("*.c")))
+    sources = [str(SOURCES / f"{n}.c") for n in names]
+    # vectors, and the scalar code for what they leave over
+    options = [*STRICT, "-O3", *processor, "-ffp-contract=off", "-shared", "-fPIC"]
+    texts = [f.read_bytes() for f in sorted(SOURCES.iterdir())]
+    digest = hashlib.sha256(b"".join([*texts, " ".join([*options, *sources]).encode()])).hexdigest()
+    file = Path(os.environ["RAGG_TESTS_CACHE"]) / f"{digest[:16]}.so"
+    if not file.exists():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        made = file.with_suffix(f".{os.getpid()}")
+        compile_with("gcc", [*options, *sources, "-lm", "-o", str(made)])
+        made.replace(file)
     return {n: Library(file, n) for n in names}
 
 

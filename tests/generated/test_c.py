@@ -34,8 +34,8 @@ def have(compiler: str) -> str:
 
 
 @pytest.fixture(scope="module")
-def library(tmp_path_factory: pytest.TempPathFactory) -> dict[str, compiled.Library]:
-    return compiled.committed(tmp_path_factory.mktemp("c"))
+def library() -> dict[str, compiled.Library]:
+    return compiled.committed()
 
 
 @pytest.mark.parametrize(("compiler", "sanitized"), [("gcc", False), ("clang", False), ("gcc", True)])

@@ -19,8 +19,8 @@ SECONDS = (0.0, 1e6)
 
 
 @pytest.fixture(scope="module")
-def library(tmp_path_factory: pytest.TempPathFactory) -> dict[str, compiled.Library]:
-    return compiled.committed(tmp_path_factory.mktemp("c"))
+def library() -> dict[str, compiled.Library]:
+    return compiled.committed()
 
 
 def cases(start: float, seed: int, count: int = 10) -> list[tuple[Array, Array, Array]]:
@@ -73,13 +73,13 @@ def test_analytical_output_within_a_millionth_of_an_eotvos(
     ("processor", "most"), [(compiled.NATIVE, 1.2e-16), ((), 1.4e-16)], ids=["native", "any"]
 )
 def test_fast_sine_and_cosine_are_good_to_the_last_bit(
-    processor: tuple[str, ...], most: float, tmp_path: Path
+    processor: tuple[str, ...], most: float
 ) -> None:
     """Read off the model itself: a force along x of an instrument whose A1 alone has a gain is -sin or cos.
 
     Any processor of a family may have to round products before it adds to them.
     """
-    model = compiled.committed(tmp_path, processor, ["folded"])["folded"]
+    model = compiled.committed(processor, ("folded",))["folded"]
     draw, spin = np.random.default_rng(6), 0.2503
     t = np.concatenate([x + draw.uniform(0, 8, 60) for x in (-1e3, 1e6, 2e9)] + [np.arange(-4, 4, 0.5)])
     p = np.zeros(analytical.SIZE)

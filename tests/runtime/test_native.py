@@ -30,11 +30,7 @@ LENGTH = 3 * 4096 + 77
 
 
 @pytest.fixture(autouse=True)
-def own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """One cache for all tests of this file, apart from the user's."""
-    place = tmp_path_factory.getbasetemp() / "native-cache"
-    place.mkdir(mode=0o700, exist_ok=True)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(place))
+def compiling(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("RAGG_NATIVE", raising=False)
     _warn_once.cache_clear()
 
