@@ -45,6 +45,14 @@ DEAREST = (
 """Files that take ten seconds and more, the longest first: what one worker begins last the other waits for."""
 
 
+@pytest.fixture
+def no_next_motion(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No motion to fly next is sought, which takes a fifth of a diagnosis: for what is about the verdict."""
+    from ragg_runtime.identification import next_motion
+
+    monkeypatch.setattr(next_motion, "proposals", lambda *_: ())
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The dearest files first, each whole."""
     rank = {name: k for k, name in enumerate(DEAREST)}

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from functools import partial
 from unittest import mock
 
 from ragg_runtime.identification import next_motion
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
-from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario
 
 
-def diagnosed(s: Scenario, *flights: Flight) -> Diagnosis:
-    def extended(model: load.Model, ids: Sequence[str], /, *, candidates: bool = False) -> load.Model:
-        return derive.with_effects(s.sheet, model, ids, candidates=candidates)
-
+def diagnosed(known: Scenario | Instrument, *flights: Flight) -> Diagnosis:
+    """``known``: the sheet, or a scenario that has one."""
+    sheet = known.sheet if isinstance(known, Scenario) else known
     with mock.patch.object(next_motion, "proposals", lambda *_: ()):
-        return diagnose(load.packaged(), s.sheet, flights, extended)
+        return diagnose(derive.model_of(sheet), sheet, flights, partial(derive.with_effects, sheet))

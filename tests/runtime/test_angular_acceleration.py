@@ -18,6 +18,8 @@ from ragg_runtime.screening import screen
 from ragg_runtime.signals.angular_acceleration import REACH, RateDerivative, plan_derivative
 from ragg_runtime.signals.derivative import differentiate
 
+pytestmark = pytest.mark.usefixtures("no_next_motion")
+
 RATE = 16.0
 
 

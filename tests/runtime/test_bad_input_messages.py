@@ -28,6 +28,8 @@ from bad_input_table import (
 from ragg_runtime import api
 from ragg_runtime.io import Flight
 
+pytestmark = pytest.mark.usefixtures("no_next_motion")
+
 
 @pytest.mark.parametrize("name", TABLE)
 def test_bad_input(name: str, tmp_path: Path) -> None:

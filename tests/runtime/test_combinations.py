@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
 
 from ragg_runtime.api import example
 from ragg_runtime.estimation.fitted import estimated
-from ragg_runtime.identification.diagnose import diagnose
-from ragg_runtime.model import derive
 from ragg_runtime.signals.combinations import basis, telling
 from ragg_runtime.simulate import simulated
 from tests.rate import RATE
+from tests.runtime.diagnosed import diagnosed
 
 SIGNS = np.array([1.0, 1.0, -1.0, -1.0])
 
@@ -54,7 +52,7 @@ def test_an_effect_is_found_beside_a_shake_that_all_accelerometers_share() -> No
     shake = 30.0 * np.std(np.diff(G)) * np.random.default_rng(5).standard_normal(len(G))
     volts = {f"V_{j}": x.outputs[f"V_{j}"] + shake for j in range(1, 5)}  # cancels in G_out
     shaken = replace(x, outputs=volts)
-    d = diagnose(derive.model_of(i), i, [shaken], partial(derive.with_effects, i))
+    d = diagnosed(i, shaken)
     assert d.found == ("cubic-input",)
     assert d.final is not None
     (prepared,) = d.final.prepared

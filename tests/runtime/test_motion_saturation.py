@@ -8,10 +8,8 @@ import pytest
 from generated.output_effects import imu_saturation
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.observation import observe
-from ragg_runtime.identification import diagnose
-from ragg_runtime.model import derive
-from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import scenario
+from tests.runtime.diagnosed import diagnosed
 
 N = 4000
 T = np.arange(N) / 16.0
@@ -43,16 +41,13 @@ def test_what_is_no_end_of_a_range(x: np.ndarray) -> None:
 
 
 def test_a_flight_with_saturated_gyroscopes_is_diagnosed() -> None:
-    s = scenario(47, duration=600.0)
+    s = scenario(47, duration=300.0)
     rates = s.simulate().channels["omega_y"]
     limit = float(np.quantile(np.abs(rates), 0.98))
     flight = s.simulate({"imu-saturation": {"omega_max": limit}}).flight()
     assert float(np.max(np.abs(flight.channels["omega_y"]))) == limit
     assert not np.any(observe(flight, s.sheet).record.valid[np.abs(rates) >= limit])
-    model = packaged()
-    d = diagnose.diagnose(
-        model, s.sheet, [flight], lambda m, ids, **k: derive.with_effects(s.sheet, m, ids, **k)
-    )
+    d = diagnosed(s, flight)
     assert "imu-saturation" in d.found
     with pytest.raises(UserError, match="must be positive"):
         s.simulate({"imu-saturation": {"a_max": -1.0}})

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.quality import heed_flags
@@ -13,6 +14,8 @@ from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import screen
 from tests.rate import RATE
+
+pytestmark = pytest.mark.usefixtures("no_next_motion")
 
 STEP = 32 / 65536 * 9.8
 """m/s^2: 16 bits over +-16 g."""

@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.calibrate import list_combinations, list_parameters
-from ragg_runtime.identification import budget, diagnose, result, series
+from ragg_runtime.identification import budget, result, series
 from ragg_runtime.identification import comparison as compare
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
@@ -36,6 +36,7 @@ from ragg_runtime.report.plots import draw_plot
 from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Bar, Bars, render_text
+from tests.runtime.diagnosed import diagnosed
 
 RATE = 16.0
 UG = 9.8e-6
@@ -118,7 +119,7 @@ class Case:
 
 def case(made: Any) -> Case:
     model, known = load.packaged(), instrument()
-    d = diagnose.diagnose(model, known, [made], lambda m, ids, **k: derive.with_effects(known, m, ids, **k))
+    d = diagnosed(known, made)
     return Case(compare.compare(model, known, [made]), d, made)
 
 

@@ -14,6 +14,8 @@ from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.assemble import BRIDGED_STEPS, interpolate_slow
 from ragg_runtime.simulate import simulated
 
+pytestmark = pytest.mark.usefixtures("no_next_motion")
+
 G0 = 9.8
 HIDDEN = "thermal-scale:dK1_dT=0/0/2e-7/0"
 

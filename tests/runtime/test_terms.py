@@ -13,10 +13,8 @@ from scipy import stats
 from derive.expression import from_expression
 from ragg_runtime.estimation import fitted, observation, whitening
 from ragg_runtime.identification import as_effect, comparison, features, omnibus
-from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.dictionary import Dictionary, Term
 from ragg_runtime.identification.omnibus import Scores
-from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
@@ -25,6 +23,7 @@ from ragg_runtime.model.record import Record
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.reference.simulate import Simulation
 from tests.rate import RATE
+from tests.runtime.diagnosed import diagnosed
 
 Array = NDArray[np.float64]
 
@@ -206,21 +205,12 @@ LONG = {"temperature squared": (75, 600.0)}
 """Seed and seconds of record where those of the others do not tell a case: the temperature has hardly turned by then."""
 
 
-def _diagnosed(s: Scenario, flight: Flight) -> Diagnosis:
-    return diagnose(
-        load.packaged(),
-        s.sheet,
-        [flight],
-        lambda model, ids, **k: derive.with_effects(s.sheet, model, ids, **k),
-    )
-
-
 @pytest.mark.parametrize("case", sorted(CASES.keys() - {"fourth power"}))
 def test_what_a_transducer_may_do_beyond_the_catalogue_is_unexplained_and_named(case: str) -> None:
     change, j, product = CASES[case]
     seed, duration = LONG.get(case, (72, 400.0))
     s = scenario(seed, duration=duration, rate=RATE)
-    d = _diagnosed(s, _transducer(s.simulate({}), s, change, j))
+    d = diagnosed(s, _transducer(s.simulate({}), s, change, j))
     assert (d.verdict, d.found) == ("unexplained", ())
     term = max((t for x in d.remainder.searches for t in x.terms), key=lambda t: abs(t.z)).term
     assert term.harmonic == "const"
@@ -233,7 +223,7 @@ def test_a_bent_converter_of_the_output_is_unexplained_and_named() -> None:
     flight, G = run.flight(), run.G_out
     noise = float(np.std(run.G_out - run.G_out_noise_free))
     term = 40.0 * noise / np.sqrt(len(G)) * G**3 / np.std(G**3)  # far smaller than what it is made of
-    d = _diagnosed(s, dataclasses.replace(flight, outputs={"G_out": G + term}))
+    d = diagnosed(s, dataclasses.replace(flight, outputs={"G_out": G + term}))
     assert d.verdict == "unexplained", (d.found, d.terms())
     assert d.terms()[0]["term"] == "G_out*G_out*G_out"
 
@@ -242,7 +232,7 @@ def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
     """As a user would: the line into model.toml, derive, calibrate."""
     s = scenario(72, duration=600.0)
     flight = _transducer(s.simulate({}), s, CASES["fourth power"][0], 0)
-    d = _diagnosed(s, flight)
+    d = diagnosed(s, flight)
     line = d.expression()
     assert line is not None
     assert 'add = "K_x*f_i**4"' in line

@@ -18,6 +18,8 @@ from ragg_runtime.model.evaluate import output, vector
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.report import panels
 
+pytestmark = pytest.mark.usefixtures("no_next_motion")
+
 RATE, EVERY = 100.0, 12
 
 

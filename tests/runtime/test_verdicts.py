@@ -18,6 +18,8 @@ from ragg_runtime.io import Flight
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import scenario
 
+pytestmark = pytest.mark.usefixtures("no_next_motion")
+
 
 def flown(seed: int = 3, duration: float = 90.0) -> tuple[Instrument, Flight]:
     s = scenario(seed, duration=duration)
