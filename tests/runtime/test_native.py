@@ -18,7 +18,7 @@ from ragg_runtime.estimation import observation
 from ragg_runtime.estimation.regressors import Point, linearise
 from ragg_runtime.model.compile import BuildError, build, find_compiler, load
 from ragg_runtime.model.evaluate import Evaluator, NativeWarning, _warn_once, vector
-from ragg_runtime.model.model import Model, from_files, packaged
+from ragg_runtime.model.model import from_files, packaged
 from ragg_runtime.reference.scenario import scenario
 from tests.generated import draws
 from tests.generated.draws import Array
@@ -40,17 +40,6 @@ def case() -> tuple[Array, Array, Array]:
     """(t, inputs, p) of the base model: some blocks and a part."""
     draw = np.random.default_rng(40)
     return np.sort(draw.uniform(0, 1e4, LENGTH)), draws.motion(draw, LENGTH), draws.instrument(draw)
-
-
-@pytest.fixture(scope="module")
-def extended() -> Model:
-    """A model with two effects, one of an auxiliary channel."""
-    chosen = [e for e in catalogue() if e.id in ("cubic-input", "thermal-scale")]
-    return from_files(derive_model(chosen, ()))
-
-
-def parameters(model: Model, p: Array) -> Array:
-    return np.concatenate([p, np.full(model.chain.SIZE - len(p), 1e-7)])
 
 
 @needs_compiler
@@ -94,23 +83,6 @@ def test_changes_of_parameters_are_those_of_numpy(few: int, case: tuple[Array, A
     G = [packaged().compiled("numpy").output(t, inputs, q, angle) for q in (p, p + steps[17])]
     by_hand = np.mean((weights[1] * (G[1] - G[0]))[: 2 * few].reshape(2, few), axis=1)
     assert found[17, 1, :2] == pytest.approx(by_hand, rel=1e-9, abs=1e-9 * float(rows[17, 1, 0]))
-
-
-@needs_compiler
-def test_extended_model_is_that_of_numpy(extended: Model, case: tuple[Array, Array, Array]) -> None:
-    t, motion, p = case
-    q = parameters(extended, p)
-    assert extended.chain.INPUTS[-1] == "temperature"
-    inputs = np.vstack([motion, 290.0 + np.sin(t)])
-    c, n = extended.compiled("c"), extended.compiled("numpy")
-    size = np.max(np.abs(n.voltages(t, inputs, q)))
-    np.testing.assert_allclose(c.output(t, inputs, q), n.output(t, inputs, q), rtol=0, atol=4e-14 * size)
-    base = packaged().compiled("numpy").output(t, motion, p)
-    assert np.max(np.abs(c.output(t, inputs, q) - base)) > 1e-9 * size  # the effects act
-    D = n.derivatives(2, t, inputs, q)
-    assert len(D) == len(extended.chain.ROWS)
-    rows = np.max(np.abs(D), axis=1, keepdims=True)
-    assert np.all(np.abs(c.derivatives(2, t, inputs, q) - D) <= 1e-11 * rows)
 
 
 @needs_compiler
