@@ -263,7 +263,7 @@ def ran(row: Row, place: Path) -> Ran:
     stage(place)
     with (
         inside(place),
-        nullcontext() if row.of_time else mock.patch.object(timing, "hypotheses", lambda *_: []),
+        nullcontext() if row.of_time else mock.patch.object(timing, "propose_times", lambda *_: []),
     ):
         row.make()
         before = tree(Path("model"))
