@@ -205,9 +205,7 @@ ROWS: tuple[tuple[str, bool], ...] = (  # derivative of V_j by; True: one value 
     ("magnetic-bias.dK0_dB", False),
     ("magnetic-scale.dK1_dB", False),
     ("misalignment-drift.dvartheta_y_dt", False),
-    ("misalignment-drift.dvartheta_z_dt", False),
     ("misalignment-step.dvartheta_y", False),
-    ("misalignment-step.dvartheta_z", False),
     ("mount-compliance.c_yx", False),
     ("mount-compliance.c_yy", False),
     ("mount-compliance.c_yz", False),
@@ -267,7 +265,6 @@ ROWS: tuple[tuple[str, bool], ...] = (  # derivative of V_j by; True: one value 
     ("thermal-lag.dK0_dTdot", False),
     ("thermal-lag.dK1_dTdot", False),
     ("thermal-misalignment.dvartheta_y_dT", False),
-    ("thermal-misalignment.dvartheta_z_dT", False),
     ("thermal-scale.dK1_dT", False),
     ("thermal-second-order.dK2_dT", False),
     ("time-offset.delta_t", True),
@@ -801,8 +798,8 @@ def derivatives(j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Arr
     bar_f_disc_r_x = bar_f_spin_axis_wobble_r_x*cos_psi + bar_f_spin_axis_wobble_r_y*sin_psi
     bar_K2_thermal_second_order = bar_i_vibration_rectification*x93
     bar_K1_thermal_scale = i_sensed*k_VI
-    bar_vartheta_z_thermal_misalignment = bar_i_vibration_rectification*f_f_yj
     bar_vartheta_y_thermal_misalignment = -bar_i_vibration_rectification*f_f_zj
+    bar_vartheta_z_mount_compliance = bar_i_vibration_rectification*f_f_yj
     bar_dR_arm_stretch = bar_f_disc_r_x + bar_f_disc_r_y*beta_z + bar_f_spin_axis_wobble_r_z*beta_x + bar_q_disc_r_x
     x119 = bar_f_f_z - bar_q_p_second_order_misalignment
     bar_rate_rate_run_out_z = x119
@@ -1210,84 +1207,81 @@ def derivatives(j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Arr
     D[121] = bar_i_vibration_rectification*(B_x*x114 + B_y*x115 + B_z*x116)  # magnetic-bias.dK0_dB
     D[122] = x257*(B_x*f_tau_xx + B_y*f_tau_xy)  # magnetic-scale.dK1_dB
     D[123] = bar_vartheta_y_thermal_misalignment*time  # misalignment-drift.dvartheta_y_dt
-    D[124] = bar_vartheta_z_thermal_misalignment*time  # misalignment-drift.dvartheta_z_dt
-    D[125] = bar_vartheta_y_thermal_misalignment  # misalignment-step.dvartheta_y
-    D[126] = bar_vartheta_z_thermal_misalignment  # misalignment-step.dvartheta_z
-    D[127] = b_f_xj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yx
-    D[128] = b_f_yj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yy
-    D[129] = b_f_zj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yz
-    D[130] = b_f_xj*bar_vartheta_z_thermal_misalignment  # mount-compliance.c_zx
-    D[131] = b_f_yj*bar_vartheta_z_thermal_misalignment  # mount-compliance.c_zy
-    D[132] = b_f_zj*bar_vartheta_z_thermal_misalignment  # mount-compliance.c_zz
-    D[133] = bar_f_f_x*x263 - bar_q_f_x*x259 + x258  # near-mass.T_xxx
-    D[134] = bar_f_f_y*x263 + bar_f_f_z*f_disc_r_z*f_r_y - bar_q_f_y*x259 - f_r_x*x131 - q_r_x*x132  # near-mass.T_xxy
-    D[135] = bar_f_f_z*x263 + bar_q_p_second_order_misalignment*x259 - x264  # near-mass.T_xxz
-    D[136] = bar_f_f_x*x267 + bar_f_f_z*f_disc_r_z*f_r_x - bar_q_f_x*x265 - f_r_x*x127 - q_r_x*x128  # near-mass.T_xyy
-    D[137] = bar_q_p_second_order_misalignment*q_r_x*q_r_y - f_r_x*x123 - f_r_y*x130 - x268  # near-mass.T_xyz
-    D[138] = bar_f_f_y*x267 - bar_q_f_y*x265 + f_r_y*x122  # near-mass.T_yyy
-    D[139] = bar_f_f_z*x267 + bar_q_p_second_order_misalignment*x265 - f_r_y*x126  # near-mass.T_yyz
-    D[140] = bar_f_f_x*x271 - bar_f_f_z*x274 - bar_q_f_x*x269  # near-mass.T_xxxx
-    D[141] = bar_f_f_x*x277 + bar_f_f_y*x271 - bar_q_f_y*x269 - x132*x259 + x275  # near-mass.T_xxxy
-    D[142] = bar_f_f_x*x274 + bar_f_f_z*x271 + bar_q_p_second_order_misalignment*x269  # near-mass.T_xxxz
-    D[143] = bar_f_f_x*x278 + bar_f_f_y*x277 + bar_f_f_z*(f_disc_r_z*x262 - 1/3*x272 + x279) - x128*x259 - x133*x265  # near-mass.T_xxyy
-    D[144] = bar_f_f_y*x274 + bar_f_f_z*x277 - f_r_y*x264 + x124*x259  # near-mass.T_xxyz
-    D[145] = bar_f_f_x*x281 + bar_f_f_y*x278 - bar_q_f_x*x280 - x129*x265 + x275  # near-mass.T_xyyy
-    D[146] = bar_f_f_x*x282 + bar_f_f_z*x278 - f_r_y*x268 + x125*x265  # near-mass.T_xyyz
-    D[147] = bar_f_f_y*x281 - bar_f_f_z*x282 - bar_q_f_y*x280  # near-mass.T_yyyy
-    D[148] = bar_f_f_y*x282 + bar_f_f_z*x281 + bar_q_p_second_order_misalignment*x280  # near-mass.T_yyyz
-    D[149] = x241*np.abs(f_f_i)  # odd-quadratic.K_oq
-    D[150] = -G_out*x257  # output-curve.c_2
-    D[151] = -G_out**2.0*x257  # output-curve.c_3
-    D[152] = x283  # output-filter.b
-    D[153] = x257  # output-gain-step.g
-    D[154] = bar_i_vibration_rectification*(-beta_x*(d2_spin_angle + omegadot_z) + f_tau_yx*(omegadot_x + x53) + f_tau_yy*(-x254 - x52))  # pendulum-angular.K_pa
-    D[155] = bar_i_vibration_rectification*(pressure - 101325)  # pressure-bias.dK0_dp
-    D[156] = bar_K2_thermal_second_order*time  # second-order-drift.dK2_dt
-    D[157] = x283  # second-order-loop.b
-    D[158] = bar_q_i_second_order_misalignment*(f_f_i - q_f_xj) + bar_q_o_second_order_misalignment*(f_f_o - q_f_yj) + bar_q_p_second_order_misalignment*(f_f_p + q_f_z)  # second-order-misalignment.kappa
-    D[159] = -bar_M_xx*x6 - x284  # self-gradient.G_xx_roll
-    D[160] = bar_spin_axis_tilt_Gamma_xy*x6  # self-gradient.G_xy_roll
-    D[161] = bar_spin_axis_tilt_Gamma_xz*x6  # self-gradient.G_xz_roll
-    D[162] = -bar_M_yy*x6 - x284  # self-gradient.G_yy_roll
-    D[163] = bar_spin_axis_tilt_Gamma_yz*x6  # self-gradient.G_yz_roll
-    D[164] = -bar_M_xx*x5 - x285  # self-gradient.G_xx_pitch
-    D[165] = bar_spin_axis_tilt_Gamma_xy*x5  # self-gradient.G_xy_pitch
-    D[166] = bar_spin_axis_tilt_Gamma_xz*x5  # self-gradient.G_xz_pitch
-    D[167] = -bar_M_yy*x5 - x285  # self-gradient.G_yy_pitch
-    D[168] = bar_spin_axis_tilt_Gamma_yz*x5  # self-gradient.G_yz_pitch
-    D[169] = -bar_M_xx*x287 - bar_M_yy*x286 + 2.0*bar_spin_axis_tilt_Gamma_xy*cos_yaw*sin_yaw  # self-gradient-yaw.G_d
-    D[170] = bar_spin_axis_tilt_Gamma_xy*x287 + x183*x288 - x185*x288  # self-gradient-yaw.G_xy
-    D[171] = bar_spin_axis_tilt_Gamma_xz*x289 + bar_spin_axis_tilt_Gamma_yz*sin_yaw  # self-gradient-yaw.G_xz
-    D[172] = -bar_spin_axis_tilt_Gamma_xz*sin_yaw + bar_spin_axis_tilt_Gamma_yz*x289  # self-gradient-yaw.G_yz
-    D[173] = -Gamma_xy*bar_spin_axis_tilt_Gamma_xz + Gamma_xz*bar_spin_axis_tilt_Gamma_xy - bar_M_yy*x291 + bar_M_zz*x291 + bar_spin_axis_tilt_Gamma_yz*(-Gamma_yy - x290) - x135 - x136 + x143 + x251  # spin-axis-tilt.alpha_x
-    D[174] = Gamma_xy*bar_spin_axis_tilt_Gamma_yz - Gamma_yz*bar_spin_axis_tilt_Gamma_xy + bar_M_xx*x292 - bar_M_zz*x292 + bar_spin_axis_tilt_Gamma_xz*(Gamma_xx + x290) + x140 - x147 - x148 + x250  # spin-axis-tilt.alpha_y
-    D[175] = bar_wobble_xz*sin_phi - bar_wobble_yz*cos_phi - bar_wobble_zx*sin_phi + bar_wobble_zy*cos_phi  # spin-axis-wobble.w_x
-    D[176] = bar_wobble_xz*cos_phi + bar_wobble_yz*sin_phi - bar_wobble_zx*cos_phi - bar_wobble_zy*sin_phi  # spin-axis-wobble.w_y
-    D[177] = bar_sin_delta_phi  # spin-phase-offset.phi_0
-    D[178] = bar_sin_delta_phi  # spin-rate-jitter.sigma_phi
-    D[179] = bar_sin_delta_phi  # spin-rate-jitter.sigma_walk
-    D[180] = 2.0*bar_sin_delta_phi*time*x41  # spin-rate-offset.epsilon
-    D[181] = -bar_sin_delta_phi*omegadot_z  # spin-servo.c
-    D[182] = bar_i_vibration_rectification*x255  # thermal-bias.dK0_dT
-    D[183] = bar_i_vibration_rectification*d_temperature  # thermal-lag.dK0_dTdot
-    D[184] = d_temperature*x156  # thermal-lag.dK1_dTdot
-    D[185] = bar_vartheta_y_thermal_misalignment*x255  # thermal-misalignment.dvartheta_y_dT
-    D[186] = bar_vartheta_z_thermal_misalignment*x255  # thermal-misalignment.dvartheta_z_dT
-    D[187] = x156*x255  # thermal-scale.dK1_dT
-    D[188] = bar_K2_thermal_second_order*x255  # thermal-second-order.dK2_dT
-    D[189] = x230 + x231 + x232 + x248 + x249  # time-offset.delta_t
-    D[190] = bar_i_vibration_rectification*(x293*x295 + x293*x297 + x293*x299 + x293*x300 + x293*x301 + x293*x302)  # vibration-level.L_xx
-    D[191] = bar_i_vibration_rectification*(x293*x303 + x293*x305 + x293*x306 + x293*x308 + x293*x309 + x293*x311 + x293*x313 + x293*x315 + x293*x317)  # vibration-level.L_xy
-    D[192] = bar_i_vibration_rectification*(x293*x318 + x293*x319 + x293*x320 + x293*x321 + x293*x322 + x293*x323 + x293*x324 + x293*x325 + x293*x326)  # vibration-level.L_xz
-    D[193] = bar_i_vibration_rectification*(x293*x328 + x293*x330 + x293*x332 + x293*x333 + x293*x334 + x293*x335)  # vibration-level.L_yy
-    D[194] = bar_i_vibration_rectification*(x293*x336 + x293*x338 + x293*x339 + x293*x341 + x293*x342 + x293*x344 + x293*x345 + x293*x346 + x293*x347)  # vibration-level.L_yz
-    D[195] = bar_i_vibration_rectification*(x293*x348 + x293*x349 + x293*x350 + x293*x351 + x293*x352 + x293*x353)  # vibration-level.L_zz
-    D[196] = bar_i_vibration_rectification*(x295 + x297 + x299 + x300 + x301 + x302)  # vibration-rectification.P_xx
-    D[197] = bar_i_vibration_rectification*(x303 + x305 + x306 + x308 + x309 + x311 + x313 + x315 + x317)  # vibration-rectification.P_xy
-    D[198] = bar_i_vibration_rectification*(x318 + x319 + x320 + x321 + x322 + x323 + x324 + x325 + x326)  # vibration-rectification.P_xz
-    D[199] = bar_i_vibration_rectification*(x328 + x330 + x332 + x333 + x334 + x335)  # vibration-rectification.P_yy
-    D[200] = bar_i_vibration_rectification*(x336 + x338 + x339 + x341 + x342 + x344 + x345 + x346 + x347)  # vibration-rectification.P_yz
-    D[201] = bar_i_vibration_rectification*(x348 + x349 + x350 + x351 + x352 + x353)  # vibration-rectification.P_zz
+    D[124] = bar_vartheta_y_thermal_misalignment  # misalignment-step.dvartheta_y
+    D[125] = b_f_xj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yx
+    D[126] = b_f_yj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yy
+    D[127] = b_f_zj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yz
+    D[128] = b_f_xj*bar_vartheta_z_mount_compliance  # mount-compliance.c_zx
+    D[129] = b_f_yj*bar_vartheta_z_mount_compliance  # mount-compliance.c_zy
+    D[130] = b_f_zj*bar_vartheta_z_mount_compliance  # mount-compliance.c_zz
+    D[131] = bar_f_f_x*x263 - bar_q_f_x*x259 + x258  # near-mass.T_xxx
+    D[132] = bar_f_f_y*x263 + bar_f_f_z*f_disc_r_z*f_r_y - bar_q_f_y*x259 - f_r_x*x131 - q_r_x*x132  # near-mass.T_xxy
+    D[133] = bar_f_f_z*x263 + bar_q_p_second_order_misalignment*x259 - x264  # near-mass.T_xxz
+    D[134] = bar_f_f_x*x267 + bar_f_f_z*f_disc_r_z*f_r_x - bar_q_f_x*x265 - f_r_x*x127 - q_r_x*x128  # near-mass.T_xyy
+    D[135] = bar_q_p_second_order_misalignment*q_r_x*q_r_y - f_r_x*x123 - f_r_y*x130 - x268  # near-mass.T_xyz
+    D[136] = bar_f_f_y*x267 - bar_q_f_y*x265 + f_r_y*x122  # near-mass.T_yyy
+    D[137] = bar_f_f_z*x267 + bar_q_p_second_order_misalignment*x265 - f_r_y*x126  # near-mass.T_yyz
+    D[138] = bar_f_f_x*x271 - bar_f_f_z*x274 - bar_q_f_x*x269  # near-mass.T_xxxx
+    D[139] = bar_f_f_x*x277 + bar_f_f_y*x271 - bar_q_f_y*x269 - x132*x259 + x275  # near-mass.T_xxxy
+    D[140] = bar_f_f_x*x274 + bar_f_f_z*x271 + bar_q_p_second_order_misalignment*x269  # near-mass.T_xxxz
+    D[141] = bar_f_f_x*x278 + bar_f_f_y*x277 + bar_f_f_z*(f_disc_r_z*x262 - 1/3*x272 + x279) - x128*x259 - x133*x265  # near-mass.T_xxyy
+    D[142] = bar_f_f_y*x274 + bar_f_f_z*x277 - f_r_y*x264 + x124*x259  # near-mass.T_xxyz
+    D[143] = bar_f_f_x*x281 + bar_f_f_y*x278 - bar_q_f_x*x280 - x129*x265 + x275  # near-mass.T_xyyy
+    D[144] = bar_f_f_x*x282 + bar_f_f_z*x278 - f_r_y*x268 + x125*x265  # near-mass.T_xyyz
+    D[145] = bar_f_f_y*x281 - bar_f_f_z*x282 - bar_q_f_y*x280  # near-mass.T_yyyy
+    D[146] = bar_f_f_y*x282 + bar_f_f_z*x281 + bar_q_p_second_order_misalignment*x280  # near-mass.T_yyyz
+    D[147] = x241*np.abs(f_f_i)  # odd-quadratic.K_oq
+    D[148] = -G_out*x257  # output-curve.c_2
+    D[149] = -G_out**2.0*x257  # output-curve.c_3
+    D[150] = x283  # output-filter.b
+    D[151] = x257  # output-gain-step.g
+    D[152] = bar_i_vibration_rectification*(-beta_x*(d2_spin_angle + omegadot_z) + f_tau_yx*(omegadot_x + x53) + f_tau_yy*(-x254 - x52))  # pendulum-angular.K_pa
+    D[153] = bar_i_vibration_rectification*(pressure - 101325)  # pressure-bias.dK0_dp
+    D[154] = bar_K2_thermal_second_order*time  # second-order-drift.dK2_dt
+    D[155] = x283  # second-order-loop.b
+    D[156] = bar_q_i_second_order_misalignment*(f_f_i - q_f_xj) + bar_q_o_second_order_misalignment*(f_f_o - q_f_yj) + bar_q_p_second_order_misalignment*(f_f_p + q_f_z)  # second-order-misalignment.kappa
+    D[157] = -bar_M_xx*x6 - x284  # self-gradient.G_xx_roll
+    D[158] = bar_spin_axis_tilt_Gamma_xy*x6  # self-gradient.G_xy_roll
+    D[159] = bar_spin_axis_tilt_Gamma_xz*x6  # self-gradient.G_xz_roll
+    D[160] = -bar_M_yy*x6 - x284  # self-gradient.G_yy_roll
+    D[161] = bar_spin_axis_tilt_Gamma_yz*x6  # self-gradient.G_yz_roll
+    D[162] = -bar_M_xx*x5 - x285  # self-gradient.G_xx_pitch
+    D[163] = bar_spin_axis_tilt_Gamma_xy*x5  # self-gradient.G_xy_pitch
+    D[164] = bar_spin_axis_tilt_Gamma_xz*x5  # self-gradient.G_xz_pitch
+    D[165] = -bar_M_yy*x5 - x285  # self-gradient.G_yy_pitch
+    D[166] = bar_spin_axis_tilt_Gamma_yz*x5  # self-gradient.G_yz_pitch
+    D[167] = -bar_M_xx*x287 - bar_M_yy*x286 + 2.0*bar_spin_axis_tilt_Gamma_xy*cos_yaw*sin_yaw  # self-gradient-yaw.G_d
+    D[168] = bar_spin_axis_tilt_Gamma_xy*x287 + x183*x288 - x185*x288  # self-gradient-yaw.G_xy
+    D[169] = bar_spin_axis_tilt_Gamma_xz*x289 + bar_spin_axis_tilt_Gamma_yz*sin_yaw  # self-gradient-yaw.G_xz
+    D[170] = -bar_spin_axis_tilt_Gamma_xz*sin_yaw + bar_spin_axis_tilt_Gamma_yz*x289  # self-gradient-yaw.G_yz
+    D[171] = -Gamma_xy*bar_spin_axis_tilt_Gamma_xz + Gamma_xz*bar_spin_axis_tilt_Gamma_xy - bar_M_yy*x291 + bar_M_zz*x291 + bar_spin_axis_tilt_Gamma_yz*(-Gamma_yy - x290) - x135 - x136 + x143 + x251  # spin-axis-tilt.alpha_x
+    D[172] = Gamma_xy*bar_spin_axis_tilt_Gamma_yz - Gamma_yz*bar_spin_axis_tilt_Gamma_xy + bar_M_xx*x292 - bar_M_zz*x292 + bar_spin_axis_tilt_Gamma_xz*(Gamma_xx + x290) + x140 - x147 - x148 + x250  # spin-axis-tilt.alpha_y
+    D[173] = bar_wobble_xz*sin_phi - bar_wobble_yz*cos_phi - bar_wobble_zx*sin_phi + bar_wobble_zy*cos_phi  # spin-axis-wobble.w_x
+    D[174] = bar_wobble_xz*cos_phi + bar_wobble_yz*sin_phi - bar_wobble_zx*cos_phi - bar_wobble_zy*sin_phi  # spin-axis-wobble.w_y
+    D[175] = bar_sin_delta_phi  # spin-phase-offset.phi_0
+    D[176] = bar_sin_delta_phi  # spin-rate-jitter.sigma_phi
+    D[177] = bar_sin_delta_phi  # spin-rate-jitter.sigma_walk
+    D[178] = 2.0*bar_sin_delta_phi*time*x41  # spin-rate-offset.epsilon
+    D[179] = -bar_sin_delta_phi*omegadot_z  # spin-servo.c
+    D[180] = bar_i_vibration_rectification*x255  # thermal-bias.dK0_dT
+    D[181] = bar_i_vibration_rectification*d_temperature  # thermal-lag.dK0_dTdot
+    D[182] = d_temperature*x156  # thermal-lag.dK1_dTdot
+    D[183] = bar_vartheta_y_thermal_misalignment*x255  # thermal-misalignment.dvartheta_y_dT
+    D[184] = x156*x255  # thermal-scale.dK1_dT
+    D[185] = bar_K2_thermal_second_order*x255  # thermal-second-order.dK2_dT
+    D[186] = x230 + x231 + x232 + x248 + x249  # time-offset.delta_t
+    D[187] = bar_i_vibration_rectification*(x293*x295 + x293*x297 + x293*x299 + x293*x300 + x293*x301 + x293*x302)  # vibration-level.L_xx
+    D[188] = bar_i_vibration_rectification*(x293*x303 + x293*x305 + x293*x306 + x293*x308 + x293*x309 + x293*x311 + x293*x313 + x293*x315 + x293*x317)  # vibration-level.L_xy
+    D[189] = bar_i_vibration_rectification*(x293*x318 + x293*x319 + x293*x320 + x293*x321 + x293*x322 + x293*x323 + x293*x324 + x293*x325 + x293*x326)  # vibration-level.L_xz
+    D[190] = bar_i_vibration_rectification*(x293*x328 + x293*x330 + x293*x332 + x293*x333 + x293*x334 + x293*x335)  # vibration-level.L_yy
+    D[191] = bar_i_vibration_rectification*(x293*x336 + x293*x338 + x293*x339 + x293*x341 + x293*x342 + x293*x344 + x293*x345 + x293*x346 + x293*x347)  # vibration-level.L_yz
+    D[192] = bar_i_vibration_rectification*(x293*x348 + x293*x349 + x293*x350 + x293*x351 + x293*x352 + x293*x353)  # vibration-level.L_zz
+    D[193] = bar_i_vibration_rectification*(x295 + x297 + x299 + x300 + x301 + x302)  # vibration-rectification.P_xx
+    D[194] = bar_i_vibration_rectification*(x303 + x305 + x306 + x308 + x309 + x311 + x313 + x315 + x317)  # vibration-rectification.P_xy
+    D[195] = bar_i_vibration_rectification*(x318 + x319 + x320 + x321 + x322 + x323 + x324 + x325 + x326)  # vibration-rectification.P_xz
+    D[196] = bar_i_vibration_rectification*(x328 + x330 + x332 + x333 + x334 + x335)  # vibration-rectification.P_yy
+    D[197] = bar_i_vibration_rectification*(x336 + x338 + x339 + x341 + x342 + x344 + x345 + x346 + x347)  # vibration-rectification.P_yz
+    D[198] = bar_i_vibration_rectification*(x348 + x349 + x350 + x351 + x352 + x353)  # vibration-rectification.P_zz
     return D
 
 

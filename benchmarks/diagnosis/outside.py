@@ -146,6 +146,7 @@ FURTHER: Mapping[str, Callable[[Surroundings], Array]] = {
 """Further terms, of which it holds most in no such form."""
 
 SINCE: Mapping[str, str] = {
+    "f_i^2 temperature": "thermal-second-order",
     "misalignment jump": "misalignment-step",
     "misalignment drift": "misalignment-drift",
     "cube of G_out (converter)": "output-curve",

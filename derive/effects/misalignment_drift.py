@@ -9,7 +9,7 @@ from derive.effect import Effect, EffectParameter, Values
 
 
 def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {n: k[n] + p[f"d{n}_dt"] * c.time for n in ("vartheta_y", "vartheta_z")}
+    return {"vartheta_y": k["vartheta_y"] + p.dvartheta_y_dt * c.time}
 
 
 EFFECT = Effect(
@@ -17,21 +17,21 @@ EFFECT = Effect(
     title="Drift of the misalignment",
     physics="Stress in screws and glue relaxes after assembly, transport or switch-on: an accelerometer creeps on its mount.",
     source="IEEE Std 1293, stability of the input-axis misalignment: some microradians a day",
-    equation=r"\vartheta_{y,z} \leftarrow \vartheta_{y,z} + \partial_t \vartheta_{y,z}\, t",
+    equation=r"\vartheta_y \leftarrow \vartheta_y + \partial_t \vartheta_y\, t",
     limits=(
-        "Linear over the record, from the instant 0 of its time column (another one is absorbed by vartheta). Where a_z "
-        "hardly changes vartheta_y is bias-drift. A growing radius shows in gradients alone, and is left out."
+        "Linear over the record, from the instant 0 of its time column (another one is absorbed by vartheta_y); where a_z hardly "
+        "changes it is bias-drift. vartheta_z puts the radial force on the input axis, which is the neighbours' input: in G_out "
+        "it is their gain-drift. A growing radius shows in gradients alone, and is left out."
     ),
-    parameters=tuple(
+    parameters=(
         EffectParameter(
-            f"dvartheta_{a}_dt",
-            rf"\partial_t \vartheta_{a}",
+            "dvartheta_y_dt",
+            r"\partial_t \vartheta_y",
             "urad/s",
-            f"rate of vartheta_{a}",
+            "rate of vartheta_y",
             1e-3,
-            like=f"vartheta_{a}",
-        )
-        for a in "yz"
+            like="vartheta_y",
+        ),
     ),
     instrument=instrument,
 )

@@ -9,8 +9,7 @@ from derive.effect import Effect, EffectParameter, Values
 
 
 def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    on = sp.Heaviside(c.time - p.t_step, 1)
-    return {n: k[n] + p[f"d{n}"] * on for n in ("vartheta_y", "vartheta_z")}
+    return {"vartheta_y": k["vartheta_y"] + p.dvartheta_y * sp.Heaviside(c.time - p.t_step, 1)}
 
 
 EFFECT = Effect(
@@ -18,22 +17,15 @@ EFFECT = Effect(
     title="Step of the misalignment",
     physics="A shock moves an accelerometer on its mount, or a strained screw slips.",
     source="IEEE Std 1293, repeatability of the input-axis misalignment after shock: 1 to 100 microradians",
-    equation=r"\vartheta_{y,z} \leftarrow \vartheta_{y,z} + \Delta\vartheta_{y,z} [t \ge t_s]",
+    equation=r"\vartheta_y \leftarrow \vartheta_y + \Delta\vartheta_y [t \ge t_s]",
     limits=(
-        "One step a record; its instant is scanned, not fitted. Where a_z hardly changes vartheta_y is bias-step."
+        "One step a record; its instant is scanned, not fitted. Where a_z hardly changes it is bias-step; a step of vartheta_z "
+        "is in G_out the gain-step of the neighbours on the disc."
     ),
     kind="step",
     parameters=(
-        *(
-            EffectParameter(
-                f"dvartheta_{a}",
-                rf"\Delta\vartheta_{a}",
-                "urad",
-                f"step of vartheta_{a}",
-                1.0,
-                like=f"vartheta_{a}",
-            )
-            for a in "yz"
+        EffectParameter(
+            "dvartheta_y", r"\Delta\vartheta_y", "urad", "step of vartheta_y", 1.0, like="vartheta_y"
         ),
         EffectParameter("t_step", "t_s", "s", "instant of the step", 1.0, shared=True, fitted=False),
     ),

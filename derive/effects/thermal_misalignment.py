@@ -10,8 +10,7 @@ from derive.effects.thermal_scale import REFERENCE_KELVIN
 
 
 def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    warmer = c.channel("temperature") - REFERENCE_KELVIN
-    return {n: k[n] + p[f"d{n}_dT"] * warmer for n in ("vartheta_y", "vartheta_z")}
+    return {"vartheta_y": k["vartheta_y"] + p.dvartheta_y_dT * (c.channel("temperature") - REFERENCE_KELVIN)}
 
 
 EFFECT = Effect(
@@ -22,23 +21,22 @@ EFFECT = Effect(
         "LISA Pathfinder, arXiv:2407.05852: angles of an optical bench follow its temperature, 30 microradians per kelvin; "
         "IEEE Std 1293, input-axis misalignment"
     ),
-    equation=r"\vartheta_{y,z} \leftarrow \vartheta_{y,z} + \partial_T \vartheta_{y,z} (T - 293.15\,\mathrm{K})",
+    equation=r"\vartheta_y \leftarrow \vartheta_y + \partial_T \vartheta_y (T - 293.15\,\mathrm{K})",
     limits=(
-        "Linear in one temperature, without the lag of heat flow. beta_z differs from vartheta_z, and beta_x from "
-        "vartheta_y, by gradients alone; the growing radius, 20 ppm/K, is below 0.1 Eo/K in 3000 Eo: all three are left "
-        "out. Where a_z hardly changes vartheta_y is thermal-bias."
+        "Linear in one temperature, without the lag of heat flow; where a_z hardly changes it is thermal-bias. vartheta_z puts "
+        "the radial force on the input axis, which is the neighbours' input: in G_out it is their thermal-scale. beta_x and "
+        "beta_z differ from the two by gradients alone; the growing radius, 20 ppm/K, is below 0.1 Eo/K in 3000 Eo."
     ),
     channels=("temperature",),
-    parameters=tuple(
+    parameters=(
         EffectParameter(
-            f"dvartheta_{a}_dT",
-            rf"\partial_T \vartheta_{a}",
+            "dvartheta_y_dT",
+            r"\partial_T \vartheta_y",
             "urad/K",
-            f"change of vartheta_{a}",
+            "change of vartheta_y",
             10.0,
-            like=f"vartheta_{a}",
-        )
-        for a in "yz"
+            like="vartheta_y",
+        ),
     ),
     instrument=instrument,
 )

@@ -33,7 +33,7 @@ extern "C" {
 
 #define RAGG_SIGNATURES_INPUTS 43
 #define RAGG_SIGNATURES_PARAMETERS 62
-#define RAGG_SIGNATURES_ROWS 202
+#define RAGG_SIGNATURES_ROWS 199
 
 /* V_1 ... V_4 over n instants t, s: V[j * n + i]. angle is the disc angle, rad, or NULL for
  * 2 pi spin_frequency t. */
@@ -169,9 +169,7 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   magnetic-bias.dK0_dB
  *   magnetic-scale.dK1_dB
  *   misalignment-drift.dvartheta_y_dt
- *   misalignment-drift.dvartheta_z_dt
  *   misalignment-step.dvartheta_y
- *   misalignment-step.dvartheta_z
  *   mount-compliance.c_yx
  *   mount-compliance.c_yy
  *   mount-compliance.c_yz
@@ -231,7 +229,6 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   thermal-lag.dK0_dTdot
  *   thermal-lag.dK1_dTdot
  *   thermal-misalignment.dvartheta_y_dT
- *   thermal-misalignment.dvartheta_z_dT
  *   thermal-scale.dK1_dT
  *   thermal-second-order.dK2_dT
  *   time-offset.delta_t

@@ -204,9 +204,7 @@ ROWS: tuple[tuple[str, bool], ...] = (  # derivative of V_j by; True: one value 
     ("magnetic-bias.dK0_dB", False),
     ("magnetic-scale.dK1_dB", False),
     ("misalignment-drift.dvartheta_y_dt", False),
-    ("misalignment-drift.dvartheta_z_dt", False),
     ("misalignment-step.dvartheta_y", False),
-    ("misalignment-step.dvartheta_z", False),
     ("mount-compliance.c_yx", False),
     ("mount-compliance.c_yy", False),
     ("mount-compliance.c_yz", False),
@@ -266,7 +264,6 @@ ROWS: tuple[tuple[str, bool], ...] = (  # derivative of V_j by; True: one value 
     ("thermal-lag.dK0_dTdot", False),
     ("thermal-lag.dK1_dTdot", False),
     ("thermal-misalignment.dvartheta_y_dT", False),
-    ("thermal-misalignment.dvartheta_z_dT", False),
     ("thermal-scale.dK1_dT", False),
     ("thermal-second-order.dK2_dT", False),
     ("time-offset.delta_t", True),
@@ -805,8 +802,8 @@ def derivatives(j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Arr
     bar_f_disc_r_x = bar_f_spin_axis_wobble_r_x*cos_psi + bar_f_spin_axis_wobble_r_y*sin_psi
     bar_K2_thermal_second_order = bar_i_vibration_rectification*x97
     bar_K1_thermal_scale = i_sensed*k_VI
-    bar_vartheta_z_thermal_misalignment = bar_i_vibration_rectification*f_f_yj
     bar_vartheta_y_thermal_misalignment = -bar_i_vibration_rectification*f_f_zj
+    bar_vartheta_z_mount_compliance = bar_i_vibration_rectification*f_f_yj
     bar_dR_arm_stretch = bar_f_disc_r_x + bar_f_disc_r_y*beta_z + bar_f_spin_axis_wobble_r_z*beta_x + bar_q_disc_r_x
     x122 = bar_f_f_z - bar_q_p_second_order_misalignment
     bar_rate_rate_run_out_z = x122
@@ -1248,84 +1245,81 @@ def derivatives(j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Arr
     D[120] = bar_i_vibration_rectification*(B_x*x118 + B_y*x119 + B_z*x120)  # magnetic-bias.dK0_dB
     D[121] = x293*(B_x*f_tau_xx + B_y*f_tau_xy)  # magnetic-scale.dK1_dB
     D[122] = bar_vartheta_y_thermal_misalignment*time  # misalignment-drift.dvartheta_y_dt
-    D[123] = bar_vartheta_z_thermal_misalignment*time  # misalignment-drift.dvartheta_z_dt
-    D[124] = bar_vartheta_y_thermal_misalignment  # misalignment-step.dvartheta_y
-    D[125] = bar_vartheta_z_thermal_misalignment  # misalignment-step.dvartheta_z
-    D[126] = b_f_xj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yx
-    D[127] = b_f_yj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yy
-    D[128] = b_f_zj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yz
-    D[129] = b_f_xj*bar_vartheta_z_thermal_misalignment  # mount-compliance.c_zx
-    D[130] = b_f_yj*bar_vartheta_z_thermal_misalignment  # mount-compliance.c_zy
-    D[131] = b_f_zj*bar_vartheta_z_thermal_misalignment  # mount-compliance.c_zz
-    D[132] = bar_f_f_x*x299 - bar_q_f_x*x295 + x294  # near-mass.T_xxx
-    D[133] = bar_f_f_y*x299 + bar_f_f_z*f_disc_r_z*f_r_y - bar_q_f_y*x295 - f_r_x*x148 - q_r_x*x149  # near-mass.T_xxy
-    D[134] = bar_f_f_z*x299 + bar_q_p_second_order_misalignment*x295 - x300  # near-mass.T_xxz
-    D[135] = bar_f_f_x*x303 + bar_f_f_z*f_disc_r_z*f_r_x - bar_q_f_x*x301 - f_r_x*x144 - q_r_x*x145  # near-mass.T_xyy
-    D[136] = bar_q_p_second_order_misalignment*q_r_x*q_r_y - f_r_x*x140 - f_r_y*x147 - x304  # near-mass.T_xyz
-    D[137] = bar_f_f_y*x303 - bar_q_f_y*x301 + f_r_y*x139  # near-mass.T_yyy
-    D[138] = bar_f_f_z*x303 + bar_q_p_second_order_misalignment*x301 - f_r_y*x143  # near-mass.T_yyz
-    D[139] = bar_f_f_x*x307 - bar_f_f_z*x310 - bar_q_f_x*x305  # near-mass.T_xxxx
-    D[140] = bar_f_f_x*x313 + bar_f_f_y*x307 - bar_q_f_y*x305 - x149*x295 + x311  # near-mass.T_xxxy
-    D[141] = bar_f_f_x*x310 + bar_f_f_z*x307 + bar_q_p_second_order_misalignment*x305  # near-mass.T_xxxz
-    D[142] = bar_f_f_x*x314 + bar_f_f_y*x313 + bar_f_f_z*(f_disc_r_z*x298 - 1/3*x308 + x315) - x145*x295 - x150*x301  # near-mass.T_xxyy
-    D[143] = bar_f_f_y*x310 + bar_f_f_z*x313 - f_r_y*x300 + x141*x295  # near-mass.T_xxyz
-    D[144] = bar_f_f_x*x317 + bar_f_f_y*x314 - bar_q_f_x*x316 - x146*x301 + x311  # near-mass.T_xyyy
-    D[145] = bar_f_f_x*x318 + bar_f_f_z*x314 - f_r_y*x304 + x142*x301  # near-mass.T_xyyz
-    D[146] = bar_f_f_y*x317 - bar_f_f_z*x318 - bar_q_f_y*x316  # near-mass.T_yyyy
-    D[147] = bar_f_f_y*x318 + bar_f_f_z*x317 + bar_q_p_second_order_misalignment*x316  # near-mass.T_yyyz
-    D[148] = x264*np.abs(f_f_i)  # odd-quadratic.K_oq
-    D[149] = -G_out*x293  # output-curve.c_2
-    D[150] = -G_out**2.0*x293  # output-curve.c_3
-    D[151] = x319  # output-filter.b
-    D[152] = x293  # output-gain-step.g
-    D[153] = bar_i_vibration_rectification*(-beta_x*x14 + f_tau_yx*x24 - f_tau_yy*x19)  # pendulum-angular.K_pa
-    D[154] = bar_i_vibration_rectification*(pressure - 101325)  # pressure-bias.dK0_dp
-    D[155] = bar_K2_thermal_second_order*time  # second-order-drift.dK2_dt
-    D[156] = x319  # second-order-loop.b
-    D[157] = bar_q_i_second_order_misalignment*(f_f_i - q_f_xj) + bar_q_o_second_order_misalignment*(f_f_o - q_f_yj) + bar_q_p_second_order_misalignment*(f_f_p + q_f_z)  # second-order-misalignment.kappa
-    D[158] = -bar_M_xx*x6 - x320  # self-gradient.G_xx_roll
-    D[159] = bar_spin_axis_tilt_Gamma_xy*x6  # self-gradient.G_xy_roll
-    D[160] = bar_spin_axis_tilt_Gamma_xz*x6  # self-gradient.G_xz_roll
-    D[161] = -bar_M_yy*x6 - x320  # self-gradient.G_yy_roll
-    D[162] = bar_spin_axis_tilt_Gamma_yz*x6  # self-gradient.G_yz_roll
-    D[163] = -bar_M_xx*x5 - x321  # self-gradient.G_xx_pitch
-    D[164] = bar_spin_axis_tilt_Gamma_xy*x5  # self-gradient.G_xy_pitch
-    D[165] = bar_spin_axis_tilt_Gamma_xz*x5  # self-gradient.G_xz_pitch
-    D[166] = -bar_M_yy*x5 - x321  # self-gradient.G_yy_pitch
-    D[167] = bar_spin_axis_tilt_Gamma_yz*x5  # self-gradient.G_yz_pitch
-    D[168] = -bar_M_xx*x323 - bar_M_yy*x322 + 2.0*bar_spin_axis_tilt_Gamma_xy*cos_yaw*sin_yaw  # self-gradient-yaw.G_d
-    D[169] = bar_spin_axis_tilt_Gamma_xy*x323 + x206*x324 - x208*x324  # self-gradient-yaw.G_xy
-    D[170] = bar_spin_axis_tilt_Gamma_xz*x325 + bar_spin_axis_tilt_Gamma_yz*sin_yaw  # self-gradient-yaw.G_xz
-    D[171] = -bar_spin_axis_tilt_Gamma_xz*sin_yaw + bar_spin_axis_tilt_Gamma_yz*x325  # self-gradient-yaw.G_yz
-    D[172] = -Gamma_xy*bar_spin_axis_tilt_Gamma_xz + Gamma_xz*bar_spin_axis_tilt_Gamma_xy - bar_M_yy*x327 + bar_M_zz*x327 + bar_spin_axis_tilt_Gamma_yz*(-Gamma_yy - x326) - x156 - x157 + x164 + x288  # spin-axis-tilt.alpha_x
-    D[173] = Gamma_xy*bar_spin_axis_tilt_Gamma_yz - Gamma_yz*bar_spin_axis_tilt_Gamma_xy + bar_M_xx*x328 - bar_M_zz*x328 + bar_spin_axis_tilt_Gamma_xz*(Gamma_xx + x326) + x161 - x168 - x169 + x287  # spin-axis-tilt.alpha_y
-    D[174] = bar_wobble_xz*sin_phi - bar_wobble_yz*cos_phi - bar_wobble_zx*sin_phi + bar_wobble_zy*cos_phi  # spin-axis-wobble.w_x
-    D[175] = bar_wobble_xz*cos_phi + bar_wobble_yz*sin_phi - bar_wobble_zx*cos_phi - bar_wobble_zy*sin_phi  # spin-axis-wobble.w_y
-    D[176] = bar_sin_delta_phi  # spin-phase-offset.phi_0
-    D[177] = bar_sin_delta_phi  # spin-rate-jitter.sigma_phi
-    D[178] = bar_sin_delta_phi  # spin-rate-jitter.sigma_walk
-    D[179] = bar_sin_delta_phi*d_spin_angle*time + bar_spin_acceleration_true*x66 + bar_spin_rate_true*(d2_spin_angle*time + d_spin_angle)  # spin-rate-offset.epsilon
-    D[180] = -bar_sin_delta_phi*omegadot_z - bar_spin_acceleration_true*d2_omegadot_z - bar_spin_rate_true*d_omegadot_z  # spin-servo.c
-    D[181] = bar_i_vibration_rectification*x291  # thermal-bias.dK0_dT
-    D[182] = bar_i_vibration_rectification*d_temperature  # thermal-lag.dK0_dTdot
-    D[183] = d_temperature*x177  # thermal-lag.dK1_dTdot
-    D[184] = bar_vartheta_y_thermal_misalignment*x291  # thermal-misalignment.dvartheta_y_dT
-    D[185] = bar_vartheta_z_thermal_misalignment*x291  # thermal-misalignment.dvartheta_z_dT
-    D[186] = x177*x291  # thermal-scale.dK1_dT
-    D[187] = bar_K2_thermal_second_order*x291  # thermal-second-order.dK2_dT
-    D[188] = x253 + x254 + x255 + x285 + x286  # time-offset.delta_t
-    D[189] = bar_i_vibration_rectification*(x329*x331 + x329*x333 + x329*x335 + x329*x336 + x329*x337 + x329*x338)  # vibration-level.L_xx
-    D[190] = bar_i_vibration_rectification*(x329*x339 + x329*x341 + x329*x342 + x329*x344 + x329*x345 + x329*x347 + x329*x349 + x329*x351 + x329*x353)  # vibration-level.L_xy
-    D[191] = bar_i_vibration_rectification*(x329*x354 + x329*x355 + x329*x356 + x329*x357 + x329*x358 + x329*x359 + x329*x360 + x329*x361 + x329*x362)  # vibration-level.L_xz
-    D[192] = bar_i_vibration_rectification*(x329*x364 + x329*x366 + x329*x368 + x329*x369 + x329*x370 + x329*x371)  # vibration-level.L_yy
-    D[193] = bar_i_vibration_rectification*(x329*x372 + x329*x374 + x329*x375 + x329*x377 + x329*x378 + x329*x380 + x329*x381 + x329*x382 + x329*x383)  # vibration-level.L_yz
-    D[194] = bar_i_vibration_rectification*(x329*x384 + x329*x385 + x329*x386 + x329*x387 + x329*x388 + x329*x389)  # vibration-level.L_zz
-    D[195] = bar_i_vibration_rectification*(x331 + x333 + x335 + x336 + x337 + x338)  # vibration-rectification.P_xx
-    D[196] = bar_i_vibration_rectification*(x339 + x341 + x342 + x344 + x345 + x347 + x349 + x351 + x353)  # vibration-rectification.P_xy
-    D[197] = bar_i_vibration_rectification*(x354 + x355 + x356 + x357 + x358 + x359 + x360 + x361 + x362)  # vibration-rectification.P_xz
-    D[198] = bar_i_vibration_rectification*(x364 + x366 + x368 + x369 + x370 + x371)  # vibration-rectification.P_yy
-    D[199] = bar_i_vibration_rectification*(x372 + x374 + x375 + x377 + x378 + x380 + x381 + x382 + x383)  # vibration-rectification.P_yz
-    D[200] = bar_i_vibration_rectification*(x384 + x385 + x386 + x387 + x388 + x389)  # vibration-rectification.P_zz
+    D[123] = bar_vartheta_y_thermal_misalignment  # misalignment-step.dvartheta_y
+    D[124] = b_f_xj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yx
+    D[125] = b_f_yj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yy
+    D[126] = b_f_zj*bar_vartheta_y_thermal_misalignment  # mount-compliance.c_yz
+    D[127] = b_f_xj*bar_vartheta_z_mount_compliance  # mount-compliance.c_zx
+    D[128] = b_f_yj*bar_vartheta_z_mount_compliance  # mount-compliance.c_zy
+    D[129] = b_f_zj*bar_vartheta_z_mount_compliance  # mount-compliance.c_zz
+    D[130] = bar_f_f_x*x299 - bar_q_f_x*x295 + x294  # near-mass.T_xxx
+    D[131] = bar_f_f_y*x299 + bar_f_f_z*f_disc_r_z*f_r_y - bar_q_f_y*x295 - f_r_x*x148 - q_r_x*x149  # near-mass.T_xxy
+    D[132] = bar_f_f_z*x299 + bar_q_p_second_order_misalignment*x295 - x300  # near-mass.T_xxz
+    D[133] = bar_f_f_x*x303 + bar_f_f_z*f_disc_r_z*f_r_x - bar_q_f_x*x301 - f_r_x*x144 - q_r_x*x145  # near-mass.T_xyy
+    D[134] = bar_q_p_second_order_misalignment*q_r_x*q_r_y - f_r_x*x140 - f_r_y*x147 - x304  # near-mass.T_xyz
+    D[135] = bar_f_f_y*x303 - bar_q_f_y*x301 + f_r_y*x139  # near-mass.T_yyy
+    D[136] = bar_f_f_z*x303 + bar_q_p_second_order_misalignment*x301 - f_r_y*x143  # near-mass.T_yyz
+    D[137] = bar_f_f_x*x307 - bar_f_f_z*x310 - bar_q_f_x*x305  # near-mass.T_xxxx
+    D[138] = bar_f_f_x*x313 + bar_f_f_y*x307 - bar_q_f_y*x305 - x149*x295 + x311  # near-mass.T_xxxy
+    D[139] = bar_f_f_x*x310 + bar_f_f_z*x307 + bar_q_p_second_order_misalignment*x305  # near-mass.T_xxxz
+    D[140] = bar_f_f_x*x314 + bar_f_f_y*x313 + bar_f_f_z*(f_disc_r_z*x298 - 1/3*x308 + x315) - x145*x295 - x150*x301  # near-mass.T_xxyy
+    D[141] = bar_f_f_y*x310 + bar_f_f_z*x313 - f_r_y*x300 + x141*x295  # near-mass.T_xxyz
+    D[142] = bar_f_f_x*x317 + bar_f_f_y*x314 - bar_q_f_x*x316 - x146*x301 + x311  # near-mass.T_xyyy
+    D[143] = bar_f_f_x*x318 + bar_f_f_z*x314 - f_r_y*x304 + x142*x301  # near-mass.T_xyyz
+    D[144] = bar_f_f_y*x317 - bar_f_f_z*x318 - bar_q_f_y*x316  # near-mass.T_yyyy
+    D[145] = bar_f_f_y*x318 + bar_f_f_z*x317 + bar_q_p_second_order_misalignment*x316  # near-mass.T_yyyz
+    D[146] = x264*np.abs(f_f_i)  # odd-quadratic.K_oq
+    D[147] = -G_out*x293  # output-curve.c_2
+    D[148] = -G_out**2.0*x293  # output-curve.c_3
+    D[149] = x319  # output-filter.b
+    D[150] = x293  # output-gain-step.g
+    D[151] = bar_i_vibration_rectification*(-beta_x*x14 + f_tau_yx*x24 - f_tau_yy*x19)  # pendulum-angular.K_pa
+    D[152] = bar_i_vibration_rectification*(pressure - 101325)  # pressure-bias.dK0_dp
+    D[153] = bar_K2_thermal_second_order*time  # second-order-drift.dK2_dt
+    D[154] = x319  # second-order-loop.b
+    D[155] = bar_q_i_second_order_misalignment*(f_f_i - q_f_xj) + bar_q_o_second_order_misalignment*(f_f_o - q_f_yj) + bar_q_p_second_order_misalignment*(f_f_p + q_f_z)  # second-order-misalignment.kappa
+    D[156] = -bar_M_xx*x6 - x320  # self-gradient.G_xx_roll
+    D[157] = bar_spin_axis_tilt_Gamma_xy*x6  # self-gradient.G_xy_roll
+    D[158] = bar_spin_axis_tilt_Gamma_xz*x6  # self-gradient.G_xz_roll
+    D[159] = -bar_M_yy*x6 - x320  # self-gradient.G_yy_roll
+    D[160] = bar_spin_axis_tilt_Gamma_yz*x6  # self-gradient.G_yz_roll
+    D[161] = -bar_M_xx*x5 - x321  # self-gradient.G_xx_pitch
+    D[162] = bar_spin_axis_tilt_Gamma_xy*x5  # self-gradient.G_xy_pitch
+    D[163] = bar_spin_axis_tilt_Gamma_xz*x5  # self-gradient.G_xz_pitch
+    D[164] = -bar_M_yy*x5 - x321  # self-gradient.G_yy_pitch
+    D[165] = bar_spin_axis_tilt_Gamma_yz*x5  # self-gradient.G_yz_pitch
+    D[166] = -bar_M_xx*x323 - bar_M_yy*x322 + 2.0*bar_spin_axis_tilt_Gamma_xy*cos_yaw*sin_yaw  # self-gradient-yaw.G_d
+    D[167] = bar_spin_axis_tilt_Gamma_xy*x323 + x206*x324 - x208*x324  # self-gradient-yaw.G_xy
+    D[168] = bar_spin_axis_tilt_Gamma_xz*x325 + bar_spin_axis_tilt_Gamma_yz*sin_yaw  # self-gradient-yaw.G_xz
+    D[169] = -bar_spin_axis_tilt_Gamma_xz*sin_yaw + bar_spin_axis_tilt_Gamma_yz*x325  # self-gradient-yaw.G_yz
+    D[170] = -Gamma_xy*bar_spin_axis_tilt_Gamma_xz + Gamma_xz*bar_spin_axis_tilt_Gamma_xy - bar_M_yy*x327 + bar_M_zz*x327 + bar_spin_axis_tilt_Gamma_yz*(-Gamma_yy - x326) - x156 - x157 + x164 + x288  # spin-axis-tilt.alpha_x
+    D[171] = Gamma_xy*bar_spin_axis_tilt_Gamma_yz - Gamma_yz*bar_spin_axis_tilt_Gamma_xy + bar_M_xx*x328 - bar_M_zz*x328 + bar_spin_axis_tilt_Gamma_xz*(Gamma_xx + x326) + x161 - x168 - x169 + x287  # spin-axis-tilt.alpha_y
+    D[172] = bar_wobble_xz*sin_phi - bar_wobble_yz*cos_phi - bar_wobble_zx*sin_phi + bar_wobble_zy*cos_phi  # spin-axis-wobble.w_x
+    D[173] = bar_wobble_xz*cos_phi + bar_wobble_yz*sin_phi - bar_wobble_zx*cos_phi - bar_wobble_zy*sin_phi  # spin-axis-wobble.w_y
+    D[174] = bar_sin_delta_phi  # spin-phase-offset.phi_0
+    D[175] = bar_sin_delta_phi  # spin-rate-jitter.sigma_phi
+    D[176] = bar_sin_delta_phi  # spin-rate-jitter.sigma_walk
+    D[177] = bar_sin_delta_phi*d_spin_angle*time + bar_spin_acceleration_true*x66 + bar_spin_rate_true*(d2_spin_angle*time + d_spin_angle)  # spin-rate-offset.epsilon
+    D[178] = -bar_sin_delta_phi*omegadot_z - bar_spin_acceleration_true*d2_omegadot_z - bar_spin_rate_true*d_omegadot_z  # spin-servo.c
+    D[179] = bar_i_vibration_rectification*x291  # thermal-bias.dK0_dT
+    D[180] = bar_i_vibration_rectification*d_temperature  # thermal-lag.dK0_dTdot
+    D[181] = d_temperature*x177  # thermal-lag.dK1_dTdot
+    D[182] = bar_vartheta_y_thermal_misalignment*x291  # thermal-misalignment.dvartheta_y_dT
+    D[183] = x177*x291  # thermal-scale.dK1_dT
+    D[184] = bar_K2_thermal_second_order*x291  # thermal-second-order.dK2_dT
+    D[185] = x253 + x254 + x255 + x285 + x286  # time-offset.delta_t
+    D[186] = bar_i_vibration_rectification*(x329*x331 + x329*x333 + x329*x335 + x329*x336 + x329*x337 + x329*x338)  # vibration-level.L_xx
+    D[187] = bar_i_vibration_rectification*(x329*x339 + x329*x341 + x329*x342 + x329*x344 + x329*x345 + x329*x347 + x329*x349 + x329*x351 + x329*x353)  # vibration-level.L_xy
+    D[188] = bar_i_vibration_rectification*(x329*x354 + x329*x355 + x329*x356 + x329*x357 + x329*x358 + x329*x359 + x329*x360 + x329*x361 + x329*x362)  # vibration-level.L_xz
+    D[189] = bar_i_vibration_rectification*(x329*x364 + x329*x366 + x329*x368 + x329*x369 + x329*x370 + x329*x371)  # vibration-level.L_yy
+    D[190] = bar_i_vibration_rectification*(x329*x372 + x329*x374 + x329*x375 + x329*x377 + x329*x378 + x329*x380 + x329*x381 + x329*x382 + x329*x383)  # vibration-level.L_yz
+    D[191] = bar_i_vibration_rectification*(x329*x384 + x329*x385 + x329*x386 + x329*x387 + x329*x388 + x329*x389)  # vibration-level.L_zz
+    D[192] = bar_i_vibration_rectification*(x331 + x333 + x335 + x336 + x337 + x338)  # vibration-rectification.P_xx
+    D[193] = bar_i_vibration_rectification*(x339 + x341 + x342 + x344 + x345 + x347 + x349 + x351 + x353)  # vibration-rectification.P_xy
+    D[194] = bar_i_vibration_rectification*(x354 + x355 + x356 + x357 + x358 + x359 + x360 + x361 + x362)  # vibration-rectification.P_xz
+    D[195] = bar_i_vibration_rectification*(x364 + x366 + x368 + x369 + x370 + x371)  # vibration-rectification.P_yy
+    D[196] = bar_i_vibration_rectification*(x372 + x374 + x375 + x377 + x378 + x380 + x381 + x382 + x383)  # vibration-rectification.P_yz
+    D[197] = bar_i_vibration_rectification*(x384 + x385 + x386 + x387 + x388 + x389)  # vibration-rectification.P_zz
     return D
 
 

@@ -130,17 +130,11 @@ def misalignment(
     about_y: Angle = angles[1]
     about_z: Angle = angles[2]
     if warped := effects.get("thermal-misalignment"):
-        warmer = auxiliaries["temperature"] - REFERENCE_TEMPERATURE
-        about_y = about_y + warped["dvartheta_y_dT"][j] * warmer
-        about_z = about_z + warped["dvartheta_z_dT"][j] * warmer
+        about_y = about_y + warped["dvartheta_y_dT"][j] * (auxiliaries["temperature"] - REFERENCE_TEMPERATURE)
     if creep := effects.get("misalignment-drift"):
-        about_y, about_z = (
-            about_y + creep["dvartheta_y_dt"][j] * time,
-            about_z + creep["dvartheta_z_dt"][j] * time,
-        )
+        about_y = about_y + creep["dvartheta_y_dt"][j] * time
     if slip := effects.get("misalignment-step"):
-        later = time >= slip["t_step"]
-        about_y, about_z = about_y + slip["dvartheta_y"][j] * later, about_z + slip["dvartheta_z"][j] * later
+        about_y = about_y + slip["dvartheta_y"][j] * (time >= slip["t_step"])
     if compliance := effects.get("mount-compliance"):
         c = {name: value[j] for name, value in compliance.items()}
         about_y = about_y + c["c_yx"] * f[0] + c["c_yy"] * f[1] + c["c_yz"] * f[2]
