@@ -31,7 +31,7 @@ def model(tmp_path: Path) -> Path:
 
 
 def test_effects_are_offered_where_they_can_be_used(model: Path) -> None:
-    assert completed("effects", "thermal-") == ["thermal-bias", "thermal-lag", "thermal-scale"]
+    assert completed("effects", "thermal-b") == ["thermal-bias"]
     assert completed("add", str(model), "sat") == ["satin-mine", "saturation"]
     assert completed("add", str(model / "none"), "sat") == ["saturation"]
     assert completed("remove", str(model), "sa") == ["satin-mine", "saturation"]
