@@ -118,12 +118,12 @@ def test_nothing_is_missing_where_a_sheet_that_does_not_say_so_is_far_off() -> N
     assert "K0" not in c.fitted.instrument.widths  # of which the record says nothing
 
 
-GAIN_STEP = {"gain-step": {"dK1": [0, 1e-5, 0, 0], "t_step": 140.0}}
+GAIN_STEP = {"gain-step": {"dK1": [0, 1e-5, 0, 0], "t_step": 240.0}}
 
 
 @pytest.mark.parametrize("hidden", [{}, GAIN_STEP])
 def test_a_line_that_the_motion_does_not_make_is_said_and_bars_nothing(hidden: dict[str, Any]) -> None:
-    s = scenario(57, duration=DURATION, rate=RATE)
+    s = scenario(57, duration=400.0, rate=RATE)
     run = s.simulate(hidden)
     size = 5.0 * np.std(run.G_out - run.G_out_noise_free)
     x = run.flight()
