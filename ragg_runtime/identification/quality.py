@@ -8,13 +8,18 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base import false_alarms
 from ragg_runtime.identification.ranking import Ranked
 from ragg_runtime.identification.result import Diagnosis, Reason
 from ragg_runtime.io import Flight
 from ragg_runtime.screening.repeated import derive_acceleration
 
 ALIKE = 3.0
-"""Standard errors within which an effect is as large as what the sensors' steps feign."""
+"""Standard errors within which an effect is as large as what the noise of motion sensors feigns."""
+
+
+FEIGNED = 0.5
+"""Standard deviations of what the noise must feign, over those of what remains, for that to be no more: both are known to a few."""
 
 
 def heed_flags(
@@ -35,10 +40,10 @@ def heed_flags(
     -------
     Diagnosis
         Nothing is claimed of a record that holds something odd, but effects that describe just that; nor what the
-        resolution of motion sensors feigns.
+        noise of motion sensors feigns.
     """
     d = _without_feigned(d, flights, again)
-    flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind == "resolution"]
+    flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind == "motion-noise"]
     # an output that is more than even noise, beside motion that was not recorded, is not explained
     unknown = bool(d.reasons) and any(f.kind == "still" for _, f in flags)
     if not flags or (d.verdict == "adequate" and not unknown):
@@ -60,33 +65,51 @@ def heed_flags(
 def _without_feigned(
     d: Diagnosis, flights: Sequence[Flight], again: Callable[[Sequence[Flight]], Diagnosis]
 ) -> Diagnosis:
-    """The diagnosis without effects that the steps of motion sensors feign.
+    """The diagnosis without effects that the noise of motion sensors feigns.
 
-    A filter or a delay correlates with the rounding errors of the motion (errors in variables: W. Fuller, Measurement Error Models,
+    A filter or a delay correlates with the errors of the measured motion (errors in variables: W. Fuller, Measurement Error Models,
     1987). What that feigns is found by doing it again (J. Cook, L. Stefanski, J. Am. Stat. Assoc. 89, 1994, 1314): flights whose output
     is what the calibrated model makes of the recorded motion are diagnosed with motion that is off by as much once more. An
-    effect that comes out alike there is not claimed.
+    effect that is significant there and comes out alike is not claimed.
     """
-    coarse = sorted({c for x in flights for f in x.flags if f.kind == "resolution" for c in f.columns})
-    if not coarse or not d.found or len(d.residual) != len(flights):
+    noisy = sorted({n for x in flights for n in x.motion_noise})
+    if not noisy or d.verdict == "adequate" or len(d.residual) != len(flights):
         return d
-    feigned = again([_rounded_again(x, e) for x, e in zip(flights, d.residual, strict=True)])
-    made = {r.effect: r for r in feigned.ranking}
+    feigned = again([_measured_again(x, e) for x, e in zip(flights, d.residual, strict=True)])
+    made = {r.effect: r for r in feigned.ranking if r.log_p < np.log(false_alarms.CATALOGUE)}
     alike = [r.effect for r in d.ranking if r.effect in d.found and _is_alike(r, made.get(r.effect))]
     kept = tuple(e for e in d.found if e not in alike)
-    if not alike:
+    term = _feigned_term(d, feigned) if d.remains else None
+    if not alike and term is None:
         return d
-    said = f"{', '.join(alike)}: no more than what the steps of {', '.join(coarse)} feign, and not claimed"
-    verdict = d.verdict if kept else "adequate" if d.verdict == "missing-effect" else "unexplained"
+    what = ", ".join([*alike, *([] if term is None else [f"what remains, mostly {term},"])])
+    said = f"{what} is no more than what the noise of {', '.join(noisy)} feigns"
+    remains = d.remains and term is None
+    verdict = (
+        ("partly-explained" if kept else "unexplained")
+        if remains
+        else "missing-effect"
+        if kept
+        else "adequate"
+    )
     groups = tuple(g for g in d.groups if g.effects[0] in kept)
     return replace(d, verdict=verdict, found=kept, groups=groups, reasons=(Reason(said),))
 
 
-def _rounded_again(x: Flight, residual: NDArray[np.float64]) -> Flight:
-    """A flight whose output follows the recorded motion exactly, recorded with sensors of the same steps."""
+def _feigned_term(d: Diagnosis, feigned: Diagnosis) -> str | None:
+    """The strongest generic term that remains, if flights without any effect show something as strong, under whatever name."""
+    z = [abs(float(str(t["z"]))) for t in (*d.terms()[:1], *feigned.terms()[:1])]
+    strongest = max([*z[1:], *(float(np.sqrt(r.chi2)) for r in feigned.ranking)], default=0.0)
+    if not d.terms() or strongest < FEIGNED * z[0]:
+        return None
+    return f"{d.terms()[0]['harmonic']} x {d.terms()[0]['term']}"
+
+
+def _measured_again(x: Flight, residual: NDArray[np.float64]) -> Flight:
+    """A flight whose output follows the recorded motion exactly, measured with sensors as noisy as its own."""
     rng = np.random.default_rng(0)
     name, G = next(iter((n, v) for n, v in x.outputs.items() if not n.startswith("V_")))
-    moved = {n: x.channels[n] + q * rng.uniform(-0.5, 0.5, len(x)) for n, q in x.resolution.items()}
+    moved = {n: x.channels[n] + std * rng.standard_normal(len(x)) for n, std in x.motion_noise.items()}
     changed = replace(x, channels={**x.channels, **moved}, outputs={name: G - residual}, flags=())
     return derive_acceleration(changed) if any(n.startswith("omega_") for n in moved) else changed
 

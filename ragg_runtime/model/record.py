@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
 import numpy as np
@@ -62,8 +62,7 @@ class Record:
     ``rate``, ``spin_frequency``: Hz. ``angle_column``: of the disc that the output belongs to. ``phase``, rad: a
     gradient shows as T_1 sin(2 phi + phase) + T_2 cos(2 phi + phase). ``axes``: first two of the disc at rest in the
     measurement frame; ``None``: x and y. ``every``: samples from one recorded inline and cross to the next. ``whole``:
-    what this is a part of. ``resolution``: column -> the step in which it was recorded, SI; columns that are not in it have
-    none to speak of. ``instants`` (before + N + after,): times of all samples of a part.
+    what this is a part of. ``instants`` (before + N + after,): times of all samples of a part.
     ``input_axes``: cosine and sine of the angle of each of the output's accelerometers, and its share in the power of equal noises.
     ``reading``: the output as its converter gave it, (before + N + after,) V; ``None`` where something else is fitted.
     """
@@ -82,7 +81,6 @@ class Record:
     every: int = 1
     whole: Record | None = None
     instants: Array | None = None
-    resolution: Mapping[str, float] = field(default_factory=dict)
     start: float = 0.0
     input_axes: tuple[tuple[float, float, float], ...] = ((1.0, 0.0, 0.5), (0.0, 1.0, 0.5))
     reading: Array | None = None
@@ -365,7 +363,6 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         turning=turning,
         axes=None if disc.level else disc.across,
         demodulation=flight.demodulation or instrument.demodulation or OURS,
-        resolution=flight.resolution,
         start=start_of(flight, instrument),
         input_axes=tuple((*cs, float(w)) for cs, w in zip(o.angles, power / np.sum(power), strict=True)),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.units import Units
 from ragg_runtime.io import Flight
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag
+from ragg_runtime.io.record import Flag
 from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, find_clock_steps, fit_even_clock
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
@@ -22,11 +21,10 @@ from ragg_runtime.model.recorded import recorded
 from ragg_runtime.screening import checks
 from ragg_runtime.screening.linear_fit import INDEPENDENT, LinearFit, fit_rows
 from ragg_runtime.screening.mistakes import NAMED, Finding, find_mistake
+from ragg_runtime.screening.motion_noise import flag_noise
 from ragg_runtime.screening.repeated import derive_acceleration, leave_out_repeated
-from ragg_runtime.screening.sampler import Rows, Sampler, make_sampler
+from ragg_runtime.screening.sampler import Sampler, make_sampler
 from ragg_runtime.screening.spikes import describe_spikes, find_spikes, leave_out_glitches
-from ragg_runtime.signals.angular_acceleration import wide_weights
-from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -40,9 +38,6 @@ HALVED = 2.0
 LONGEST = 1 << 18
 """Samples of which it is told whether they were taken at uneven instants."""
 
-STEPS_TOLD = 0.5
-"""Share of what a model leaves that the steps of motion sensors must make for a note."""
-
 LEAST = 64
 """Samples of a record from which its clock is looked at: with fewer the model fits any."""
 
@@ -52,7 +47,7 @@ CHUNK = 1 << 16
 
 @one_thread
 def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
-    """The flight with what is no measurement left out, its resolution, and flags of what is odd.
+    """The flight with what is no measurement left out, the noise of its motion, and flags of what is odd.
 
     Parameters
     ----------
@@ -67,7 +62,7 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
         If the flight cannot be compared with the model: it is too short, too slow, lacks a channel, or holds
         a mistake of units, signs, axes, order or clock, which the message names.
     """
-    flight = leave_out_repeated(replace(flight, resolution=find_resolutions(flight)))
+    flight = leave_out_repeated(flight)
     checks.require_comparable(model, instrument, flight)
     flight = leave_out_glitches(flight).flagged(checks.list_remarks(instrument, flight))
     layout, inputs = instrument.layout, tuple(model.chain.INPUTS)
@@ -83,7 +78,8 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
             raise _refuse(flight, finding)
         flight = flight.flagged([_remark(finding)])
     fitted = fit_rows(model, instrument, s.take(s.rows()))
-    flight = flight.flagged(_coarse_sensors(model, instrument.units, s, fitted))
+    noise, flags = flag_noise(model, instrument.units, s, fitted)
+    flight = replace(flight, motion_noise=noise).flagged(flags)
     for place in places:
         s = make_sampler(flight, instrument, inputs, place)
         flight = flight.flagged(_saturated(s))
@@ -262,53 +258,3 @@ def _residual(model: Model, s: Sampler, fitted: Array, rows: slice) -> Array:
             predicted = evaluator.output(some.time, x, fitted, some.phi, which=s.place)[None]
         left[:, start - first : start - first + CHUNK] = some.data - predicted
     return left / scale_factor(model, fitted, s.place)
-
-
-# --- the steps of motion sensors -----------------------------------------------------------------------
-
-
-def find_resolutions(flight: Flight) -> Mapping[str, float]:
-    """Step of every recorded motion column, SI; of the angular acceleration only where the file has it."""
-    names = [*SPECIFIC_FORCE, *ANGULAR_RATE]
-    names += [n for n in ANGULAR_ACCELERATION if n in flight.written]
-    found = {n: find_step(flight.channels[n][flight.valid]) for n in names if n in flight.channels}
-    return {n: step for n, step in found.items() if step is not None}
-
-
-def _coarse_sensors(model: Model, known: Units, s: Sampler, fitted: LinearFit) -> list[Flag]:
-    """Flags of motion sensors whose steps make a good part of what the fitted model leaves of the output."""
-    x, rows = s.flight, s.take(s.rows())
-    groups: dict[tuple[str, str], list[str]] = {}
-    for name, step in x.resolution.items():
-        groups.setdefault((name.rsplit("_", 1)[0], f"{step:.3g}"), []).append(name)
-    found = []
-    for (stem, _), names in groups.items():
-        step = x.resolution[names[0]]
-        errors = {n: step / np.sqrt(12.0) for n in names}
-        if (
-            stem == "omega" and ANGULAR_ACCELERATION[0] not in x.written
-        ):  # derived from the rate, with its steps
-            gain = float(np.linalg.norm(wide_weights())) * x.rate
-            errors |= {n.replace("omega", "omegadot"): gain * e for n, e in errors.items()}
-        made = _made_of(model, s, rows, errors, fitted)
-        if s.recorded.demodulated or made < STEPS_TOLD * fitted.rms:
-            continue
-        unit = x.written.get(names[0], x.units[names[0]])
-        size = step / float(known.to_si(1.0, unit, x.units[names[0]]))
-        size, unit = (1e3 * size, f"m{unit}") if unit == "g" else (size, unit)
-        verb = "is" if len(names) == 1 else "are"
-        text = f"{', '.join(names)} {verb} recorded in steps of {size:.3g} {unit}, which make about {made:.2g} Eo of the output"
-        found.append(Flag(tuple(names), text, len(x), kind="resolution"))
-    return found
-
-
-def _made_of(model: Model, s: Sampler, rows: Rows, errors: Mapping[str, float], fitted: LinearFit) -> float:
-    """Eo rms: what random errors of this size, SI, of some channels make of the output."""
-    rng = np.random.default_rng(0)
-    moved = {n: rows.channels[n] + e * rng.standard_normal(len(rows.time)) for n, e in errors.items()}
-    evaluate = model.compiled("numpy").output
-    both = [
-        evaluate(r.time, r.inputs(model.chain), fitted.p, r.phi, which=s.place)
-        for r in (rows, replace(rows, channels={**rows.channels, **moved}))
-    ]
-    return float(np.std(both[1] - both[0])) / abs(scale_factor(model, fitted.p, s.place))
