@@ -1,4 +1,4 @@
-"""What screening found is part of the verdict: effects that coarse or stuck motion sensors feign are not claimed."""
+"""What screening found is part of the verdict: effects that coarse, noisy or stuck motion sensors feign are not claimed."""
 
 from __future__ import annotations
 
@@ -25,13 +25,19 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect() -> None:
     s, model = scenario(3, duration=150.0, rate=RATE, trim="table-v"), packaged()
     x = s.simulate().flight()
     coarse = {n: np.round(x.channels[n] / STEP) * STEP for n in ("a_x", "a_y", "a_z")}
+    rng = np.random.default_rng(1)
+    noisy = {n: x.channels[n] + 1e-3 * rng.standard_normal(len(x)) for n in ("a_x", "a_y", "a_z")}
     still = {"a_x": np.full(len(x), float(np.mean(x.channels["a_x"])))}
 
     def judged(flights: list[Flight]) -> tuple[str, tuple[str, ...], str]:
         d = heed_flags(diagnose(model, s.sheet, flights), flights, lambda f: diagnose(model, s.sheet, f))
         return d.verdict, d.found, str(d.reason)
 
-    for channels, words in ((coarse, "in steps of"), (still, "a_x does not change at all")):
+    for channels, words in (
+        (coarse, "in steps of"),
+        (noisy, "have a floor of 0.001 m/s^2"),
+        (still, "a_x does not change at all"),
+    ):
         flown = screen(model, s.sheet, replace(x, channels={**x.channels, **channels}))
         assert any(words in note for note in flown.notes)
         verdict, found, reason = judged([flown])
