@@ -217,15 +217,15 @@ def test_what_a_transducer_may_do_beyond_the_catalogue_is_unexplained_and_named(
     assert term.product.startswith(product)
 
 
-def test_a_bent_converter_of_the_output_is_unexplained_and_named() -> None:
+def test_a_bent_converter_of_the_output_is_its_curve() -> None:
     s = scenario(72, duration=400.0, rate=RATE)
     run = s.simulate({})
     flight, G = run.flight(), run.G_out
     noise = float(np.std(run.G_out - run.G_out_noise_free))
     term = 40.0 * noise / np.sqrt(len(G)) * G**3 / np.std(G**3)  # far smaller than what it is made of
     d = diagnosed(s, dataclasses.replace(flight, outputs={"G_out": G + term}))
-    assert d.verdict == "unexplained", (d.found, d.terms())
-    assert d.terms()[0]["term"] == "G_out*G_out*G_out"
+    assert d.found == ("output-curve",), (d.verdict, d.terms())
+    assert d.verdict == "missing-effect"
 
 
 def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
