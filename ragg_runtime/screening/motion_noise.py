@@ -37,6 +37,9 @@ MOST = 1.5
 WINDOW, BANDS = 256, 8
 """Samples of a window of the spectrum, and bands whose mean densities are compared: the least is the floor."""
 
+FLAT = 1.2
+"""Ratio of the two lowest bands below which they are white noise; motion falls off. Of 4,800 samples a band is known to 3 %."""
+
 
 @dataclass(frozen=True)
 class MotionNoise:
@@ -52,8 +55,8 @@ class MotionNoise:
 def measure_noise(flight: Flight) -> dict[str, MotionNoise]:
     """Of every recorded motion column; of the angular acceleration only where the file has it.
 
-    The noise is what the steps of a converter make, or the floor of the spectrum, whichever is more; the floor is an upper bound, as
-    motion may have one, too.
+    The noise is what the steps of a converter make, or the floor of the spectrum, if it has a flat one, whichever is more; the
+    floor is an upper bound, as motion may have one, too.
     """
     names = [*SPECIFIC_FORCE, *ANGULAR_RATE]
     names += [n for n in ANGULAR_ACCELERATION if n in flight.written]
@@ -69,10 +72,10 @@ def measure_noise(flight: Flight) -> dict[str, MotionNoise]:
 
 
 def _floor(x: Array) -> float:
-    """Standard deviation of white noise as dense as the spectrum of x (N,) in its lowest band."""
+    """Standard deviation of white noise as dense as the lowest band of the spectrum of x (N,); 0 where no two bands are alike."""
     _, density = signal.welch(x, nperseg=min(WINDOW, max(8, len(x) // 8)))
-    bands = np.array_split(density[2:-1], BANDS)
-    return float(np.sqrt(0.5 * min(np.mean(b) for b in bands if len(b))))
+    lowest, next_one = sorted(float(np.mean(b)) for b in np.array_split(density[2:-1], BANDS) if len(b))[:2]
+    return float(np.sqrt(0.5 * lowest)) if next_one < FLAT * lowest else 0.0
 
 
 def flag_noise(
