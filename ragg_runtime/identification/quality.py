@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
+from ragg_runtime.identification import claims
 from ragg_runtime.identification.ranking import Ranked
-from ragg_runtime.identification.result import Diagnosis, Reason
+from ragg_runtime.identification.result import Diagnosis, Reason, name_verdict
 from ragg_runtime.io import Flight
 from ragg_runtime.screening.repeated import derive_acceleration
 
@@ -84,25 +85,21 @@ def _without_feigned(
         return d
     what = ", ".join([*alike, *([] if term is None else [f"what remains, mostly {term},"])])
     said = f"{what} is no more than what the noise of {', '.join(noisy)} feigns"
-    remains = d.remains and term is None
-    verdict = (
-        ("partly-explained" if kept else "unexplained")
-        if remains
-        else "missing-effect"
-        if kept
-        else "adequate"
-    )
+    verdict = name_verdict(claimed=bool(kept), remains=d.remains and term is None)
     groups = tuple(g for g in d.groups if g.effects[0] in kept)
     return replace(d, verdict=verdict, found=kept, groups=groups, reasons=(Reason(said),))
 
 
 def _feigned_term(d: Diagnosis, feigned: Diagnosis) -> str | None:
     """The strongest generic term that remains, if flights without any effect show something as strong, under whatever name."""
-    z = [abs(float(str(t["z"]))) for t in (*d.terms()[:1], *feigned.terms()[:1])]
-    strongest = max([*z[1:], *(float(np.sqrt(r.chi2)) for r in feigned.ranking)], default=0.0)
-    if not d.terms() or strongest < FEIGNED * z[0]:
+    remaining = claims.strongest(d.remainder)
+    if remaining is None:
         return None
-    return f"{d.terms()[0]['harmonic']} x {d.terms()[0]['term']}"
+    made = claims.strongest(feigned.remainder)
+    strengths = [0.0 if made is None else abs(made.z), *(float(np.sqrt(r.chi2)) for r in feigned.ranking)]
+    if max(strengths) < FEIGNED * abs(remaining.z):
+        return None
+    return f"{remaining.term.harmonic} x {remaining.term.product}"
 
 
 def _measured_again(x: Flight, residual: NDArray[np.float64]) -> Flight:

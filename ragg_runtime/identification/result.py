@@ -26,6 +26,13 @@ from ragg_runtime.wording.sections import render_notebook
 Array = NDArray[np.float64]
 
 
+def name_verdict(*, claimed: bool, remains: bool) -> str:
+    """The verdict where something is ``claimed`` or not, and something significant ``remains`` beside it or not."""
+    if remains:
+        return "partly-explained" if claimed else "unexplained"
+    return "missing-effect" if claimed else "adequate"
+
+
 @dataclass(frozen=True, repr=False)
 class Diagnosis:
     """The result of ``diagnose``: the interface's JSON, and what the report draws."""

@@ -13,7 +13,7 @@ from ragg_runtime.identification import claims, comparison, omnibus, selection, 
 from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.line_rival import LineRival, Steady, line_rival
 from ragg_runtime.identification.omnibus import Remainder
-from ragg_runtime.identification.result import Reason
+from ragg_runtime.identification.result import Reason, name_verdict
 from ragg_runtime.identification.search import Evidence, Outcome
 from ragg_runtime.identification.strong import Stage
 
@@ -83,12 +83,10 @@ class Conclusion:
             claimed = (*claimed, *(e for _, e in random[:1]))
         if not doubted:  # what the recorder did stands in the record, whatever else does
             claimed = (*claimed, *output)
-        verdict = ("partly-explained" if claimed else "unexplained") if remains else "missing-effect"
-        verdict = verdict if remains or claimed else "adequate"
         beside = last.choice.conditional
         unsure = sorted((t.log_p, e) for e, t in beside.items() if t.rank and t.log_p < np.log(OPEN))
         return Conclusion(
-            verdict=verdict,
+            verdict=name_verdict(claimed=bool(claimed), remains=remains),
             claims=claimed,
             outcome=outcome,
             left=left,
