@@ -61,11 +61,11 @@ $(RIVALS): requirements.lock pyproject.toml
 	  || echo "heyoka cannot be installed here"
 	@touch $@
 
-bench: $(RIVALS)  ## measure speed, as ratios within one run (10 to 20 minutes; docs/contributors/speed.md)
+bench: $(RIVALS)  ## measure speed, as ratios within one run (10 to 20 minutes; docs/contributors/benchmarks.md)
 	.venv-bench/bin/python -m benchmarks
 
 bench-diagnosis: export OPENBLAS_NUM_THREADS := 1
-bench-diagnosis: $(STAMP)  ## measure the diagnosis on 720 flights (resumable, an hour; docs/explanation/diagnosis.md)
+bench-diagnosis: $(STAMP)  ## measure the diagnosis on 720 flights (resumable, an hour)
 	$(BIN)/python -m benchmarks.diagnosis --jobs 2 --against benchmarks/diagnosis/reference.csv
 
 faults: $(STAMP)  ## kill commands at random moments: 100 trials

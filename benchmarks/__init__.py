@@ -2,7 +2,7 @@
 
 ``python -m benchmarks [NAME ...]`` runs all or those named, each in a process of its own (so import heavy things inside
 ``run``; ``ENVIRONMENT`` adds to the environment of that process), prints tables and keeps ``build/bench.json``; a run of all
-writes ``docs/contributors/speed.md`` too. A row should be a time or a rate, and beside it the *ratio to something fixed,
+writes ``docs/contributors/benchmarks.md`` too. A row should be a time or a rate, and beside it the *ratio to something fixed,
 measured interleaved in the same run* (``timing.interleaved``), since machines and their load differ.
 """
 

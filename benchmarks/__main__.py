@@ -1,4 +1,4 @@
-"""Run the benchmarks of this package: all, or those named; tables, ``build/bench.json``, ``docs/contributors/speed.md``."""
+"""Run the benchmarks of this package: all, or those named; tables, ``build/bench.json``, ``docs/contributors/benchmarks.md``."""
 
 from __future__ import annotations
 
@@ -24,12 +24,27 @@ from benchmarks import Row
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "build" / "bench.json"
-PAGE = ROOT / "docs" / "contributors" / "speed.md"
+PAGE = ROOT / "docs" / "contributors" / "benchmarks.md"
 HEAD = """\
-# Speed
+# Benchmarks
 
-Written by `make bench` (10 to 20 minutes; spreads and notes in `build/bench.json`); one alone: `python -m benchmarks NAME`.
-Medians; rivals are timed in turn with ours, in one process, and ratios are taken round by round.
+Measure before and after a change that may matter.
+
+| command | measures | takes |
+|---|---|---|
+| `make bench` | speed: the tables below; `python -m benchmarks NAME` measures one | 10 to 20 minutes |
+| `make bench-diagnosis` | the diagnosis on 720 simulated flights, compared flight by flight with the reference | an hour |
+| `python -m benchmarks.diagnosis --ablate` | the diagnosis with one rule after the other switched off | hours, resumable |
+| `python -m examples.mimu.elsewhere RAW.bin.gz` | 44 questions about recordings of real sensors | minutes |
+| `python -m benchmarks.compensation` | the gain of the compensation | minutes |
+| `make faults` | 100 commands killed at random moments | minutes |
+
+[Results of the diagnosis](../_made/benchmark.md) are shown when the site is built.
+
+## Speed
+
+Written by `make bench`: medians; spreads and notes are in `build/bench.json`.
+Competitors are timed alternately in one process, and ratios are taken round by round.
 """
 
 
@@ -53,7 +68,7 @@ def measure(name: str, module: ModuleType) -> dict[str, Any]:
 
 
 def describe_machine() -> dict[str, str]:
-    """Processor, cores, vector instructions, system, Python and packages; nothing that names a host."""
+    """Commit, processor, cores, vector instructions, system, Python and packages; nothing that names a host."""
     try:
         lines = Path("/proc/cpuinfo").read_text("utf-8").split("\n\n", 1)[0].splitlines()
     except OSError:
@@ -61,8 +76,11 @@ def describe_machine() -> dict[str, str]:
     cpu = {key.strip(): value.strip() for key, _, value in (line.partition(":") for line in lines)}
     flags = cpu.get("flags", cpu.get("Features", "")).split()
     vectors = [v for v in ("avx512f", "avx2", "avx", "sse4_2", "asimd", "sve") if v in flags]
+    words = ["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]
+    commit = subprocess.run(words, capture_output=True, text=True, check=False).stdout.strip()
     caches = sorted(Path("/sys/devices/system/cpu/cpu0/cache").glob("index*/size"))
     return {
+        "commit": commit or "unknown",
         "processor": cpu.get("model name", platform.machine()),
         "cores": str(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()),
         "vector instructions": " ".join(vectors) or "unknown",
@@ -99,9 +117,13 @@ def text(rows: Sequence[Row]) -> str:
 
 def page(everything: Mapping[str, Any], titles: Mapping[str, str]) -> str:
     """The page of the documentation: values and targets; spreads and notes are in the JSON."""
-    lines = [HEAD, "Machine: " + "; ".join(f"{k} {v}" for k, v in everything["machine"].items()) + ".", ""]
+    lines = [
+        HEAD,
+        "Measured on: " + "; ".join(f"{k} {v}" for k, v in everything["machine"].items()) + ".",
+        "",
+    ]
     for name, result in everything["results"].items():
-        lines += [f"## {name}", "", titles.get(name, ""), ""]
+        lines += [f"### {name}", "", titles.get(name, ""), ""]
         if "failed" in result:
             lines += [f"Failed: {result['failed']}.", ""]
             continue

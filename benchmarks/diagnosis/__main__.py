@@ -1,9 +1,8 @@
-"""Fly the benchmark of the diagnosis, or the ablation, with progress and resumably; print the tables, write files and the page.
+"""Fly the benchmark of the diagnosis, or the ablation, with progress and resumably; print the tables, write files.
 
 python -m benchmarks.diagnosis [--seed N ...] [--jobs N] [--only KIND] [--real FOLDER] [--save FILE] [--against FILE]
 python -m benchmarks.diagnosis --ablate [--rule ID ...] [--jobs N]
 python -m benchmarks.diagnosis --flight ID      one flight, shown
-python -m benchmarks.diagnosis --page           docs/explanation/diagnosis.md, from the results that are committed
 """
 
 from __future__ import annotations
@@ -30,7 +29,6 @@ from benchmarks.diagnosis.score import Row
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CACHE = ROOT / "build" / "bench-diagnosis.jsonl"
-PAGE = ROOT / "docs" / "explanation" / "diagnosis.md"
 RESULTS = {n: HERE / f"{n}.csv" for n in ("reference", "ablation", "array")}
 
 ASIDE = ("report", "studio", "cli", "wording", "survey", "experiments", "compensation")
@@ -127,6 +125,11 @@ def write_rows(rows: Iterable[Row], path: Path) -> None:
     print(f"written: {path}", file=sys.stderr)
 
 
+def committed_page() -> str:
+    """The page of the site, from the results that are committed."""
+    return table.page({n: read_rows(p) for n, p in RESULTS.items() if p.exists()})
+
+
 def _ablate(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
     cache = Cache(options.cache.with_stem(f"{options.cache.stem}-ablation"), source)
     there = [r for r in ablation.RULES if r.there and (not options.rule or r.id in options.rule)]
@@ -177,15 +180,11 @@ def main(arguments: Sequence[str]) -> int:
     ask("--cache", type=Path, default=CACHE, help="results, a JSON line each")
     ask("--save", type=Path, metavar="CSV", help="keep the results in short")
     ask("--against", type=Path, metavar="CSV", help="compare flight by flight with results in short")
-    ask("--page", action="store_true", help="write the page from the results that are committed")
     options = parser.parse_args(arguments)
     for name in options.flight:
         sample, kind, record, index = name.split("/")
         print(json.dumps(fly(Spec(kind, record, int(index), int(sample))), indent=1))
     if options.flight:
-        return 0
-    if options.page:
-        PAGE.write_text(table.page({n: read_rows(p) for n, p in RESULTS.items() if p.exists()}), "utf-8")
         return 0
     what = _ablate if options.ablate else _array if options.array else _fly
     try:

@@ -132,15 +132,12 @@ def array(rows: Sequence[Row]) -> list[str]:
 
 
 HEAD = """\
-# How well the diagnosis does
+# Benchmark of the diagnosis
 
-Written by `python -m benchmarks.diagnosis --page` from `benchmarks/diagnosis/*.csv`; do not edit. For contributors.
-
-Flights come from the independent simulator; sheet and flight go through files and are diagnosed as a user would. Strengths are
-those for an observer who knows the noise (`strength.py`); what counts as right, wrong or silent is defined in `score.py`. A seed has
-{flights} flights over {kinds} kinds of record (`records.py`); seeds of the reference:
-{seeds}; nobody has looked at {held}. Cases, seeds and scoring were
-committed before anything was flown. Intervals are Wilson's at 90 %.
+Flights come from the independent simulator; sheet and flight are written to files and diagnosed as a user would. Strengths are
+those for an observer who knows the noise (`strength.py`); right, wrong and silent are defined in `score.py`. A seed has
+{flights} flights of {kinds} kinds of record (`records.py`). Seeds of the reference: {seeds}; held back for a final check: {held}. Cases,
+seeds and scoring were committed before anything was flown. Intervals are Wilson's at 90 %. The tables are made from `benchmarks/diagnosis/*.csv`.
 
     python -m benchmarks.diagnosis --jobs 2 --against benchmarks/diagnosis/reference.csv
     python -m benchmarks.diagnosis --array --real FOLDER
@@ -152,15 +149,15 @@ SECTIONS = {
     "array": (
         "Questions asked of real sensors",
         array,
-        "\n`python -m examples.mimu.elsewhere RAW.bin.gz` prints what counts.\n",
+        "\n`python -m examples.mimu.elsewhere RAW.bin.gz` prints the questions and answers.\n",
     ),
     "ablation": (
         "Rules, each switched off",
         ablation,
         """
-40 flights a rule (seed of its own): half of the kinds that it was written for, half of others. *Acts*: where it does
-anything with the rule on, the others are as they were. *Worse* and *better*: outcomes without the rule; *other*: changes
-that count alike. Mean change: right 1, part and said 1/2, silent and unexplained 0, wrong -1.
+40 flights a rule (seed of its own): half of the kinds that it was written for, half of others. *Acts*: flights in which the rule
+changes anything; only these are repeated without it. *Worse* and *better*: outcomes without the rule; *other*: changes
+of equal score. Mean change: right 1, part and said 1/2, silent and unexplained 0, wrong -1.
 """,
     ),
 }
