@@ -137,7 +137,8 @@ HEAD = """\
 Flights come from the independent simulator; sheet and flight are written to files and diagnosed as a user would. Strengths are
 those for an observer who knows the noise (`strength.py`); right, wrong and silent are defined in `score.py`. A seed has
 {flights} flights of {kinds} kinds of record (`records.py`). Seeds of the reference: {seeds}; held back for a final check: {held}. Cases,
-seeds and scoring were committed before anything was flown. Intervals are Wilson's at 90 %. The tables are made from `benchmarks/diagnosis/*.csv`.
+seeds and scoring were committed before anything was flown. Intervals are Wilson's at 90 %.
+The tables are made from `benchmarks/diagnosis/*.csv`.
 
     python -m benchmarks.diagnosis --jobs 2 --against benchmarks/diagnosis/reference.csv
     python -m benchmarks.diagnosis --array --real FOLDER

@@ -1,4 +1,4 @@
-"""README's five minutes, as they are typed; and what its commands say as JSON is what the interface promises."""
+"""README's commands as they are typed; their JSON is what the interface promises."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from commands import ragg
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text("utf-8")
 SAMPLES = 4800
-"""Five minutes of the shipped flight are enough for all that README says of it."""
+"""Five minutes of the shipped flight are enough for all that README shows."""
 
 
 def blocks(heading: str) -> list[str]:
@@ -28,7 +28,7 @@ def blocks(heading: str) -> list[str]:
     return [re.sub(r"^    ", "", b, flags=re.MULTILINE) for b in found]
 
 
-SHELL, PYTHON = blocks("Five minutes to a first result")
+(SHELL,), (PYTHON,) = blocks("Step by step"), blocks("From Python")
 
 
 @pytest.fixture(scope="module")
@@ -45,11 +45,9 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 
 @pytest.fixture(scope="module")
 def said(clone: Path) -> dict[str, str]:
-    """Each command of the block and what it printed, its JSON kept beside. ``make demo`` has run: it makes the environment."""
-    first, *lines = SHELL.splitlines()
-    assert first == "make demo && . .venv/bin/activate"
+    """Each command of the block and what it printed, its JSON kept beside."""
     found = {}
-    for line in lines:
+    for line in SHELL.splitlines():
         program, command, *rest = shlex.split(line, comments=True)
         more = ["--json", f"{command}.json"] if command in ("compare", "diagnose", "add", "history") else []
         done = ragg(command, *rest, *more)
@@ -58,7 +56,7 @@ def said(clone: Path) -> dict[str, str]:
     return found
 
 
-def test_the_commands_of_the_five_minutes_work_as_typed(said: dict[str, str], clone: Path) -> None:
+def test_the_commands_work_as_typed(said: dict[str, str], clone: Path) -> None:
     assert "NOT adequate" in said["compare"]
     assert "thermal-scale" in said["diagnose"]
     assert "the model is now adequate" in said["add"]
@@ -75,7 +73,7 @@ def test_each_command_prints_the_next_one_with_its_real_paths(said: dict[str, st
     assert f"ragg compensate my-model {flight} -o compensated.csv --calibration frozen" in said["calibrate"]
 
 
-def test_the_python_of_the_five_minutes_works_as_typed(clone: Path) -> None:
+def test_the_python_works_as_typed(clone: Path) -> None:
     made: dict[str, object] = {}
     exec(PYTHON, made)
     d, step = made["d"], made["step"]
