@@ -22,13 +22,11 @@ from derive import ir, recogniser, stages
 from derive.effect import Effect
 from derive.effects import catalogue
 from derive.emit import c as _c
-from derive.emit import latex as _latex
 from derive.emit import numpy as _numpy
 from derive.emit.target import joined, targets
 from derive.folded import Folded, folded
 from derive.layout import PAPER as FOUR
 from derive.layout import Layout
-from derive.output_harmonics import layout_harmonics
 from derive.propagation import collect, ideal
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import SECOND_ORDER, symbol
@@ -91,15 +89,6 @@ def derive_plain(effects: Sequence[Effect], form: Form = PAPERS) -> Files:
     """The model with ``effects`` in C, for G_out alone, in the order of operations of the NumPy code."""
     (chain, *_) = _chains(form, effects, ())
     return _c.plain(chain)
-
-
-def derive_harmonics(form: Form) -> Files:
-    """The outputs of an instrument as harmonics of its discs' angles, without effects: NumPy and LaTeX."""
-    title = (
-        "Harmonics of the instrument's outputs, and the combinations of accelerometers that they are made of."
-    )
-    m = layout_harmonics(title, form.order, form.kinematics, form.layout)
-    return joined([_numpy.layout_harmonics(m), _latex.layout_harmonics(m)])
 
 
 def offered(candidates: Sequence[Effect], form: Form) -> tuple[Effect, ...]:

@@ -556,5 +556,5 @@ def contents(m: Loaded) -> Contents:
 
 
 def export(m: Loaded, folder: Path | str, form: str) -> list[Path]:
-    """Write the model into a folder, as ``c``, ``numpy``, ``json`` or ``harmonics``; the files."""
+    """Write the model into a folder, as ``c``, ``numpy`` or ``json``; the files."""
     return write_export(contents(m), Path(folder), form)

@@ -305,8 +305,6 @@ def compensate(
 @click.option(
     "--json", "form", flag_value="json", help="One document: description, parameters with units, an example."
 )
-@click.option("--harmonics", "form", flag_value="harmonics",
-              help="Outputs as harmonics of the disc's angle: LaTeX and NumPy, without effects.")  # fmt: skip
 def export(model_dir: Path, folder: Path, form: str | None) -> None:
     """Write the model with its values as C, NumPy or JSON.
 
@@ -315,7 +313,7 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
     if form is None:
         raise UserError(
             "say what to export",
-            expected="--c, --numpy, --json or --harmonics",
+            expected="--c, --numpy or --json",
             remedy="see: ragg export --help",
         )
     exported = api.contents(load(model_dir))

@@ -260,14 +260,6 @@ def chain_of(instrument: Instrument) -> str:
     return resources.files(package).joinpath("chain.py").read_text("utf-8")
 
 
-def harmonics_of(instrument: Instrument) -> Mapping[str, str]:
-    """The instrument's outputs as harmonics of their discs' angles, without effects: file name -> text."""
-    from derive import pipeline
-
-    with _SYMPY:
-        return pipeline.derive_harmonics(_symbolic(instrument.form, instrument.layout))
-
-
 _LARGEST = 1 << 24
 """Bytes of all generated files together."""
 

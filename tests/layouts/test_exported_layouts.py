@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import re
 import subprocess
 import sys
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -40,23 +38,6 @@ def contents() -> Contents:
         name="odd", model=model, instrument=i, p=vector(model, i), sources=derive.plain_c(i),
         module=files["chain.py"], origin="values of model.toml",
     )  # fmt: skip
-
-
-def test_harmonics_go_with_values_and_an_example() -> None:
-    """The series of every output, put together with what stands beside it, gives the answer of the example."""
-    files = api.FORMS["harmonics"](contents())
-    code: dict[str, Any] = {}
-    exec(files["harmonics.py"], code)
-    (kept,) = (json.loads(text) for name, text in files.items() if name.endswith(".json"))
-    p = np.concatenate([x["values"] for x in kept["parameters"]])
-    columns = {n: np.array(x) for n, x in kept["example"]["columns"].items()}
-    t = columns["time"]
-    for k, o in enumerate(kept["outputs"]):
-        Omega = 2 * np.pi * o["spin_frequency"]
-        columns |= {"d_spin_angle": np.full_like(t, Omega), "d2_spin_angle": np.zeros_like(t)}
-        found = code["output"](np.stack([columns[n] for n in code["INPUTS"]]), p, Omega * t, k)
-        gap = (found - kept["example"][o["name"]]) / o["scale_factor"]["value"]
-        assert np.max(np.abs(gap)) < 1e-3  # a volt of single accelerometers has few digits
 
 
 def flown(path: Path, wobble: float = 0.0) -> Flight:

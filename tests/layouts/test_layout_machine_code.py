@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -115,18 +113,6 @@ def unavoidable(
     return np.asarray(total + np.abs(gap.astype(float)) * 2.0**-23)
 
 
-IN_HARMONICS = ("complements", "vertical", "odd")
-"""Layouts whose series are evaluated, too: they differ by what they are given, not by how they are derived."""
-
-
-def by_harmonics(i: Instrument, chain: Chain, p: Array, phi: Array, x: Array, which: int) -> Array:
-    """The output as a series in its disc's angle: what ``ragg export --harmonics`` writes."""
-    code: dict[str, Any] = {}
-    exec(derive.harmonics_of(i)["harmonics.py"], code)
-    assert code["PARAMETERS"] == chain.PARAMETERS
-    return np.asarray(code["output"](x[[chain.INPUTS.index(n) for n in code["INPUTS"]]], p, phi, which))
-
-
 @pytest.mark.parametrize(
     ("name", "head"), [*((n, sheets.EXACT) for n in ("complements", "vertical", "odd")), ("umbrella", "")]
 )
@@ -144,8 +130,6 @@ def test_round_off_against_fifty_digits(name: str, head: str) -> None:
         eotvos = scale_factor(model, p, k)
         limit = np.full(INSTANTS, GATE) if floor is None else np.maximum(GATE, FEW * floor[k] / eotvos)
         answers = [e.output(t, x, p, phi, which=k) for e in (model.compiled("c"), model.compiled("numpy"))]
-        if name in IN_HARMONICS:
-            answers.append(by_harmonics(i, model.chain, p, phi, x, k))
         for found in answers:
             gap = np.array(
                 [abs(float(fifty.real(float(g)) - v)) for g, v in zip(found, true[k], strict=True)]

@@ -10,8 +10,7 @@ from derive.emit.printers import to_numpy
 from derive.emit.render import environment
 from derive.folded import Folded
 from derive.ir import AmplitudeTerm, Chain, Harmonic
-from derive.output_harmonics import LayoutHarmonics
-from derive.propagation import Term, monomial
+from derive.propagation import Term
 
 BLOCK = 4096
 """Samples that are evaluated together: large enough to make NumPy's calls cheap, small enough for the second cache."""
@@ -31,25 +30,6 @@ def chain(m: Chain, *, packaged: bool) -> dict[str, str]:
 
 def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, ...]]) -> dict[str, str]:
     return {}
-
-
-def layout_harmonics(m: LayoutHarmonics) -> dict[str, str]:
-    """The outputs of any layout as harmonics."""
-    motions = list(dict.fromkeys(k for terms in m.generic.values() for k in terms))
-    basis = [(*key, motions.index(k), e) for key, terms in m.generic.items() for k, e in terms.items()]
-    return {
-        "harmonics.py": _render(
-            "layout_harmonics.py.j2",
-            m=m,
-            monomials=[monomial(k) for k in motions],
-            basis=basis,
-            names=[c.name for c in m.inputs],
-            read={
-                s.name for e in (*(e for _, e in m.place), *(e for *_, e in basis)) for s in e.free_symbols
-            },
-            of_axes={s.name for s in m.axes.inputs},
-        )
-    }
 
 
 def package_file(modules: Sequence[str]) -> str:

@@ -15,7 +15,6 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
 from ragg_runtime.compensation.export.contents import Contents, unit_of
 from ragg_runtime.compensation.export.program import make_program
-from ragg_runtime.model import derive
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
 from ragg_runtime.signals.angular_acceleration import wide_weights
 from ragg_runtime.signals.derivative import DEGREES, WINDOW, weights
@@ -51,11 +50,6 @@ def make_json(c: Contents) -> Files:
     return {"model.json": json.dumps(c.document(), indent=1, ensure_ascii=False, allow_nan=False) + "\n"}
 
 
-def make_harmonics(c: Contents) -> Files:
-    """The outputs as harmonics of their discs' angles, beside the values that go into them."""
-    return {**derive.harmonics_of(c.instrument), **make_json(c)}
-
-
 def make_tests(c: Contents) -> Files:
     """Two short motions with the model's answers; the second without angular acceleration but with encoders."""
     found = {}
@@ -73,7 +67,7 @@ def format_csv(columns: Mapping[str, NDArray[np.float64]]) -> str:
 
 
 FORMS: Mapping[str, Callable[[Contents], Files]] = MappingProxyType(
-    {"c": make_c, "numpy": make_numpy, "json": make_json, "harmonics": make_harmonics}
+    {"c": make_c, "numpy": make_numpy, "json": make_json}
 )
 """Form of an export -> its files."""
 
