@@ -122,8 +122,13 @@ def _pour(source: Path, path: Path) -> None:
 
 def write_text(path: Path, text: str) -> None:
     """Write UTF-8 text whole or not at all."""
+    write_bytes(path, text.encode())
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write a file whole or not at all."""
     with contextlib.closing(Target(path)) as target:
-        target.write(text.encode())
+        target.write(content)
         target.place()
 
 

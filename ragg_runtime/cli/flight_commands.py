@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from ragg_runtime.base.errors import UserError, printable
-from ragg_runtime.cli import shared
+from ragg_runtime.base.files import write_bytes, write_text
 from ragg_runtime.cli.shared import (
     PLACE,
     Command,
@@ -19,6 +19,7 @@ from ragg_runtime.cli.shared import (
     Source,
     command_line,
     conclude,
+    find_wanted,
     flights_argument,
     limit_option,
     load,
@@ -105,13 +106,13 @@ def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], ma
 
 @click.command(cls=Command, report=True)
 @model_argument
-@click.argument("effect", shell_complete=shared.complete_effect)
+@click.argument("effect")
 @click.argument("flights", type=PLACE, nargs=-1)
 @mapping_option
 def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | None) -> None:
     """Add an effect: derive again, calibrate, show the error."""
     m = load(model_dir)
-    if shared.running().report_file is not None and not flights:
+    if find_wanted().report_file is not None and not flights:
         raise UserError("a report of `add` needs a flight", remedy="name a flight file after the effect")
     records = read(m, flights, mapping) if flights else []
     check = next_command("diagnose", model_dir, records, mapping)
@@ -125,14 +126,11 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
 
         found = result.as_json()
         said = describe.describe_addition(found, [e.id for e in result.loaded.model.effects], check)
-        with shared.before_change():
-            source = Source(result.loaded, records, before=m)
-            conclude(found, said, source, page, f"{m.name}: {effect} added")
+        conclude(found, said, Source(result.loaded, records, before=m), page, f"{m.name}: {effect} added")
 
     with working(f"deriving the model with {effect}{', calibrating' if flights else ''}", "add", records):
         result = api.add(m, effect, records, tell)
     if not result.converged:
-        shared.running().place()  # report and JSON say why; they are the result
         raise UserError(
             "nothing was added: the model is as it was",
             where=", ".join(x.name for x in records),
@@ -194,7 +192,7 @@ def next_motion(
     else:
         found = planned = next_flight.calibration_flight(m, records, most, criterion=criterion, **options)
         if run_sheet is not None:
-            shared.running().write(run_sheet, planned.run_sheet())
+            write_text(Path(run_sheet), planned.run_sheet())
     next_flight.write_motion(found, Path(output))
     said = describe_other.describe_next_motion(found.as_json(), output)
     page = lambda origin: pages.write_info(said, [found.motion()], origin)  # noqa: E731
@@ -367,6 +365,6 @@ def survey(
         )
     origin, about = api.of_survey(m, s, command_line())
     if table_file is not None:
-        shared.running().write(table_file, make_parquet(s.records))
+        write_bytes(Path(table_file), make_parquet(s.records))
     page = lambda _: pages.write_survey(s, Origin(**about))  # noqa: E731
     conclude(s.as_json() | origin, s.sections(model_dir), page=page)

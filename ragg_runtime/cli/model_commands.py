@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ragg_runtime.base.errors import UserError, one_line, printable
-from ragg_runtime.cli import shared
+from ragg_runtime.base.files import write_text
 from ragg_runtime.cli.shared import (
     PLACE,
     Command,
@@ -78,7 +78,7 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
 
 
 @click.command(cls=Command)
-@click.argument("identifier", metavar="[ID]", required=False, shell_complete=shared.complete_effect)
+@click.argument("identifier", metavar="[ID]", required=False)
 def effects(identifier: str | None) -> None:
     """List the catalogue of effects; with ID, one in full."""
     from ragg_runtime.model.catalogue import effects as catalogue
@@ -92,7 +92,7 @@ def effects(identifier: str | None) -> None:
 
 @click.command(cls=Command)
 @model_argument
-@click.argument("effect", shell_complete=shared.complete_effect)
+@click.argument("effect")
 def remove(model_dir: Path, effect: str) -> None:
     """Take an effect out of the model."""
     before = load(model_dir)
@@ -100,9 +100,7 @@ def remove(model_dir: Path, effect: str) -> None:
     def tell(m: Loaded) -> None:
         left = [e.id for e in m.model.effects]
         text = f"removed {effect}; effects in the model: {', '.join(left) or 'none'}"
-        with shared.before_change():
-            result = {"effect": effect, "effects": left}
-            conclude(result, [Section(sentences=(text,))], Source(m, before=before))
+        conclude({"effect": effect, "effects": left}, [Section(sentences=(text,))], Source(m, before=before))
 
     api.remove(before, effect, tell)
 
@@ -234,7 +232,11 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
 @click.command(name="map", cls=Command, json=False)
 @click.argument("flight", type=PLACE)
 @click.option(
-    "-o", "--output", type=OutputFile(), metavar="mapping.toml", help="File to write (default: stdout)."
+    "-o",
+    "--output",
+    type=OutputFile(records=True),
+    metavar="mapping.toml",
+    help="File to write (default: stdout).",
 )
 def map_command(flight: Path, output: str | None) -> None:
     """Draft a mapping for a file with columns of its own.
@@ -252,7 +254,7 @@ def map_command(flight: Path, output: str | None) -> None:
             raise UserError(
                 "the mapping exists already", where=output, remedy="choose another name or remove it first"
             )
-        shared.running().write(output, made.text)
+        write_text(Path(output), made.text)
         click.echo(printable(f"{output}: written; check it, then use it: --map {output}"), err=True)
     for note in made.notes:
         click.echo(one_line(f"note: {note}"), err=True)

@@ -8,7 +8,6 @@ import math
 import os
 import shlex
 import sys
-import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -16,11 +15,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-from click.shell_completion import CompletionItem
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import Target, read_text
+from ragg_runtime.base.files import Target, write_text
 from ragg_runtime.base.provenance import provenance
 from ragg_runtime.report.page import Origin
 from ragg_runtime.wording.sections import Section, render_text
@@ -46,9 +44,7 @@ else:
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of stdout; where JSON is asked for there, it is all that is written there."""
 
-_RUN = f"{__name__}.run"
-GENERATED = "generated"
-_OF_A_MODEL = ("model.toml", "history.json", "calibration.json", "mapping.toml", GENERATED)
+OF_A_MODEL = ("model.toml", "history.json", "calibration.json", "mapping.toml", "generated")
 """A model directory's own files, and the folder with the derived code."""
 
 
@@ -60,16 +56,7 @@ class OutputFile(click.Path):
         self.records = records
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        name = os.fsdecode(super().convert(value, param, ctx))
-        path = Path(name)
-        if not self.records and path.is_file() and path.stat().st_size:
-            from ragg_runtime.io.files import find_ending  # only here: to import it takes a while
-
-            if find_ending(path.name) is not None:
-                raise _over("a record", path, "a file that is not empty, with the ending of a flight file")
-            if path.name in _OF_A_MODEL and (path.resolve().parent / "model.toml").is_file():
-                raise _over("a file of a model directory", path, path.name)
-        return name
+        return os.fsdecode(super().convert(value, param, ctx))
 
 
 class Finite(click.FloatRange):
@@ -116,46 +103,24 @@ _REPORT = click.Option(
 _VERBOSE = click.Option(["-v", "--verbose"], is_flag=True, help="Show all details.")
 
 
-class Run:
-    """What a command was asked to write, ready to be written; :meth:`place` puts all of it in its place."""
+@dataclass(frozen=True)
+class Wanted:
+    """What a command was asked to write beside its result on stdout."""
 
-    def __init__(self, targets: dict[str, Target], options: Mapping[str, Any]) -> None:
-        self._targets = targets
-        self._written: list[Target] = []
-        self.json_file: str | None = options.get("json_file")
-        self.report_file: str | None = options.get("report_file")
-        self.verbose = bool(options.get("verbose"))
-
-    def write(self, name: str, content: str | bytes) -> None:
-        """Write one of the files; nothing is in its place yet, but what goes to stdout is written at once."""
-        if name in STDOUT:
-            self._targets[name] = Target(Path("/dev/stdout"))
-        self._targets[name].write(content.encode() if isinstance(content, str) else content)
-        self._written.append(self._targets[name])
-
-    def place(self) -> None:
-        for t in self._written:
-            t.place()
-        self._written.clear()
-
-    def close(self) -> None:
-        for t in self._targets.values():
-            t.close()
+    json_file: str | None = None
+    report_file: str | None = None
+    verbose: bool = False
 
 
 class Command(click.Command):
-    """A command whose outputs are made ready before it begins; all other paths that it takes are inputs.
+    """A command that looks at the files to write before it begins; all other paths that it takes are inputs.
 
     With ``json`` and ``report`` it has these options: :func:`conclude` writes what they ask for.
     """
 
     def __init__(self, *args: Any, json: bool = True, report: bool = False, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
-        self.params += [
-            *([_JSON] if json else []),
-            *([_REPORT] if report else []),
-            *([_VERBOSE] if json else []),
-        ]
+        self.params += [_JSON] * json + [_REPORT] * report + [_VERBOSE] * json
 
     def invoke(self, ctx: click.Context) -> Any:
         if sys.stdout is None:
@@ -163,20 +128,32 @@ class Command(click.Command):
                 "the result cannot be written: stdout is closed",
                 remedy="if it is not wanted, send it away: > /dev/null",
             )
-        targets = _opened(_paths(self, ctx, outputs=True), _paths(self, ctx, outputs=False))
-        options: dict[str, Any] = {
-            k: ctx.params.pop(k) for k in ("json_file", "report_file", "verbose") if k in ctx.params
-        }
-        with contextlib.closing(Run(targets, options)) as run:
-            ctx.meta[_RUN] = run
-            result = super().invoke(ctx)
-            run.place()
-        return result
+        self._check_outputs(ctx)
+        options = ("json_file", "report_file", "verbose")
+        ctx.meta[__name__] = Wanted(**{k: ctx.params.pop(k) for k in options if k in ctx.params})
+        return super().invoke(ctx)
+
+    def _check_outputs(self, ctx: click.Context) -> None:
+        """UserError if a file cannot be written, is read as well, is written twice, or is a model's or a record."""
+        inputs: list[Path] = []
+        outputs: list[tuple[Path, bool]] = []
+        for p in self.params:
+            value = ctx.params.get(p.name or "")
+            if isinstance(p.type, OutputFile) and value is not None and value not in STDOUT:
+                outputs.append((Path(value), p.type.records))
+            elif isinstance(p.type, click.Path) and value is not None:
+                inputs += map(Path, value if p.multiple or p.nargs == -1 else (value,))
+        known: list[Path] = []
+        for path, records in outputs:
+            _check_output(path, inputs, records=records)
+            if any(_is_same(path, x) for x in known):
+                raise UserError("two results would be written to one file", where=path)
+            known.append(path)
 
 
-def running() -> Run:
-    """The outputs of the command that runs."""
-    found: Run = click.get_current_context().meta[_RUN]
+def find_wanted() -> Wanted:
+    """What the command that runs was asked to write."""
+    found: Wanted = click.get_current_context().meta[__name__]
     return found
 
 
@@ -252,36 +229,22 @@ def conclude(
     page
         Makes the report, which has this ``title``.
     """
-    run = running()
-    if run.report_file is not None and page is not None:
+    wanted = find_wanted()
+    if wanted.report_file is not None and page is not None:
         under_way("writing the report")
         origin = Origin(title or "", command_line(), ()) if source is None else source.origin(title)
-        run.write(run.report_file, page(origin))
-        click.echo(one_line(f"report: {run.report_file}"), err=True)
-    if run.json_file is not None:
+        write_text(Path("/dev/stdout" if wanted.report_file == "-" else wanted.report_file), page(origin))
+        click.echo(one_line(f"report: {wanted.report_file}"), err=True)
+    if wanted.json_file is not None:
         whole = {**result, **({} if source is None else source.json())}
         whole.setdefault("provenance", provenance(command_line()))
         text = json.dumps(whole, indent=1, allow_nan=False)
-        if run.json_file in STDOUT:
+        if wanted.json_file in STDOUT:
             click.echo(text)
             return
-        run.write(run.json_file, text + "\n")
+        write_text(Path(wanted.json_file), text + "\n")
     noted = notes_of([] if source is None else source.flights)
-    click.echo(render_text([*sections, *noted], verbose=run.verbose))
-
-
-@contextlib.contextmanager
-def before_change() -> Iterator[None]:
-    """While a result is written on which the change of a model waits: it must not be lost on the way."""
-    try:
-        yield
-    except OSError as error:
-        raise UserError(
-            "the result cannot be written, so the model is left as it was",
-            where=error.filename or "stdout",
-            found=error.strerror,
-            remedy="make room, or send the result to another file",
-        ) from None
+    click.echo(render_text([*sections, *noted], verbose=wanted.verbose))
 
 
 def notes_of(flights: Sequence[Flight]) -> list[Section]:
@@ -313,72 +276,30 @@ def next_command(
     return one_line(f"ragg {shlex.join(words)}{'' if files else ' FLIGHT'}")
 
 
-def complete_effect(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Effects that the model lists, and, but for ``remove``, those of the catalogue with their titles."""
-    from ragg_runtime.model.catalogue import effects
+def _check_output(path: Path, inputs: Sequence[Path], *, records: bool) -> None:
+    """UserError if ``path`` cannot be written, or is of a model directory, of ``inputs``, or, not for ``records``, a record."""
+    from ragg_runtime.io.files import find_ending  # only here: to import it takes a while
 
-    found = dict.fromkeys(_listed(ctx.params.get("model_dir")), "listed in model.toml")
-    if ctx.command.name != "remove":
-        found |= {str(e["id"]): str(e["title"]) for e in effects()}
-    return [CompletionItem(e, help=title) for e, title in found.items() if e.startswith(incomplete)]
-
-
-def _listed(model_dir: Any) -> list[str]:
-    """Effects of a model.toml; nothing of one that cannot be read: completion never fails."""
-    try:
-        entries = tomllib.loads(read_text(Path(model_dir) / "model.toml")).get("effects", [])
-        return [e if isinstance(e, str) else str(e["id"]) for e in entries]
-    except (OSError, ValueError, KeyError, TypeError, UserError):
-        return []
-
-
-def _over(what: str, path: Path, found: str) -> UserError:
-    return UserError(
-        f"a result would be written over {what}",
-        where=path,
-        found=found,
-        remedy="name another file, or delete this one first",
-    )
+    place = Path(os.path.realpath(path))
+    over = ""
+    if any(_is_same(path, x) for x in inputs):
+        over = "what the command reads"
+    elif any(_is_of_model(x) and (x.exists() or not records) for x in (place, *place.parents)):
+        over = "a file of a model directory"
+    elif not records and path.is_file() and path.stat().st_size and find_ending(path.name) is not None:
+        over = "a record"
+    if over:
+        remedy = "name another file, or delete this one first"
+        raise UserError(f"a result would be written over {over}", where=path, remedy=remedy)
+    with contextlib.closing(Target(path)):
+        pass
 
 
-def _paths(command: click.Command, ctx: click.Context, *, outputs: bool) -> list[str]:
-    """Values of those parameters that name files to write, or of all other paths."""
-    found: list[str] = []
-    for p in command.params:
-        value = ctx.params.get(p.name or "")
-        if isinstance(p.type, click.Path) and isinstance(p.type, OutputFile) == outputs and value is not None:
-            found += [os.fsdecode(v) for v in (value if p.multiple or p.nargs == -1 else (value,))]
-    return found
+def _is_of_model(path: Path) -> bool:
+    return path.name in OF_A_MODEL and (path.parent / "model.toml").is_file()
 
 
-def _opened(names: Sequence[str], inputs: Sequence[str]) -> dict[str, Target]:
-    """The files to write, made ready; UserError if one is read as well, or is written twice."""
-    read = [Path(p) for p in inputs]
-    read += [p / name for p in read if p.is_dir() for name in _OF_A_MODEL]
-    with contextlib.ExitStack() as undo:
-        targets: dict[str, Target] = {}
-        for name in (n for n in names if n not in STDOUT):
-            path = Path(name)
-            over = next(
-                (f for f in read if _same(path, f) or (f.name == GENERATED and _inside(path, f))), None
-            )
-            if over is not None:
-                raise _over("what the command reads", path, f"the same as {over}, or a file in it")
-            if any(not t.is_stream and _same(path, t.path) for t in targets.values()):
-                raise UserError("two results would be written to one file", where=name)
-            targets[name] = Target(path)
-            undo.callback(targets[name].close)
-        undo.pop_all()
-    return targets
-
-
-def _same(one: Path, other: Path) -> bool:
-    if os.path.realpath(one) == os.path.realpath(other):
-        return True
+def _is_same(one: Path, other: Path) -> bool:
     with contextlib.suppress(OSError):
         return one.samefile(other)
-    return False
-
-
-def _inside(path: Path, folder: Path) -> bool:
-    return Path(os.path.realpath(folder)) in Path(os.path.realpath(path)).parents
+    return os.path.realpath(one) == os.path.realpath(other)

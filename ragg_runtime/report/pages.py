@@ -240,4 +240,4 @@ def _plot_trend(t: Json, n: int) -> Plot:
     band = Curve("± 1 sigma", at, away - std, "envelope", "band", away + std)
     axes = Axes((band, Curve("value", at, away)), numbers.unit(t["unit"]), f"{label} − {middle}")
     caption = f"{label} over the flights."
-    return Curves(f"trend{n}", caption, (axes,), "flight, by number in the table", "", 1.5)
+    return Curves(f"trend{n}", caption, (axes,), "flight, by number in the table", 1.5)

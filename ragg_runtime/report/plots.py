@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 import io
-import json
 import re
 import warnings
 from collections.abc import Iterator
@@ -109,7 +108,6 @@ def _draw_curves(plot: Curves) -> str:
         ax.set_ylabel(axes.y_label)
         ax.set_title(numbers.short(axes.title, 70))
         _add_legend(ax, 3)
-        ax.set_gid(plot.unit)  # the page's script reads out and zooms all that is drawn by now
     found[-1].set_xlabel(plot.x_label)
     return _write_svg(fig, plot.key, plot.caption)
 
@@ -281,8 +279,6 @@ def _draw_matrix(plot: Matrix) -> str:
 
 def _write_svg(made: Figure, key: str, label: str) -> str:
     """The figure as an inline ``<svg>`` element; ids begin with ``key``, ``label`` is its alternative text."""
-    live = [(ax, str(ax.get_gid())) for ax in made.axes if ax.get_gid()]
-    curves = [_name_parts(ax, n) for n, (ax, _) in enumerate(live)]
     buffer = io.StringIO()
     with matplotlib.rc_context({"svg.hashsalt": key}):
         nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
@@ -294,40 +290,7 @@ def _write_svg(made: Figure, key: str, label: str) -> str:
     assert view is not None
     body = re.sub(r"<[^>]*>", lambda tag: _rewrite_tag(tag[0], key), body)
     body = re.sub(r"\n\s*", "\n", body)
-    axes = [_describe_axes(ax, unit, own) for (ax, unit), own in zip(live, curves, strict=True)]
-    data = html.escape(json.dumps({"name": key, "axes": axes}, separators=(",", ":")))
-    shown = f' data-live="{data}"' if axes else ""
-    return f'<svg {view[0]} role="img" aria-label="{html.escape(numbers.clean(label))}"{shown}>{body}'
-
-
-def _name_parts(ax: Drawn, n: int) -> list[str]:
-    """Ids for what moves in an axes (``c0-1`` ...) and for its two scales; the labels, empty where there is none."""
-    ax.set_gid(f"a{n}")
-    ax.xaxis.set_gid(f"x{n}")
-    ax.yaxis.set_gid(f"y{n}")
-    artists = [*ax.collections, *ax.patches, *ax.lines]
-    for kind, parts in (("c", artists), ("t", ax.texts)):
-        for k, part in enumerate(parts):
-            part.set_gid(f"{kind}{n}-{k}")
-    return [x if (x := str(a.get_label())) and not x.startswith("_") else "" for a in artists]
-
-
-def _describe_axes(ax: Drawn, unit: str, curves: list[str]) -> dict[str, Any]:
-    """Where an axes lies in the drawing, what it spans (first, last, whether logarithmic), and what it holds."""
-    figure = ax.get_figure()
-    assert isinstance(figure, Figure)
-    wide, high = (72.0 * x for x in figure.get_size_inches())
-    b = ax.get_position()
-    spans = (ax.get_xlim(), ax.get_xscale()), (ax.get_ylim(), ax.get_yscale())
-    x, y = ([*(float(f"{v:.9g}") for v in ends), float(scale == "log")] for ends, scale in spans)
-    return {
-        "box": [round(v, 2) for v in (b.x0 * wide, (1.0 - b.y1) * high, b.width * wide, b.height * high)],
-        "x": x,
-        "y": y,
-        "units": [unit, ax.get_ylabel().rpartition(", ")[2]],
-        "curves": curves,
-        "texts": len(ax.texts),
-    }
+    return f'<svg {view[0]} role="img" aria-label="{html.escape(numbers.clean(label))}">{body}'
 
 
 def _rewrite_tag(tag: str, key: str) -> str:

@@ -92,7 +92,7 @@ def plot_whiteness(f: Fitted, n: int, residual: Array, channels: Sequence[str] =
         "Correlation of the whitened residual with itself and with the motion, over the lag (positive: the motion was earlier)."
         " Pale: 99 % of noise lies inside."
     )
-    return Curves(f"white{n}", caption, tuple(axes), "lag, s", height=1.4)
+    return Curves(f"white{n}", caption, tuple(axes), "lag, s", 1.4)
 
 
 def plot_against(f: Fitted, n: int, residual: Array, channel: str) -> Curves:
@@ -116,7 +116,7 @@ def plot_against(f: Fitted, n: int, residual: Array, channel: str) -> Curves:
         " Pale: 99 % of noise lies inside. A mean outside: a missing term; an rms outside: noise that depends on the channel."
     )
     label = f"{name}{f', {unit}' if unit else ''}"
-    return Curves(f"against{n}", caption, axes, label, unit, 1.6)
+    return Curves(f"against{n}", caption, axes, label, 1.6)
 
 
 def _divide(e: Array, x: Array) -> list[NDArray[np.intp]]:

@@ -68,13 +68,12 @@ class Axes:
 
 @dataclass(frozen=True)
 class Curves:
-    """A figure of axes below each other; ``key`` begins the ids of its elements, ``unit`` is that of the abscissa."""
+    """A figure of axes below each other; ``key`` begins the ids of its elements."""
 
     key: str
     caption: str
     axes: tuple[Axes, ...]
     x_label: str
-    unit: str = "s"
     height: float = 2.2
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import hashlib
 import html
 import math
 import re
@@ -210,12 +208,7 @@ def test_pages_are_self_contained_well_formed_and_small(cubic: Case) -> None:
             assert target.startswith("#")
         policy = [a["content"] for t, a in page.elements if a.get("http-equiv") == "Content-Security-Policy"]
         assert str(policy[0]).startswith("default-src 'none'")
-        # one script of ours, named by its digest: whatever else came into the page would not run
-        assert [a for t, a in page.elements if t == "script"] == [{}]
-        (script,) = re.findall(r"<script>(.*?)</script>", text, re.DOTALL)
-        digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-        assert f"script-src 'sha256-{digest}';" in str(policy[0])
-        assert not re.search(r"innerHTML|outerHTML|insertAdjacent|document\.write|eval|fetch|import", script)
+        assert "script" not in {tag for tag, _ in page.elements}
 
 
 def test_names_of_strangers_are_text(cubic: Case) -> None:
