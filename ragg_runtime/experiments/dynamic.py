@@ -90,7 +90,7 @@ def dynamic() -> Experiment:
         "model error": "numerical minus model; first-order rotations; no mass near",
     }
     title = "Dynamic experiment (Section III.B, Tables V and VI)"
-    return Experiment(title, settings, tuple(rows), (_vary_conventions(), _vary_angle(base, slopes, reached)))
+    return Experiment(title, settings, tuple(rows), (_vary_conventions(),))
 
 
 def _vary_conventions() -> Variation:
@@ -129,28 +129,6 @@ def measure_analytical(instrument: Instrument) -> Array:
     """Error of the analytical model, (2,) Eo: inline and cross."""
     run = run_regular(instrument)
     return np.array(average_turns(find_error("analytical", run), run))
-
-
-def find_angles(base: Array, slopes: Array, target: Array) -> Array:
-    """The four vartheta_x of least square, (4,) arcsec, with which a measure (2,) becomes ``target``."""
-    return np.asarray(np.linalg.lstsq(slopes.T, target - base, rcond=None)[0])
-
-
-def _vary_angle(base: Array, slopes: Array, reached: Array) -> Variation:
-    """Which vartheta_x would give the printed error of the analytical model."""
-    printed = np.array([paper.DYNAMIC["analytical", c].value for c in ("inline", "cross")])
-    targets = {"printed": printed, "printed, signs reversed": -printed}
-    angles = {label: find_angles(base, slopes, target) for label, target in targets.items()}
-    low, high = reached.min(axis=0), reached.max(axis=0)
-    return Variation(
-        "The four vartheta_x of least square that give the printed analytical error, arcsec",
-        ("analytical error", "A1", "A2", "A3", "A4", "largest"),
-        tuple((label, *map(float, a), largest(a)) for label, a in angles.items()),
-        f"Without vartheta_x it is {base[0]:.2f} Eo inline and {base[1]:.2f} Eo cross; four vartheta_x "
-        f"within {LARGEST:g} arcsec put it anywhere from {low[0]:.2f} to {high[0]:.2f} and from "
-        f"{low[1]:.2f} to {high[1]:.2f} Eo. The printed pair is thus no contradiction, and no confirmation "
-        "either.",
-    )
 
 
 def run_regular(
