@@ -1,7 +1,7 @@
 // What a model is for: compensated channels with their band, and as files.
 import { choose } from "./figures.js";
 import { fill, h, sectionNode, tableNode } from "./dom.js";
-import { curvesText, fileName, frame } from "./drawings.js";
+import { frame } from "./drawings.js";
 import { doing, Refused, series } from "./api.js";
 import { look, on, server, view } from "./store.js";
 import { timePlot } from "./curves.js";
@@ -66,7 +66,7 @@ export function applyView(main) {
     drop();
     figures.hidden = !c;
     if (!c) return;
-    const panels = c.channels.map((name, k) => frame({ id: name, title: `${name}, Eo`, kind: "figure", name: () => fileName(server.state.flights[view.flight] && server.state.flights[view.flight].name, name), text: () => curvesText(plots[k].made.plot) }));
+    const panels = c.channels.map((name) => frame({ id: name, title: `${name}, Eo`, kind: "figure" }));
     panels.forEach((p) => p.keys([["value", "residual"], ["± one standard uncertainty", "band"]]));
     const names = server.state.flights.map((f) => f.name);
     fill(figures, names.length > 1 ? h("div.row.choices", {}, choose("Flight", names, view.flight, (flight) => look({ flight }))) : null, panels.map((p) => p.element));

@@ -417,14 +417,6 @@ export function overview(box, { whole, limits, moved, marks }) {
   return {
     ...made,
     shade,
-    /** Marks and window for the figure as a file. */
-    text() {
-      const { clientWidth: width, clientHeight: height } = plot.over, place = (t) => Math.min(Math.max(plot.valToPos(t, "x"), 0), width);
-      const { gaps, alone, cuts } = marks(), [x0, x1] = limits().map(place);
-      const columns = [[gaps, "gap"], [cuts, "cut"]].flatMap(([spans, name]) => spans.map(([a, b]) => `<rect x="${place(a)}" width="${Math.max(1, place(b) - place(a))}" height="${height}" fill="${colour(name)}"/>`));
-      const spikes = alone.map((t) => `<path d="M${place(t) - 3} 0h6l-3 6z" fill="${colour("noise")}"/>`);
-      return { under: [...columns, ...spikes].join(""), over: `<rect x="${x0}" width="${x1 - x0}" height="${height}" fill="none" stroke="${colour("ink")}"/>` };
-    },
     show(found) {
       const clean = (v) => Array.from(v, (x) => (Number.isNaN(x) ? null : x));
       plot.setData([found.x, clean(found.low), clean(found.high)]);
@@ -515,7 +507,7 @@ export function spectrogramPlot(box, { limits, moved, band, banded, harmonic, sp
       ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
       ctx.clip();
       ctx.imageSmoothingEnabled = false;
-      const { x, y, width, height } = placed(u, true);
+      const { x, y, width, height } = placed(u);
       ctx.drawImage(image, x, y, width, height);
       const [low, high] = band();
       ctx.strokeStyle = "#ffffff";
@@ -538,12 +530,12 @@ export function spectrogramPlot(box, { limits, moved, band, banded, harmonic, sp
     }
   }
 
-  /** Where the image lies, in pixels of the canvas or of the page. */
-  function placed(u, canvas) {
+  /** Where the image lies, in pixels of the canvas. */
+  function placed(u) {
     const step = found.width > 1 ? (found.time[1] - found.time[0]) / (found.width - 1) : 1;
     const rise = found.height > 1 ? (found.frequency[1] - found.frequency[0]) / (found.height - 1) : 1;
-    const x = u.valToPos(found.time[0] - step / 2, "x", canvas), y = u.valToPos(found.frequency[1] + rise / 2, "y", canvas);
-    return { x, y, width: u.valToPos(found.time[1] + step / 2, "x", canvas) - x, height: u.valToPos(found.frequency[0] - rise / 2, "y", canvas) - y };
+    const x = u.valToPos(found.time[0] - step / 2, "x", true), y = u.valToPos(found.frequency[1] + rise / 2, "y", true);
+    return { x, y, width: u.valToPos(found.time[1] + step / 2, "x", true) - x, height: u.valToPos(found.frequency[0] - rise / 2, "y", true) - y };
   }
 
   return {
@@ -572,7 +564,6 @@ export function spectrogramPlot(box, { limits, moved, band, banded, harmonic, sp
       return { low: Math.exp(low), high: Math.exp(high) };
     },
     marked: () => made.plot.redraw(false),
-    image: () => (image && found ? { href: image.toDataURL(), ...placed(made.plot, false) } : null),
     zoomed: () => made.plot.setScale("x", { min: limits()[0], max: limits()[1] }),
   };
 }

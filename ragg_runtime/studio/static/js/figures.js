@@ -1,7 +1,7 @@
 // The linked figures of one flight: one window of time, one band of frequencies, one term; what is marked in one is marked in all.
 import { ask, doing, Refused, series, spectrogram } from "./api.js";
 import { calm, counted, fill, h, keys, number, pictureNode } from "./dom.js";
-import { curvesText, fileName, frame, heatTable, tableText } from "./drawings.js";
+import { frame, heatTable } from "./drawings.js";
 import { look, on, server, view } from "./store.js";
 import { overview, ramp, spectrogramPlot, spectrumLines, spectrumPlot, timePlot } from "./curves.js";
 import { pointedAt } from "./effects.js";
@@ -25,15 +25,15 @@ const marks = () => {
 
 export function figures(box) {
   const head = h("div.figure-head");
-  const panel = (id, title, text) => frame({ id, title, text, name: () => fileName(flight() && flight().name, id), body: h(`div.plot.${id}`) });
+  const panel = (id, title) => frame({ id, title, body: h(`div.plot.${id}`) });
   const heat = h("div.heat-box");
   const panels = {
-    strip: panel("strip", "The whole flight", () => curvesText(plots.strip.plot, plots.strip.text())),
-    measured: panel("measured", "Measured over model", () => curvesText(plots.measured.plot)),
-    residual: panel("residual", "Residual", () => curvesText(plots.residual.plot, { level: level() })),
-    spectrum: panel("spectrum", "Spectrum", () => curvesText(plots.spectrum.plot)),
-    spectrogram: panel("spectrogram", "Spectrogram", () => curvesText(plots.spectrogram.plot, { image: plots.spectrogram.image() })),
-    heat: frame({ id: "terms", title: "Where it fails: harmonic of the spin × motion term", body: heat, name: () => fileName(flight() && flight().name, "terms"), text: () => tableText(heat.querySelector("table")) }),
+    strip: panel("strip", "The whole flight"),
+    measured: panel("measured", "Measured over model"),
+    residual: panel("residual", "Residual"),
+    spectrum: panel("spectrum", "Spectrum"),
+    spectrogram: panel("spectrogram", "Spectrogram"),
+    heat: frame({ id: "terms", title: "Where it fails: harmonic of the spin × motion term", body: heat }),
   };
   fill(panels.heat.legend, "significance in the residual, σ");
   const { strip, measured, residual, spectrum, spectrogram: gram } = panels;

@@ -1,6 +1,6 @@
 // The loop: the verdict, where the model fails, what is missing, and what adding it would do.
 import { doing } from "./api.js";
-import { drawingText, fileName, saves, stepBars } from "./drawings.js";
+import { stepBars } from "./drawings.js";
 import { effectsPane, foreseen } from "./effects.js";
 import { figures, noisePane } from "./figures.js";
 import { fill, h, number, sectionNode } from "./dom.js";
@@ -66,7 +66,7 @@ export function banner(box) {
       steps.push({ label: view.ticked.length > 1 ? `${view.ticked.length} effects?` : `${view.ticked[0]}?`, value: now.rms_Eo, kind: "foreseen" });
     }
     const made = stepBars(steps, state.banner.noise.rms_Eo, seen);
-    fill(place, made, saves("Error after every step", () => fileName(state.model.name, "steps"), () => drawingText(made.querySelector("svg"))));
+    fill(place, made);
     if (!view.ticked.length) seen = steps;
   };
   const off = on("foreseen", bars);

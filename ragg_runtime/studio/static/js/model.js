@@ -1,6 +1,6 @@
 // What the record determines of the parameters, the test sheet, and the history.
 import { ask, doing, Refused } from "./api.js";
-import { curvesText, fileName, frame } from "./drawings.js";
+import { frame } from "./drawings.js";
 import { fill, h, number, pictureNode, sectionNode, symbol, tableNode } from "./dom.js";
 import { on, server, view } from "./store.js";
 import { spectrumLines, spectrumPlot } from "./curves.js";
@@ -153,7 +153,7 @@ function beside(box, state) {
   const b = state.beside, now = state.banner, old = `after step ${b.step + 1}`;
   const errors = (label, pick) => h("tr", {}, h("th", { scope: "row" }, label), h("td.n", {}, number(pick(0))), h("td.n", {}, number(pick(1))));
   const rows = [["nominal", "nominal"], ["calibrated", "calibrated"], ["held out", "holdout"]];
-  const figure = frame({ id: "spectrum", title: "Spectrum of the residual", kind: "figure", name: () => fileName(state.model.name, "two-models"), text: () => curvesText(plot.plot) });
+  const figure = frame({ id: "spectrum", title: "Spectrum of the residual", kind: "figure" });
   fill(box,
     h("h2", {}, "Two models side by side"),
     h("p.note", {}, "Both calibrated on the flights that are open."),
