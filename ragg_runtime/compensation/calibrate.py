@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -52,8 +52,6 @@ class Calibrated:
     def as_json(self) -> dict[str, Any]:
         """As ``ragg calibrate --json`` writes it."""
         f = self.fitted
-        values, seen = find_values_in_scales(f), visible_combinations(f)
-        flights = [*fit_each_flight(f)]
         return {
             "converged": f.calibration.converged,
             "effects": [e.id for e in f.model.effects],
@@ -62,11 +60,6 @@ class Calibrated:
             "directions": dict(zip(("seen", "fitted"), self.directions, strict=True)),
             "parameters": list_parameters(f),
             "combinations": list_combinations(f),
-            "drift": [
-                {"flight": name, **_combination_json(q, values + step, own)}
-                for name, step, own in (flights if len(flights) > 1 else ())
-                for q in seen
-            ],
         }
 
     def errors_json(self) -> dict[str, Any]:
@@ -92,13 +85,29 @@ def list_parameters(f: Fitted) -> list[dict[str, Any]]:
 
 def list_combinations(f: Fitted) -> list[dict[str, Any]]:
     """What the record determines: combinations of accelerometers', and single values, as JSON has them."""
+    columns, layout = f.calibration.columns, f.model.layout
     values, root = find_values_in_scales(f), invert_root(information(f))
-    return [_combination_json(q, values, root) for q in visible_combinations(f)]
-
-
-def _combination_json(q: Combination, values: Array, root: Array) -> dict[str, Any]:
-    value, std = q.of(values, root)
-    return {"name": q.name, "value": value, "std": std, "unit": q.unit}
+    found = combinations_seen(f.model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ root)))
+    single = np.linalg.norm(root, axis=1) < SEEN
+    for name in dict.fromkeys(c.name for c in columns):
+        places = [k for k, c in enumerate(columns) if c.name == name]
+        if len(places) == layout.size and not np.all(single[places]):
+            continue
+        for k in (k for k in places if single[k]):
+            c = columns[k]
+            label = own_name(c) if c.accelerometer is None else f"{own_name(c)}[{c.accelerometer}]"
+            w = np.zeros(len(columns))
+            w[k] = c.scale / c.unit_factor
+            found.append(Combination(name=label, weights=w, unit=c.unit))
+    return [
+        {
+            "name": q.name,
+            "value": float(q.weights @ values),
+            "std": float(np.linalg.norm(q.weights @ root)),
+            "unit": q.unit,
+        }
+        for q in found
+    ]
 
 
 def calibrate(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Calibrated:
@@ -177,32 +186,3 @@ def fit_some(f: Fitted, triangles: Sequence[Array]) -> tuple[Array, Array]:
     whole = with_prior(join(triangles), range(f.n_base), f.to_nominal)
     R = whole[:-1, :-1]
     return Linear(R=R, y=whole[:-1, -1], rest=0.0).step, invert_root(R)
-
-
-def fit_each_flight(f: Fitted) -> Iterator[tuple[str, Array, Array]]:
-    """What every flight says by itself, with the sheet: its name, the step (n,) from here, a root (n, n) of its covariance."""
-    for n in dict.fromkeys(o.flight for o in f.observations):
-        own = [k for k, o in enumerate(f.observations) if o.flight == n]
-        yield (
-            f.observations[own[0]].flight_name,
-            *fit_some(f, [t for k in own for t in list_base_triangles(f, k)]),
-        )
-
-
-def visible_combinations(f: Fitted, root: Array | None = None) -> list[Combination]:
-    """What a root (n, n) of a covariance, in scales (by default that of the fit), says to be determined."""
-    model, columns = f.model, f.calibration.columns
-    root = invert_root(information(f)) if root is None else root
-    found = combinations_seen(model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ root)))
-    single = np.linalg.norm(root, axis=1) < SEEN
-    for name in dict.fromkeys(c.name for c in columns):
-        places = [k for k, c in enumerate(columns) if c.name == name]
-        if len(places) == model.layout.size and not np.all(single[places]):
-            continue
-        for k in (k for k in places if single[k]):
-            c = columns[k]
-            label = own_name(c) if c.accelerometer is None else f"{own_name(c)}[{c.accelerometer}]"
-            w = np.zeros(len(columns))
-            w[k] = c.scale / c.unit_factor
-            found.append(Combination(name=label, weights=w, unit=c.unit))
-    return found

@@ -12,13 +12,7 @@ from scipy import special
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.compensation.calibrate import (
-    find_values_in_scales,
-    fit_each_flight,
-    invert_root,
-    list_base_triangles,
-    visible_combinations,
-)
+from ragg_runtime.compensation.calibrate import invert_root, list_base_triangles
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, about
@@ -121,21 +115,6 @@ class Held:
     change: CalibrationChange
     origin: str | None
 
-    def drift(self) -> list[dict[str, Any]]:
-        """Every visible combination, frozen and as each of the flights alone has it; ``z``: how far it moved."""
-        f = self.comparison.fitted
-        values, root = find_values_in_scales(f), invert_root(self.saved.information)
-        rows = []
-        for flight, step, root_now in fit_each_flight(f):
-            for q in visible_combinations(f, root):
-                value, std = q.of(values, root)
-                now, now_std = q.of(values + step, root_now)
-                both = float(np.hypot(std, now_std))
-                row = {"flight": flight, "name": q.name, "frozen": value, "frozen_std": std}
-                z = (now - value) / both if both else 0.0
-                rows.append(row | {"value": now, "std": now_std, "unit": q.unit, "z": z})
-        return rows
-
     def as_json(self) -> dict[str, Any]:
         """As ``ragg compare --frozen --json`` writes it."""
         c = self.comparison.fitted.calibration
@@ -146,7 +125,6 @@ class Held:
             "whitened_squares": dict(zip(("frozen", "free"), self.change.squares, strict=True)),
             "suspects": self.change.find_suspects(c.columns),
             "free": {"calibrated": self.free.as_json(), "holdout": self.free_holdout.as_json()},
-            "drift": self.drift(),
             "angle_origin": self.origin,
         }
         return self.comparison.as_json() | {"frozen": frozen}

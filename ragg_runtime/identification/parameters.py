@@ -118,10 +118,6 @@ class Combination:
     unit: str
     shares: tuple[float, ...] = ()
 
-    def of(self, values: Array, root: Array) -> tuple[float, float]:
-        """Value and standard deviation, in ``unit``, of values (n,) with a root (n, k) of their covariance, in scales."""
-        return float(self.weights @ values), float(np.linalg.norm(self.weights @ root))
-
 
 def combinations_seen(
     model: Model, p: Array, columns: Sequence[Column], std: Callable[[Array], float]

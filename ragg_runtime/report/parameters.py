@@ -7,7 +7,7 @@ The covariance is read in the combinations of four accelerometers that G_out dep
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,42 +42,28 @@ MOST_LABELS = 60
 """Directions of a matrix of correlations: beyond these nobody reads it."""
 
 
-@dataclass(frozen=True)
-class Direction:
-    """A named direction of the parameters: ``D12 β_z``. ``weight``: its coordinate is weight * pattern(p / scale)."""
+class Direction(NamedTuple):
+    """A named direction of the parameters, ``D12 β_z``: its coordinate is ``weight`` * pattern(p / scale of ``column``)."""
 
     pattern: str
+    symbol: str
     column: Column
     weight: float
 
-    @property
-    def symbol(self) -> str:
-        """The symbol of its parameter: ``β_z``."""
-        c = self.column
-        pieces = numbers.symbol(c.symbol) if c.symbol else ((numbers.clean(c.name), False),)
-        return "".join(f"_{text}" if lowered else text for text, lowered in pieces)
-
     def __str__(self) -> str:
-        return " ".join(x for x in (self.pattern, self.symbol) if x)
+        return f"{self.pattern} {self.symbol}".strip()
 
 
-@dataclass(frozen=True)
-class DegenerateGroup:
-    """Directions that the record cannot distinguish, how many are lost, and the sums of them that it does determine."""
+class Visibility(NamedTuple):
+    """How many directions the record determines, those that it does not see at all, and groups that it sees only together.
 
-    members: tuple[Direction, ...]
-    unseen: int
-    seen: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class Visibility:
-    """What the record determines: counts, directions not seen at all, and groups seen only together."""
+    A group: its members, and the sums of them that are determined.
+    """
 
     determined: int
     total: int
     unseen: tuple[Direction, ...]
-    groups: tuple[DegenerateGroup, ...]
+    groups: tuple[tuple[tuple[Direction, ...], tuple[str, ...]], ...]
 
 
 def find_directions(f: Fitted) -> tuple[list[Direction], Array]:
@@ -97,10 +83,18 @@ def find_directions(f: Fitted) -> tuple[list[Direction], Array]:
             name, signs = combinations.PATTERNS[k] if together else (columns[n].accelerometer_name, (1.0,))
             row = np.zeros(len(columns))
             row[places if together else [n]] = np.array(signs) / np.linalg.norm(signs)
-            name = name.replace("Sigma", "Σ")
-            directions.append(Direction(name, columns[n], 1.0 / float(np.linalg.norm(signs))))
+            size = float(np.linalg.norm(signs))
+            directions.append(
+                Direction(name.replace("Sigma", "Σ"), write_symbol(columns[n]), columns[n], 1.0 / size)
+            )
             rows.append(row)
     return directions, np.array(rows)
+
+
+def write_symbol(c: Column) -> str:
+    """The symbol of a column's parameter: ``β_z``."""
+    pieces = numbers.symbol(c.symbol) if c.symbol else ((numbers.clean(c.name), False),)
+    return "".join(f"_{text}" if lowered else text for text, lowered in pieces)
 
 
 def find_visibility(f: Fitted) -> Visibility:
@@ -109,23 +103,20 @@ def find_visibility(f: Fitted) -> Visibility:
     variance, vectors = np.linalg.eigh(U @ posterior(f).covariance @ U.T)
     null = vectors[:, variance >= DETERMINED**2]
     P = null @ null.T
-    own = np.diag(P)
-    shared = np.flatnonzero((own > SHARE) & (own <= 1.0 - SHARE))
+    own_share = np.diag(P)
+    shared = np.flatnonzero((own_share > SHARE) & (own_share <= 1.0 - SHARE))
     count, label = connected_components(np.abs(P[np.ix_(shared, shared)]) > SHARE, directed=False)
-    groups = [_find_group(directions, P, shared[label == k]) for k in range(count)]
+    groups = []
+    for members in (shared[label == k] for k in range(count)):
+        values, own = np.linalg.eigh(P[np.ix_(members, members)])
+        seen, named = own[:, values < HALF_SEEN], tuple(directions[n] for n in members)
+        if seen.shape[1] < len(members):
+            groups.append((named, tuple(_write_sum(named, v) for v in _simplify(seen))))
     return Visibility(
-        determined=len(own) - null.shape[1],
-        total=len(own),
-        unseen=tuple(directions[n] for n in np.flatnonzero(own > 1.0 - SHARE)),
-        groups=tuple(g for g in groups if g.unseen),
-    )
-
-
-def _find_group(directions: Sequence[Direction], P: Array, members: NDArray[np.intp]) -> DegenerateGroup:
-    values, vectors = np.linalg.eigh(P[np.ix_(members, members)])
-    seen, own = vectors[:, values < HALF_SEEN], tuple(directions[n] for n in members)
-    return DegenerateGroup(
-        own, len(members) - seen.shape[1], tuple(_write_sum(own, v) for v in _simplify(seen))
+        determined=len(own_share) - null.shape[1],
+        total=len(own_share),
+        unseen=tuple(directions[n] for n in np.flatnonzero(own_share > 1.0 - SHARE)),
+        groups=tuple(groups),
     )
 
 
@@ -170,9 +161,9 @@ def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...
     for pattern in dict.fromkeys(d.pattern for d in v.unseen):
         symbols = ", ".join(d.symbol for d in v.unseen if d.pattern == pattern)
         text.append(f"Not observable: {f'{pattern} of ' if pattern else ''}{symbols}.")
-    for g in v.groups:
-        members, sums = (numbers.listed([str(x) for x in xs]) for xs in (g.members, g.seen))
-        verb = "is" if len(g.seen) == 1 else "are"
+    for group, seen in v.groups:
+        members, sums = numbers.listed([*map(str, group)]), numbers.listed([*seen])
+        verb = "is" if len(seen) == 1 else "are"
         text.append(f"Degenerate: {f'of {members} only {sums} {verb} determined' if sums else members}.")
     matrix, pairs = correlate_parameters(f)
     strongest = Table(("parameter", "and", "correlation"), tuple(pairs), words=2)

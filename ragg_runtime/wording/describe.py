@@ -201,18 +201,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     )
     rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))
     first, *others = describe_comparison(c, flights, then, rows, judged=False)
-    moved = [r for r in sorted(h["drift"], key=lambda r: -abs(r["z"])) if abs(r["z"]) > 3.0]
-    columns: Columns = {
-        "flight": lambda r: str(r["flight"]),
-        "parameter": label_parameter,
-        "frozen": lambda r: numbers.plus_minus(r["frozen"], r["frozen_std"]),
-        "now": lambda r: numbers.plus_minus(r["value"], r["std"]),
-        "unit": lambda r: numbers.unit(r["unit"]),
-        "σ": lambda r: number(r["z"], 2),
-    }
     found = [Section(sentences=(*head, *first.sentences), state="good" if h["holds"] else "bad"), *others]
-    if moved:
-        found.append(Section("What moved", table=tabulate(moved, columns, words=2, brief=8)))
     if h["suspects"]:
         single: Columns = {
             "parameter": lambda x: str(x["name"]),

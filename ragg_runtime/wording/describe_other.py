@@ -66,8 +66,6 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
         tabulate_errors(rows),
         *tabulate_parameters(c["combinations"], c["parameters"]),
     ]
-    if c["drift"]:
-        found += _flight_by_flight(c["drift"])
     if "drifting" in c:
         found += _drifting(c["drifting"])
     if "certificate" in c:
@@ -93,38 +91,6 @@ def tabulate_parameters(
         Section("Best-determined combinations", table=best, detail=detail),
         Section("Every parameter", table=every, detail=True, summary=summary),
     )
-
-
-DIFFERENT = 3.0
-"""Standard deviations from the mean of all flights beyond which the value of a flight is listed."""
-
-
-def _flight_by_flight(rows: Sequence[Json]) -> list[Section]:
-    """The combinations as each flight alone has them: those in which flights differ, and every one in detail."""
-    names = list(dict.fromkeys(str(q["name"]) for q in rows))
-    different: list[Json] = []
-    for name in names:
-        own = [q for q in rows if q["name"] == name]
-        weights = [q["std"] ** -2 for q in own]
-        mean = sum(w * q["value"] for w, q in zip(weights, own, strict=True)) / sum(weights)
-        if any(abs(q["value"] - mean) > DIFFERENT * q["std"] for q in own):
-            different += own
-    count = len({q["name"] for q in different})
-    text = f"The flights differ by more than {DIFFERENT:g} σ in {count} of {len(names)} combinations."
-    columns: Columns = {
-        "flight": lambda q: str(q["flight"]),
-        "parameter": label_parameter,
-        "value": format_value,
-    }
-    return [
-        Section("Flight by flight", (text,), tabulate(different, columns, words=3) if count else None),
-        Section(
-            "Each flight alone",
-            table=tabulate(rows, columns, words=3),
-            detail=True,
-            summary="every combination by each flight alone",
-        ),
-    ]
 
 
 def _drifting(d: Json) -> list[Section]:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from derive.effects import catalogue
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.compensation.calibrate import calibrate
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification import several_outputs
@@ -101,22 +98,6 @@ def test_complements_tell_their_noise() -> None:
             usual * 2.0 * np.sqrt(0.2), rel=0.25
         )  # 2 Eo/sqrt(Hz) of the cross channel
         assert noise == pytest.approx(float(str(told[f"expected_{channel}_Eo"])), rel=0.25)
-
-
-def test_a_calibration_drifts_from_flight_to_flight_not_from_output_to_output() -> None:
-    sheet = parse_instrument(sheets.sheet(sheets.complements(), 8, sheets.FULL))
-    model, _ = derive.derived((), (), sheet.form, sheet.layout)
-    one = flown_by(sheet, 120.0)
-    two = replace(one, name="another")
-    assert not calibrate(model, sheet, [one]).as_json()["drift"]
-    c = calibrate(model, sheet, [one, two])
-    rows = c.as_json()["drift"]
-    assert {r["flight"] for r in rows} == {one.name, "another"}
-    assert len(rows) == 2 * len(c.as_json()["combinations"])
-    for r in rows:  # every flight alone sees, with all its outputs, what both see
-        (joint,) = (q for q in c.as_json()["combinations"] if q["name"] == r["name"])
-        assert r["std"] < 1.6 * joint["std"]
-        assert abs(r["value"] - joint["value"]) < r["std"]
 
 
 STEPS = ("bias-step", "gain-step")
