@@ -19,7 +19,6 @@ from ragg_runtime.compensation.frozen import (
     CalibrationChange,
     as_calibration,
     describe_saved,
-    find_other_origin,
     retest_change,
     warn_of_change,
 )
@@ -430,8 +429,7 @@ def compensate(
     if p.saved is not None and p.change is not None:
         result["frozen"] = describe_saved(p.saved) | p.change.as_json()
         if not p.change.holds:
-            origin = find_other_origin(model, instrument, p.flights, p.saved, p.change)
-            result["notes"] = [warn_of_change(p.saved.time, p.change), *([] if origin is None else [origin])]
+            result["notes"] = [warn_of_change(p.saved.time, p.change)]
     return Compensation.of(name, result, series)
 
 

@@ -23,11 +23,9 @@ from ragg_runtime.estimation.regressors import Column, Point
 from ragg_runtime.estimation.scores import Error, finite, log_sf
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.comparison import Comparison
-from ragg_runtime.instrument.form import ANGLE_ORIGINS
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import start_of
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
@@ -43,9 +41,6 @@ the whole flight would take longer than it takes to compensate it."""
 SEGMENTS, SAMPLES = 4, 80_000
 """Most segments of a flight, and samples of these together, of which the noise is estimated: half of what a fit takes needs half of
 the time, and gives the standard deviation of what passes the low-pass to 2 % at 100 Hz."""
-
-BETTER = 5.0
-"""Factor by which chi-square must fall for another origin of the disc angle to be named: as for mistakes (screening)."""
 
 SUSPECTS = 5
 """Parameters that are named, at most, where the calibration does not hold."""
@@ -105,7 +100,7 @@ class Held:
     """How a frozen calibration holds on flights.
 
     In ``comparison``, ``calibrated`` and ``holdout`` are the frozen error; ``free``, ``free_holdout``: errors if parameters were
-    fitted to these flights. ``origin``: that it would hold with disc angles from elsewhere, in words.
+    fitted to these flights.
     """
 
     comparison: Comparison
@@ -113,7 +108,6 @@ class Held:
     free: Error
     free_holdout: Error
     change: CalibrationChange
-    origin: str | None
 
     def as_json(self) -> dict[str, Any]:
         """As ``ragg compare --frozen --json`` writes it."""
@@ -125,7 +119,6 @@ class Held:
             "whitened_squares": dict(zip(("frozen", "free"), self.change.squares, strict=True)),
             "suspects": self.change.find_suspects(c.columns),
             "free": {"calibrated": self.free.as_json(), "holdout": self.free_holdout.as_json()},
-            "angle_origin": self.origin,
         }
         return self.comparison.as_json() | {"frozen": frozen}
 
@@ -165,15 +158,13 @@ def compare_frozen(model: Model, instrument: Instrument, flights: Sequence[Fligh
     free, _ = f.coefficients(())
     half, _ = f.coefficients((), held_out=True)
     frozen, fitted, held_out, nominal = comparison.errors(f, [np.zeros(f.n_base), free, half])
-    change = measure_change(f, saved)
     return Held(
         # nothing of these flights was fitted: all of their time is held out
         comparison=comparison.concluded(f, nominal.whole, frozen, frozen.whole),
         saved=saved,
         free=fitted.whole,
         free_holdout=held_out.held_out,
-        change=change,
-        origin=find_other_origin(model, instrument, flights, saved, change),
+        change=measure_change(f, saved),
     )
 
 
@@ -206,28 +197,6 @@ def retest_change(
         noise += [own] * len(blocks)
     f = about(model, instrument, parts, replace(c, noise=tuple(noise)), candidates=False)
     return measure_change(f, saved)
-
-
-def find_other_origin(
-    model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved, change: CalibrationChange
-) -> str | None:
-    """That a calibration which does not hold holds plainly better with disc angles from elsewhere, in words; ``None``: it does not."""
-    encoders = all(d.angle_column in x.channels for d in instrument.layout.discs for x in flights)
-    if change.holds or encoders:
-        return None
-    here = [start_of(x, instrument) for x in flights]
-    for origin in ANGLE_ORIGINS:
-        other = replace(instrument, angle_origin=origin)
-        if [start_of(x, other) for x in flights] == here:
-            continue
-        observations = observations_of(flights, other)
-        c = as_calibration(saved, model, other, observations)
-        if BETTER * retest_change(model, other, observations, saved, c).chi2 < change.chi2:
-            return (
-                f"With disc angles counted from {'t = 0' if origin == 'zero' else 'the first sample'} it fits far better: "
-                f'is angle_origin = "{origin}" missing under [model] of model.toml?'
-            )
-    return None
 
 
 def warn_of_change(made: str, change: CalibrationChange) -> str:

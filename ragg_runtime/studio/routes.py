@@ -208,7 +208,7 @@ async def _upload(session: Session, request: Request) -> Response:
 
 async def _try_mapping(session: Session, request: Request) -> Response:
     body = await _read_body(request)
-    path, given = session.places.inside(_text(body, "flight")), _mapping(body)
+    path, given = session.places.inside(_take(body, "flight")), _take(body, "mapping", "a mapping")
     return _send_json(await run_in_threadpool(mapping.try_mapping, session.state.model, path, given))
 
 
@@ -240,104 +240,88 @@ def _whole(text: str) -> int:
     return number
 
 
-def _require(good: bool, what: str, where: str, found: object) -> None:
-    """UserError unless what the page sends is ``good``."""
-    if not good:
-        raise UserError(f"{what} is needed", where=where[:40], found=repr(found)[:80])
+def _is_list(x: Any, kinds: tuple[type, ...]) -> bool:
+    return isinstance(x, list) and len(x) <= 2000 and all(type(v) in kinds for v in x)
 
 
-def _text(body: Body, key: str, longest: int = 4096) -> str:
+def _is_mapping(x: Any) -> bool:
+    """Whether it is a mapping as the page sends it: rows, and tables of texts and numbers."""
+    if not (isinstance(x, dict) and isinstance(x.get("rows"), list)):
+        return False
+    named = (isinstance(r, dict) and isinstance(r.get("channel"), str) for r in x["rows"])
+    return all(named) and all(isinstance(x.get(k, {}), dict) for k in ("time", "file", "axes"))
+
+
+KINDS: Mapping[str, Callable[[Any], bool]] = {
+    "a text": lambda x: isinstance(x, str) and len(x) <= 4096,
+    "a list of texts": lambda x: _is_list(x, (str,)),
+    "a whole number": lambda x: type(x) is int,
+    "a list of numbers": lambda x: bool(x) and _is_list(x, (int, float)),
+    "a table": lambda x: isinstance(x, dict),
+    "a mapping": _is_mapping,
+}
+"""What the page sends: kind -> whether a value is of it."""
+
+
+def _take(body: Body, key: str, kind: str = "a text") -> Any:
+    """What stands under a key; UserError if it is of another kind."""
     value = body.get(key)
-    _require(isinstance(value, str) and len(value) <= longest, "a text", key, value)
-    return str(value)
-
-
-def _texts(body: Body, key: str) -> list[str]:
-    value = body.get(key)
-    good = isinstance(value, list) and len(value) <= 2000 and all(isinstance(x, str) for x in value)
-    _require(good, "a list of texts", key, value)
-    return list(value or ())
-
-
-def _count(body: Body, key: str) -> int:
-    value = body.get(key)
-    _require(type(value) is int, "a whole number", key, value)
-    return int(str(value))
-
-
-def _numbers(given: object, where: str) -> tuple[float, ...]:
-    good = isinstance(given, list) and bool(given) and all(type(x) in (int, float) for x in given)
-    _require(good, "a list of numbers", where, given)
-    return tuple(map(float, given))  # type: ignore[call-overload]
-
-
-def _mapping(body: Body) -> dict[str, Any]:
-    """A mapping as the page sends it: tables of texts and numbers."""
-    given = body.get("mapping")
-    own = given if isinstance(given, dict) else {}
-    rows, tables = own.get("rows"), [own.get(k, {}) for k in ("time", "file", "axes")]
-    named = isinstance(rows, list) and all(
-        isinstance(r, dict) and isinstance(r.get("channel"), str) for r in rows
-    )
-    _require(named and all(isinstance(t, dict) for t in tables), "a mapping", "mapping", given)
-    return own
+    if not KINDS[kind](value):
+        raise UserError(f"{kind} is needed", where=key[:40], found=repr(value)[:80])
+    return value
 
 
 def _open(session: Session, body: Body) -> None:
-    model = session.places.inside(_text(body, "model")) if body.get("model") else None
-    flights = [session.places.inside(f) for f in _texts(body, "flights")] if body.get("flights") else []
-    session.open(model, flights)
+    model = session.places.inside(_take(body, "model")) if body.get("model") else None
+    flights = _take(body, "flights", "a list of texts") if body.get("flights") else []
+    session.open(model, [session.places.inside(f) for f in flights])
 
 
 def _new(session: Session, body: Body) -> None:
-    sheet = session.places.inside(_text(body, "sheet")) if body.get("sheet") else None
-    session.new(session.places.inside(_text(body, "model")), sheet)
+    sheet = session.places.inside(_take(body, "sheet")) if body.get("sheet") else None
+    session.new(session.places.inside(_take(body, "model")), sheet)
 
 
 def _map(session: Session, body: Body) -> None:
-    flight, m = session.places.inside(_text(body, "flight")), session.state.model
-    mapping.keep(m, flight, _mapping(body), replace=body.get("replace") is True)
+    flight, m = session.places.inside(_take(body, "flight")), session.state.model
+    mapping.keep(m, flight, _take(body, "mapping", "a mapping"), replace=body.get("replace") is True)
     session.open(m.directory.path, [flight])  # the model anew: the mapping is its own now
 
 
 def _leave(session: Session, body: Body) -> None:
-    flight, ends = _count(body, "flight"), [body.get(k) for k in ("from", "to")]
+    flight, ends = _take(body, "flight", "a whole number"), [body.get(k) for k in ("from", "to")]
     if ends == [None, None]:
         session.leave_out(flight, None)
         return
     first, last = (float(x) if isinstance(x, int | float) else math.nan for x in ends)
-    _require(first < last, "a segment of time", "from, to", ends)
+    if not first < last:
+        raise UserError("a segment of time is needed", where="from, to", found=repr(ends)[:80])
     session.leave_out(flight, (first, last))
 
 
 def _edit(session: Session, body: Body) -> None:
     """Values of the test sheet: name -> as many numbers as accelerometers, unit, sigma, fixed."""
-    values, found = body.get("values"), dict[str, SheetEdit]()
-    for name, given in values.items() if isinstance(values, dict) else ():
-        own = given if isinstance(given, dict) else {}
-        value, sigma = _numbers(own.get("value"), name), own.get("sigma")
-        of_sheet = None if sigma is None else _numbers(sigma, f"{name}, sigma")
-        found[name] = SheetEdit(
-            RawQuantity(value, _text(own, "unit", 80)), of_sheet, own.get("fixed") is True
+    found: dict[str, SheetEdit] = {}
+    for name in _take(body, "values", "a table"):
+        given = _take(body["values"], name, "a table")
+        value = RawQuantity(
+            tuple(map(float, _take(given, "value", "a list of numbers"))), _take(given, "unit")
         )
+        sigma = None if given.get("sigma") is None else _take(given, "sigma", "a list of numbers")
+        of_sheet = None if sigma is None else tuple(map(float, sigma))
+        found[name] = SheetEdit(value, of_sheet, given.get("fixed") is True)
     if not found:
         raise UserError("no value was changed", remedy="change one, then save")
     session.edit(found)
 
 
 def _try(session: Session, body: Body) -> None:
-    units = body.get("units")
-    _require(isinstance(units, dict), "a unit of every parameter", "units", units)
-    given = {n: _text(dict(units or {}), n, 80) for n in units or {}}
-    session.attempt(_text(body, "id", 80), _text(body, "add", 600), given)
+    units = _take(body, "units", "a table")
+    session.attempt(_take(body, "id"), _take(body, "add"), {n: _take(units, n) for n in units})
 
 
 def _put_beside(session: Session, body: Body) -> None:
-    session.put_beside(None if body.get("step") is None else _count(body, "step"))
-
-
-def _compensate(session: Session, body: Body) -> None:
-    session.compensate(_text(body, "calibration", 40), _text(body, "demodulator", 40))
+    session.put_beside(None if body.get("step") is None else _take(body, "step", "a whole number"))
 
 
 ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
@@ -345,18 +329,20 @@ ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
     "new": _new,
     "map": _map,
     "look": lambda session, body: session.look(),
-    "add": lambda session, body: session.add(_texts(body, "effects")),
-    "remove": lambda session, body: session.remove(_text(body, "effect", 80)),
+    "add": lambda session, body: session.add(_take(body, "effects", "a list of texts")),
+    "remove": lambda session, body: session.remove(_take(body, "effect")),
     "edit": _edit,
     "leave": _leave,
-    "validate": lambda session, body: session.keep_for_validation(_count(body, "flight")),
+    "validate": lambda session, body: session.keep_for_validation(_take(body, "flight", "a whole number")),
     "undo": lambda session, body: session.go("undo"),
     "redo": lambda session, body: session.go("redo"),
-    "restore": lambda session, body: session.go("restore", _count(body, "step")),
+    "restore": lambda session, body: session.go("restore", _take(body, "step", "a whole number")),
     "beside": _put_beside,
     "try": _try,
     "keep": lambda session, body: session.keep(),
-    "compensate": _compensate,
+    "compensate": lambda session, body: session.compensate(
+        _take(body, "calibration"), _take(body, "demodulator")
+    ),
     "calibrate": lambda session, body: session.calibrate(),
     "cancel": lambda session, body: session.jobs.cancel(),
 }

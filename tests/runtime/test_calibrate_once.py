@@ -116,16 +116,6 @@ def test_what_is_compensated_by_a_calibration_that_does_not_hold_says_so(kept: t
     assert "does NOT hold" in c["notes"][0]
 
 
-def test_a_disc_angle_from_elsewhere_is_told_and_nothing_is_called_good(kept: tuple[Any, ...]) -> None:
-    m, x = api.load(kept[0]), flights()[1]
-    # half a turn by the convention, none by its own
-    late = dataclasses.replace(x, time=x.time + 10.0, began=None)
-    found = api.compensate(m, [late], "frozen")
-    assert found.as_json()["frozen"]["holds"] is False
-    assert 'angle_origin = "first-sample"' in found.as_json()["notes"][1]
-    assert found.series[0]["quality"].all()
-
-
 @pytest.mark.parametrize(("changed", "holds"), [(0.0, True), (1e-6, False)])
 def test_of_a_long_flight_some_blocks_say_whether_it_holds(
     changed: float, holds: bool, kept: tuple[Any, ...], monkeypatch: pytest.MonkeyPatch

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import json
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -155,47 +154,6 @@ def test_the_values_are_the_calibrated_ones(base: tuple[Path, Path, Path]) -> No
     assert [float(line.split()[2]) for line in told.splitlines()] == saved.p.tolist()
     assert "K1[1] = " in told
     assert "calibrated" in (folder / "values.h").read_text()
-
-
-CXX = """
-#include <cmath>
-#include <cstdio>
-#include "record.h"
-#include "online.h"
-const char *const ragg_program = "test";
-int main() {
-    static ragg_record r;
-    static ragg_online o;
-    ragg_read(&r, stdin, 0);
-    const double *in[INPUTS], *angle = ragg_inputs(&r, 0, 0, in);
-    double G;
-    MODEL(0, 1, r.seconds, in, PARAMETER, angle, &G);
-    std::printf("%.17g\\n", G);
-    ragg_online_start(&o, 0, 1e-3, 1.0, INFINITY);
-    return ragg_online_gradient(&o).inline_std > 0.0 ? 0 : 1;
-}
-"""
-
-
-@pytest.mark.skipif(shutil.which("g++") is None, reason="no C++ compiler")
-def test_the_headers_serve_a_program_in_cpp(base: tuple[Path, Path, Path], tmp_path: Path) -> None:
-    _, folder, _ = base
-    (tmp_path / "test.cpp").write_text(CXX)
-    parts = ["record", "online", "chain", "folded"]
-    for words in (
-        ["gcc", "-std=c17", "-c", *(str(folder / f"{x}.c") for x in parts)],
-        [
-            "g++",
-            *["-std=c++17", "-Wall", "-Wextra", "-pedantic", "-Werror", "-o", "test", "test.cpp"],
-            f"-I{folder}",
-        ]
-        + [f"{x}.o" for x in parts],
-    ):
-        subprocess.run(words, cwd=tmp_path, check=True)
-    motion = (folder / "test" / "motion.csv").read_bytes()
-    done = subprocess.run([tmp_path / "test"], input=motion, capture_output=True, check=True)
-    first = answered(folder)[0]
-    assert float(done.stdout) == pytest.approx(first, rel=1e-12)
 
 
 BAD = {

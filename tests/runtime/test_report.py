@@ -317,15 +317,6 @@ def test_combinations_are_known_better_than_single_values(clean: Case) -> None:
     assert "shift, sigma of the sheet" in said
 
 
-def test_correlations_are_of_what_the_record_determines(clean: Case) -> None:
-    matrix, pairs = parameters.correlate_parameters(clean.comparison.fitted)
-    assert np.allclose(np.diag(matrix.values), 1.0)
-    assert not {"Σ K_0", "D12 K_0"} & set(matrix.names)
-    sizes = [abs(float(r.replace(numbers.MINUS, "-"))) for _, _, r in pairs]
-    assert sizes == sorted(sizes, reverse=True)
-    assert "<svg" in draw_plot(matrix)
-
-
 def test_budget_of_the_bias_is_its_analytical_value(clean: Case) -> None:
     """V_j = k_VI K1 K0: a constant in G_out, D1234 of k_VI K1 K0 over k_ggi, and nothing in the channels."""
     f = clean.comparison.fitted

@@ -25,7 +25,7 @@ from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.simulate import simulated
 from ragg_runtime.survey import run
 from ragg_runtime.survey.examine import Record, examine, expand_lines, make_job, split_line
-from ragg_runtime.survey.journal import digest_file, make_head
+from ragg_runtime.survey.journal import digest_file
 from ragg_runtime.survey.result import Survey, make_parquet
 from ragg_runtime.survey.run import name_flights, order_files
 from ragg_runtime.wording.sections import render_text
@@ -307,16 +307,6 @@ def test_lines_are_flights(tmp_path: Path) -> None:
     assert record["sha256"] == digest_file(files[1]) == digest_file(str(path))
     assert "several lines" in examine(given, str(path))["error"]["message"]
     assert "no unit" in examine(make_job(toml.read_text(), toml), files[0])["error"]["message"]
-
-
-def test_a_results_file_of_another_mapping_is_refused(tmp_path: Path) -> None:
-    _, text, toml = made(tmp_path)
-    plain, mapped = (make_job(toml.read_text(), toml, mapping=x) for x in (None, (text, "m.toml", False)))
-    assert "mapping" not in make_head(plain)
-    assert (
-        make_head(mapped)["mapping"]
-        != make_head(make_job(toml.read_text(), toml, mapping=("", "m", True)))["mapping"]
-    )
 
 
 def test_flights_of_one_file_name_are_named_with_their_folders_and_in_order() -> None:

@@ -81,14 +81,6 @@ def test_a_name_that_is_made_to_point_here_is_refused(
     assert raw(server.port, ask).split()[1] in ("400", "421")
 
 
-def test_two_hosts_or_none_are_refused(server: Served, client: httpx.Client) -> None:
-    cookie = "; ".join(f"{k}={v}" for k, v in client.cookies.items())
-    good = f"Host: 127.0.0.1:{server.port}\n"
-    for hosts in (good + "Host: evil.example\n", ""):
-        text = f"GET /api/state HTTP/1.1\n{hosts}Cookie: {cookie}\nConnection: close\n\n"
-        assert raw(server.port, text).split()[1] in ("400", "421")
-
-
 @pytest.mark.parametrize(
     "headers",
     [
