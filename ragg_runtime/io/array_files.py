@@ -20,14 +20,15 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, missing_package
+from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.io.tables import (
     INDEX,
     WIDEST,
+    Attributes,
     DataColumn,
     DataTable,
     decode_values,
-    join_nested,
-    label,
+    join_groups,
     make_table,
     read_attributes,
     read_frame_units,
@@ -72,18 +73,20 @@ def read_parquet(path: Path) -> list[DataTable]:
         schema = file.schema_arrow
         require_memory(path, 8.0 * file.metadata.num_rows * len(schema))
         table = file.read()
+    while any(map(pa.types.is_struct, table.schema.types)):  # the component x of a vector a is a column a.x
+        table = table.flatten()
     about = schema.metadata or {}
     given = read_frame_units(_read_json(about.get(b"PANDAS_ATTRS", b"{}")))
     labels = _read_json(about.get(b"pandas", b"{}")).get("index_columns", [])
     arrays, index = [], None
-    for field, values in zip(schema, table.columns, strict=True):
-        unnamed = field.name.startswith("__index_level_")
-        name = INDEX if unnamed else field.name
+    for field, values in zip(table.schema, table.columns, strict=True):
+        unnamed, joined = field.name.startswith("__index_level_"), field.name.replace(".", "_")
+        name = INDEX if unnamed else joined if joined in SI_UNITS else field.name
         index = read_heading(name)[0] if unnamed or field.name in labels else index
         found = convert_arrow(values)
         said = (field.metadata or {}).get(b"units", b"").decode("utf-8", "replace")
         said = "1" if not said and pa.types.is_boolean(field.type) else said
-        arrays.append((name, label(np.zeros(len(values), "V1") if found is None else found, {"units": said})))
+        arrays.append((name, np.zeros(len(values), "V1") if found is None else found, {"units": said}))
     return [make_table(arrays, given, index=index)]
 
 
@@ -104,6 +107,11 @@ def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any] | None:
         return np.asarray(column.cast(pa.timestamp("ns")).to_numpy(), dtype="datetime64[ns]")
     if pa.types.is_duration(kind):
         return np.asarray(column.cast(pa.duration("ns")).to_numpy(), dtype="timedelta64[ns]")
+    if pa.types.is_fixed_size_list(kind) or pa.types.is_list(kind) or pa.types.is_large_list(kind):
+        lengths = {None if x is None else len(x) for x in column}
+        inner = convert_arrow(pa.chunked_array([c.flatten() for c in column.chunks], kind.value_type))
+        even = inner is not None and len(lengths) == 1 and None not in lengths
+        return inner.reshape(len(column), -1) if even else None
     if not (pa.types.is_primitive(kind) or pa.types.is_decimal(kind) or pa.types.is_null(kind)):
         return None
     column = column.cast(pa.int8()) if pa.types.is_boolean(kind) else column
@@ -133,7 +141,7 @@ def read_netcdf(path: Path) -> list[DataTable]:
 
     with report_damage(path, "NetCDF"), netcdf_file(path, mmap=False) as file:
         found = {n: (np.array(v.data), vars(v)["_attributes"]) for n, v in file.variables.items()}
-        return [make_table([(n, label(x, a)) for n, (x, a) in found.items()])]
+        return [make_table((n, x, a) for n, (x, a) in found.items())]
 
 
 def read_hdf5(path: Path) -> list[DataTable]:
@@ -145,7 +153,7 @@ def read_hdf5(path: Path) -> list[DataTable]:
         for place, group, arrays in _find_groups(file):
             if place.rsplit("/", 1)[-1] != "units":
                 tables += _read_group(path, place, group, arrays)
-    return join_nested(tables)
+    return join_groups(tables)
 
 
 def _find_groups(file: h5py.File) -> Iterator[tuple[str, h5py.Group, dict[str, h5py.Dataset]]]:
@@ -194,7 +202,7 @@ def _read_group(
     line = own or place.rsplit("/", 1)[-1]
     units = group.get("units")
     given = {n: read_matlab_text(x) for n, x in units.items()} if hasattr(units, "items") else {}
-    plain = [(n, label(d[()], read_attributes(d))) for n, d in arrays.items() if d.dtype.names is None]
+    plain = [(n, d[()], read_attributes(d)) for n, d in arrays.items() if d.dtype.names is None]
     if plain:
         yield make_table(plain, given, line=line, part=place)
     for name, data in arrays.items():
@@ -202,12 +210,12 @@ def _read_group(
             yield make_table(_read_records(data), index=INDEX, line=line, part=f"{place}/{name}")
 
 
-def _read_records(data: h5py.Dataset) -> list[tuple[str, Any]]:
+def _read_records(data: h5py.Dataset) -> list[tuple[str, Any, Attributes]]:
     """The fields of records as arrays with their units; those of pandas are taken apart by its own list of names."""
     attributes, whole = read_attributes(data), data[()].ravel()
     listed = np.atleast_1d(np.asarray(attributes.get("units", attributes.get("unit", "")))).ravel()
     folded = {n.casefold(): v for n, v in attributes.items()}
-    found: list[tuple[str, Any]] = []
+    found: list[tuple[str, Any, Attributes]] = []
     for k, name in enumerate(whole.dtype.names):
         keys = [f"{n}_{e}".casefold() for n in (name, f"FIELD_{k}") for e in ("units", "unit")]
         unit = next((write_cell(folded[n]) for n in keys if n in folded), "")
@@ -221,9 +229,9 @@ def _read_records(data: h5py.Dataset) -> list[tuple[str, Any]]:
             values = values.astype(np.int64).view(f"{'M8' if written[0] == 'd' else 'm8'}[{step}]")
         titles = [] if name == INDEX else _read_pickled_names(kind)
         if values.ndim == 2 and values.shape[1] == len(titles):
-            found += [(n, label(x, {"units": unit})) for n, x in zip(titles, values.T, strict=True)]
+            found += [(n, x, {"units": unit}) for n, x in zip(titles, values.T, strict=True)]
         else:
-            found.append((titles[0] if len(titles) == 1 else name, label(values, {"units": unit})))
+            found.append((titles[0] if len(titles) == 1 else name, values, {"units": unit}))
     return found
 
 
@@ -251,7 +259,7 @@ def read_matlab(path: Path) -> list[DataTable]:
     with report_damage(path, "MATLAB"):
         require_memory(path, 8.0 * sum(math.prod(shape) for _, shape, _ in whosmat(path)))
         found = loadmat(path, mat_dtype=False, simplify_cells=True)
-    return join_nested([*_read_structures({n: v for n, v in found.items() if not n.startswith("__")})])
+    return join_groups([*_read_structures({n: v for n, v in found.items() if not n.startswith("__")})])
 
 
 def read_matlab_text(item: object) -> str:
@@ -271,7 +279,9 @@ def _read_structures(variables: Mapping[str, Any]) -> Iterator[DataTable]:
         known = units.items() if isinstance(units, Mapping) else ()
         given = {n: t.strip() for n, t in known if isinstance(t, str)}
         arrays = []
-        for name, value in ((n, v) for n, v in inside.items() if n != "units"):
+        for name, value in (
+            (n, v) for n, v in inside.items() if v is not units or not isinstance(v, Mapping)
+        ):
             boxed = isinstance(value, list) or (isinstance(value, np.ndarray) and value.dtype == object)
             parts = [value] if isinstance(value, Mapping) else list(value) if boxed else []
             if parts and all(isinstance(p, Mapping) for p in parts):

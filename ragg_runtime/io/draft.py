@@ -19,7 +19,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.names import LONGEST, is_column
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.files import read_tables
-from ragg_runtime.io.instants import find_order, find_parts
+from ragg_runtime.io.instants import are_packed, find_order, find_parts
 from ragg_runtime.io.mapping import UNKNOWN
 from ragg_runtime.io.record import ANGULAR_RATE, DEMODULATED, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.recording import find_spoiled, parse_numbers
@@ -163,12 +163,12 @@ def _draft_time(
 
 def _find_instants(table: DataTable) -> tuple[tuple[str, ...], str, str] | None:
     """Columns that hold instants as such, their format (``?``: one of two), and how sure that is."""
-    if any(c.name == "time" and c.is_number and c.unit for c in table.columns):
+    if any(c.name == "time" and c.is_number and c.unit and not are_packed(c.values) for c in table.columns):
         return None
     by_role = {r: c for c in reversed(table.columns) for r in _TIMES[2:] if ROLES[r].fits(c.name)}
     if "week" in by_role and "second_of_week" in by_role:
         return (by_role["week"].name, by_role["second_of_week"].name), "gps", "likely: GPS week and seconds"
-    texts = [c for c in table.columns if not c.is_number]
+    texts = [c for c in table.columns if not c.is_number or are_packed(c.values)]
     texts.sort(key=lambda c: not ROLES["time"].fits(c.name))
     date, clock = by_role.get("date"), by_role.get("clock")
     pair = None
@@ -178,7 +178,7 @@ def _find_instants(table: DataTable) -> tuple[tuple[str, ...], str, str] | None:
         if len(np.unique(date.values)) < len(table):  # no instants: it repeats itself
             return pair
     for c in texts:
-        if c.values.dtype.kind == "M" or all(find_parts(_first_cell(c))):
+        if c.values.dtype.kind == "M" or are_packed(c.values) or all(find_parts(_first_cell(c))):
             return (c.name,), _find_form(c), "certain: a date and a time"
     if pair is not None:
         return pair

@@ -35,7 +35,7 @@ from ragg_runtime.io.array_files import (
 from ragg_runtime.io.assemble import make_flight
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.io.record import SI_UNITS, Flight
-from ragg_runtime.io.recording import make_recordings
+from ragg_runtime.io.recording import make_recordings, read_quantities
 from ragg_runtime.io.tables import DataColumn, DataTable, digest_tables, tabulate
 from ragg_runtime.io.text_tables import read_csv, read_excel
 
@@ -97,6 +97,7 @@ class Format:
 
 FORMATS = (
     Format("csv", (".csv", ".csv.gz"), (), read_csv, write_csv),
+    Format("text", (".txt", ".dat", ".asc", ".tsv", ".log", ".lvm"), (), read_csv),
     Format("parquet", (".parquet", ".pq"), (b"PAR1",), read_parquet, write_parquet),
     Format("netcdf", (".nc", ".nc4"), (HDF5_MAGIC, b"CDF"), read_netcdf, write_netcdf),
     Format("hdf5", (".h5", ".hdf5", ".hdf", ".he5"), (HDF5_MAGIC,), read_hdf5),
@@ -171,12 +172,14 @@ def _require_content(path: Path, expected: Format) -> None:
 
 def read_tables(source: Any) -> list[DataTable]:
     """All tables of a file, by the ending of its name and its content, or of a flight in memory."""
-    if not isinstance(source, Path):
-        return tabulate(source)
-    kind = find_format(source)
-    _require_content(source, kind)
     try:
-        return kind.read(source)
+        if not isinstance(source, Path):
+            tables = tabulate(source)
+        else:
+            kind = find_format(source)
+            _require_content(source, kind)
+            tables = kind.read(source)
+        return [replace(t, columns=tuple(map(read_quantities, t.columns))) for t in tables]
     except MemoryError:
         what, remedy = (
             "the file is damaged, or too large for the memory of this computer",

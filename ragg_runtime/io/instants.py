@@ -5,6 +5,7 @@ A date whose day and month could change places is refused until ``format`` says 
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -39,6 +40,7 @@ WAYS: Mapping[str, tuple[int, str]] = MappingProxyType(
 
 _EPOCH = datetime(1970, 1, 1)
 _SECOND = 10**9
+_LOOKED_AT = 64  # stamps that tell how all are written
 _DAY, _HOUR = 86400 * _SECOND, 3600 * _SECOND
 _NO_HOUR = "000000"
 _NONE = np.iinfo(np.int64).min
@@ -50,6 +52,9 @@ _STAMP = re.compile(
     r" *(?P<zone>Z|UTC|GMT|[+-]\d{2}:?\d{2})?(?P<year> \d{4})?"
 )
 _NUMBERS = re.compile(r"(\d{1,4})([-/. ])(\d{1,2})\2(\d{1,4})")
+_PACKED = re.compile(
+    r"(?:19|20)\d\d(?:0[1-9]|1[0-2])(?:0[1-9]|[12]\d|3[01])(?:[01]\d|2[0-3])[0-5]\d[0-5]\d(?:\.?\d{0,9})"
+)
 _YEAR_DAY = re.compile(r"(\d{4})-?(\d{3})")
 
 
@@ -70,7 +75,15 @@ class Stamps:
 def _match(text: str) -> re.Match[str] | None:
     """A stamp taken apart; 20260301T132850.4 is 2026-03-01T13:28:50.4, and 28:50.4 (as Excel shows times) 0:28:50.4."""
     text = re.sub(r"^(\d\d:\d\d[.,]\d+)$", rf"{_NO_HOUR}:\1", text)
+    if _PACKED.fullmatch(text):
+        text = re.sub(r"^(\d{8})(\d\d)(\d\d)(\d\d)\.?", r"\1T\2:\3:\4.", text)
     return _STAMP.fullmatch(re.sub(r"^(\d{8}|\d{4}-\d\d-\d\d)[T ](\d\d)(\d\d)(\d\d)", r"\1T\2:\3:\4", text))
+
+
+def are_packed(values: Iterable[Any]) -> bool:
+    """Whether numbers or texts are instants without marks between their parts, such as 20260301132850.4."""
+    texts = [t for v in itertools.islice(values, _LOOKED_AT) if (t := _write_clock(v)) not in ("", *_NOTHING)]
+    return bool(texts) and all(map(_PACKED.fullmatch, texts))
 
 
 def find_parts(text: str) -> tuple[bool, bool]:
@@ -153,6 +166,8 @@ def _write_clock(value: Any) -> str:
     if not isinstance(value, float):
         return str(value).strip()
     text = f"{value:013.6f}"
+    if value >= 1e13:  # with the date in front; of single milliseconds nothing is known
+        return f"{value:.3f}"
     return f"{text[:2]}:{text[2:4]}:{text[4:]}" if np.isfinite(value) else ""
 
 

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError, at, one_line
 from ragg_runtime.base.names import EXPECTED, is_column
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.instants import WAYS, Stamps, count_seconds_since, read_stamps
+from ragg_runtime.io.instants import WAYS, Stamps, are_packed, count_seconds_since, read_stamps
 from ragg_runtime.io.mapping import Entry, Mapped, Null, TimeEntry
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
-from ragg_runtime.io.tables import DataColumn, DataTable, choose_tables, name_line, split_lines
-from ragg_runtime.io.text_tables import MISSING, is_comma, write_plain
+from ragg_runtime.io.tables import DataColumn, DataTable, choose_tables, is_unit, name_line, split_lines
+from ragg_runtime.io.text_tables import MISSING, QUANTITY, is_comma, write_plain
 
 Array = NDArray[np.float64]
 
@@ -204,6 +204,7 @@ def _read_time(
     first = columns[0]
     where = at(table.place, f"column {first.name!r}")
     numeric = first.is_number or (first.is_text and np.mean(np.isfinite(parse_numbers(first.values))) > 0.5)
+    numeric = numeric and not are_packed(first.values)
     if t.format == "seconds" or (t.format is None and numeric):
         remedy = None if numeric else f"say how it is written: [time] format = {', '.join(map(repr, WAYS))}"
         first = _read_numbers(first, table, t.null, remedy)
@@ -256,6 +257,26 @@ def _read_numbers(c: DataColumn, table: DataTable, null: Null, remedy: str | Non
             remedy=remedy or "codes of missing values can be named in a mapping: null = [...]",
         )
     return replace(c, values=numbers)
+
+
+def read_quantities(c: DataColumn) -> DataColumn:
+    """A column of texts that are numbers with their units (``0.12 m/s2``) as numbers, in the unit of the first one."""
+    first = next((t for t in c.values if t not in MISSING), "") if c.is_text else ""
+    if not QUANTITY.fullmatch(first):
+        return c
+    parts = [QUANTITY.fullmatch(t) for t in c.values]
+    given = list(dict.fromkeys(m[2] for m in parts if m))
+    known = units(9.8)
+    if not all(map(is_unit, given)) or not all(known.fits(u, given[0]) for u in given):
+        return c
+    if any(m is None and t not in MISSING for m, t in zip(parts, c.values, strict=True)):
+        return c
+    numbers = parse_numbers(np.array([m[1] if m else "" for m in parts], dtype=object))
+    si = known.base_unit(given[0])
+    for unit in given[1:]:
+        here = np.array([bool(m) and m[2] == unit for m in parts])
+        numbers[here] = known.from_si(known.to_si(numbers[here], unit, si), si, given[0], c.name)
+    return replace(c, unit=given[0], values=numbers)
 
 
 def parse_numbers(texts: NDArray[np.object_]) -> Array:

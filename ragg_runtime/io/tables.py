@@ -37,9 +37,9 @@ SHARE = 0.5
 
 _HEADING = re.compile(
     r"(?P<name>[^\[\]]*?)\s*\[(?P<inside>[^\[\]]*)\]"
-    r"|(?P<other>.*?\S)(?:\s*\((?P<round>[^()]+)\)|\s*[,:]\s*(?P<behind>\S+)| / (?P<over>\S+))"
+    r"|(?P<other>.*?\S)(?:\s*[({<](?P<round>[^(){}<>]+)[)}>]|\s*[,:]\s*(?P<behind>\S+)| / (?P<over>\S+))"
 )
-"""``name [unit]``, or ``name (unit)``, ``name, unit``, ``name: unit``, ``name / unit`` (ISO 80000-1)."""
+"""``name [unit]``, or ``name (unit)``, ``name {unit}``, ``name <unit>``, ``name, unit``, ``name: unit``, ``name / unit`` (ISO 80000-1)."""
 
 _DEFAULT_FILL = {"f4": 2.0**123 * 0.9375, "f8": 2.0**123 * 0.9375, "i4": -2147483647, "i2": -32767}
 """What NetCDF writes where nothing was written, by type (netcdf.h: NC_FILL_FLOAT ...)."""
@@ -159,21 +159,14 @@ def write_cell(cell: Any) -> str:
 # --- from arrays ---------------------------------------------------------------------------------------
 
 
-class Labelled(np.ndarray[Any, Any]):
-    """An array with attributes, as those of xarray and h5py have them."""
+Attributes = Mapping[str, Any]
+"""What a file says about an array: ``units``, ``_FillValue``, ``valid_range``, names of columns."""
 
-    attrs: Mapping[str, Any]
-
-
-def label(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArray[Any]:
-    """The array with these attributes."""
-    view = np.asarray(values).view(Labelled)
-    view.attrs = attributes
-    return view
+_TITLES = ("columns", "names", "fields", "colheaders", "labels", "channels")
 
 
 def make_table(
-    arrays: Iterable[tuple[str, Any]],
+    arrays: Iterable[tuple[Any, ...]],
     given: Mapping[str, str] | None = None,
     **about: Any,
 ) -> DataTable:
@@ -182,30 +175,30 @@ def make_table(
     Parameters
     ----------
     arrays
-        Name and array: (n,), or (n, m), (m, n) with m up to ``WIDEST``, which give ``name_1`` ... ``name_m`` (or ``a_x`` ...
-        of a vector ``a``). Anything with ``shape`` that NumPy converts, perhaps with ``attrs``.
+        Name, array and perhaps attributes: (n,), or (n, m), (m, n) with m up to ``WIDEST``, which give ``name_1`` ... ``name_m`` (or
+        ``a_x`` ... of a vector ``a``, or what m texts in an attribute or another array, such as ``colheaders``, say).
     given
-        Units by name, beside those in ``attrs`` and in the names themselves.
+        Units by name, beside those in the attributes and in the names themselves.
     about
         Further fields of the table.
     """
-    given, arrays = given or {}, list(arrays)
-    sizes = [(read_heading(n)[0], max(x.shape)) for n, x in arrays if _is_narrow(x.shape)]
+    given, arrays = given or {}, [(n, np.asarray(x), dict(*a)) for n, x, *a in arrays]
+    sizes = [(read_heading(n)[0], max(x.shape)) for n, x, _ in arrays if _is_narrow(x.shape)]
     common = Counter(size for _, size in sizes if size > 1).most_common(1)
     length = next((size for n, size in sizes if n == "time" and size > 1), common[0][0] if common else 1)
+    lists = {n: x for n, x, _ in arrays if n.casefold() in (*_TITLES, "units") and x.dtype.kind in "OSUT"}
     columns, other = [], []
-    for name, x in arrays:
+    for name, x, attributes in arrays:
         fits = _is_narrow(x.shape) and length in x.shape
-        attributes = read_attributes(x) if fits else {}
-        values = decode_values(np.asarray(x), attributes) if fits else None
+        values = decode_values(x, attributes) if fits else None
         if values is None:
             why = "neither numbers nor text" if fits else " x ".join(map(str, x.shape)) or "a single value"
-            other.append(f"{name!r} ({why})")
+            other += [f"{name!r} ({why})"] if name not in lists else []
             continue
         title, unit = read_heading(name)
         said = next(filter(None, (_read_text(v) for k, v in attributes.items() if _is_unit_key(k))), unit)
-        said = "1" if getattr(x, "dtype", None) == np.bool_ and not said else said
-        for own, unit, part in _spread(title, values, length, attributes):
+        said = "1" if x.dtype == np.bool_ and not said else said
+        for own, unit, part in _spread(title, values, length, {**lists, **attributes}):
             unit_of = given.get(own) or given.get(name) or given.get(title) or unit or said
             columns.append(DataColumn(own, unit_of.strip(), part))
     notes = list(about.pop("notes", ()))
@@ -224,7 +217,7 @@ def _is_unit_key(name: str) -> bool:
 
 
 def _spread(
-    name: str, values: NDArray[Any], length: int, attributes: Mapping[str, Any]
+    name: str, values: NDArray[Any], length: int, attributes: Attributes
 ) -> list[tuple[str, str, NDArray[Any]]]:
     """The columns of an array with their units, if each has its own: itself, or of two dimensions ``name_1`` ...
 
@@ -235,22 +228,23 @@ def _spread(
     values = values if values.shape[0] == length else values.T
     width = values.shape[1]
     axes = "xyz" if width == 3 and f"{name}_x" in SI_UNITS else range(1, width + 1)
-    lists = {k.casefold(): np.ravel(v) for k, v in attributes.items() if np.size(v) == width > 1}
-    titles = [
-        write_cell(n) for n in next((lists[k] for k in ("columns", "names", "fields") if k in lists), ())
-    ]
-    units = [write_cell(u) for u in next((lists[k] for k in ("units", "unit") if k in lists), [""] * width)]
-    titles = titles or [name if width == 1 else f"{name}_{k}" for k in axes]
-    return list(zip(titles, units, values.T, strict=True))
+    lists = {
+        k.casefold(): [write_cell(t) for t in np.ravel(v)]
+        for k, v in attributes.items()
+        if np.size(v) == width > 1
+    }
+    plain = [name if width == 1 else f"{name}_{k}" for k in axes]
+    titles = [read_heading(t) for t in next((lists[k] for k in _TITLES if k in lists), plain)]
+    units = next((lists[k] for k in ("units", "unit") if k in lists), [""] * width)
+    return [(n, u or own, x) for (n, own), u, x in zip(titles, units, values.T, strict=True)]
 
 
 def read_attributes(thing: Any) -> dict[str, Any]:
-    """The attributes of an array or group, as far as its library can read them."""
-    attributes = getattr(thing, "attrs", None) or {}
+    """The attributes of a dataset or group, as far as h5py can read them."""
     found = {}
-    for name in list(attributes):
+    for name in list(thing.attrs):
         try:
-            found[str(name)] = attributes[name]
+            found[str(name)] = thing.attrs[name]
         except (OSError, RuntimeError, TypeError, ValueError, KeyError):
             continue  # of a type that h5py does not know
     return found
@@ -336,10 +330,10 @@ def tabulate(data: Any) -> list[DataTable]:
     if hasattr(data, "iloc") and hasattr(data, "columns"):
         return [_tabulate_frame(data)]
     if hasattr(data, "data_vars") and hasattr(data, "coords"):
-        return [make_table([(str(n), _read_variable(v)) for n, v in data.variables.items()])]
+        return [make_table((str(n), v.values, _unpack_range(v)) for n, v in data.variables.items())]
     if isinstance(data, Mapping):
         about = [data[n] for n in ("units", "attrs") if isinstance(data.get(n), Mapping)]
-        arrays = [(str(n), _read_series(v)) for n, v in data.items() if not isinstance(v, Mapping)]
+        arrays = ((str(n), *_read_series(v)) for n, v in data.items() if not isinstance(v, Mapping))
         return [make_table(arrays, read_frame_units(about[0] if about else {}))]
     raise UserError(
         "this is no flight",
@@ -348,11 +342,11 @@ def tabulate(data: Any) -> list[DataTable]:
     )
 
 
-def _read_variable(v: Any) -> Any:
-    """A variable of xarray, which unpacks values but not the range in which they are valid."""
+def _unpack_range(v: Any) -> Attributes:
+    """The attributes of a variable of xarray, which unpacks values but not the range in which they are valid."""
     scale, offset = v.encoding.get("scale_factor", 1.0), v.encoding.get("add_offset", 0.0)
     packed = {n: np.asarray(x) * scale + offset for n, x in v.attrs.items() if n.startswith("valid_")}
-    return label(v.values, {**v.attrs, **packed})
+    return {**v.attrs, **packed}
 
 
 def _tabulate_frame(frame: Any) -> DataTable:
@@ -362,19 +356,19 @@ def _tabulate_frame(frame: Any) -> DataTable:
         parts = [str(x) for x in c] if isinstance(c, tuple) else [str(c)]
         if len(parts) > 1 and is_unit(parts[-1]):  # names and units in two rows of a header
             parts[-1] = f"[{parts[-1]}]"
-        arrays.append((" ".join(parts), _read_series(frame.iloc[:, k])))
+        arrays.append((" ".join(parts), *_read_series(frame.iloc[:, k])))
     index = None
     if type(frame.index).__name__ != "RangeIndex":
         name = INDEX if frame.index.name is None else str(frame.index.name)
-        arrays.insert(0, (name, _read_series(frame.index.to_series())))
+        arrays.insert(0, (name, *_read_series(frame.index.to_series())))
         index = read_heading(name)[0]
     return make_table(arrays, read_frame_units(frame.attrs), index=index)
 
 
-def _read_series(series: Any) -> Any:
-    """A column of pandas as an array of NumPy; any other array as it is."""
+def _read_series(series: Any) -> tuple[Any, Attributes]:
+    """A column of pandas as an array of NumPy, any other array as it is; and its attributes."""
     if not hasattr(series, "to_numpy") or not hasattr(series, "index"):
-        return series if hasattr(series, "shape") else np.asarray(series)
+        return series, getattr(series, "attrs", {})
     dtype = series.dtype
     if getattr(dtype, "tz", None) is not None:
         series = series.dt.tz_convert("UTC").dt.tz_localize(None)
@@ -382,7 +376,7 @@ def _read_series(series: Any) -> Any:
         series = series.astype(object)
     numeric = getattr(dtype, "kind", "O") in "iufb"
     values = series.to_numpy(dtype=np.float64, na_value=np.nan) if numeric else series.to_numpy()
-    return label(values if values.dtype.kind != "T" else values.astype(object), series.attrs)
+    return values if values.dtype.kind != "T" else values.astype(object), series.attrs
 
 
 def read_frame_units(attributes: Mapping[Any, Any]) -> dict[str, str]:
@@ -483,10 +477,11 @@ def name_line(value: object) -> str:
     return write_cell(number) if np.isfinite(number) else ""
 
 
-def join_nested(tables: Sequence[DataTable]) -> list[DataTable]:
+def join_groups(tables: Sequence[DataTable]) -> list[DataTable]:
     """Groups in groups as one table: what has as many rows, and no name in common, is a part of the record around it.
 
-    A record that has all of the motion needs nothing further, and units may lack in what stands beside it.
+    A record that has all of the motion needs nothing further, and units may lack in what stands beside it. Groups of one
+    channel each that share their time are one record, too.
     """
     found: dict[str, DataTable] = {}
     for t in tables:
@@ -507,7 +502,19 @@ def join_nested(tables: Sequence[DataTable]) -> list[DataTable]:
         stem = place.removeprefix(around).strip("/").replace("/", "_")
         own = (replace(c, name=f"{stem}_{c.name}") for c in t.columns)
         found[around] = replace(outer, columns=(*outer.columns, *own), notes=(*outer.notes, *t.notes))
-    return list(found.values())
+    return _join_channels(list(found.values()))
+
+
+def _join_channels(tables: list[DataTable]) -> list[DataTable]:
+    """Tables of a time and one channel, all of the same instants, as one: each is called as its group."""
+    pairs = [sorted(t.columns, key=lambda c: c.name.casefold() not in ("time", "t")) for t in tables]
+    if len(tables) < 2 or any(len(p) != 2 or p[0].name.casefold() not in ("time", "t") for p in pairs):
+        return tables
+    time = pairs[0][0]
+    if not all(np.array_equal(p[0].values, time.values) for p in pairs):
+        return tables
+    own = (replace(p[1], name=t.part.rpartition("/")[2]) for p, t in zip(pairs, tables, strict=True))
+    return [replace(tables[0], columns=(replace(time, name="time"), *own), line=None, part="")]
 
 
 # --- memory --------------------------------------------------------------------------------------------

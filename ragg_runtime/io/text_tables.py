@@ -1,6 +1,6 @@
-"""CSV and Excel: where the table begins, its names and units, and its cells.
+"""CSV, other text and Excel: where the table begins, its names and units, and its cells.
 
-Both may have lines before the header, a header over two rows, a row of units below the names, and empty columns behind
+All may have lines before the header, a header over two rows, a row of units below the names, and empty columns behind
 the last one. What a column holds is decided by all of its cells.
 """
 
@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.io.array_files import convert_arrow, report_damage
-from ragg_runtime.io.instants import find_parts
+from ragg_runtime.io.instants import are_packed, find_parts
 from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.io.tables import (
     INDEX,
@@ -39,17 +39,25 @@ from ragg_runtime.io.tables import (
     write_cell,
 )
 
-_EXCEL_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
 _WORDS = "nan NaN NAN NaT NA N/A n/a n.a. <NA> null NULL None -nan nan(ind) -nan(ind)"
 _OF_C = tuple(f"{sign}1.#{word}" for sign in ("", "-") for word in ("IND", "QNAN", "INF"))
-MISSING = ("", "-", "--", "*", *_WORDS.split(), *_OF_C, *_EXCEL_ERRORS)
+_OF_EXCEL = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
+MISSING = ("", "-", "--", "*", *_WORDS.split(), *_OF_C, *_OF_EXCEL)
 """Cells that hold nothing."""
+
+QUANTITY = re.compile(
+    r"\s*([+\-\u2212]?[.,]?\d[\d.,]*(?:[eE][+-]?\d+)?)\s*([A-Za-z\u00b5\u03bc\u00b0%\u2103].*?)\s*"
+)
+"""A number with its unit in one cell."""
 
 _LOOKED_AT = 600  # lines that are looked at to find the header and to tell numbers from text
 _CELL_OF_XML = 4  # bytes in memory for one of a sheet's XML: a cell of 25 bytes becomes an object of 100
 _NOT_CSV = "the file is not a table of comma-separated values"
 _GZIP = b"\x1f\x8b"
+_BLANKS = " \t"
+_REMARK = re.compile(r"^\s*(?:#|%|//|!)+\s*")
 _EXPONENT = re.compile(r"([\d.])[dD]([+-]?\d)")
+_GROUPED = re.compile(r"(?<=\d)['\u2019 \u00a0\u202f](?=\d{3}(?:\D|$))")
 _COMMA = re.compile(r"\s*[+-]?\d+,\d+(?:[eE][+-]?\d+)?\s*")
 
 _NO_NUMBER = re.compile(r"In CSV column #(\d+): .*CSV conversion error", re.DOTALL)
@@ -84,8 +92,9 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
         if abs(len(r) - width) <= 1 or not any(map(_is_filled, r[width:] or "x"))
     ]
     data = [_is_data(rows[k]) for k in alike]
-    # numbers that stand before the header are followed by other text
-    first = next((k for k in range(len(alike)) if all(data[k : k + 3])), len(alike))
+    # numbers that stand before the header are fewer, and followed by other text
+    fewest = max(3, sum(data) // 40)
+    first = next((k for k in range(len(alike)) if all(data[k : k + fewest])), len(alike))
     begins = alike[first] if first < len(alike) else len(rows)
     above = [k for k in alike[:first] if any(map(_is_filled, rows[k]))]
     if not above:
@@ -118,7 +127,10 @@ def _is_filled(cell: Any) -> bool:
 def _is_data(row: Sequence[Any]) -> bool:
     """Whether more cells of a row are numbers or instants than are text."""
     filled = list(filter(_is_filled, row))
-    values = sum(not isinstance(c, str) or is_number(c) or any(find_parts(c)) for c in filled)
+    values = sum(
+        not isinstance(c, str) or is_number(c) or bool(QUANTITY.fullmatch(c)) or any(find_parts(c))
+        for c in filled
+    )
     return values > 0 and 2 * values > len(filled)
 
 
@@ -132,8 +144,8 @@ def is_number(text: str) -> bool:
 
 
 def write_plain(text: str) -> str:
-    """A number with the minus of print, or with the D of Fortran before its exponent, as programs read it."""
-    return _EXPONENT.sub(r"\1e\2", text.replace("\u2212", "-"))
+    """A number with the minus of print, the D of Fortran or blanks between thousands as programs read it."""
+    return _GROUPED.sub("", _EXPONENT.sub(r"\1e\2", text.replace("\u2212", "-")))
 
 
 def is_comma(text: str) -> bool:
@@ -165,7 +177,7 @@ def _join_rows(above: Sequence[str], below: Sequence[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class _Dialect:
-    """How a CSV file is written: ``lines`` stand before the first row (``headings``), ``texts`` are columns that hold text."""
+    """How a text is written: ``lines`` stand before the first row (``headings``), ``texts`` are columns that hold text."""
 
     delimiter: str
     decimal: str
@@ -176,9 +188,12 @@ class _Dialect:
 
 
 def read_csv(path: Path) -> list[DataTable]:
-    """The CSV file as one table; UserError if it has no header or lines of different widths."""
+    """The text as one table; UserError if it has no header or lines of different widths."""
     data, notes = _read_text(path)
     dialect = _look(data, path)
+    if dialect.delimiter == _BLANKS:
+        data = re.sub(rb"(?m)^[ \t]+|[ \t]+(?=\r?$)", b"", data)
+        data, dialect = re.sub(rb"[ \t]+", b" ", data), replace(dialect, delimiter=" ")
     data = _drop_headers(data, dialect, notes)
     table, passed = None, list[str]()
     while table is None:  # a column is of text as soon as one of its cells is no number
@@ -242,7 +257,7 @@ def _look(data: bytes, path: Path) -> _Dialect:
     stream = io.TextIOWrapper(io.BytesIO(data), "utf-8", newline="")
     lines = list(itertools.islice(stream, _LOOKED_AT))
     best = None
-    for delimiter in "\t;,|":
+    for delimiter in ("\t", ";", ",", "|", ":", _BLANKS):
         try:
             rows, ends = _read_rows(lines, delimiter)
         except csv.Error as error:
@@ -270,15 +285,28 @@ def _look(data: bytes, path: Path) -> _Dialect:
 
 def _read_rows(lines: Sequence[str], delimiter: str) -> tuple[list[list[str]], list[int]]:
     """Rows of cells that are not empty, and the number of each one's last line; the header may be a remark (NumPy's is)."""
-    reader = csv.reader(lines, delimiter=delimiter)
-    found = [(r, reader.line_num) for r in reader if any(c.strip() for c in r)]
-    rows = [[r[0].lstrip("#").strip(), *r[1:]] if r[0].startswith("#") else r for r, _ in found]
-    return rows, [end for _, end in found]
+    bare = [_REMARK.sub("", x) for x in lines]
+    if delimiter == _BLANKS:
+        found = [(r, n) for n, r in enumerate(_split_at_blanks(bare), 1)]
+    else:
+        reader = csv.reader(bare, delimiter=delimiter)
+        found = [(r, reader.line_num) for r in reader]
+    found = [(r, n) for r, n in found if any(c.strip() for c in r)]
+    return [r for r, _ in found], [n for _, n in found]
+
+
+def _split_at_blanks(lines: Sequence[str]) -> list[list[str]]:
+    """Cells between blanks, however many; names of several words stand apart by two blanks or a tab."""
+    rows = [re.split(r"[ \t]+(?![\[({<])", x.strip()) for x in lines]
+    width = Counter(map(len, rows)).most_common(1)[0][0] if rows else 0
+    wide = (re.split(r" {2,}|\t+", x.strip()) for x in lines)
+    return [w if len(w) == width else r for r, w in zip(rows, wide, strict=True)]
 
 
 def _holds_text(rows: Sequence[Sequence[str]], column: int) -> bool:
-    cells = (r[column] for r in rows if len(r) > column)
-    return any(c.strip() not in MISSING and not is_number(c) for c in cells)
+    """Whether cells are no numbers, or instants whose digits a number would lose."""
+    cells = [t for r in rows if len(r) > column and (t := r[column].strip()) not in MISSING]
+    return not all(map(is_number, cells)) or are_packed(cells)
 
 
 def _drop_headers(data: bytes, d: _Dialect, notes: list[str]) -> bytes:
@@ -301,7 +329,7 @@ def _parse(data: bytes, d: _Dialect, passed: list[str]) -> pa.Table:
     """
 
     def judge(row: pyarrow.csv.InvalidRow) -> str:
-        if not row.text.startswith("#") and _is_data(row.text.split(d.delimiter)):
+        if not _REMARK.match(row.text) and _is_data(row.text.split(d.delimiter)):
             return "error"
         passed.append(f"line {row.number} ({row.text[:40]!r})")
         return "skip"
@@ -337,39 +365,33 @@ def _changed(d: _Dialect, error: str, path: Path) -> _Dialect:
 
 def read_excel(path: Path) -> list[DataTable]:
     """The sheets of a workbook that hold tables; formulas are not computed, what Excel has computed is read."""
-    import openpyxl  # slow to import, and only this format needs it
+    import pandas as pd  # slow to import, and only this format needs it
 
     with report_damage(path, "Excel (.xlsx)"):
         with zipfile.ZipFile(path) as parts:
             size = sum(p.file_size for p in parts.infolist() if p.filename.startswith("xl/worksheets/"))
         require_memory(path, _CELL_OF_XML * size)
-        book = openpyxl.load_workbook(path, read_only=True, data_only=True, keep_links=False)
-        sheets = {str(s.title): _read_cells(s) for s in book.worksheets}
-        book.close()
-    return [t for t in itertools.starmap(_read_sheet, sheets.items()) if t is not None]
+        sheets = pd.read_excel(path, sheet_name=None, header=None, na_filter=False, engine="openpyxl")
+    found = (
+        _read_sheet(str(name), sheet.astype(object).to_numpy().tolist()) for name, sheet in sheets.items()
+    )
+    return [t for t in found if t is not None]
 
 
-def _read_cells(sheet: Any) -> list[tuple[int, list[Any]]]:
-    """The rows that hold anything, each with its number; whatever the sheet says of its own size."""
-    sheet.reset_dimensions()
-    rows = ([None if c in _EXCEL_ERRORS else c for c in r] for r in sheet.iter_rows(values_only=True))
-    return [(n, r) for n, r in enumerate(rows, 1) if any(c not in (None, "") for c in r)]
-
-
-def _read_sheet(name: str, rows: list[tuple[int, list[Any]]]) -> DataTable | None:
+def _read_sheet(name: str, cells: list[list[Any]]) -> DataTable | None:
     """What a sheet holds; ``None`` if there is no table in it."""
-    size = max((len(r) for _, r in rows), default=0)
-    cells = [["" if c is None else c for c in r] + [""] * (size - len(r)) for _, r in rows]
-    header = find_header(cells[:_LOOKED_AT])
+    rows = [(n, ["" if c != c else c for c in r]) for n, r in enumerate(cells, 1)]
+    rows = [(n, r) for n, r in rows if any(c != "" for c in r)]
+    header = find_header([r for _, r in rows[:_LOOKED_AT]])
     if header is None:
         return None
-    data = cells[header.begins :]
+    data = rows[header.begins :]
     columns = tuple(
-        DataColumn(n, header.units[k], _read_column([r[k] for r in data]))
+        DataColumn(n, header.units[k], _read_column([r[k] for _, r in data]))
         for k, n in enumerate(header.names)
         if n
     )
-    return DataTable(columns, line=name, part=name, counts=("row", rows[header.begins][0] if data else 1))
+    return DataTable(columns, line=name, part=name, counts=("row", data[0][0] if data else 1))
 
 
 def _read_column(cells: Sequence[Any]) -> NDArray[Any]:

@@ -82,17 +82,17 @@ def test_an_effect_is_one_file(effect: Any) -> None:
 
 
 def test_a_file_format_is_a_function_and_a_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    read_dat = module_of("ragg_runtime/io/dat_file.py").read_dat
-    monkeypatch.setitem(files.ENDINGS, ".dat", files.Format("dat", (".dat",), (), read_dat))
+    read_rec = module_of("ragg_runtime/io/rec_file.py").read_rec
+    monkeypatch.setitem(files.ENDINGS, ".rec", files.Format("rec", (".rec",), (), read_rec))
     rows = [f"{k / 16} " + " ".join(f"{x:.6f}" for x in np.sin(k + np.arange(7))) for k in range(800)]
     head = "# time a_x a_y a_z omega_x omega_y omega_z G_out\n# s g g g deg/h deg/h deg/h V\n"
-    (tmp_path / "flight.dat").write_text(head + "\n".join(rows))
-    flight = files.read_flight(tmp_path / "flight.dat", 9.8)
+    (tmp_path / "flight.rec").write_text(head + "\n".join(rows))
+    flight = files.read_flight(tmp_path / "flight.rec", 9.8)
     assert (len(flight), flight.rate) == (800, 16.0)
     assert flight.channels["a_y"][3] == pytest.approx(9.8 * np.sin(4.0), abs=1e-5)
-    (tmp_path / "flight.dat").write_text("1 2 3\n")
+    (tmp_path / "flight.rec").write_text("1 2 3\n")
     with pytest.raises(UserError, match="header"):
-        files.read_flight(tmp_path / "flight.dat", 9.8)
+        files.read_flight(tmp_path / "flight.rec", 9.8)
 
 
 def test_a_target_is_a_package_with_four_functions(monkeypatch: pytest.MonkeyPatch) -> None:

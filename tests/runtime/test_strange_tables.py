@@ -15,6 +15,7 @@ import openpyxl
 import pandas as pd
 import pytest
 import xarray
+from scipy.io import savemat
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
@@ -90,6 +91,22 @@ CSV = {
         decimal=",",
     ),
     "over midnight": text(PLAIN, rows([(86398 + t) % 86400 for t in VALUES["time"]])),
+    "blanks, ragged": text("  ".join(HEADER), [[" " * (k % 3) + str(c) for c in r] for k, r in enumerate(rows())], "  "),
+    "tabs and blanks, a remark as header": text("# " + " ".join(UNITS) + "\n# " + " ".join(UNITS.values()), rows(), " \t "),
+    "names of two words between blanks": text("  ".join(f"{n}  " for n in HEADER), [[f"{c:9.6f}" for c in r] for r in rows()], " "),
+    "units in the cells": text(",".join(UNITS), [[f"{c} {u}" for c, u in zip(r, UNITS.values(), strict=True)] for r in rows()]),
+    "units in the cells, as they fit": text(
+        ";".join(UNITS),
+        [[f"{t}s", f"{1000 * x:.3f} mg", *(f"{c} {u}" for c, u in zip(r, [*UNITS.values()][2:], strict=True))] for t, x, *r in rows()],
+        ";",
+    ).replace(".", ","),
+    "numbers before the header": text(
+        "Version\t3\nSamples" + 7 * "\t60" + "\nX0" + 7 * "\t0.0" + "\nnames\tx\n" + "\t".join(HEADER), rows(), "\t"
+    ),
+    "units in other brackets": text(PLAIN.replace("[", "{").replace("]", "}"), rows()),
+    "blanks between thousands": text(
+        "time [ms];" + ";".join(HEADER[1:]), rows([f"{1000 * t:,.1f}".replace(",", "\u202f") for t in VALUES["time"]]), ";"
+    ),
     "row numbers in front": text("," + PLAIN, [[k, *r] for k, r in enumerate(rows())]),
 }  # fmt: skip
 
@@ -118,6 +135,7 @@ DATES: dict[str, tuple[list[Any], bool]] = {
     "day of the year": (stamps("2026-03-01 10:00:00", "%Y-%jT%H:%M:%S.%f"), True),
     "time of the day over midnight": (stamps("2026-03-01 23:59:58", "%H:%M:%S.%f"), True),
     "more than a day": ([f"{23 + k // 32}:{59 - k // 32 * 59:02d}:{k % 32 / 16 + 58 - k // 32 * 58:09.6f}" for k in range(N)], False),
+    "without marks": ([t[:-3] for t in stamps("2026-03-01 23:59:58", "%Y%m%d%H%M%S.%f")], True),
     "minutes and seconds": ([f"{int((t + 3598) % 3600) // 60:02d}:{(t + 58) % 60:07.4f}" for t in VALUES["time"]], True),
     "days of Python": ([f"1 days 0:00:{k / 16:09.6f}" for k in range(N)], False),
     "a leap second": (
@@ -235,6 +253,31 @@ SMOOTH = np.sin(np.arange(500) / 30)
 )  # fmt: skip
 def test_missing_value_codes(values: np.ndarray, codes: list[float]) -> None:
     assert sorted(find_codes(values)) == sorted(codes)
+
+
+@pytest.mark.parametrize("ending", [".h5", ".mat", ".parquet"])
+def test_vectors_and_channels_apart(tmp_path: Path, ending: str) -> None:
+    """A group for each channel; a matrix beside its names, as MATLAB's importdata makes it; vectors in one column."""
+    path = tmp_path / f"x{ending}"
+    if ending == ".h5":
+        with h5py.File(path, "w") as file:
+            for n in [*UNITS][1:]:
+                file[f"{n}/time"], file[f"{n}/value"] = VALUES["time"], VALUES[n]
+                file[f"{n}/time"].attrs["units"], file[f"{n}/value"].attrs["units"] = "s", UNITS[n]
+    elif ending == ".mat":
+        savemat(
+            path, {"x": {"data": np.stack([*VALUES.values()], 1), "colheaders": np.array(HEADER, object)}}
+        )
+    else:
+        a, omega = (np.stack([VALUES[f"{n}_{k}"] for k in "xyz"], 1) for n in ("a", "omega"))
+        one = {
+            "time [s]": VALUES["time"],
+            "a [g]": list(a),
+            "omega [deg/h]": list(omega),
+            "G_out [V]": VALUES["G_out"],
+        }
+        pd.DataFrame(one).to_parquet(path)
+    same(read_flight(path, G0))
 
 
 def test_codes_are_left_out_with_a_note_in_every_column(tmp_path: Path) -> None:
