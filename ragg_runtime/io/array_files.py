@@ -110,8 +110,9 @@ def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any] | None:
     if pa.types.is_fixed_size_list(kind) or pa.types.is_list(kind) or pa.types.is_large_list(kind):
         lengths = {None if x is None else len(x) for x in column}
         inner = convert_arrow(pa.chunked_array([c.flatten() for c in column.chunks], kind.value_type))
-        even = inner is not None and len(lengths) == 1 and None not in lengths
-        return inner.reshape(len(column), -1) if even else None
+        if inner is None or len(lengths) != 1 or None in lengths:
+            return None
+        return inner.reshape(len(column), -1)
     if not (pa.types.is_primitive(kind) or pa.types.is_decimal(kind) or pa.types.is_null(kind)):
         return None
     column = column.cast(pa.int8()) if pa.types.is_boolean(kind) else column

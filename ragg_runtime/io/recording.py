@@ -274,7 +274,7 @@ def read_quantities(c: DataColumn) -> DataColumn:
     numbers = parse_numbers(np.array([m[1] if m else "" for m in parts], dtype=object))
     si = known.base_unit(given[0])
     for unit in given[1:]:
-        here = np.array([bool(m) and m[2] == unit for m in parts])
+        here = np.array([m is not None and m[2] == unit for m in parts])
         numbers[here] = known.from_si(known.to_si(numbers[here], unit, si), si, given[0], c.name)
     return replace(c, unit=given[0], values=numbers)
 

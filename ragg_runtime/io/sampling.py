@@ -23,7 +23,7 @@ JITTER_TRACKED = 0.48
 _MOST_MISSING = 0.9  # of all samples; beyond it the gaps are not gaps but the file is a collection of pieces
 
 NO_GAPS = 0.05
-"""Relative difference of the mean from the median step below which a record has no gaps to speak of: its mean step is exact."""
+"""Relative difference of the mean from the median step below which a record may have no gaps: its mean step is then exact."""
 
 STEADY_FROM = 512
 """Instants from which a line through them is a better clock than the mean step of a record without gaps."""
@@ -138,11 +138,15 @@ def _follow_clock(time: Array, step: float) -> tuple[NDArray[np.int64], Array] |
     """Of samples that jitter by less than half a step about a steady clock: samples from one to the next, (n - 1,), and by how
     much each is off; ``None``: they do not.
     """
+    whole = float(time[-1] - time[0]) / (len(time) - 1)
+    # without gaps the mean step is exact, the median of jittering ones is not; a few per cent of the rows may lack
+    exact = _track_clock(time, whole, True) if abs(whole / step - 1) < NO_GAPS else None
+    return _track_clock(time, step, False) if exact is None else exact
+
+
+def _track_clock(time: Array, step: float, exact: bool) -> tuple[NDArray[np.int64], Array] | None:
+    """The same from a first step, s, that is ``exact`` or only about right."""
     size = 128
-    whole = (time[-1] - time[0]) / (len(time) - 1)
-    steady = bool(abs(whole / step - 1) < NO_GAPS)
-    if steady:  # no gaps: the mean step is exact, the median of jittering ones is not
-        step = float(whole)
     phase = np.mod((time[:size] - time[0]) / step, 1.0)
     lags = np.arange(64) / 64
     worst = [float(np.max(np.abs((phase - lag + 0.5) % 1.0 - 0.5))) for lag in lags]
@@ -152,7 +156,7 @@ def _follow_clock(time: Array, step: float) -> tuple[NDArray[np.int64], Array] |
         k = np.rint((t - first) / step)
         if np.any(np.diff(k) < 1):
             return None
-        if len(t) >= STEADY_FROM or size >= len(time) or not steady:
+        if len(t) >= STEADY_FROM or size >= len(time) or not exact:
             step, first = (float(c) for c in np.polyfit(k, t, 1))
         if size >= len(time):
             break

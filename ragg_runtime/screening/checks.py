@@ -37,6 +37,9 @@ SAME_SPIN = 2e-3
 IN_DEGREES = 1e-2
 """The same, of a rate that degrees taken for radians would make."""
 
+CLEAR = 0.25
+"""Part of a step by which an encoder may be off whole numbers of them where it counts rows that were lost."""
+
 _LONGEST = 1 << 16  # samples that a comparison of columns takes
 _DEGREE = np.pi / 180
 _FACTORS = (
@@ -179,6 +182,21 @@ def _rates(flight: Flight) -> list[str]:
     return found
 
 
+def _lost_rows(column: str, angle: Array, time: Array) -> list[str]:
+    """Rows that lack though the stamps go on evenly, as those made of row numbers do: the disc turned on meanwhile."""
+    turned, passed = np.diff(angle), np.diff(time)
+    pace = float(np.median(turned / passed))
+    step = float(np.median(passed))
+    lost = np.rint((turned / pace - passed) / step)
+    clear = np.abs(turned / pace - passed - lost * step) < CLEAR * step
+    count, places = int(np.sum(lost)), int(np.sum(lost > 0))
+    if not places or not clear.all() or np.any(lost < 0):
+        return []
+    one = f"{count} row{'s' if count > 1 else ''} {'are' if count > 1 else 'is'} missing"
+    at = f"at t = {time[np.flatnonzero(lost)[0]]:.5g} s" + f" and {places - 1} other places" * (places > 1)
+    return [f"{one} by {column}, {at}: are the stamps made of row numbers?"]
+
+
 def _encoder(disc: Disc, flight: Flight) -> list[str]:
     """The encoder's rate against the model's spin rate."""
     column, f = disc.angle_column, disc.spin_frequency
@@ -189,7 +207,7 @@ def _encoder(disc: Disc, flight: Flight) -> list[str]:
     time = flight.time[part]
     rate = float(np.median(np.diff(angle) / np.diff(time))) / (2 * np.pi)
     if abs(rate - f) < SAME_SPIN * abs(f):
-        return []
+        return _lost_rows(column, angle[flight.valid[part]], time[flight.valid[part]])
     if abs(rate + f) < SAME_SPIN * abs(f):
         return [f"{column} runs backwards, at {rate:.6g} Hz: the sign of the encoder is reversed?"]
     nyquist = flight.rate / 2
