@@ -109,16 +109,9 @@ class Dictionary:
         alone += [Term("const", (f,)) for f in features.FORCES if f in self._size]
         several = [Term(h, c) for c in products if len(c) > 1 for h in of_several]
         made_of = [c for c in (*further, *OF_OUTPUT) if all(n in self._size for n in c)]
-        trends = [any(n in self.centre or features.is_slow(n) for n in c) for c in made_of]
-        lasting = [t for t in several if t.harmonic == "const"]
-        lasting += [Term("const", c) for c, trend in zip(made_of, trends, strict=True) if trend]
-        swift = [t for t in several if t.harmonic != "const"]
-        swift += [Term("const", c) for c, trend in zip(made_of, trends, strict=True) if not trend]
-        self.terms: tuple[Term, ...] = (*alone, *lasting, *swift)
+        self.terms: tuple[Term, ...] = (*alone, *several, *(Term("const", c) for c in made_of))
         self.first_order = len(alone)
         """Constants, single channels and turning forces: so many of the terms, the first."""
-        self.slow = len(alone) + len(lasting)
-        """These and what may have a trend: so many of the terms, the first."""
 
     def size(self, term: Term) -> float:
         """A fixed size of the term's series, SI: the product of its channels' root mean squares."""

@@ -8,7 +8,7 @@ over the segments of a flight.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
@@ -177,37 +177,24 @@ class Scores:
         ones = np.ones((len(piece.observation.record.time), 1))
         s.blocks.level(piece, y)
         s.spectrum.add(piece, y)
-        for at, x, inner, norm2, X in self._of_terms(
-            Directions(self.prepared, self.dictionary, piece, self.only), right
+        singles = right.astype(np.float32)
+        for at, x, X in Directions(self.prepared, self.dictionary, piece, self.only).whitened(
+            self.dictionary.terms
         ):
+            inner = products(X, singles)
             s.dot[at] = inner[:, 0]
             s.along[at] = inner[:, 1:]
-            s.norm2[at] = norm2
-            if X is not None:
-                s.blocks.add(piece, y, at, X)
+            s.norm2[at] = squares(X)
+            s.blocks.add(piece, y, at, X)
             s.raw[0, at] = products(x, ones)[:, 0]
             s.raw[1, at] = squares(x)
         return s
-
-    def _of_terms(
-        self, d: Directions, right: Array
-    ) -> Iterator[tuple[slice, Singles, Array, Array, Singles | None]]:
-        """Places, series, inner products with ``right`` and squared norms of all terms; some whitened."""
-        terms, slow = self.dictionary.terms, self.dictionary.slow if d.may_be_periodic else None
-        singles = right.astype(np.float32)
-        for at, x, X in d.whitened(terms[:slow]):
-            yield at, x, products(X, singles), squares(X), X
-        if slow is not None:
-            for at, x, inner, norm2 in d.scores(terms[slow:], right):
-                yield slice(slow + at.start, slow + at.stop), x, inner, norm2, None
 
     def whitened(self, piece: Piece, places: Sequence[int]) -> Singles:
         """(len(places), rows): the whitened series of some terms over a segment, in order of their places."""
         d = Directions(self.prepared, self.dictionary, piece, self.only)
         terms = [self.dictionary.terms[k] for k in sorted(places)]
-        slow = sum(k < self.dictionary.slow for k in places)
-        found = [*d.whitened(terms[:slow]), *(d.periodic if d.may_be_periodic else d.whitened)(terms[slow:])]
-        return np.concatenate([X for _, _, X in found])
+        return np.concatenate([X for _, _, X in d.whitened(terms)])
 
     def gram(self, places: Sequence[int]) -> Array:
         """Inner products of some whitened terms, base projected out, by another pass over the flight."""
