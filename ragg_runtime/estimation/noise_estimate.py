@@ -28,7 +28,6 @@ from ragg_runtime.estimation.spectrum import LOWEST, Averages, Spectrum, estimat
 from ragg_runtime.estimation.whitening import Piece, flight_segments, longer, pass_over
 from ragg_runtime.io.record import ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import quantities_of
-from ragg_runtime.signals import combinations
 from ragg_runtime.signals.fir import filtered
 
 Array = NDArray[np.float64]
@@ -86,25 +85,21 @@ def estimate_noise(
             remedy="give a longer or cleaner recording",
         )
     chosen = _chosen(o, most, samples)
-    parts = _parts(at, o, None, chosen)
+    parts = _parts(at, o, chosen)
     if o.recorded.demodulated:
         return _of_channels(parts, o)
-    rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
-    apart = combinations.telling(rests, o.signs)
-    if apart is not None:
-        parts = _parts(at, o, apart, chosen)
-    means = averages(at, o, _unwhitened(o, apart)) if slow else None
+    means = averages(at, o, _unwhitened(o)) if slow else None
     noise = _of_level(parts, o, CONSTANT, means)
     level = _level(parts, o, noise)
     if (
         level.parts
     ):  # what is loud has been in the fit: of what is quiet columns have left more than the noise
-        parts = _parts(at, o, apart, chosen, level)
+        parts = _parts(at, o, chosen, level)
         noise = _of_level(parts, o, level, means)
     said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
     words = "; ".join(w for w in said if w is not None) or None
     free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
-    return replace(noise, disturbed=words, freedom=free, combinations=apart, lines=_lines(parts, o))
+    return replace(noise, disturbed=words, freedom=free, lines=_lines(parts, o))
 
 
 @dataclass(frozen=True)
@@ -207,10 +202,8 @@ def _chosen(o: Observation, most: int, samples: int) -> list[Segment]:
     return [s for s in found if np.sum(o.record.valid[s.rows]) >= SHORTEST]
 
 
-def _parts(
-    at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segment], level: Level = CONSTANT
-) -> list[_Part]:
-    """What is left of some segments of the flight, of the series as they are or in combinations, by a fit that weighs by a level."""
+def _parts(at: Point, o: Observation, chosen: Sequence[Segment], level: Level = CONSTANT) -> list[_Part]:
+    """What is left of some segments of the flight, of its series, by a fit that weighs by a level."""
     band = unknown_gradient.band(o)
     rate = None if o.recorded.demodulated else o.record.rate
     random = {e.id for e in at.model.candidates if e.kind == "random"}
@@ -240,13 +233,12 @@ def _parts(
             },
         )
 
-    return list(pass_over(at, o, _unwhitened(o, apart, level), part, chosen=chosen))
+    return list(pass_over(at, o, _unwhitened(o, level), part, chosen=chosen))
 
 
-def _unwhitened(o: Observation, apart: Array | None, level: Level = CONSTANT) -> NoiseModel:
-    """What leaves the series as they are, or in combinations, over a level."""
-    plain = replace(NoiseModel.white(o.record.rate, len(o.series)), level=level)
-    return plain if apart is None else replace(plain, combinations=apart)
+def _unwhitened(o: Observation, level: Level = CONSTANT) -> NoiseModel:
+    """What leaves the series as they are, over a level."""
+    return replace(NoiseModel.white(o.record.rate, len(o.series)), level=level)
 
 
 def _through(piece: Piece, m: int, outputs: int, loud: Array, columns: Array) -> Array:
@@ -328,7 +320,7 @@ ENOUGH = 2
 def averages(at: Point, o: Observation, unwhitened: NoiseModel) -> list[Averages] | None:
     """What all columns leave of each output's means; ``None`` of a flight seen in one piece, or in too few means.
 
-    ``unwhitened``: the noise that makes the columns as they are, or in combinations.
+    ``unwhitened``: the noise that leaves the columns as they are.
     """
     if not longer(o):
         return None

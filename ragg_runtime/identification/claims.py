@@ -36,11 +36,6 @@ grows with their strength, their ratio does not. Measured: 1.5 to 16 on a real a
 catalogue.
 """
 
-NEARLY = 0.8
-"""Share of what several claims explain that a single generic term must explain for them to be suspected of feigning it. Measured: 0.66 to
-0.92 outside the catalogue, up to 0.75 of two effects of 10 sigma; of unequal pairs, where it is more, the evidence decides.
-"""
-
 SEEN = 1.0 / (1.0 + TESTABLE**2)
 """Posterior variance of a direction of the coefficients, in that of the prior, below which the record tells it."""
 

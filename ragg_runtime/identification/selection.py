@@ -183,7 +183,7 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
             break
         before = blocks
         blocks = blocks | {best: remaining[best].which}
-        blocks = _drop(f, *_swap(f, [*chosen, best], blocks)) if chosen else blocks
+        blocks = _swap(f, [*chosen, best], blocks) if chosen else blocks
         if not set(chosen) <= set(blocks) and _evidence(f, blocks) <= _evidence(f, before):
             blocks = before  # one that holds another as a special case, and is none the better for it
             break
@@ -198,9 +198,8 @@ def _best(tests: Mapping[str, Test]) -> str | None:
     return min(tests, key=lambda e: (-tests[e].log_b, e), default=None)
 
 
-def _swap(
-    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]]
-) -> tuple[list[str], dict[str, tuple[int, ...]]]:
+def _swap(f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]]) -> dict[str, tuple[int, ...]]:
+    """The columns of the chosen effects, each of which may give way to a better one."""
     for old in tuple(chosen):
         others = [e for e in chosen if e != old]
         conditional = f.tests(others)
@@ -208,17 +207,7 @@ def _swap(
         if best is not None and conditional[best].log_b > conditional[old].log_b + SWAPPED:
             chosen = [*others, best]
             blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
-    return chosen, blocks
-
-
-def _drop(f: Field, chosen: list[str], blocks: Mapping[str, tuple[int, ...]]) -> dict[str, tuple[int, ...]]:
-    """The chosen effects without those that are not significant beside the others, each with its block beside these."""
-    for e in tuple(chosen):
-        others = [o for o in chosen if o != e]
-        if others and not f.significant(f.tests(others)[e]):
-            chosen = others
-            blocks = {o: f.tests([q for q in others if q != o])[o].which for o in others}
-    return {e: blocks[e] for e in chosen}
+    return blocks
 
 
 def _evidence(f: Field, blocks: Mapping[str, tuple[int, ...]]) -> float:

@@ -186,16 +186,15 @@ def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) 
     """What of an outcome's effects may be claimed (``claims``)."""
     if not o.effects:
         return ()
-    chi2, rank = found.explained(o)
-    chi2, single = chi2 - rank, claims.best_single(base)
     ahead = _ahead(found, o, count, base)
     if o.remains:
-        return o.effects if chi2 > claims.MORE * single and ahead > claims.PLAINLY else ()
+        chi2, rank = found.explained(o)
+        more = chi2 - rank > claims.MORE * claims.best_single(base)
+        return o.effects if more and ahead > claims.PLAINLY else ()
     # of one effect that leaves but noise and generic terms that do as well, the one that is known to occur is taken
     if len(o.effects) == 1:
         return o.effects if ahead > -claims.PLAINLY else ()
-    feigned = single > claims.NEARLY * chi2
-    return o.effects if ahead > claims.PLAINLY * (2 * len(o.effects) - 1 if feigned else 1) else ()
+    return o.effects if ahead > claims.PLAINLY else ()
 
 
 def _ahead(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> float:
