@@ -26,21 +26,61 @@ from ragg_runtime.base.errors import UserError
 @contextlib.contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """A temporary file that takes the place of ``path`` on success and vanishes on failure; a device is written to."""
-    with contextlib.closing(Target(path)) as target:
-        with _writing(path):
-            yield target.temporary
-        target.prepare()
-        target.place()
+    with _report_refusal(path):
+        mode = _find_mode(path)
+        is_stream = _is_stream(path, mode)
+        place = Path(os.path.realpath(path))
+        beside = Path(tempfile.gettempdir()) / "ragg-output" if is_stream else place
+        handle, name = tempfile.mkstemp(path.suffix, f".{beside.name[:60]}.", beside.parent)
+        os.close(handle)
+        temporary = Path(name)
+        try:
+            yield temporary
+            if is_stream:
+                _pour(temporary, path)
+            else:
+                # It is private so far; the file that is asked for has the rights of any new file, or its own.
+                os.chmod(temporary, 0o666 & ~_umask() if mode is None else mode & 0o7777)
+                sync(temporary)
+                os.replace(temporary, place)
+                sync(place.parent)
+        finally:
+            temporary.unlink(missing_ok=True)
+
+
+def check_writable(path: Path) -> None:
+    """UserError where :func:`replacing` would not begin."""
+    with _report_refusal(path):
+        if not _is_stream(path, _find_mode(path)):
+            tempfile.TemporaryFile(dir=os.path.dirname(os.path.realpath(path))).close()
 
 
 @contextlib.contextmanager
-def _writing(path: Path) -> Iterator[None]:
+def _report_refusal(path: Path) -> Iterator[None]:
     """UserError where the system refuses to write."""
     try:
         yield
     except OSError as error:
         found = error.strerror or error
         raise UserError("the file cannot be written", where=path, found=found) from None
+
+
+def _find_mode(path: Path) -> int | None:
+    """What stands at a path, with its rights; ``None``: nothing."""
+    if not path.parent.exists():
+        raise UserError("the folder does not exist", where=path.parent, remedy="make it first")
+    mode = path.stat().st_mode if path.exists() else None
+    if mode is not None and stat.S_ISDIR(mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    return mode
+
+
+def _is_stream(path: Path, mode: int | None) -> bool:
+    """Whether a path is a device, a pipe or an open file, that lets itself be written."""
+    found = (mode is not None and not stat.S_ISREG(mode)) or _descriptor(path) is not None
+    if found and not os.access(path, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    return found
 
 
 def require_room(path: Path, size: int) -> None:
@@ -50,55 +90,6 @@ def require_room(path: Path, size: int) -> None:
     if hasattr(os, "posix_fallocate"):
         with tempfile.TemporaryFile(dir=path.parent) as trial:
             os.posix_fallocate(trial.fileno(), 0, max(size, 1))
-
-
-class Target:
-    """A file to be written at ``path``: ``temporary`` beside it, prepared, put in its place, or given up by ``close``."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        with _writing(path):
-            if not path.parent.exists():
-                raise UserError("the folder does not exist", where=path.parent, remedy="make it first")
-            self._mode = path.stat().st_mode if path.exists() else None
-            if self._mode is not None and stat.S_ISDIR(self._mode):
-                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-            special = self._mode is not None and not stat.S_ISREG(self._mode)
-            self.is_stream = special or _descriptor(path) is not None
-            if self.is_stream and not os.access(path, os.W_OK):
-                raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-            self._place = Path(os.path.realpath(path))
-            beside = Path(tempfile.gettempdir()) / "ragg-output" if self.is_stream else self._place
-            handle, name = tempfile.mkstemp(path.suffix, f".{beside.name[:60]}.", beside.parent)
-            os.close(handle)
-            self.temporary = Path(name)
-
-    def write(self, content: bytes) -> None:
-        """Write all that is to be written; see :meth:`prepare`."""
-        with _writing(self.path):
-            self.temporary.write_bytes(content)
-        self.prepare()
-
-    def prepare(self) -> None:
-        """Do all that may fail: a file is forced to the disc, a device or a pipe gets its content now."""
-        with _writing(self.path):
-            if self.is_stream:
-                _pour(self.temporary, self.path)
-            else:
-                # It is private so far; the file that is asked for has the rights of any new file, or its own.
-                os.chmod(self.temporary, 0o666 & ~_umask() if self._mode is None else self._mode & 0o7777)
-                sync(self.temporary)
-
-    def place(self) -> None:
-        """Bring what was prepared to its place."""
-        if not self.is_stream:
-            with _writing(self.path):
-                os.replace(self.temporary, self._place)
-            sync(self._place.parent)
-
-    def close(self) -> None:
-        """Clear the temporary file away, if it is still there."""
-        self.temporary.unlink(missing_ok=True)
 
 
 def _descriptor(path: Path) -> int | None:
@@ -126,10 +117,9 @@ def write_text(path: Path, text: str) -> None:
 
 
 def write_bytes(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all."""
-    with contextlib.closing(Target(path)) as target:
-        target.write(content)
-        target.place()
+    """Write bytes whole or not at all."""
+    with replacing(path) as temporary:
+        temporary.write_bytes(content)
 
 
 def sync(path: Path) -> None:

@@ -18,7 +18,7 @@ import click
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import Target, write_text
+from ragg_runtime.base.files import check_writable, write_text
 from ragg_runtime.base.provenance import provenance
 from ragg_runtime.report.page import Origin
 from ragg_runtime.wording.sections import Section, render_text
@@ -291,8 +291,7 @@ def _check_output(path: Path, inputs: Sequence[Path], *, records: bool) -> None:
     if over:
         remedy = "name another file, or delete this one first"
         raise UserError(f"a result would be written over {over}", where=path, remedy=remedy)
-    with contextlib.closing(Target(path)):
-        pass
+    check_writable(path)
 
 
 def _is_of_model(path: Path) -> bool:

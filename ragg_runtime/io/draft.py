@@ -304,7 +304,7 @@ _DISCS = "1234ABC"
 _PAIRS = ("xx", "xy", "xz", "yy", "yz", "zz")
 _PLAIN = (
     ("time", r"t|time|(gps|utc|unix|imu|rec)_?(time|sec(onds?)?)|time_?(s|sec|gps|utc|1980|day)|sec(onds?)?|f_?time|fid(ucial)?"),
-    ("time", r"x_?value|(time_?)?stamp|elapsed(_?time)?|zeit"),
+    ("time", r"x_?value|(time_?)?stamp|elapsed(_?time)?|zeit|m?jd|julian_?da(y|te)"),
     ("line", r"line|line_?(no|num|number|id|index)|(flight_?)?line"),
     ("week", r"(gps_?)?w(ee)?k(_?no|_?number)?"),
     ("second_of_week", r"(gps_?)?(sow|tow|sec(onds?)?_?(of|in)_?week|week_?sec(onds?)?|seconds_of_gps_week)|gps_?seconds?"),
@@ -321,7 +321,10 @@ _PLAIN = (
 )  # fmt: skip
 """Channel and the usual names of a column of it."""
 
-_ACC, _GYRO = r"(linear_?)?accel(eration)?|acc", r"gyro?|(ang(ular)?_?)?(rate|vel(ocity)?)"
+_ACC, _GYRO = (
+    r"(linear_?)?accel(eration|erometers?)?|acc",
+    r"gyro?(scopes?)?|(ang(ular)?_?)?(rate|vel(ocity)?)",
+)
 _NUMBERED, _PQR = "a number in the place of an axis", "roll, pitch and yaw rate?"
 _ALL = (
     *(Role(name, pattern) for name, pattern in _PLAIN),
@@ -351,12 +354,14 @@ def role_of(column: str) -> Role | None:
     own = next((r for r in _ALL if r.name == column), None)
     if own is not None and column != "line":
         return Role(own.name, own.pattern, "certain")
-    for name in dict.fromkeys((column, _bare(column), _bare(column).rpartition("_")[0])):
+    parts = re.split(r"[/.]", column.replace("'", ""))
+    inner = ["_".join(parts[k:]) for k in range(len(parts))]
+    for name in dict.fromkeys((column, *inner, *(n.rpartition("_")[0] for n in inner))):
         if found := [r for r in _ALL if r.fits(name)]:
             return min(found, key=lambda r: r.rank)
     return None
 
 
 def _bare(column: str) -> str:
-    """The name of a column without the groups that it is in: ``a_x`` of ``/'Untitled'/'a_x'``."""
-    return column.rpartition("/")[2].strip("'\"")
+    """The name of a column without the groups that it is in: ``a_x`` of ``/'Untitled'/'a_x'``; ``a_x_g`` of ``a_x.g``."""
+    return column.rpartition("/")[2].strip("'\"").replace(".", "_")

@@ -41,6 +41,9 @@ _HEADING = re.compile(
 )
 """``name [unit]``, or ``name (unit)``, ``name {unit}``, ``name <unit>``, ``name, unit``, ``name: unit``, ``name / unit`` (ISO 80000-1)."""
 
+_ALONE = re.compile(r"[({<]([^(){}<>]+)[)}>]")
+"""A unit in brackets below a name, or below one for several columns."""
+
 _DEFAULT_FILL = {"f4": 2.0**123 * 0.9375, "f8": 2.0**123 * 0.9375, "i4": -2147483647, "i2": -32767}
 """What NetCDF writes where nothing was written, by type (netcdf.h: NC_FILL_FLOAT ...)."""
 
@@ -116,6 +119,8 @@ class DataTable:
 def read_heading(text: str) -> tuple[str, str]:
     """Name and unit of ``name [unit]``, or of another way in which what should be the unit is one (see above)."""
     text = " ".join(text.split())
+    if (alone := _ALONE.fullmatch(text)) and is_unit(alone[1]):
+        return "", alone[1]
     match = _HEADING.fullmatch(text)
     if match and match["inside"] is not None:
         return one_line(match["name"]), match["inside"].strip()
@@ -127,8 +132,12 @@ def read_heading(text: str) -> tuple[str, str]:
 
 
 def read_units(cells: Sequence[str]) -> list[str] | None:
-    """The units in a row below the names: each cell is a unit, perhaps in brackets, or empty; not all numbers."""
-    found = [re.sub(r"\s*(?:\[(.*)\]|\((.*)\))\s*", r"\1\2", c).strip() for c in cells]
+    """The units in a row below the names: each cell is a unit, perhaps in brackets, or empty; not all numbers.
+
+    In front may stand what the row is: ``Units``.
+    """
+    found = [re.sub(r"\s*(?:\[(.*)\]|\((.*)\)|'(.*)')\s*", r"\1\2\3", c).strip() for c in cells]
+    found[:1] = ["" if re.fullmatch(r"units?:?", c, re.IGNORECASE) else c for c in found[:1]]
     return (
         found if all(not c or is_unit(c) for c in found) and any(c not in ("", "1") for c in found) else None
     )

@@ -56,6 +56,7 @@ _NOT_CSV = "the file is not a table of comma-separated values"
 _GZIP = b"\x1f\x8b"
 _BLANKS = " \t"
 _REMARK = re.compile(r"^\s*(?:#|%|//|!)+\s*")
+_DATE_CLOCK = re.compile(rb"(\d[/.-]\d\d?[/.-]\d+)[ \t]+(\d\d?:\d\d:)")
 _EXPONENT = re.compile(r"([\d.])[dD]([+-]?\d)")
 _GROUPED = re.compile(r"(?<=\d)['\u2019 \u00a0\u202f](?=\d{3}(?:\D|$))")
 _COMMA = re.compile(r"\s*[+-]?\d+,\d+(?:[eE][+-]?\d+)?\s*")
@@ -191,6 +192,9 @@ def read_csv(path: Path) -> list[DataTable]:
     """The text as one table; UserError if it has no header or lines of different widths."""
     data, notes = _read_text(path)
     dialect = _look(data, path)
+    if dialect.delimiter == _BLANKS and "" in dialect.header.names:  # a date and a time below one name
+        data = _DATE_CLOCK.sub(rb"\1T\2", data)
+        dialect = _look(data, path)
     if dialect.delimiter == _BLANKS:
         data = re.sub(rb"(?m)^[ \t]+|[ \t]+(?=\r?$)", b"", data)
         data, dialect = re.sub(rb"[ \t]+", b" ", data), replace(dialect, delimiter=" ")
@@ -300,7 +304,8 @@ def _split_at_blanks(lines: Sequence[str]) -> list[list[str]]:
     rows = [re.split(r"[ \t]+(?![\[({<])", x.strip()) for x in lines]
     width = Counter(map(len, rows)).most_common(1)[0][0] if rows else 0
     wide = (re.split(r" {2,}|\t+", x.strip()) for x in lines)
-    return [w if len(w) == width else r for r, w in zip(rows, wide, strict=True)]
+    found = (w if len(w) == width else r for r, w in zip(rows, wide, strict=True))
+    return [[c.strip('"') for c in r] for r in found]
 
 
 def _holds_text(rows: Sequence[Sequence[str]], column: int) -> bool:

@@ -93,6 +93,12 @@ CSV = {
     "over midnight": text(PLAIN, rows([(86398 + t) % 86400 for t in VALUES["time"]])),
     "blanks, ragged": text("  ".join(HEADER), [[" " * (k % 3) + str(c) for c in r] for k, r in enumerate(rows())], "  "),
     "tabs and blanks, a remark as header": text("# " + " ".join(UNITS) + "\n# " + " ".join(UNITS.values()), rows(), " \t "),
+    "a quoted stamp between blanks": text(
+        " ".join(["time", *(h.replace(" ", "") for h in HEADER[1:])]), rows([f'"2026-03-01 10:00:{t:07.4f}"' for t in VALUES["time"]]), " "
+    ),
+    "a stamp of two words between blanks": text(
+        "  ".join(["time", *HEADER[1:]]), rows([f"2026-03-01 10:00:{t:07.4f}" for t in VALUES["time"]]), " "
+    ),
     "names of two words between blanks": text("  ".join(f"{n}  " for n in HEADER), [[f"{c:9.6f}" for c in r] for r in rows()], " "),
     "units in the cells": text(",".join(UNITS), [[f"{c} {u}" for c, u in zip(r, UNITS.values(), strict=True)] for r in rows()]),
     "units in the cells, as they fit": text(
@@ -103,6 +109,8 @@ CSV = {
     "numbers before the header": text(
         "Version\t3\nSamples" + 7 * "\t60" + "\nX0" + 7 * "\t0.0" + "\nnames\tx\n" + "\t".join(HEADER), rows(), "\t"
     ),
+    "a row that is called units": text("," + ",".join(UNITS) + "\nUnits," + ",".join(UNITS.values()), [["data", *r] for r in rows()]),
+    "units alone below the names": text("time,a,,,omega,,,G_out\n(s),x (g),y (g),z (g),x (deg/h),y (deg/h),z (deg/h),(V)", rows()),
     "units in other brackets": text(PLAIN.replace("[", "{").replace("]", "}"), rows()),
     "blanks between thousands": text(
         "time [ms];" + ";".join(HEADER[1:]), rows([f"{1000 * t:,.1f}".replace(",", "\u202f") for t in VALUES["time"]]), ";"
@@ -115,7 +123,7 @@ CSV = {
 def test_tables_in_disguise(tmp_path: Path, kind: str) -> None:
     content = CSV[kind]
     (tmp_path / "x.csv").write_bytes(content if isinstance(content, bytes) else content.encode())
-    same(read_flight(tmp_path / "x.csv", G0))
+    same(read_flight(tmp_path / "x.csv", G0), "stamp" in kind)
 
 
 def stamps(start: str, form: str) -> list[str]:
@@ -381,6 +389,18 @@ def test_a_map_of_names_in_groups_and_with_units(tmp_path: Path) -> None:
     made = draft_mapping(tmp_path / "x.parquet")
     assert not made.questions and not made.notes, made
     same(read_flight(tmp_path / "x.parquet", G0, mapping=parse_mapping(made.text, tmp_path)))
+    names = [
+        "__time.s",
+        *(f"/imu/linear_acceleration/{k}.g" for k in "xyz"),
+        *(f"imu.gyroscope.{k} [deg/h]" for k in "xyz"),
+        "G_out.V",
+    ]
+    (tmp_path / "x.csv").write_text(text(",".join(names), rows()))
+    same(
+        read_flight(
+            tmp_path / "x.csv", G0, mapping=parse_mapping(draft_mapping(tmp_path / "x.csv").text, tmp_path)
+        )
+    )
     (tmp_path / "x.csv").write_text(text("X_Value,u,v", [[*r[:3]] for r in rows()]))
     made = draft_mapping(tmp_path / "x.csv")
     assert (
