@@ -1,4 +1,4 @@
-"""ragg in Python: derived models of a rotating-accelerometer gravity gradiometer, held against flights.
+"""ragg in Python: compare derived models of a rotating-accelerometer gravity gradiometer with flights.
 
 >>> import ragg                                               # doctest: +SKIP
 >>> m = ragg.new("my-model")
@@ -8,7 +8,7 @@
 >>> ragg.add(m, d.found[0], flights)
 
 Results have ``as_json()``, a short ``repr`` and a rich display in notebooks. Bad input raises :class:`UserError`.
-This package holds no code of its own: the names of ``ragg_runtime`` that it hands on load when they are first used.
+This package re-exports names of ``ragg_runtime``, which are imported when they are first used.
 """
 
 from importlib import import_module

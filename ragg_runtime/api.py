@@ -1,4 +1,4 @@
-"""What ragg does, step by step, for the command line, the studio and notebooks (``import ragg``).
+"""The steps of ragg for the command line, the studio and notebooks (``import ragg``).
 
 >>> import ragg                                                    # doctest: +SKIP
 >>> m = ragg.load("my-model")
@@ -129,7 +129,24 @@ __all__ = [
 
 
 def compare(m: Loaded, flights: Flights) -> Comparison:
-    """How far the model is from the flights."""
+    """Show how far the model is from flights, and where it fails.
+
+    Parameters
+    ----------
+    m
+        The model: :func:`ragg.load` or :func:`ragg.new`.
+    flights
+        A path, a pandas DataFrame, an xarray Dataset, a dict of arrays, a list of these, or what :func:`ragg.read_flights` returned.
+
+    Returns
+    -------
+        ``nominal``, ``calibrated`` and ``holdout`` errors (V, Eo), ``noise_floor`` (Eo), ``adequate``, ``where``.
+
+    Raises
+    ------
+    UserError
+        If the flights cannot be read or do not fit the instrument.
+    """
     flights = read_flights(m, flights)
     distinct(flights)
     return _compare.compare(m.model, m.instrument, flights)
@@ -138,7 +155,26 @@ def compare(m: Loaded, flights: Flights) -> Comparison:
 def diagnose(
     m: Loaded, flights: Flights, limits: Mapping[str, float] = LIMITS, compared: Comparison | None = None
 ) -> Diagnosis:
-    """Which physical effect the model lacks; with ``compared`` of the same flights nothing is fitted again."""
+    """Identify the physical effects that the model lacks.
+
+    Parameters
+    ----------
+    m, flights
+        As for :func:`ragg.compare`.
+    limits
+        Largest amplitudes of the next motion in SI: ``a``, ``omega``, ``jerk``, ``alpha``.
+    compared
+        A comparison of the same flights, whose calibration is then reused.
+
+    Returns
+    -------
+        ``verdict``, ``found`` (the effects to add), ``ranking``, ``reason``, ``unexplained``, ``next_motion``.
+
+    Raises
+    ------
+    UserError
+        As for :func:`ragg.compare`.
+    """
     flights = read_flights(m, flights)
     distinct(flights)
     extended = partial(derive.with_effects, m.instrument)
@@ -239,10 +275,27 @@ def add(
     *,
     save: bool = True,
 ) -> Added:
-    """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
+    """Add an effect: derive it into the model, calibrate, and record the step in the history.
 
-    The directory is changed whole or not at all, after ``tell`` has been called with the result. Nothing is changed if
-    that raises, if the calibration does not converge, or without ``save``.
+    Parameters
+    ----------
+    m, flights
+        As for :func:`ragg.compare`; without flights nothing is calibrated.
+    effect
+        Its id, as listed by :func:`ragg.effects`.
+    tell
+        Called with the result before the directory is changed; if it raises, nothing is changed.
+    save
+        Whether to change the model directory, which also needs a calibration that converges.
+
+    Returns
+    -------
+        ``before`` and ``after``, comparisons without and with the effect; ``parameters``; ``loaded``, the new model.
+
+    Raises
+    ------
+    UserError
+        If there is no such effect, if the model has it, or if a flight lacks a channel that it needs.
     """
     flights = read_flights(m, flights)
     distinct(flights)
@@ -289,7 +342,7 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
     present = m.instrument.effect(effect)
     if present is not None and present.values:
         raise UserError(
-            "the effect is in the model already",
+            "the effect is already in the model",
             where=str(m.directory.path),
             found=effect,
             remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
@@ -337,7 +390,17 @@ def _planned(m: Loaded, text: str, model: Model, step: Step) -> Loaded:
 
 
 def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None) -> Loaded:
-    """Take an effect out of the model again; ``tell`` as for :func:`add`."""
+    """Remove an effect from the model; ``tell`` as for :func:`ragg.add`.
+
+    Returns
+    -------
+        The new model.
+
+    Raises
+    ------
+    UserError
+        If the model does not have the effect.
+    """
     text = remove_effect(m.directory.text, effect)
     instrument = parse_instrument(text, m.directory.path / "model.toml")
     step = Step("remove", now(), effect, text=text)
@@ -360,7 +423,29 @@ def survey(
     progress: Progress | None = None,
     mapping: Path | None = None,
 ) -> Survey:
-    """Diagnose many flights, each by itself, and sum them up; see :func:`ragg_runtime.survey.run.survey`."""
+    """Diagnose many flights separately, and summarise them.
+
+    Parameters
+    ----------
+    m
+        The model.
+    flights
+        Files; one that cannot be read is listed as an error.
+    jobs
+        Processes on this machine (default: one per processor).
+    scheduler
+        Address of a Dask scheduler, whose workers are used instead.
+    resume
+        Results file to continue and to append to.
+    progress
+        Called with the number of finished flights.
+    mapping
+        Description of the files' columns; default: the one kept with the model.
+
+    Returns
+    -------
+        ``records``, one per flight, ``summary``, ``as_json()``.
+    """
     from ragg_runtime.survey.run import survey as of_many  # slow to import, and only surveys need it
 
     how = mapping_of(m, mapping)
@@ -425,9 +510,22 @@ def calibrate(
     *,
     drift: bool = False,
 ) -> Kept:
-    """Fit the parameters to flights; ``save`` keeps them (and ``mapping``) in the model directory, older ones as history.
+    """Fit the parameters of the model to flights.
 
-    With ``drift`` those that drift are followed through the flights as well; what is kept are the constant ones.
+    Parameters
+    ----------
+    m, flights
+        As for :func:`ragg.compare`.
+    save
+        Whether to save the calibration (and ``mapping``) in the model directory; earlier ones are kept.
+    mapping
+        Description of the files' columns.
+    drift
+        Whether to estimate parameters that drift during the flights, too; the constant ones are saved.
+
+    Returns
+    -------
+        Parameters with their standard uncertainties, combinations, errors; ``loaded``, the model with the calibration.
     """
     flights = read_flights(m, flights, mapping)
     distinct(flights)
@@ -491,27 +589,31 @@ def compensate(
     walk: float | None = None,
     forget: float = float("inf"),
 ) -> Compensation:
-    """The gravity gradient as the instrument saw it: everything removed that the model explains, demodulated.
+    """Remove the modelled motion errors and demodulate: the gravity gradient as the instrument saw it.
 
     Parameters
     ----------
+    m, flights
+        As for :func:`ragg.compare`.
     calibration
-        ``self``: the parameters are fitted to these flights; ``crossed``: every block of time has those fitted to all
-        others; ``smoothed``: they drift from block to block, as far as the flights show it; ``frozen``: as
-        ``calibrate(..., save=True)`` kept them; ``online``: followed sample by sample by the recursive filter, as a computer on
-        board would, from the calibration that is kept, else from the sheet. It needs no demodulator.
+        ``self``: parameters fitted to these flights; ``crossed``: in every block of time those fitted to all
+        others; ``smoothed``: drifting from block to block; ``frozen``: as ``calibrate(..., save=True)`` saved
+        them; ``online``: the recursive filter, sample by sample, from the saved calibration, else from the sheet.
     demodulator
         ``fir``, ``butterworth`` or ``causal``.
     output
-        A file for the series.
+        A file to write the channels to.
     noise
-        Of ``online``: density of the noise of the cross channel about twice the spin rate, Eo/sqrt(Hz); by default what the kept
-        calibration left.
+        ``online``: noise density of the cross channel near twice the spin rate, Eo/sqrt(Hz); default: that of the saved calibration.
     walk
-        Of ``online``, of the cross channel, Eo/sqrt(s), twice that of the inline one; by default both are followed with the time
-        constant of the demodulators' low-pass, 1/(2 pi 0.2 Hz).
+        ``online``: random walk of the cross channel, Eo/sqrt(s), twice that of the inline channel; default: a time
+        constant of 1/(2 pi 0.2 Hz).
     forget
-        Of ``online``: time constant, s, with which the parameters forget the flight.
+        ``online``: time constant, s, with which parameters are forgotten.
+
+    Returns
+    -------
+        ``inline`` and ``cross`` (Eo) with their standard uncertainties and ``quality``, for each flight.
     """
     flights = read_for_compensation(m, flights)
     of = m.name, m.model, m.instrument, flights

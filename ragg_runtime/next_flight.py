@@ -115,7 +115,7 @@ def _possible(
     band = (0.0, HIGHEST * rate) if band is None else band
     if not tones_of(m.instrument.spin_frequency, limits, band) or band[1] > HIGHEST * rate:
         raise UserError(
-            "no motion can be made of these frequencies",
+            "no motion is possible with these frequencies",
             where="--band",
             found=f"{band[0]:g} to {band[1]:g} Hz at {rate:g} samples a second",
             expected=f"multiples of the spin frequency among them, none above {HIGHEST * rate:g} Hz",
@@ -187,8 +187,8 @@ About the mean motion; x(t) = amplitude sin(2 pi frequency t + phase), t from th
 |---|---|---|---|
 {parameters}
 
-Afterwards, with the flights so far and this one: `ragg calibrate MODEL FLIGHT... --plan PLAN.json`,
-PLAN.json being what `ragg next-motion ... --json PLAN.json` wrote.
+Afterwards, with the previous flights and this one: `ragg calibrate MODEL FLIGHT... --plan PLAN.json`,
+with PLAN.json from `ragg next-motion ... --json PLAN.json`.
 """
 
 
@@ -219,7 +219,7 @@ def read_plan(path: Path) -> list[Planned]:
         ]
     except (ValueError, KeyError, TypeError):
         raise UserError(
-            "this is no plan of a calibration",
+            "this is not a plan of a calibration",
             where=path,
             expected="the JSON of ragg next-motion MODEL FLIGHT... --for calibration --json PLAN.json",
         ) from None

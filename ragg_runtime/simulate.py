@@ -44,7 +44,27 @@ GEOLOGY = 20e-9
 
 
 def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
-    """A flight of a model directory's instrument; ``effects`` and ``options`` are those of :func:`simulated`."""
+    """Simulate a flight of the model's instrument with the numerical reference.
+
+    Parameters
+    ----------
+    m
+        The model.
+    effects
+        Effects to hide: ``ID:NAME=VALUE[,NAME=VALUE]``, values in the effect's display units, four joined by ``/``.
+    options
+        ``duration`` (s), ``rate`` (Hz), ``noise`` (Eo/sqrt(Hz)), ``seed``, ``instrument_seed``, ``sheet_error``, ``shape``, ``voltages``,
+        ``motion``, ``spin``: as for ``ragg simulate``.
+
+    Returns
+    -------
+        The flight, in SI.
+
+    Raises
+    ------
+    UserError
+        If an effect is unknown or a value is out of range.
+    """
     return simulated(m.instrument, effects, **options)
 
 
@@ -65,25 +85,25 @@ def simulated(
     mapping: Mapped | None = None,
     spin: Sequence[str] = (),
 ) -> Flight:
-    """A flight at 1 g in turbulence, over a varying gradient, with hidden effects; of model.toml's order and kinematics.
+    """Simulate a flight at 1 g in turbulence, over a varying gradient, with hidden effects, in model.toml's order and kinematics.
 
     Parameters
     ----------
     hidden
         ``ID:NAME=VALUE[,NAME=VALUE]``, values in the effect's display units, four joined by ``/``.
     seed, instrument_seed
-        Of motion, gradient and noise; and of how the true instrument differs from its sheet, the same in all its flights.
+        Seeds of motion, gradient and noise, and of the true instrument, which flights of one seed share.
     duration, rate, noise
         s, Hz, Eo/sqrt(Hz) of the cross channel.
     sheet_error
-        How far the true instrument lies from its test sheet; 1 is usual.
+        How far the true instrument is from its test sheet; 1 is usual.
     no_gradient
         Whether the gravity gradient is left unrecorded, as on a survey.
     motion
-        A flight file whose motion is flown, as long and as densely sampled as it is, and its disc angles where it has
-        some; else one is drawn. ``mapping`` says what its columns are, where it has names of its own.
+        A flight file whose motion and disc angles are flown, at its rate and duration; default: a random motion. ``mapping`` describes
+        its columns.
     spin
-        How discs turn (``spin.FORM``), where not steadily as the sheet says; their encoders are recorded then.
+        Spin of the discs (``spin.FORM``), if not steady as on the sheet; their encoders are then recorded.
     """
     effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument) for text in hidden)
     form = instrument.form
@@ -129,7 +149,7 @@ def _bounded() -> Iterator[None]:
             yield
     except OverflowError:
         raise UserError(
-            "the flight goes beyond what a number can hold",
+            "the simulated values are not finite",
             remedy="choose a smaller --noise, --sheet-error, --spin or value of an effect",
         ) from None
 
@@ -245,7 +265,7 @@ def _profile(profile: str, text: str) -> Turning:
             raise ValueError
     except ValueError:
         raise UserError(
-            "the turning of a disc is not understood",
+            "the spin of a disc is invalid",
             where="--spin",
             found=repr(text),
             expected=FORM,

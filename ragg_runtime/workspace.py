@@ -64,8 +64,8 @@ class Loaded:
 
 
 FULL_KINEMATICS = (
-    'the sheet has no [model]: kinematics = "full" was written into model.toml, as real accelerometers feel that they turn with the '
-    'disc; the model of Eq. 9 of the paper, without that, is [model] kinematics = "platform"'
+    'the sheet has no [model]: kinematics = "full" was written into model.toml, because accelerometers turn with the '
+    'disc; Eq. 9 of the paper, which ignores this, is [model] kinematics = "platform"'
 )
 
 
@@ -75,16 +75,20 @@ def new(path: Path | str, source: Path | str | None = None, mapping: Path | str 
     Parameters
     ----------
     path
-        Where; it must not hold anything yet.
+        The directory; it must not exist or be empty.
     source
-        A test sheet (a model.toml); by default the packaged example.
+        A test sheet (a model.toml); default: the packaged example.
     mapping
-        A mapping of the columns of its flights, to be kept there.
+        A mapping of the flights' columns, to be kept with the model.
+
+    Returns
+    -------
+        The model.
 
     Raises
     ------
     UserError
-        If the sheet or the mapping is none, or the directory cannot be made.
+        If the sheet or the mapping is invalid, or the directory cannot be made.
     """
     kept = None if mapping is None else mapping_text(Path(mapping))
     text = _example_text() if source is None else read_text(Path(source))
@@ -102,7 +106,17 @@ def new(path: Path | str, source: Path | str | None = None, mapping: Path | str 
 
 
 def load(path: Path | str) -> Loaded:
-    """Read a model directory and derive its model."""
+    """Read a model directory and derive its model.
+
+    Returns
+    -------
+        The model.
+
+    Raises
+    ------
+    UserError
+        If there is no model directory, or its files are invalid.
+    """
     return load_state(load_model_dir(path))
 
 
@@ -151,17 +165,28 @@ Flights = Flight | Path | str | Any
 def read_flights(
     m: Loaded, paths: Flights, mapping: Path | str | None = None, *, leave: frozenset[str] = frozenset()
 ) -> list[Flight]:
-    """Read flights, every line of a file a flight, in the units of this model (its g0), and examine them.
+    """Read and screen flights in the units of this model (its g0); every flight line of a file is a flight.
 
     Parameters
     ----------
+    m
+        The model.
     paths
         Paths, pandas DataFrames, xarray Datasets or dicts of arrays (columns ``name [unit]``, or units in ``attrs``), one
-        or a list of these. Flights that were read already stay as they are.
+        or a list of these. Flights that were already read are returned unchanged.
     mapping
-        What the columns are, by default the model's own.
+        Description of the columns; default: the mapping kept with the model.
     leave
         Columns that are not read.
+
+    Returns
+    -------
+        Flights with channels in SI.
+
+    Raises
+    ------
+    UserError
+        If a file cannot be read or does not fit the instrument.
     """
     given = list(paths) if isinstance(paths, list | tuple) else [paths]
     how = mapping_of(m, mapping) if any(not isinstance(x, Flight) for x in given) else None
@@ -199,9 +224,7 @@ def keep_mapping(m: Loaded, text: str, *, replace: bool) -> None:
     """Lay a mapping down in the model directory, where every command finds it; never over another unasked."""
     place = m.directory.path / MAPPING
     if place.exists() and not replace and read_text(place) != text:
-        raise UserError(
-            "the model has a mapping already", where=place, remedy="say that it shall be replaced"
-        )
+        raise UserError("the model has a mapping already", where=place, remedy="ask for it to be replaced")
     write_text(place, text)
 
 

@@ -132,7 +132,7 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
         result = api.add(m, effect, records, tell)
     if not result.converged:
         raise UserError(
-            "nothing was added: the model is as it was",
+            "nothing was added; the model is unchanged",
             where=", ".join(x.name for x in records),
             found=result.after.complaint if result.after else None,
             remedy=f"see what else is missing: {check}; or what is wrong with the record",
@@ -157,7 +157,7 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
     nargs=2,
     default=None,
     metavar="LOW HIGH",
-    help="Hz (default: all that the rate holds).",
+    help="Hz (default: all that the rate allows).",
 )
 @click.option("--duration", type=click.FloatRange(60.0, 86400.0), default=600.0, show_default=True, help="s")
 @click.option("--rate", type=click.FloatRange(1.0, 1000.0), default=None, help="Hz (default: the flights').")
@@ -184,7 +184,9 @@ def next_motion(
     The motion separates effects that these flights cannot distinguish, or calibrates best.
     """
     if run_sheet is not None and purpose != "calibration":
-        raise UserError("a run sheet is of a calibration", where="--run-sheet", expected="--for calibration")
+        raise UserError(
+            "a run sheet needs --for calibration", where="--run-sheet", expected="--for calibration"
+        )
     m = load(model_dir)
     records, most = read(m, flights, mapping), api.motion_limits(m, limits)
     if purpose == "effects":
@@ -203,10 +205,10 @@ def next_motion(
 @model_argument
 @flights_argument
 @click.option("--save", is_flag=True,
-              help="Keep the calibration (and a mapping that is given) in the model directory, for --frozen.")  # fmt: skip
+              help="Save the calibration (and the mapping given with --map) in the model directory.")  # fmt: skip
 @click.option("--plan", type=PLACE, metavar="PLAN.json",
               help="Certify each parameter against a plan of next-motion --for calibration.")  # fmt: skip
-@click.option("--drift", is_flag=True, help="Follow the parameters that drift through the flights.")
+@click.option("--drift", is_flag=True, help="Estimate parameters that drift during the flights.")
 @mapping_option
 def calibrate(
     model_dir: Path, flights: Sequence[Path], save: bool, plan: Path | None, drift: bool, mapping: Path | None
@@ -249,9 +251,9 @@ def calibrate(
 @click.option("--noise", type=Finite(0.0, min_open=True), metavar="EO/SQRT(HZ)",
               help="online: noise of the cross channel (default: from the saved calibration).")  # fmt: skip
 @click.option("--walk", type=Finite(0.0), metavar="EO/SQRT(S)",
-              help="online: how fast the gradient may wander (default: as a low-pass of 0.2 Hz).")  # fmt: skip
+              help="online: random walk of the gradient (default: as a low-pass of 0.2 Hz).")  # fmt: skip
 @click.option("--forget", type=Finite(0.0, min_open=True), metavar="S",
-              help="online: time constant of forgetting (default: nothing is forgotten).")  # fmt: skip
+              help="online: time constant of forgetting (default: never).")  # fmt: skip
 @mapping_option
 def compensate(
     model_dir: Path,
@@ -274,7 +276,7 @@ def compensate(
     calibration = "frozen" if frozen else calibration
     if calibration != "online" and any(x is not None for x in (noise, walk, forget)):
         raise UserError(
-            "--noise, --walk and --forget are of the recursive filter", expected="--calibration online"
+            "--noise, --walk and --forget need --calibration online", expected="--calibration online"
         )
     m = load(model_dir)
     kept = calibration == "frozen" or (calibration == "online" and m.directory.calibration is not None)
@@ -299,7 +301,7 @@ def compensate(
 @click.option(
     "--c", "form", flag_value="c", help="A C17 program: make -C DIR; ragg_model < MOTION.csv > OUT.csv."
 )
-@click.option("--numpy", "form", flag_value="numpy", help="A folder that runs with NumPy alone.")
+@click.option("--numpy", "form", flag_value="numpy", help="A folder that needs only NumPy.")
 @click.option(
     "--json", "form", flag_value="json", help="One document: description, parameters with units, an example."
 )
@@ -330,9 +332,9 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
 @click.option(
     "--scheduler",
     metavar="tcp://HOST:PORT",
-    help="Let the workers of a Dask cluster do it. What answers there can run code here: trusted addresses only.",
+    help="Use the workers of a Dask cluster. Its scheduler can run code on this machine: trusted addresses only.",
 )
-@click.option("--resume", type=PLACE, metavar="FILE", help="Results file: continue it, and add what is done.")
+@click.option("--resume", type=PLACE, metavar="FILE", help="Results file to continue.")
 @click.option("--table", "table_file", type=OutputFile(records=True), metavar="FILE.parquet",
               help="Write a table with a row for each flight.")  # fmt: skip
 @mapping_option

@@ -89,7 +89,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except BrokenPipeError:
         sys.exit(0)
     except MemoryError:
-        click.echo("ragg: there is not enough memory for this; nothing was changed", err=True)
+        click.echo("ragg: there is not enough memory; nothing was changed", err=True)
         sys.exit(2)
     except KeyboardInterrupt:
         click.echo("ragg: interrupted; nothing was changed", err=True)
@@ -112,7 +112,7 @@ def refusal(error: OSError) -> str:
     try:
         os.getcwd()
     except OSError:
-        return "the current folder is no longer there: change into one that is"
+        return "the current folder no longer exists: change to another"
     places = [os.fsdecode(p) for p in (error.filename, error.filename2) if isinstance(p, (str, bytes))]
     what = error.strerror or (str(error).splitlines() or [type(error).__name__])[0]
     return one_line(": ".join([" and ".join(places), what] if places else [what]))

@@ -40,7 +40,7 @@ else:
 
 @click.command(cls=Command, json=False, hidden=True)
 @click.option("--out", type=PLACE, help="Root of the project to write to (default: where ragg is installed).")
-@click.option("--check", is_flag=True, help="Only say whether the committed code matches the derivation.")
+@click.option("--check", is_flag=True, help="Only check that the committed code matches the derivation.")
 def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code."""
     from ragg_runtime.model import derive as derivation
@@ -51,11 +51,13 @@ def derive(out: Path | None, check: bool) -> None:
         for name in changed:
             click.echo(one_line(f"written: {root / name}"))
         click.echo(
-            f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived."
+            f"{len(changed)} files changed."
+            if changed
+            else "Nothing changed: all files match the derivation."
         )
         return
     note = derivation.check(root)
-    click.echo("The committed code is what the derivation yields, byte for byte.")
+    click.echo("The committed code matches the derivation byte for byte.")
     if note:
         click.echo(note)
 
@@ -94,7 +96,7 @@ def effects(identifier: str | None) -> None:
 @model_argument
 @click.argument("effect")
 def remove(model_dir: Path, effect: str) -> None:
-    """Take an effect out of the model."""
+    """Remove an effect from the model."""
     before = load(model_dir)
 
     def tell(m: Loaded) -> None:
@@ -130,10 +132,10 @@ def history(model_dir: Path) -> None:
     help="Hide an effect in the flight; VALUE in the effect's units, four values joined by /.",
 )
 @click.option(
-    "--seed", type=click.IntRange(0), default=0, show_default=True, help="Of motion, gradient and noise."
+    "--seed", type=click.IntRange(0), default=0, show_default=True, help="Seed of motion, gradient and noise."
 )
 @click.option("--instrument-seed", type=click.IntRange(0), default=0, show_default=True,
-              help="Which true instrument: all flights of one number are of the same.")  # fmt: skip
+              help="Seed of the true instrument: flights with the same seed share it.")  # fmt: skip
 @click.option("--duration", type=Finite(1.0), default=1800.0, show_default=True, help="s")
 @click.option("--rate", type=Finite(1.0), default=16.0, show_default=True, help="Hz")
 @click.option("--noise", type=Finite(0.0), default=2.0, show_default=True, help="Eo/sqrt(Hz)")
@@ -143,15 +145,15 @@ def history(model_dir: Path) -> None:
 @click.option("--sheet-error", type=Finite(0.0), default=1.0, show_default=True,
               help="How far the true instrument is from the test sheet (0: not at all).")  # fmt: skip
 @click.option(
-    "--motion", type=PLACE, metavar="FILE", help="Fly this motion (a flight file; its length and rate)."
+    "--motion", type=PLACE, metavar="FILE", help="Motion to fly (a flight file; sets duration and rate)."
 )
 @mapping_option
 @click.option(
     "--spin",
     multiple=True,
     metavar="[DISC:]HZ[,RAD@HZ[@RAD]]...",
-    help="How a disc turns (all, if none is named): a rate, negative backwards, 0 none, and swings of so many rad at so "
-    "many Hz, from a phase on. Its encoder is recorded. An encoder in --motion is flown, too.",
+    help="Spin of a disc (default: all): rate (negative: reverse; 0: none) and swings of RAD at HZ from a phase. The encoder "
+    "is recorded. An encoder in --motion is used, too.",
 )
 @click.option(
     "--gradient/--no-gradient", default=False, show_default=True, help="Record the gravity gradient."
@@ -212,7 +214,7 @@ def info(flight: Path, mapping: Path | None) -> None:
 def convert(source: Path, target: Path, mapping: Path | None) -> None:
     """Write a flight file in another format.
 
-    The ending of OUT says which; numbers, names and units stay. Reads CSV, Parquet, NetCDF, HDF5, MATLAB and Excel; writes
+    The ending of OUT selects it; numbers, names and units are unchanged. Reads CSV, Parquet, NetCDF, HDF5, MATLAB and Excel; writes
     CSV, Parquet and NetCDF.
     """
     from ragg_runtime.io.files import convert as _convert
@@ -239,10 +241,10 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
     help="File to write (default: stdout).",
 )
 def map_command(flight: Path, output: str | None) -> None:
-    """Draft a mapping for a file with columns of its own.
+    """Draft a mapping for a file with other column names.
 
-    It says which column is what, in which unit, and how time is written. What the file does not say is marked with "?" and
-    asked for: units are never guessed.
+    A mapping names the columns, their units and the format of time. Units that the file lacks are marked "?" for you to
+    answer; none is guessed.
     """
     from ragg_runtime.io.draft import draft_mapping
 

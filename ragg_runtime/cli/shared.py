@@ -65,7 +65,7 @@ class Finite(click.FloatRange):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         found = super().convert(value, param, ctx)
         if not math.isfinite(found):
-            self.fail(f"{value!r} is no finite number", param, ctx)
+            self.fail(f"{value!r} is not a finite number", param, ctx)
         return found
 
 
@@ -77,7 +77,7 @@ mapping_option = click.option(
     "mapping",
     type=PLACE,
     metavar="FILE",
-    help="What the columns of the flight files are (ragg map).",
+    help="Mapping of the flights' columns (see ragg map).",
 )
 series_option = click.option(
     "-o",
@@ -126,7 +126,7 @@ class Command(click.Command):
         if sys.stdout is None:
             raise UserError(
                 "the result cannot be written: stdout is closed",
-                remedy="if it is not wanted, send it away: > /dev/null",
+                remedy="to discard it: > /dev/null",
             )
         self._check_outputs(ctx)
         options = ("json_file", "report_file", "verbose")

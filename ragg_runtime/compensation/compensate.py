@@ -158,14 +158,14 @@ def find_seeing(instrument: Instrument, observations: Sequence[Observation]) -> 
     found = tuple(n for n, o in enumerate(observations) if o.record.turning and sees(o.output, k1, R))
     if observations and not found:
         raise UserError(
-            "there is no gradient to compensate: no output sees one on a disc that turns",
+            "there is no gradient to compensate: no output of a spinning disc is sensitive to it",
             where=instrument.path,
             found=", ".join(
                 f"{o.output.name}: disc {'spins' if o.record.turning else 'does not spin'}"
                 for o in observations
             ),
             expected="a turning disc with accelerometers whose sum does not cancel the gradient",
-            remedy="calibrate and compare say how good the model is of such an instrument",
+            remedy="use calibrate and compare for such an instrument",
         )
     return found
 
@@ -441,7 +441,7 @@ def _require_alike(flights: Sequence[Flight], every: Sequence[Sequence[OutputCha
             raise UserError(
                 "the flights do not have the same outputs",
                 where=flight.path or flight.name,
-                found=", ".join(own) or "none that sees a gradient",
+                found=", ".join(own) or "none that is sensitive to the gradient",
                 expected=", ".join(names[0]),
                 remedy="compensate them one by one",
             )

@@ -147,7 +147,7 @@ def as_calibration(
         excess=1.0,
         unheld=1.0,
         converged=True,
-        reason="nothing is fitted: the parameters are those that were saved",
+        reason="nothing is fitted; the saved parameters are used",
     )
 
 

@@ -274,7 +274,7 @@ def _follow_flight(
     for o in (observations[k] for k in find_seeing(instrument, observations)):
         if o.recorded.demodulated:
             raise UserError(
-                "the filter works on the output before demodulation",
+                "the filter needs the output before demodulation",
                 where=x.path or x.name,
                 found="inline and cross",
                 expected=o.output.name,

@@ -89,9 +89,7 @@ class Saved:
         if not self.converged:
             found.append("the saved calibration had not converged")
         if not np.array_equal(self.sheet, vector(model, instrument)):
-            found.append(
-                "model.toml has other values than when the calibration was saved; those it saved are used"
-            )
+            found.append("model.toml has changed since the calibration was saved; the saved values are used")
         return found
 
 
@@ -124,7 +122,7 @@ def _entries(text: str, where: str) -> list[Any]:
 
 
 def _refuse(text: str) -> float:
-    raise ValueError(f"{text} is no number")
+    raise ValueError(f"{text} is not a number")
 
 
 def _damaged(where: str, found: str) -> UserError:
@@ -169,7 +167,9 @@ def _parse(e: Mapping[str, Any]) -> Saved:
 def _square(rows: Sequence[Sequence[float]], n: int) -> Array:
     """(n, n) of the rows of an upper triangle."""
     if [len(row) for row in rows] != [*range(n, 0, -1)]:
-        raise ValueError("the square root of the information is no upper triangle of the fitted parameters")
+        raise ValueError(
+            "the square root of the information is not an upper triangle of the fitted parameters"
+        )
     R = np.zeros((n, n))
     R[np.triu_indices(n)] = np.concatenate([*rows])
     if n and not np.min(np.abs(np.diag(R))) > LEAST:

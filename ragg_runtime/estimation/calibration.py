@@ -322,11 +322,11 @@ class OffSheet:
     accelerometer_name: str = ""
 
     def in_words(self) -> str:
-        """``K1 of A2 is 40 sigma off its sheet: 10.4 where it says 10 mA/g``."""
+        """``K1 of A2 is 40 sigma off its sheet: 10.4 instead of 10 mA/g``."""
         of = "" if self.accelerometer is None else f" of {self.accelerometer_name}"
         return (
             f"{self.name}{of} is {abs(self.sigmas):.3g} sigma off its sheet: "
-            f"{self.value:.6g} where it says {self.sheet:.6g} {self.unit}"
+            f"{self.value:.6g} instead of {self.sheet:.6g} {self.unit}"
         )
 
     def as_json(self) -> dict[str, object]:

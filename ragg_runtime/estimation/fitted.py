@@ -276,7 +276,7 @@ def fit(
     )
     if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):
         raise UserError(
-            "the calibration does not converge: the record is not one of this instrument",
+            "the calibration does not converge: the record does not match this instrument",
             where=", ".join(o.name for o in observations),
             found="a scale factor of the gradiometer below zero",
             expected="the disc angle, spin frequency, axes and signs of the model",

@@ -254,11 +254,11 @@ def in_words(level: Level) -> str | None:
     if not level.parts:
         return None
     names = {
-        "time": "in the course of the record",
-        "phi": "with the angle of the disc",
+        "time": "over the record",
+        "phi": "with the disc angle",
         "gap": "next to gaps",
         "input-rms": "with the specific force along the input axes",
         "input": "with the specific force along the input axes",
     }
     said = [f"{names.get(p.name, f'with {p.name}')} ({p.ratio:.2g} times)" for p in level.parts]
-    return f"the noise changes its level {' and '.join(said)}; every sample is weighed by it"
+    return f"the noise level changes {' and '.join(said)}; samples are weighted accordingly"

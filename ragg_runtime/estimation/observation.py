@@ -100,7 +100,7 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     r = record(flight, instrument, place)
     form = recorded(flight, layout, place)
     if form is None:
-        raise UserError(f"the flight does not hold the output {o.name}", where=flight.path or flight.name)
+        raise UserError(f"the flight lacks the output {o.name}", where=flight.path or flight.name)
     a = instrument.accelerometers
     k_ggi = scale(o, a["k_VI"] * a["K1"], instrument.radii + a["dR"])
     columns = form.columns(layout, o, flight.outputs) or ()

@@ -279,7 +279,7 @@ def _periodogram(
     longest = max(len(r) for r in residuals)
     usable = [k for k, r in enumerate(residuals) if len(r) >= max(64, longest // 4)]
     if not usable:
-        raise ValueError("no stretch long enough to estimate the noise from")
+        raise ValueError("no segment is long enough to estimate the noise")
     frequency, density, share = [], [], []
     for k in usable:
         f, p = periodogram(residuals[k], rate)

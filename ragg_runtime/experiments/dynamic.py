@@ -120,7 +120,7 @@ def _vary_conventions() -> Variation:
         "With second-order terms as in Eq. 5 the analytical model is the numerical one, to rounding: its error is "
         "products of second-order coefficients and angles, and nothing else. They are of two kinds, which add up: "
         "with the misalignments vartheta, which the paper drops below Eq. 5b, and, larger and opposite here, with the "
-        "mounting errors beta_x and beta_z, which Eq. 18 drops without a word. Exact rotations would put it at "
+        "mounting errors beta_x and beta_z, which Eq. 18 drops silently. Exact rotations would put it at "
         "1e-2 V, not the 1e-3 V printed: the paper's numerical model has first-order ones, too.",
     )
 

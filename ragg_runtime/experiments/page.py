@@ -99,12 +99,12 @@ _HEAD = """# The paper's experiments, repeated
 
 Section III of
 M. Yu and T. Cai, *Mathematic Model And Error Analysis of Moving-base Rotating Accelerometer Gravity Gradiometer*:
-our numbers beside the printed ones (`python -m ragg_runtime.experiments`, as JSON with `--json`).
+our numbers and the printed ones (`python -m ragg_runtime.experiments`, as JSON with `--json`).
 
-The numerical model of Eq. 49 to 53 stands for the instrument; the analytical (Eq. 17 to 19) and the
+The numerical model of Eq. 49 to 53 represents the instrument; the analytical (Eq. 17 to 19) and the
 simplified model (Eq. 42 to 47) are the derived ones. The misprints of the printed equations cost too little to show here.
 
-Of {rows} printed numbers, **{agrees} agree**, **{open} hang on an input that the paper does not state**, and
+Of {rows} printed numbers, **{agrees} agree**, **{open} depend on an input that the paper does not state**, and
 **{unexplained} are unexplained**.
 
 - *agrees*: ours has the printed digits, or the printed order of magnitude, or the printed number lies between

@@ -63,7 +63,7 @@ _NO_ANGULAR_MOTION = (
     "quadratic term that its equations have"
 )
 _MEAN = (
-    "analytical plus simplified-minus-analytical: the one hangs on vartheta_x, the other has a random "
+    "analytical plus simplified-minus-analytical: the first depends on vartheta_x, the other has a random "
     "mean that our seeds span; the printed number lies within the two together"
 )
 

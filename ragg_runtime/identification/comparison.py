@@ -321,8 +321,8 @@ class Explained:
         if self.gain > 0.0:
             return None
         return (
-            f"nothing in the output follows the motion: the model explains {100 * self.share:.2g} % of it, no more than its"
-            " parameters would of noise; is it the output of this flight and this instrument?"
+            f"the output does not follow the motion: the model explains {100 * self.share:.2g} % of it, no more than its"
+            " parameters would of noise; does the output belong to this flight and instrument?"
         )
 
 

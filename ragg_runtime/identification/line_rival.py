@@ -40,8 +40,8 @@ class LineRival:
     @property
     def words(self) -> str:
         return (
-            f"the output has a line at about {self.line.frequency:.5g} Hz, beside a multiple of the spin rate: it explains as much"
-            f" as {self.effect} would, so that this is not named"
+            f"a line at about {self.line.frequency:.5g} Hz, near a multiple of the spin rate, explains as much"
+            f" as {self.effect}, which is therefore not claimed"
         )
 
     def better(self, rem: Remainder) -> bool:
@@ -91,11 +91,11 @@ class Steady:
 
     @property
     def words(self) -> str:
-        others = f", by {', '.join(self.others)} as well" if self.others else ""
-        said = f"what {self.effect} explains is a {self.name}{others}"
+        others = f", like {', '.join(self.others)}" if self.others else ""
+        said = f"{self.effect} acts as a {self.name}{others}"
         if self.width is None:
             return said
-        return f"{said}; a line within {self.width:.1g} Hz of {self.frequency:.6g} Hz would do too"
+        return f"{said}; a line within {self.width:.1g} Hz of {self.frequency:.6g} Hz would explain it too"
 
 
 def line_rival(steps: Sequence[Taken], last: Stage) -> tuple[LineRival | None, tuple[Steady, ...]]:

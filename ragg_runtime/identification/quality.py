@@ -55,7 +55,7 @@ def heed_flags(
     if not odd or (d.found and all(set(d.found) <= set(f.effects) for f in odd)):
         return replace(d, reasons=(*noted, *d.reasons))
     would = (
-        (Reason(f"{', '.join(d.found)} would explain it, and is not claimed of such a record"),)
+        (Reason(f"{', '.join(d.found)} would explain it, but such a record cannot confirm it"),)
         if d.found
         else ()
     )
@@ -83,8 +83,8 @@ def _without_feigned(
     term = _feigned_term(d, feigned) if d.remains else None
     if not alike and term is None:
         return d
-    what = ", ".join([*alike, *([] if term is None else [f"what remains, mostly {term},"])])
-    said = f"{what} is no more than what the noise of {', '.join(noisy)} feigns"
+    what = ", ".join([*alike, *([] if term is None else [f"the residual, mostly {term},"])])
+    said = f"{what} is no more than the noise of {', '.join(noisy)} can imitate"
     verdict = name_verdict(claimed=bool(kept), remains=d.remains and term is None)
     groups = tuple(g for g in d.groups if g.effects[0] in kept)
     return replace(d, verdict=verdict, found=kept, groups=groups, reasons=(Reason(said),))

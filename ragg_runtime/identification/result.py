@@ -206,13 +206,13 @@ def words(apart: Sequence[Disagreement]) -> str | None:
     if any(g.found for g in apart):
         said = "; ".join(f"{' and '.join(g.found) or 'nothing'} in {', '.join(g.flights)}" for g in apart)
         return (
-            f"each of the {count} flights alone is explained, all together are not: {said}. Was the instrument, its mounting,"
+            f"each of the {count} flights is explained separately, but not all together: {said}. Was the instrument, its mounting,"
             " an axis or a unit changed between them?"
         )
     return (
-        f"each of the {count} flights alone is explained to its noise, but they contradict each other, and no effect of"
-        f" the catalogue acts so between flights. Those that agree: {names}. Was the instrument, its mounting, an axis or a unit"
-        " changed between them? ragg calibrate of each shows what differs; diagnose those together that agree"
+        f"each of the {count} flights is explained separately, but they are inconsistent, and no effect of"
+        f" the catalogue explains the difference. Consistent flights: {names}. Was the instrument, its mounting, an axis or a unit"
+        " changed between them? Calibrate each flight to see what differs; diagnose consistent flights together"
     )
 
 

@@ -22,7 +22,7 @@ def doubtful(f: Fitted, effect: str) -> str | None:
     if e is None:
         return None
     if e.turning and not any(o.record.turning for o in f.observations):
-        return "the disc does not spin: what would turn with it is a constant"
+        return "the disc does not spin, so the effect is constant"
     if not e.told_from and e.common_of is None:
         return None
     own = [n for n, c in enumerate(f.candidates) if c.effect == effect]

@@ -111,7 +111,7 @@ class Conclusion:
         disturbed = comparison.disturbed(self.outcome.target)
         said = [] if self.line is None else [self.line.words]
         said += [s.words for s in self.steady]
-        said += [f"the search was ended after {strong.FITS} fits"] if spent and self.remains else []
+        said += [f"the search stopped after {strong.FITS} fits"] if spent and self.remains else []
         return [*said, *([] if disturbed is None else [disturbed])]
 
     def reasons(self, apart: str | None, spent: bool) -> list[Reason]:
@@ -121,14 +121,14 @@ class Conclusion:
             return remarks
         found = []
         if self.claims:
-            sure = "is sure" if len(self.claims) == 1 else "are sure"
+            sure = "is certain" if len(self.claims) == 1 else "are certain"
             how = sure if self.remains else "is missing" if len(self.claims) == 1 else "are missing"
             found.append(Reason(f"{listed(self.claims)} {how}", is_verdict=True))
         if self.remains:
             found += self._left()
         if self.open:
             names = listed(self.open[:3], "or")
-            found.append(Reason(f"the record does not suffice to say whether {names} is there, too"))
+            found.append(Reason(f"the record is not sufficient to decide whether {names} is also present"))
         return [*found, *remarks]
 
     def _left(self) -> list[Reason]:
@@ -136,14 +136,14 @@ class Conclusion:
         o = self.outcome
         terms = [f"{t.term.harmonic} x {t.term.product}" for x in self.left.searches for t in x.terms]
         if self.rival and terms:
-            return [Reason(f"{listed(o.effects)} would do, but no better than a generic term, {terms[0]}")]
+            return [Reason(f"{listed(o.effects)} would explain it no better than a generic term, {terms[0]}")]
         found = [] if o.complaint is None else [Reason(o.complaint)]
         if terms:
             found.append(
-                Reason(f"what remains is more than noise, mostly {terms[0]}", is_verdict=True),
+                Reason(f"the residual is more than noise, mostly {terms[0]}", is_verdict=True),
             )
         rms = o.scored.whole.rms_Eo
-        noise = f"what remains, {rms:.3g} Eo, is more than the noise of {o.noise_floor:.3g} Eo"
+        noise = f"the residual, {rms:.3g} Eo, is more than the noise of {o.noise_floor:.3g} Eo"
         return found or [Reason(noise, is_verdict=True)]
 
 

@@ -86,6 +86,6 @@ def _read_order(order: object, where: str) -> dict[str, Any]:
         return dict(PRESETS[check_choice(order, tuple(PRESETS), where)])
     if not isinstance(order, dict):
         expected = '"paper", "exact" or { mounting = 1, misalignment = 1, second_order_angles = false }'
-        raise UserError("the order is not understood", where=where, found=repr(order), expected=expected)
+        raise UserError("the order is invalid", where=where, found=repr(order), expected=expected)
     check_keys(order, _CHOICES, where)
     return {**PAPER.order, **{k: check_choice(v, _CHOICES[k], f"{where}: {k}") for k, v in order.items()}}

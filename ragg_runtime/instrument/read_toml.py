@@ -54,8 +54,8 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
             "Python is never taken from a model directory",
             where=at(path, "effects_folder"),
             found=repr(table["effects_folder"])[:200],
-            remedy="read those files, put them into a folder of your own, name it in the environment variable "
-            "RAGG_EFFECTS, and take effects_folder out of model.toml",
+            remedy="inspect these files, move them to a folder of your own, name it in the environment variable "
+            "RAGG_EFFECTS, and remove effects_folder from model.toml",
         )
     check_keys(table, ("disc", "accelerometers", "effects", "model", "g0", "demodulator"), path)
     form, angle_origin = read_form(table.get("model"), path)
@@ -125,7 +125,7 @@ def _accelerometers(
             sigma = read_quantity({"value": raw["sigma"], "unit": quantity.unit}, where, count=count)
             sigmas[name] = read_si(sigma, si_unit, g0, where)
             if np.any(sigmas[name] <= 0):
-                expected = f"one or {'four' if count == 4 else count} above 0, in {quantity.unit}; none if the sheet does not say"
+                expected = f"one or {'four' if count == 4 else count} above 0, in {quantity.unit}; omit it if unknown"
                 raise UserError("sigma must be positive", where=where, found=raw["sigma"], expected=expected)
     return found, sigmas, frozenset(fixed)
 

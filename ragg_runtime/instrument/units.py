@@ -125,7 +125,7 @@ class Units:
             with np.errstate(over="ignore"):  # callers look whether what comes out is finite
                 result: Value = self._registry.convert(value, source, target)
         except (OverflowError, ZeroDivisionError):
-            raise UserError("the unit is out of all proportion", where=where, found=repr(unit)) from None
+            raise UserError("the unit is too large or too small", where=where, found=repr(unit)) from None
         return result * factor if factor != 1.0 else result
 
     def from_si(self, value: Value, si_unit: str, unit: str, where: str | None = None) -> Value:

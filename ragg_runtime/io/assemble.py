@@ -91,11 +91,11 @@ def make_flight(
     used = int(np.sum(valid))
     if used <= (1 - MOST_UNUSED) * len(made):
         raise UserError(
-            "most samples of the flight are incomplete: the rest would be no evidence",
+            "most samples of the flight are incomplete",
             where=made.place,
             found=f"{len(made) - used} of {len(made)} samples cannot be used ({'; '.join(notes)})",
             expected=f"fewer than {100 * MOST_UNUSED:.0f} % without a value",
-            remedy="record all columns at one rate, or resample the file to the slowest that it needs",
+            remedy="record all columns at one rate, or resample the file to the lowest rate needed",
         )
     return Flight(
         time=grid.time,
@@ -143,7 +143,7 @@ def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> 
         if cold.any() and len(warm) and np.min(warm) > np.ptp(warm):
             si[name] = np.where(cold, np.nan, si[name])
             count = count_samples(int(np.sum(cold)))
-            notes.append(f"{name}: {count} not above absolute zero: no readings, left out")
+            notes.append(f"{name}: {count} not above absolute zero, left out")
     return notes
 
 
@@ -160,14 +160,14 @@ def _require_names(made: DataTable, needed: Sequence[str], what: str) -> None:
         where=made.place,
         found=_list_columns(made, made.names),
         expected=f"{what} " + ", ".join(needed),
-        remedy="say what the columns are: ragg map FLIGHT -o mapping.toml"
+        remedy="describe the columns: ragg map FLIGHT -o mapping.toml"
         if near is None
         else f"is {near[13:-1]} meant for {missing[0]}?",
     )
 
 
 def _list_columns(made: DataTable, names: Sequence[str]) -> str:
-    told = [n for n in made.notes if n.startswith("passed over,")]
+    told = [n for n in made.notes if n.startswith("skipped,")]
     told += [pass_over(made.passed)] if made.passed else []
     return "; ".join(["the columns " + ", ".join(names), *told])
 

@@ -62,8 +62,8 @@ def draft_mapping(path: Path) -> Draft:
         lacking.append("the output (G_out, V_1 ... or inline and cross)")
     said = [f"no column is recognised as {', '.join(lacking)}: name it in [columns]"] if lacking else []
     lines = [
-        f"# How ragg reads {_quoted(path.name)}: written by `ragg map`, to be looked over.",
-        '# certain: the name is ragg\'s own; likely: usual for it; guess: look twice. "?" waits for an answer.',
+        f"# How ragg reads {_quoted(path.name)}: drafted by `ragg map`; check every line.",
+        '# certain: ragg\'s own name; likely: a usual name; guess: check it. Replace every "?".',
         *(f"# {_quoted(n)}" for n in table.notes),
         "",
         *_draft_file(table, tables, line),
@@ -71,7 +71,7 @@ def draft_mapping(path: Path) -> Draft:
         *(_draft_channel(n, c, role, odd, questions) for n, (c, role) in taken.items()),
     ]
     if unused:
-        lines += ["", "# Not used (any column can be kept as an auxiliary channel under a name of its own):"]
+        lines += ["", "# Not used (any column can be used as an auxiliary channel of any name):"]
     for c in unused:
         kept = f"{_key(c.name)} = {_entry(c.name, c.unit or UNKNOWN)}"
         lines.append(f"# {kept}" if c.is_number else f"# no numbers: {_quoted(c.name)} ({_example(c)})")
@@ -122,7 +122,7 @@ def _draft_file(table: DataTable, tables: Sequence[DataTable], name: str | None)
     if table.part:
         lines.append(f'part = "{_quoted(table.part)}"  # likely: the file holds several tables that differ')
     if name is not None:
-        line = f'line = "{_quoted(name)}"  # likely: tells flight lines apart; take it out if it does not'
+        line = f'line = "{_quoted(name)}"  # likely: names the flight lines; remove it if it does not'
         try:
             split_lines([table], name, None)
         except UserError:
@@ -153,7 +153,7 @@ def _draft_time(
         fits = [c for c in numbers if c.name == table.index and np.any(c.values % 1 != 0)]
     if not fits:
         questions.append("[time] column: which column is time?")
-        remark = "no column has a name that is usual for time"
+        remark = "no column has a usual name for time"
         return [f'column = "{UNKNOWN}"  # {remark}', f'unit = "{UNKNOWN}"'], ()
     c = min(fits, key=lambda c: (c.name != "time", not c.unit))
     unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", questions, "[time]")
@@ -249,8 +249,8 @@ def _find_unit(c: DataColumn, name: str, questions: list[str], where: str) -> tu
         return _quoted(c.unit), ""
     ending = _bare(c.name).rpartition("_")[2]
     if not c.unit and si is not None and is_unit(ending) and units(9.8).fits(ending, si):
-        return ending, "likely: the end of its name"
-    said = f"the file says {c.unit!r}, which is no unit of it" if c.unit else "the file gives none"
+        return ending, "likely: from the end of its name"
+    said = f"the file has {c.unit!r}, a wrong unit for it" if c.unit else "the file gives none"
     questions.append(f"{where}: unit of {c.name!r} ({said})")
     return UNKNOWN, _quoted(said)
 
@@ -298,7 +298,7 @@ class Role:
         return _RANKS.index(self.sure)
 
 
-_HALF = "of a disc the inline output is usually (Gamma_xx - Gamma_yy)/2, inline is twice that"
+_HALF = "an inline output is usually (Gamma_xx - Gamma_yy)/2; ragg's inline is twice that"
 _AXES = [(axis, n, "pqr"[n - 1]) for n, axis in enumerate("xyz", 1)]
 _DISCS = "1234ABC"
 _PAIRS = ("xx", "xy", "xz", "yy", "yz", "zz")

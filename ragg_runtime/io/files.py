@@ -120,7 +120,7 @@ def find_format(path: Path) -> Format:
     if ending is not None:
         return ENDINGS[ending]
     raise UserError(
-        "no flight format has this file name ending",
+        "unknown file ending",
         where=path,
         found=path.suffix or "no ending",
         expected=", ".join(ENDINGS),
@@ -160,7 +160,7 @@ def _require_content(path: Path, expected: Format) -> None:
     names = [f.name for f in FORMATS if head.startswith(f.magic or b"\0\0")]
     if not (expected.name in names if expected.magic else not names):
         raise UserError(
-            "the content does not fit the ending of the file name",
+            "the content does not match the file ending",
             where=path,
             found=f"{' or '.join(names)}, by its first bytes"
             if names
@@ -183,7 +183,7 @@ def read_tables(source: Any) -> list[DataTable]:
     except MemoryError:
         what, remedy = (
             "the file is damaged, or too large for the memory of this computer",
-            "copy it again, or divide it",
+            "copy it again, or split it",
         )
         raise UserError(what, where=source, remedy=remedy) from None
 
@@ -259,7 +259,7 @@ def read_flight(source: Any, g0: float, *, line: str | None = None, **options: A
         "the file holds several lines",
         where=flights[0].path or flights[0].name,
         found=", ".join(names[:12]) + (" ..." if len(names) > 12 else ""),
-        remedy="name the line that is meant in a mapping: [file] lines = [...]; or convert it first",
+        remedy="choose a line in a mapping: [file] lines = [...]; or convert it first",
     )
 
 

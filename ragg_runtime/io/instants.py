@@ -205,7 +205,7 @@ def _read_texts(values: Sequence[str], order: str | None, where: str, row: Calla
                 "a date could be day/month or month/day",
                 where=where,
                 found=repr(next(filter(_NUMBERS.fullmatch, dates))),
-                remedy='say in a mapping which it is: [time] format = "d/m/y" or "m/d/y"; or write yyyy-mm-dd',
+                remedy='specify it in a mapping: [time] format = "d/m/y" or "m/d/y"; or write yyyy-mm-dd',
             )
     days |= {d: _read_date(d, order or "dmy") for d in dates}
     total = np.full(len(values), _NONE)
@@ -305,5 +305,5 @@ def _unreadable(where: str, found: object, row: str) -> UserError:
         where=where,
         found=f"{row}: {shown[:60]!r}" + "..." * (len(shown) > 60),
         expected="; ".join(example for _, example in WAYS.values()) + "; or plain seconds",
-        remedy="say in a mapping how time is written ([time] format = ...), or write ISO 8601",
+        remedy="specify the format in a mapping ([time] format = ...), or write ISO 8601",
     )

@@ -156,7 +156,7 @@ def _read_entry(name: str, raw: Any, null: Null, where: str) -> Entry:
     if sign not in (1.0, -1.0):
         raise _refuse("sign is 1 or -1", where, raw["sign"], "scale for other factors")
     if scale == 0.0:
-        raise UserError("a scale of zero leaves nothing", where=where)
+        raise UserError("the scale must not be zero", where=where)
     return Entry(
         column=_read_word(raw["column"], "column", where) or "",
         unit=_read_unit(raw.get("unit", ""), where),
@@ -204,14 +204,14 @@ def _read_axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], .
             where=where,
             found=", ".join(f"{a} = {raw.get(a, a)}" for a in "xyz"),
             expected="a right-handed frame, such as x = y, y = x, z = -z between NED and ENU",
-            remedy="if a sensor is wired the other way round, give its column sign = -1",
+            remedy="if a sensor is reversed, give its column sign = -1",
         )
     return tuple(found)
 
 
 def _read_unit(raw: Any, where: str) -> str:
     if raw == UNKNOWN:
-        expected = "the unit in which the file has it; 1 for a pure number; it is not guessed"
+        expected = "the unit of the column in the file; 1 for a pure number; none is guessed"
         raise _refuse("the unit is not answered yet", where, raw, expected)
     unit = _read_word(raw, "unit", where) or ""
     if unit:

@@ -232,4 +232,4 @@ def distinct(flights: Sequence[Flight]) -> None:
 
 def same_record(name: str) -> str:
     """In words."""
-    return f"the same record as {name}: as evidence it would count twice"
+    return f"the same record as {name}: it would count twice"

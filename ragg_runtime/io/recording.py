@@ -206,7 +206,7 @@ def _read_time(
     numeric = first.is_number or (first.is_text and np.mean(np.isfinite(parse_numbers(first.values))) > 0.5)
     numeric = numeric and not are_packed(first.values)
     if t.format == "seconds" or (t.format is None and numeric):
-        remedy = None if numeric else f"say how it is written: [time] format = {', '.join(map(repr, WAYS))}"
+        remedy = None if numeric else f"specify the format: [time] format = {', '.join(map(repr, WAYS))}"
         first = _read_numbers(first, table, t.null, remedy)
         unit, _, epoch = first.unit.partition(" since ")
         first = replace(first, name="time", unit=t.unit or unit)
@@ -221,7 +221,7 @@ def _read_time(
 def pass_over(names: Sequence[str]) -> str:
     """In words: columns whose names nothing can have."""
     shown = ", ".join(map(repr, names[:6])) + (" ..." if len(names) > 6 else "")
-    return one_line(f"passed over for their names ({EXPECTED}): {shown}")
+    return one_line(f"skipped because of their names ({EXPECTED}): {shown}")
 
 
 def require_units(columns: Iterable[DataColumn], place: str) -> None:
@@ -233,8 +233,8 @@ def require_units(columns: Iterable[DataColumn], place: str) -> None:
                 where=f"{place}: column {c.name!r}",
                 found=repr(c.name),
                 expected=f"{c.name} [unit], such as {c.name} [{SI_UNITS.get(c.name, 'K')}]",
-                remedy="write the unit; a pure number has the unit 1; none is guessed. Or say once for all files "
-                "what their columns are: ragg map FLIGHT -o mapping.toml",
+                remedy="write the unit; a pure number has the unit 1; none is guessed. Or describe the columns "
+                "once for all files: ragg map FLIGHT -o mapping.toml",
             )
 
 
@@ -321,7 +321,7 @@ def _leave_out_codes(c: DataColumn, null: Null, notes: list[str]) -> DataColumn:
         count, unit = int(np.sum(hit)), "" if c.unit in ("", "1") else f" {c.unit}"
         if count:
             shown = f"{count} value{'s' * (count > 1)} of {code:.10g}{unit}"
-            notes.append(f"{c.name}: {shown} stand for missing values: no readings, left out")
+            notes.append(f"{c.name}: {shown} are codes for missing values, left out")
             values = np.where(hit, np.nan, values)
 
     for code in named:

@@ -43,7 +43,7 @@ MOST_SET = 20
 SHARED = 0.2
 """Share of rows with the stamp of the row before from which the stamps are too coarse, and not rows doubled."""
 
-_BY_COUNT = "if sampling went on, give the times by the sample count: time = row / {rate:.6g} Hz; else split the record there"
+_BY_COUNT = "if sampling continued, give the times by the sample count: time = row / {rate:.6g} Hz; else split the record there"
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
     notes += _describe_gaps(time, jumps, step)
     if unit > JITTER_NOTED * step:
         notes.append(
-            f"the stamps are rounded to {unit:g} s: they are put on the even grid of {1 / step:.6g} Hz"
+            f"the time stamps are rounded to {unit:g} s; they are replaced by an even grid of {1 / step:.6g} Hz"
         )
     return Grid(index, np.asarray(first + step * np.arange(count), dtype=np.float64), step, tuple(notes))
 
@@ -122,7 +122,7 @@ def _unroll(time: Array) -> tuple[Array, list[str]]:
             and np.max(time) <= period
             and np.max(back[back < 0]) < -0.9 * period
         ):
-            note = f"the seconds of the {name} begin anew on the way: counted on"
+            note = f"the seconds of the {name} restart during the record; they are continued"
             return time + period * np.cumsum(back < 0), [note]
     return time, []
 
@@ -303,7 +303,7 @@ def _describe_gaps(time: Array, jumps: NDArray[np.int64], step: float) -> list[s
     count, missing, longest = int(np.sum(gaps > 0)), int(np.sum(gaps)), int(np.argmax(gaps))
     return [
         f"{count} gap{'s' * (count > 1)}: {missing} of {len(time) + missing} samples missing, the longest lasts"
-        f" {jumps[longest] * step:.6g} s from t = {time[longest]:.10g} s; they are filled in and not used"
+        f" {jumps[longest] * step:.6g} s from t = {time[longest]:.10g} s; not used"
     ]
 
 
@@ -314,12 +314,12 @@ def _describe_jitter(time: Array, jumps: NDArray[np.int64], off: Array, step: fl
     was_set = [] if np.any(jumps > 1) else find_clock_steps(time, np.ones(len(time), dtype=np.bool_))
     if was_set:
         return [
-            f"the stamps step by {c.size:.4g} s at t = {c.time:.10g} s: was the clock set?"
+            f"the time stamps jump by {c.size:.4g} s at t = {c.time:.10g} s: was the clock adjusted?"
             for c in was_set[:3]
         ]
     return [
         f"sampling jitters by up to {off[worst]:.2g} of the step of {step:.6g} s (after t = {time[worst]:.10g} s); "
-        "every sample counts at its own instant, derivatives and spectra are made on the even grid"
+        "samples are used at their own instants, derivatives and spectra on the even grid"
     ]
 
 
@@ -327,7 +327,7 @@ def _refuse_uneven(time: Array, steps: Array, step: float, off: Array, where: st
     row = int(np.argmax(off))
     was_set = find_clock_steps(time, np.ones(len(time), dtype=np.bool_))
     return UserError(
-        f"the stamps step by {steps[row] - step:.4g} s at t = {time[row + 1]:.10g} s: was the clock set?"
+        f"the time stamps jump by {steps[row] - step:.4g} s at t = {time[row + 1]:.10g} s: was the clock adjusted?"
         if was_set
         else "the record is not uniformly sampled",
         where=where,
@@ -353,8 +353,8 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
     found = f"row {row + 1}: {time[row]:.10g} s, row {row + 2}: {time[row + 1]:.10g} s"
     found += f" (and {len(wrong) - 1} more such places)" if len(wrong) > 1 else ""
     what, remedy = (
-        "the time runs back",
-        "remove doubled rows or sort the rows by time; two records need two files",
+        "the time runs backwards",
+        "remove duplicate rows or sort the rows by time; two records need two files",
     )
     single = _find_single(time)
     single = None if single is None or single < 1e-3 else single
@@ -364,15 +364,13 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
         what = "the time does not increase"
         remedy = "check the clock or the format in which the time was written"
     elif np.mean(steps == 0) > SHARED:
-        what = "the stamps are too coarse for the rate"
+        what = "the time stamps are too coarse for the sampling rate"
         found, remedy = _describe_coarse(time, steps, single)
     elif steps[row] == 0:
         what = "an instant appears twice"
     elif len(wrong) <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)) and not _is_swapped(time):
         step = _typical_step(steps[steps > 0])
-        what = (
-            f"the stamps step back by {step - steps[row]:.4g} s at t = {time[row]:.10g} s: was the clock set?"
-        )
+        what = f"the time stamps jump back by {step - steps[row]:.4g} s at t = {time[row]:.10g} s: was the clock adjusted?"
         remedy = _BY_COUNT.format(rate=1 / step)
     raise UserError(what, where=where, found=found, expected="increasing time", remedy=remedy)
 
@@ -396,5 +394,5 @@ def _describe_coarse(time: Array, steps: Array, single: float | None) -> tuple[s
         rate = f"{rows / float(np.median(steps[edges - 1])):.6g} Hz"
     return (
         found,
-        f"give the times by the rate and the number of the row: time = row / {rate}; no row is doubled",
+        f"give the times by the rate and the number of the row: time = row / {rate}; no row is duplicated",
     )

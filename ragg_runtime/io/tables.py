@@ -213,7 +213,7 @@ def make_table(
     notes = list(about.pop("notes", ()))
     if other:
         shown = ", ".join(other[:6]) + (" ..." if len(other) > 6 else "")
-        notes.append(f"passed over, not of the {length} rows of the table: {one_line(shown)}")
+        notes.append(f"skipped, not of the {length} rows of the table: {one_line(shown)}")
     return DataTable(tuple(columns), notes=tuple(notes), **about)
 
 
@@ -345,7 +345,7 @@ def tabulate(data: Any) -> list[DataTable]:
         arrays = ((str(n), *_read_series(v)) for n, v in data.items() if not isinstance(v, Mapping))
         return [make_table(arrays, read_frame_units(about[0] if about else {}))]
     raise UserError(
-        "this is no flight",
+        "this is not a flight",
         found=type(data).__name__,
         expected="a path, a pandas DataFrame, an xarray Dataset, a dict of arrays, or a list of these",
     )
@@ -430,8 +430,10 @@ def choose_tables(
         "the file holds several tables that differ" if found else "the file holds no table",
         where=where,
         found=", ".join(parts[:12]) + (" ..." if len(parts) > 12 else "") or None,
-        expected="vectors of one length in one place, or in groups that are alike" if part is None else part,
-        remedy="say in a mapping which is meant: [file] part = ...",
+        expected="vectors of one length in one place, or in groups of equal structure"
+        if part is None
+        else part,
+        remedy="choose one in a mapping: [file] part = ...",
     )
 
 

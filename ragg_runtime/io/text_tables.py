@@ -208,7 +208,7 @@ def read_csv(path: Path) -> list[DataTable]:
             dialect = _changed(dialect, str(error), path)
     if passed:
         notes.append(
-            f"{len(passed)} line{'s' * (len(passed) > 1)} without data passed over: {', '.join(passed[:3])}"
+            f"{len(passed)} line{'s' * (len(passed) > 1)} without data skipped: {', '.join(passed[:3])}"
         )
     columns = []
     for k, x in enumerate(map(convert_arrow, table.columns)):
@@ -219,7 +219,7 @@ def read_csv(path: Path) -> list[DataTable]:
         elif k == 0 and _holds_values(x):  # pandas writes an index without a name so
             columns.append(DataColumn(INDEX, "", x))
         elif _holds_values(x):
-            notes.append(f"column {k + 1} has no name; it is passed over")
+            notes.append(f"column {k + 1} has no name; it is skipped")
     index = INDEX if columns and columns[0].name == INDEX else None
     return [DataTable(tuple(columns), notes=tuple(notes), index=index, counts=("line", dialect.lines + 1))]
 
@@ -323,7 +323,7 @@ def _drop_headers(data: bytes, d: _Dialect, notes: list[str]) -> bytes:
             count += body.count(b"\n" + heading)
             data = data[: begins - 1] + body.replace(b"\n" + heading, b"\n\n")
     if count:
-        notes.append(f"the header stands in the file again ({count} line{'s' * (count > 1)}): passed over")
+        notes.append(f"the header is repeated ({count} line{'s' * (count > 1)}): passed over")
     return data
 
 

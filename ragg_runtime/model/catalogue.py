@@ -53,7 +53,7 @@ class Catalogue:
 
 
 def effects() -> Catalogue:
-    """The packaged catalogue, and the user's own effects in Python (``ragg effects``)."""
+    """List the packaged catalogue of effects and the user's own effects in Python."""
     found = find_spec("generated")  # `resources` would import the models, and NumPy for them
     assert found is not None and found.origin is not None
     text = Path(found.origin).with_name("manifest.json").read_text("utf-8")

@@ -75,7 +75,7 @@ def known(instrument: Instrument) -> Known:
     ids = [e.id for e in found]
     if twice := next((i for i in reversed(ids) if ids.count(i) > 1), None):
         raise UserError(
-            "an effect of your own has the id of another one",
+            "the id of your effect is taken",
             where=at(instrument.path, "effects"),
             found=repr(twice),
             remedy="choose another id",
@@ -93,7 +93,7 @@ def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
             s.id, str(s.expression["stage"]), str(s.expression["add"]), s.expression["params"]
         )
     except ExpressionError as error:
-        raise UserError("the expression is not understood", where=where, found=str(error)) from error
+        raise UserError("the expression is invalid", where=where, found=str(error)) from error
 
 
 def model_of(instrument: Instrument) -> Model:
@@ -131,8 +131,8 @@ def departure(instrument: Instrument, generated: Path | None) -> str | None:
     if generated is None or not _has_files(instrument) or read_digest(generated) == request(instrument):
         return None
     return (
-        "generated/ was not derived for this model.toml by this version; it is never used, but what is derived; "
-        "the next change of the model writes it again"
+        "generated/ was not derived for this model.toml by this version; it is not used, and "
+        "the next change of the model rewrites it"
     )
 
 
@@ -176,7 +176,7 @@ def offered(instrument: Instrument, identifier: str) -> SymbolicEffect:
 def _check_needed(e: SymbolicEffect, form: SymbolicForm, instrument: Instrument) -> None:
     if e.moot(form.order, form.kinematics):
         raise UserError(
-            f"the model holds the effect {e.id} already",
+            f"the effect {e.id} is already in the model",
             where=at(instrument.path, "effects"),
             found=f"[model] with {instrument.form.words()}",
             remedy="leave the effect out, or change [model]",

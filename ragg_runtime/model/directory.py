@@ -224,7 +224,7 @@ def replace_model_dir(
             found = load_model_dir(path)
             if found.text != current.text:
                 raise UserError(
-                    "the model was changed by someone else meanwhile",
+                    "the model was changed in the meantime",
                     where=path,
                     remedy="look at it with: ragg history, load it again and repeat the change",
                 )

@@ -216,7 +216,9 @@ def _series(x: ArrayLike, name: str, length: int | None = None) -> Array:
     series = np.ascontiguousarray(x, dtype=np.float64)
     if series.ndim != 1 or (length is not None and len(series) != length):
         expected = "one number per sample" if length is None else f"shape ({length},)"
-        raise UserError(f"{name} is no series of samples", found=f"shape {series.shape}", expected=expected)
+        raise UserError(
+            f"{name} is not a series of samples", found=f"shape {series.shape}", expected=expected
+        )
     return series
 
 
@@ -248,7 +250,7 @@ def compile_model(model: Model, backend: Backend = "auto") -> Evaluator:
 @cache
 def _warn_once(why: str) -> None:
     warnings.warn(
-        f"the model is not compiled, the slower NumPy code serves: {why}", NativeWarning, stacklevel=4
+        f"the model is not compiled, the slower NumPy code is used: {why}", NativeWarning, stacklevel=4
     )
 
 

@@ -86,7 +86,7 @@ class Recorded:
 FORMS = (
     Recorded("voltages", "V_1 … V_4"),
     Recorded("G_out", "G_out"),
-    Recorded("channels", "inline and cross, put back on their carriers"),
+    Recorded("channels", "inline and cross, remodulated"),
 )
 """The most telling first."""
 

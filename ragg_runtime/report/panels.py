@@ -254,7 +254,7 @@ def plot_budget(f: Fitted, noise: float) -> Bars:
     rows = budget.contributions(f)
     bars = tuple(Bar(r.label, r.rms, strong=r.strong, dots=(r.inline, r.cross)) for r in rows)
     caption = (
-        "What each group of parameters contributes to the output: the change when it is put to zero. Bars: rms before"
+        "What each group of parameters contributes to the output: the change when it is set to zero. Bars: rms before"
         " demodulation; marks: standard deviation in the channels. Dark: effects that were added."
     )
     threshold, dots = (noise, "noise before demodulation"), ("inline", "cross")

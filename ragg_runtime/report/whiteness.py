@@ -36,7 +36,9 @@ def whiten_residual(w: PreparedFlight, residual: Array) -> Array:
     """(N,) the residual (N,), V, divided by the root of the noise's density: unit variance where it is noise; NaN where not valid."""
     r = w.observation.record
     if w.observation.recorded.demodulated:
-        raise UserError("only the channels were recorded: beyond their low-pass there is nothing to test")
+        raise UserError(
+            "only demodulated channels were recorded; above their low-pass there is nothing to test"
+        )
     f = np.fft.rfftfreq(len(residual), 1.0 / r.rate)
     density = w.noise_psd(np.maximum(f, f[1])) * r.rate / 2.0
     white = np.fft.irfft(np.fft.rfft(np.where(r.valid, residual, 0.0)) / np.sqrt(density), len(residual))

@@ -103,7 +103,7 @@ def _require_rate(what: str, where: Path | str, rate: float, found: str, f: floa
             where=where,
             found=found,
             expected=f"more than {4 * f:.6g} Hz: the gradient appears at twice the spin rate of {f:.6g} Hz",
-            remedy=f"give it at its full rate{further}",
+            remedy=f"record it at its full rate{further}",
         )
 
 
@@ -120,7 +120,7 @@ def _still(flight: Flight) -> list[Flag]:
     still = [n for n in names if _find_one_value(flight.channels[n][flight.valid]) is not None]
     if not still:
         return []
-    text = "the motion does not change at all: a record at rest determines little of an instrument"
+    text = "the motion does not change: a record at rest determines little of an instrument"
     if len(still) < len(names):
         text = f"{', '.join(still)} {'does' if len(still) == 1 else 'do'} not change at all: a stuck sensor?"
     return [
@@ -141,8 +141,8 @@ def _angle_origin(instrument: Instrument, flight: Flight) -> list[str]:
     first, start = float(flight.time[0]), start_of(flight, instrument)
     if instrument.angle_origin is None and flight.instants:
         return [
-            "the stamps are instants: the disc angle counts from the first sample (a column spin_angle, or angle_origin"
-            " under [model] of model.toml, says otherwise)"
+            "time is given as instants: the disc angle counts from the first sample (a column spin_angle, or angle_origin"
+            " under [model] of model.toml, overrides this)"
         ]
     if start != 0.0:
         side = "before" if start > 0 else "after"

@@ -117,7 +117,7 @@ def _sheets(model: Model, instrument: Instrument, rows: Rows) -> Iterator[Hypoth
         wider = replace(instrument, widths={**instrument.widths, **widths})
         fitted = fit_rows(model, wider, rows)
         yield Hypothesis(
-            what=f"the sheet is less sure than it says: {_farthest(model, instrument, fitted)}",
+            what=f"the test sheet is too confident: {_farthest(model, instrument, fitted)}",
             remedy="check it, or give the parameter a larger sigma in model.toml",
             fitted=fitted,
             kind="sheet",
@@ -132,7 +132,7 @@ def _farthest(model: Model, instrument: Instrument, fitted: LinearFit) -> str:
     off = sorted((x for x in off if x[1].effect is None), key=lambda x: -abs(x[0]))
     worst = [x for x in off[:3] if abs(x[0]) > abs(off[0][0]) / 10]
     return ", ".join(
-        f"{c.name} of {c.accelerometer_name} is {fitted.p[k] / c.unit_factor:.6g} where it says"
+        f"{c.name} of {c.accelerometer_name} is {fitted.p[k] / c.unit_factor:.6g} instead of"
         f" {sheet[k] / c.unit_factor:.6g} +- {c.scale / c.unit_factor:.2g} {c.unit}"
         for _, c, k in worst
     )
@@ -329,7 +329,7 @@ def _axes(derived: bool) -> Iterator[ColumnMistake]:
         moved, flips = sum(order[k] != k for k in range(3)), sum(s < 0 for s in signs)
         yield ColumnMistake(
             "; ".join(_axes_in_words(q, order, signs) for q in group if q != "omegadot"),
-            "exchange the names of the columns or the signs, or turn the record into the measurement frame",
+            "exchange the names of the columns or the signs, or rotate the record into the measurement frame",
             partial(_turned, group=group, order=order, signs=signs),
             2 * moved + 2 * flips + more,
         )
@@ -345,7 +345,7 @@ def _axes_in_words(stem: str, order: tuple[int, ...], signs: tuple[int, ...]) ->
     if not flipped and len(moved) == 2:
         return f"{moved[0]} and {moved[1]} are exchanged"
     found = [f"{'-' if s < 0 else ''}{own[k]}" for k, s in zip(order, signs, strict=True)]
-    return f"{', '.join(own)} stand in the columns {', '.join(found)}"
+    return f"{', '.join(own)} are in the columns {', '.join(found)}"
 
 
 def _turned(rows: Rows, group: tuple[str, ...], order: tuple[int, ...], signs: tuple[int, ...]) -> Rows:

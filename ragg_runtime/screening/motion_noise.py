@@ -112,13 +112,13 @@ def _describe(
     size = (q.step if stepped else q.std) / float(known.to_si(1.0, unit, x.units[loudest]))
     size, unit = (1e3 * size, f"m{unit}") if unit == "g" else (size, unit)
     weaker = 100.0 * max(noise[n].weaker for n in names)
-    effect = f", and coefficients that follow them up to {weaker:.2g} % too small" if weaker > 0.01 else ""
+    effect = f", and makes their coefficients up to {weaker:.2g} % too small" if weaker > 0.01 else ""
     verb, have = ("is", "has") if len(names) == 1 else ("are", "have")
     who, makes = ", ".join(names), f"about {made:.2g} Eo of the output{effect}"
     text = (
-        f"{who} {verb} recorded in steps of {size:.3g} {unit}, which make {makes}"
+        f"{who} {verb} recorded in steps of {size:.3g} {unit}, which causes {makes}"
         if stepped
-        else f"{who} {have} a floor of {size:.2g} {unit} rms; as noise of the sensors it makes {makes}"
+        else f"{who} {have} a noise floor of {size:.2g} {unit} rms; as sensor noise it causes {makes}"
     )
     return Flag(tuple(names), text, len(x), kind="motion-noise")
 

@@ -59,7 +59,7 @@ def propose_demodulator(model: Model, instrument: Instrument, s: Sampler) -> Hyp
     made = "have passed" if how.kind == "none" else "were made by another demodulator, such as"
     return Hypothesis(
         what=f"inline and cross {made} {how.words()}",
-        remedy=f"if that is so, say it in model.toml or in a mapping: [demodulator] {how.toml()}; else record G_out itself",
+        remedy=f"if so, describe it in model.toml or in a mapping: [demodulator] {how.toml()}; else record G_out itself",
         fitted=fit(how),
         cost=COST,
     )

@@ -219,7 +219,7 @@ def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]
 
 def _flag(names: Sequence[str], r: _Repeated, flight: Flight) -> Flag:
     at = np.flatnonzero(r.left_out)
-    what = f"{', '.join(names)}: recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only what was recorded is used"
+    what = f"{', '.join(names)}: recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
     lost = (
         r.how != "stuck"
         and ANGULAR_ACCELERATION[0] not in flight.written
@@ -234,7 +234,7 @@ def _flag(names: Sequence[str], r: _Repeated, flight: Flight) -> Flag:
             f"{b - a + 1} from {flight.time[a]:.5g} s" for a, b in zip(begins[:3], ends[:3], strict=True)
         )
         more = f" and {len(begins) - 3} times more" if len(begins) > 3 else ""
-        what = f"{', '.join(names)}: the value is stuck for {some}{more}, which noise does not make; {len(at)} samples not used"
+        what = f"{', '.join(names)}: the value is stuck for {some}{more}, unlike noise; {len(at)} samples not used"
     return Flag(
         tuple(names), what, len(at), (float(flight.time[at[0]]), float(flight.time[at[-1]])), open=lost
     )

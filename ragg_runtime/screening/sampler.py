@@ -217,14 +217,14 @@ def make_sampler(
     Raises
     ------
     ValueError
-        If the flight does not hold this output.
+        If the flight lacks this output.
     """
     layout = instrument.layout
     output = layout.outputs[place]
     form = recorded(flight, layout, place)
     columns = None if form is None else form.columns(layout, output, flight.outputs)
     if form is None or columns is None:
-        raise ValueError("the flight does not hold this output")
+        raise ValueError("the flight lacks this output")
     usable = flight.valid & np.isfinite([flight.outputs[name] for name in columns]).all(axis=0)
     if output.name in flight.outputs and usable.any():
         usable &= ~clipped(flight.outputs[output.name], usable)

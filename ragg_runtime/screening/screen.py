@@ -124,7 +124,7 @@ def _left(e: LinearFit) -> str:
 def _remark(f: Finding) -> Flag:
     gain = "the parameters stay closer to the test sheet"
     if f.factor > HALVED:
-        gain = f"the model leaves {f.factor:.3g} times less of the output"
+        gain = f"the unexplained part is {f.factor:.3g} times smaller"
     if f.best.kind == "sheet":
         return Flag((), f"{f.best.what}; with a wider sheet {gain}; {f.best.remedy}")
     reason = f"likely mistake: {f.best.what}{_others(f)}; undone, {gain}; {f.best.remedy}"
@@ -142,7 +142,7 @@ def _saturated(s: Sampler) -> list[Flag]:
     if not clipped:
         return []
     top = float(np.max(np.abs(G[there])))
-    text = f"{name}: {clipped} samples stand at the extreme value of {top:.6g} V: saturated, not used"
+    text = f"{name}: {clipped} samples are at the extreme value of {top:.6g} V: saturated, not used"
     return [Flag((name,), text, clipped)]
 
 
@@ -175,8 +175,8 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
     if INDEPENDENT * gain > CLOCK:
         where = ", ".join(f"by {c.size:.4g} s at t = {c.time:.6g} s" for c in several[-k][:3])
         text = (
-            f"the stamps step {where} (was the clock set?), but sampling went on: the times are those of the sample"
-            f" count ({np.exp(gain):.3g} times less is left unexplained)"
+            f"the time stamps jump {where} (was the clock adjusted?), but sampling continued: times are taken from the sample"
+            f" count ({np.exp(gain):.3g} times less remains unexplained)"
         )
         return derive_acceleration(_by_count(x, several[-k])).flagged([Flag(("time",), text, len(x))])
     x = x.flagged([_pause(c, abs(INDEPENDENT * gain) < CLOCK) for c in steps if c.part])
@@ -184,8 +184,8 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
     if worst <= EVEN or not _is_even(model, s, make_sampler(even, instrument, inputs, s.place), own.p):
         return x
     text = (
-        f"the instants in the file scatter by up to {worst:.2g} of a step, but the output was sampled evenly: the times"
-        " are replaced by even ones"
+        f"the time stamps jitter by up to {worst:.2g} of a step, but the output was sampled evenly: they are"
+        " replaced by an even grid"
     )
     return derive_acceleration(even).flagged([Flag(("time",), text, len(x))] * (worst > JITTER_NOTED))
 

@@ -190,8 +190,5 @@ def describe_spikes(name: str, mask: Mask, time: Array) -> str:
     places = np.flatnonzero(mask)
     instants = ", ".join(f"{time[k]:.10g}" for k in places[:3])
     more = ", ..." if len(places) > 3 else ""
-    count = f"{len(places)} sample" + ("s are" if len(places) > 1 else " is")
-    return (
-        f"{name}: {count} far off the neighbours (spikes, {100 * np.mean(mask):.2g} %; t = {instants}{more} s);"
-        " not used"
-    )
+    count = f"{len(places)} " + ("samples are spikes" if len(places) > 1 else "sample is a spike")
+    return f"{name}: {count} ({100 * np.mean(mask):.2g} %; t = {instants}{more} s), not used"

@@ -151,7 +151,7 @@ def _propose_origin(t: _Trial) -> list[Hypothesis]:
     if abs(_wrapped(phase)) < LEAST_PHASE:
         return []
     words = {"zero": "at t = 0", "first-sample": f"at the first sample (t = {x.time[0]:.6g} s)"}
-    what = f"the disc stood at angle 0 {words[origin]}, not {words[other]}"
+    what = f"the disc was at angle 0 {words[origin]}, not {words[other]}"
     remedy = (
         f'write angle_origin = "{origin}" under [model] of model.toml if that is so, else'
         f' angle_origin = "{other}"; or record spin_angle'
@@ -176,10 +176,10 @@ def _propose_phase(t: _Trial) -> list[Hypothesis]:
     taken = _angle_at(t, start_of(t.s.flight, t.instrument))
     true, believed = (np.rad2deg(_wrapped(a)) for a in (taken + best, taken))
     what = (
-        f"the disc stood at {true:.4g} degrees at the first sample, not at {believed:.4g}"
+        f"the disc was at {true:.4g} degrees at the first sample, not at {believed:.4g}"
         " (a file cut out of a longer one?)"
     )
-    remedy = "record spin_angle, or let time count from an instant of angle 0"
+    remedy = "record spin_angle, or count time from an instant with angle 0"
     return [t.propose(what, remedy, COST, phase=best, effects=("spin-phase-offset",), calming=False)]
 
 
@@ -222,15 +222,15 @@ def _describe_jump(s: Sampler, at: int, jump: float) -> tuple[str, str]:
     gaps = [c for c in near if abs((c.size + lost + turn / 2) % turn - turn / 2) < 2 / x.rate]
     if gaps:
         return (
-            f"the stamps step by {gaps[0].size:.4g} s at t = {gaps[0].time:.6g} s, while sampling went on: was the clock set?",
+            f"the time stamps jump by {gaps[0].size:.4g} s at t = {gaps[0].time:.6g} s, while sampling continued: was the clock adjusted?",
             f"give the times by the sample count: time = row / {x.rate:.6g} Hz",
         )
     rows = round(lost * x.rate)
     some = f"{rows} row{'s are' if rows != 1 else ' is'} missing"
     return (
-        f"some rows were lost at t = {x.time[at]:.5g} s: {some} there ({lost:.4g} s), or whole turns of the disc ({turn:.4g} s)"
-        f" more; or {round((turn - lost) * x.rate)} are doubled",
-        "let time be that of the recorder, not of the row number; or split the record there, or record spin_angle",
+        f"rows are missing at t = {x.time[at]:.5g} s: {some} there ({lost:.4g} s), or whole turns of the disc ({turn:.4g} s)"
+        f" more; or {round((turn - lost) * x.rate)} are duplicated",
+        "use the recorder's time, not the row number; or split the record there, or record spin_angle",
     )
 
 

@@ -52,7 +52,7 @@ class Places:
             path = None
         if path is None or not any(path == r or r in path.parents for r in self.roots):
             raise UserError(
-                "this place is not open to the studio",
+                "the studio may not use this folder",
                 where=text[:200] or "(no name)",
                 expected="a place below " + ", ".join(map(str, self.roots)),
                 remedy="name its folder when you start `ragg studio`",

@@ -71,14 +71,14 @@ async def _answer(answer: Answer, session: Session, request: Request) -> Respons
     except UserError as e:
         return JSONResponse({"error": e.facts}, 400)
     except Busy:
-        return refused(409, "something else is being worked on; cancel it or wait")
+        return refused(409, "another task is running; cancel it or wait")
     except ClientDisconnect:
-        return refused(408, "the request did not come to its end")
+        return refused(408, "the request was incomplete")
     except OSError as e:
-        return refused(400, e.strerror or "the system refuses", where=e.filename)
+        return refused(400, e.strerror or "the system refused", where=e.filename)
     except Exception:
         traceback.print_exc()
-        return refused(500, "this is a fault of the program; the terminal shows where")
+        return refused(500, "this is a fault of the program; see the terminal")
 
 
 # --- what is read --------------------------------------------------------------------------------------
@@ -216,7 +216,7 @@ async def _do(session: Session, request: Request) -> Response:
     body = await _read_body(request)
     action = ACTIONS.get(request.path_params["what"])
     if action is None:
-        raise UserError("there is no such thing to do", found=request.path_params["what"][:40])
+        raise UserError("there is no such action", found=request.path_params["what"][:40])
     await run_in_threadpool(action, session, body)
     return JSONResponse({"status": session.jobs.status.as_json()}, 202)
 
@@ -227,9 +227,9 @@ async def _read_body(request: Request) -> dict[str, Any]:
     try:
         body = json.loads(await request.body(), parse_int=_whole)
     except (ValueError, RecursionError):
-        raise UserError("the body is no JSON", where=str(request.url.path)) from None
+        raise UserError("the body is not JSON", where=str(request.url.path)) from None
     if not isinstance(body, dict):
-        raise UserError("the body is no table", where=str(request.url.path))
+        raise UserError("the body is not a table", where=str(request.url.path))
     return body
 
 

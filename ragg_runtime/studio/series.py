@@ -124,7 +124,7 @@ def _read_unexamined(s: State, flight: int) -> Sampled:
     """The output of a flight as it was read, before it is compared."""
     x = s.flights[flight]
     if not x.outputs or not len(x):
-        raise UserError("the flight holds no output", where=x.name)
+        raise UserError("the flight has no output", where=x.name)
     return sample(0.0, 1.0 / x.rate, next(iter(x.outputs.values())))
 
 
@@ -194,7 +194,7 @@ class View:
         if not r.turning:
             raise UserError("disc not spinning: no demodulation")
         if len(x) < len(r.time):
-            raise UserError("the signature of an effect is drawn in V or Eo alone in so long a flight")
+            raise UserError("in so long a flight the signature of an effect is drawn in V or Eo only")
         found = comparison.demodulated_one(self.f, self.n, x)
         if not len(found[0]):
             where = self.prepared.observation.name
@@ -205,7 +205,7 @@ class View:
         """Samples, and what the ticked effects would take out of the residual there, V: of a long flight where the window lies."""
         d, a = self.s.require("diagnosed"), self.a
         if self.kept:
-            raise UserError("of a flight that is kept for validation no effect is predicted")
+            raise UserError("no effect is predicted for a validation flight")
         rows = predict.choose_rows(d.fitted, self.n, (a.first, a.last))
 
         def make() -> tuple[slice, Array]:
@@ -227,7 +227,7 @@ class View:
             case "effect" | "left":
                 known, taken = self.signature()
                 if known.start > rows.start or known.stop < rows.stop:
-                    raise UserError("of so long a flight the signature is not known everywhere")
+                    raise UserError("the signature of so long a flight is not available everywhere")
                 taken = taken[rows.start - known.start : rows.stop - known.start]
                 return taken if kind == "effect" else self.residual[rows] - taken
             case "measured":
@@ -249,7 +249,7 @@ class View:
     def _draw_models(self) -> list[Array]:
         """Residuals (N,), V, of models drawn from the posterior of the parameters, the same ones each time."""
         if self.kept:
-            raise UserError("of a flight that is kept for validation no model is drawn")
+            raise UserError("no model is drawn for a validation flight")
         root = invert_root(information(self.f))
         z = np.random.default_rng(0).standard_normal((MODELS, self.f.n_base))
         return [self.f.residuals(root @ x)[self.n] for x in z]
@@ -280,7 +280,7 @@ class View:
             raise UserError("there is no such term", found=f"{harmonic} x {product}"[:80])
         c = float(h.coefficient[h.harmonics.index(harmonic), h.products.index(product)])
         if not np.isfinite(c):
-            raise UserError("the model holds this term already", found=f"{harmonic} x {product}")
+            raise UserError("the model already has this term", found=f"{harmonic} x {product}")
         return heat.series(self.prepared, harmonic, product, c)
 
     def _pass_band(self, name: str) -> Array:

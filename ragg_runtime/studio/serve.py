@@ -33,7 +33,7 @@ CLOSING = 1
 BODY = 1 << 20
 """Longest body of a request, bytes; files have a limit of their own."""
 
-ONCE = "open the address that `ragg studio` printed; it serves once: start it again for a new one"
+ONCE = "open the address that `ragg studio` printed; it works once: start it again for a new one"
 ELSEWHERE = "the request comes from another site"
 
 HEADERS = {
@@ -118,16 +118,16 @@ class Guard:
         headers, path, safe = Headers(scope=scope), scope["path"], scope["method"] in ("GET", "HEAD")
         hosts, origins = headers.getlist("host"), headers.getlist("origin")
         if len(hosts) != 1 or hosts[0] not in self._hosts:
-            return _refusal("this server answers to 127.0.0.1 alone", 421)
+            return _refusal("this server answers to 127.0.0.1 only", 421)
         if any(o != f"http://{hosts[0]}" for o in origins):
             return _refusal(ELSEWHERE)
         if headers.get("sec-fetch-site", "same-origin") not in ("same-origin", *(["none"] if safe else [])):
             return _refusal(ELSEWHERE)
         if not safe and len(origins) != 1:
-            return _refusal("a request that changes something must say where it comes from")
+            return _refusal("a request that changes something needs an Origin header")
         length = headers.get("content-length", "0" if safe else "")
         if not length.isdecimal() or (int(length) > BODY and path not in self._uploads):
-            return _refusal("the request is too long, or does not say how long it is", 413)
+            return _refusal("the request is too long, or has no length", 413)
         if self._is_known(headers):
             return RedirectResponse("/", 303) if path == "/" and scope["query_string"] else None
         if path == "/" and scope["method"] == "GET":

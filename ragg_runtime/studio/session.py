@@ -291,7 +291,7 @@ class Session:
         self.jobs.start(f"deriving {effects[0]} into {m.name}", work)
 
     def remove(self, effect: str) -> None:
-        """Take an effect out of the model."""
+        """Remove an effect from the model."""
         self._idle()
         self._change(api.remove(self.state.model, effect))
 
@@ -510,11 +510,11 @@ class Jobs:
             error = e.facts
         except OSError as e:
             where = None if e.filename is None else one_line(str(e.filename))
-            error = {"what": e.strerror or "the system refuses", "where": where}
+            error = {"what": e.strerror or "the system refused", "where": where}
         except MemoryError:
-            error = {"what": "there is not enough memory for this; nothing was changed"}
+            error = {"what": "there is not enough memory; nothing was changed"}
         except Exception:
             traceback.print_exc()
-            error = {"what": "this is a fault of the program, not of your input; the terminal shows where"}
+            error = {"what": "this is a fault of the program, not of your input; see the terminal"}
         finally:
             self._tell(job="", share=0.0, error=error)

@@ -158,7 +158,7 @@ def _require_same_program(job: Job) -> None:
     different = [n for n in asked if own.get(n) != asked[n]]
     if different:
         raise UserError(
-            "the worker runs another program: its figures would not be the same",
+            "the worker runs another version of the program",
             where=socket.gethostname(),
             found=", ".join(f"{n} {own.get(n)}" for n in different),
             expected=", ".join(f"{n} {asked[n]}" for n in different),

@@ -78,7 +78,7 @@ class Journal:
                     where=self.path,
                     found=found.get(key, "none"),
                     expected=self.head.get(key, "none"),
-                    remedy="name another results file: the figures of both would not fit together",
+                    remedy="name another results file: the results would not be comparable",
                 )
 
     def _parse(self, line: bytes) -> Record:
@@ -151,7 +151,7 @@ def keep_results(resume: Path | None) -> Iterator[Path]:
     except BaseException:
         # nothing that was there before is read: it may be anything, and a refusal says so
         if path.is_file() and path.stat().st_size > before and path.read_bytes().count(b"\n") > 1:
-            click.echo(f"ragg: what is done is kept; continue with --resume {path}", err=True)
+            click.echo(f"ragg: finished flights are kept; continue with --resume {path}", err=True)
         elif resume is None:
             path.unlink(missing_ok=True)
         raise

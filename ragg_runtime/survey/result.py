@@ -104,7 +104,7 @@ def _recommend(done: Sequence[Record], s: Mapping[str, Any], model_dir: Path | s
         )
     if chance:
         names = ", ".join(f"{a['effect']} ({len(a['flights'])})" for a in chance)
-        lines.append(f"in so few flights that it may be chance: {names}")
+        lines.append(f"in so few flights that it may be by chance: {names}")
     unexplained = s["counts"]["unexplained"] + s["counts"]["partly-explained"]
     if firm:
         files = [_quote(r) for r in done if r["flight"] in firm[0]["flights"]]

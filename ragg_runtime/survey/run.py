@@ -276,7 +276,7 @@ def examine_on_cluster(job: Job, files: Sequence[str], address: str) -> Generato
                 raise UserError(
                     "the connection to the scheduler is lost",
                     where=address,
-                    remedy="survey again with the same --resume file: what is done is kept",
+                    remedy="survey again with the same --resume file: finished flights are kept",
                 )
             error = future.exception()
             yield file, future.result() if error is None else _give_up(file, error)

@@ -167,12 +167,12 @@ def write_comparison_headline(c: Json) -> tuple[str, ...]:
         return (f"The calibration has not converged: {c['reason']!s}.",)
     if c["adequate"]:
         return (
-            f"The model is adequate: calibrated, it leaves {number(error)} Eo, which is the noise of this record"
+            f"The model is adequate: after calibration the error is {number(error)} Eo, the noise of this record"
             f" ({number(noise)} Eo).",
         )
     why = "; ".join(map(str, c.get("grounds", ())))
     return (
-        f"The model is NOT adequate: calibrated, it leaves {number(error)} Eo where the noise floor is {number(noise)} Eo"
+        f"The model is NOT adequate: after calibration the error is {number(error)} Eo, the noise floor {number(noise)} Eo"
         f"{f' ({why})' if why else ''}.",
     )
 
@@ -194,7 +194,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     frozen, free = c["error"]["calibrated"], h["free"]["calibrated"]
     holds, on = "holds" if h["holds"] else "does NOT hold", write_flights(list(h["flights"]))
     head = (
-        f"The calibration on {on} {holds} here: it leaves {format_error(frozen)} Eo, parameters fitted to this record"
+        f"The calibration on {on} {holds} here: its error is {format_error(frozen)} Eo, with parameters fitted to this record"
         f" {format_error(free)} Eo; the noise floor is {format_error(c['noise_floor'])} Eo.",
         f"It was made {h['made'][:16].replace('T', ' ')} UTC. Test against parameters fitted to this record: chi-square"
         f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions (p {_equals(h['log10_p'])}).",
@@ -231,7 +231,7 @@ def write_verdict(d: Json) -> str:
         return f"No verdict: {d['remark']!s}."
     if d["verdict"] == "adequate":
         return (
-            f"Adequate: no effect is missing that this record could show. The calibrated model leaves {format_error(before)} Eo;"
+            f"Adequate: this record shows no missing effect. The calibrated model leaves {format_error(before)} Eo;"
             f" the noise floor is {format_error(noise)} Eo."
         )
     falls = f"With {it} the error falls from {format_error(before)} to {format_error(after)} Eo"
@@ -361,7 +361,7 @@ def _remarks(d: Json) -> list[str]:
     for x in d.get("disagree") or ():
         what = listed([str(e) for e in x["found"]]) or "no effect"
         said.append(
-            f"By itself, {write_flights(x['flights'])} {'needs' if len(x['flights']) == 1 else 'need'} {what}."
+            f"Alone, {write_flights(x['flights'])} {'needs' if len(x['flights']) == 1 else 'need'} {what}."
         )
     if d["holds_until_s"] is not None:
         said.append(
@@ -376,8 +376,8 @@ def _remarks(d: Json) -> list[str]:
         and best["log10_p"] < -4.0
     ):
         said.append(
-            f"Nearest of the catalogue is {best['effect']!s} (error {format_error(best['error_after'])} Eo with it), which is not"
-            " claimed: probabilities compare the effects of the catalogue only, and the cause may be another one."
+            f"The nearest effect of the catalogue is {best['effect']!s} (error {format_error(best['error_after'])} Eo with it), which is"
+            " not claimed: probabilities compare the effects of the catalogue only, and the cause may be another one."
         )
     return said
 

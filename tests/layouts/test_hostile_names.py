@@ -195,10 +195,10 @@ def test_columns_of_other_names_are_passed_over_with_a_note(tmp_path: Path) -> N
     (tmp_path / "flight.csv").write_text("\n".join(text) + "\n")
     found = read_flight(tmp_path / "flight.csv", 9.8, accelerometers=parse_instrument(sheet()).layout)
     assert {*found.channels} == {*x.channels, "oil-2"}
-    (note,) = (n for n in found.notes if n.startswith("passed over for their names"))
+    (note,) = (n for n in found.notes if n.startswith("skipped because of their names"))
     assert all(repr(n) in note for n in names)
     (tmp_path / "short.csv").write_text("\n".join(line.partition(",")[2] for line in text) + "\n")
-    with pytest.raises(UserError, match=r"time is missing[^$]*passed over for their names .*'Temp °C'"):
+    with pytest.raises(UserError, match=r"time is missing[^$]*skipped because of their names .*'Temp °C'"):
         read_flight(tmp_path / "short.csv", 9.8)
 
 

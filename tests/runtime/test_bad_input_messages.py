@@ -47,7 +47,7 @@ def test_bad_input(name: str, tmp_path: Path) -> None:
         assert len(r.message) < 3000
 
 
-NOTE = "samples are far off the neighbours"
+NOTE = "samples are spikes"
 
 
 def test_the_notes_are_everywhere(tmp_path: Path) -> None:

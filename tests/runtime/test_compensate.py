@@ -238,7 +238,7 @@ def test_formats_and_several_flights(tmp_path: Path) -> None:
 
 BAD: dict[str, list[str]] = {
     "is too short for the demodulator": ["o.csv"],
-    "no flight format has this file name ending": ["o.xyz"],
+    "unknown file ending": ["o.xyz"],
     "no saved calibration": ["o.csv", "--calibration", "frozen"],
 }
 

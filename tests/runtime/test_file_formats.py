@@ -241,7 +241,7 @@ def test_netcdf_of_other_tools(tmp_path: Path, classic: bool) -> None:
     there = np.setdiff1d(np.arange(50), [3, 11] if classic else [3, 9, 11])
     assert found.channels["a_x"][there[:3]] == pytest.approx(G0 * (0.5 * packed[there[:3]] + 1.0))
     assert np.flatnonzero(~found.valid).tolist() == ([3, 11] if classic else [3, 9, 11])
-    (note,) = (n for n in found.notes if n.startswith("passed over"))
+    (note,) = (n for n in found.notes if n.startswith("skipped"))
     assert "'crs' (a single value)" in note and "'line' (2)" in note
     for change, drop, what in (
         ({"a_x": ("t", np.zeros(50), {})}, "", "no unit"),

@@ -194,7 +194,7 @@ def test_jitter(load: Load) -> None:
     assert not any("jitters" in note for note in load(table).notes)
     table["time"] = np.round(np.arange(N) / RATE, 3)
     found = load(table)
-    assert any("the stamps are rounded to 0.001 s" in note for note in found.notes)
+    assert any("the time stamps are rounded to 0.001 s" in note for note in found.notes)
     assert found.rate == pytest.approx(RATE, rel=1e-9)
     assert found.valid[12:-12].all()  # jitter is noise of omegadot, which is derived poorly at the ends
     table["time"] = table["time"] + rng.uniform(-0.4, 0.4, N) / RATE

@@ -35,11 +35,11 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect() -> None:
 
     for channels, words in (
         (coarse, "in steps of"),
-        (noisy, "have a floor of"),
+        (noisy, "have a noise floor of"),
         (still, "a_x does not change at all"),
     ):
         flown = screen(model, s.sheet, replace(x, channels={**x.channels, **channels}))
         assert any(words in note for note in flown.notes)
         verdict, found, reason = judged([flown])
         assert found == ()
-        assert verdict == "adequate" or words in reason or "feign" in reason
+        assert verdict == "adequate" or words in reason or "imitate" in reason

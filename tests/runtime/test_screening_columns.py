@@ -45,7 +45,7 @@ def test_values_between_the_recorded_ones_are_not_used(every: int, first: int, h
     there = np.flatnonzero(np.isfinite(found.outputs["G_out"]))
     assert set(there[1:-1]) <= set(k) and len(there) >= len(k) - 1
     assert found.notes == (
-        f"G_out: recorded every {every / 16:.4g} s and {how} in between; only what was recorded is used",
+        f"G_out: recorded every {every / 16:.4g} s and {how} in between; only recorded values are used",
     )
 
 
@@ -234,7 +234,7 @@ def test_a_step_of_the_clock_is_found_with_its_time(size: float, digits: int) ->
     (step,) = find_clock_steps(g.time, valid)
     assert step.size == pytest.approx(size, abs=1e-3) and abs(step.time - 125 - size) < 0.1
     assert fit_even_clock(g.time, valid)[1] == pytest.approx(1 / 16, rel=1e-7)
-    with pytest.raises(UserError, match=r"step back by 10 s at t = 125 s: was the clock set"):
+    with pytest.raises(UserError, match=r"jump back by 10 s at t = 125 s: was the clock adjusted"):
         make_grid(TIME - 10.0 * (TIME > 125), None)
 
 

@@ -97,7 +97,7 @@ def test_a_scale_factor_off_its_sheet_is_no_wrong_unit(trim: str) -> None:
     for off in (np.array([1.03, 0.98, 1.01, 0.99]), np.full(4, 1.05)):
         wrong = replace(sheet.replace(K1=off * K1), sigmas={"K1": 1e-4 * K1})
         (flag,) = screen(MODEL, wrong, x).flags
-        assert "the sheet is less sure than it says: K1 of A" in flag.reason and not flag.open
+        assert "the test sheet is too confident: K1 of A" in flag.reason and not flag.open
         assert f"where it says {10 * off[0]:.6g}" in flag.reason
     other = drawn(9, "matched" if trim == "table-v" else "table-v").sheet
     assert "K1 of A4" in screen(MODEL, other, x).flags[0].reason
@@ -181,7 +181,9 @@ def test_a_clock_that_was_set_is_said_with_its_time(size: float) -> None:
     )
     found = screen(MODEL, drawn(12).sheet, wrong)
     (flag,) = found.flags
-    assert f"the stamps step by {size:g} s at t = 15" in flag.reason and "the sample count" in flag.reason
+    assert (
+        f"the time stamps jump by {size:g} s at t = 15" in flag.reason and "the sample count" in flag.reason
+    )
     np.testing.assert_allclose(found.time, x.time, atol=1e-9)
 
 

@@ -142,8 +142,8 @@ class Contents:
     def limits(self) -> list[str]:
         """What is described less well than by Python, in words."""
         return [
-            f"{q.symbol} makes motion late: a series of second order in it, good while it is far below the time scale of the "
-            "motion (ragg itself reads the motion at the delayed instants of the record)"
+            f"{q.symbol} delays the motion: a series of second order in it, accurate while it is far below the time scale of the "
+            "motion (ragg itself interpolates the motion at the delayed instants)"
             for k, q in late(self.model)
             if self.p[k]
         ]

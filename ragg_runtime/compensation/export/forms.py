@@ -29,7 +29,7 @@ def make_c(c: Contents) -> Files:
 
 
 def make_numpy(c: Contents) -> Files:
-    """A folder that runs with NumPy alone."""
+    """A folder that needs only NumPy."""
     slopes = {
         "short": [weights(WINDOW, k).tolist() for k in range(WINDOW // 2 + 1)],
         "long": wide_weights().tolist(),
@@ -83,7 +83,7 @@ def write_export(c: Contents, folder: Path, form: str) -> list[Path]:
         raise UserError("the export needs a folder", where=folder, found="a file", remedy="name another one")
     if folder.is_dir() and any(folder.iterdir()) and not (folder / MARK).is_file():
         raise UserError(
-            "the folder is not empty, and not that of an export",
+            "the folder is not empty and was not made by an export",
             where=folder,
             remedy="name another folder, or empty this one",
         )

@@ -64,14 +64,14 @@ def _readme(c: Contents, online: bool) -> str:
         Outputs, V: {", ".join(f"{o.name} = {o.formula}" for o in c.outputs())}.
 
         make                                          builds ragg_model
-        make check                                    compares it with the answers that Python gave
+        make check                                    compares it with the results of Python
         ./ragg_model < MOTION.csv > OUT.csv           the outputs of a record of motion
         ./ragg_model --values                         the parameters that are built in
 
         Columns that MOTION.csv must have, in SI units: time [s], {needed}.
-        omegadot_x, omegadot_y, omegadot_z [rad/s^2]: where they are missing they are derived from omega as Python does it
+        omegadot_x, omegadot_y, omegadot_z [rad/s^2]: if missing, they are derived from omega as in Python
         (even steps; runs shorter than 25 samples have none).
-        Gradients (Gamma_xx ... [s^-2]) are zero where they are missing; {", ".join(c.angles())} [rad] replaces 2 pi f t.
+        Gradients (Gamma_xx ... [s^-2]) are zero if missing; {", ".join(c.angles())} [rad] replaces 2 pi f t.
         """
     )
     text += "".join(f"{limit}.\n" for limit in c.limits())

@@ -122,7 +122,7 @@ export function figures(box) {
     const [from, to] = limits();
     const found = await ask("spectrum", { flight: view.flight, output: view.output, from, to, effects: view.ticked.join(",") });
     const known = !flight() || flight().channels.some((c) => c.startsWith("Gamma_"));
-    note("spectrum", known || !found.spin_Hz ? "" : "The notch at 2Ω: the gravity gradient is not recorded, so what varies slowly there is fitted as gradient.");
+    note("spectrum", known || !found.spin_Hz ? "" : "The notch at 2Ω: the gravity gradient is not recorded, so slow variation there is fitted as gradient.");
     plots.spectrum.show(found);
     legend("spectrum", spectrumLines.filter((l) => l.id === "noise" || found.lines[l.id]).map((l) => [l.name, l.colour, l.dash ? "dashed" : ""]));
   });
