@@ -52,8 +52,8 @@ def about_versions(root: Path) -> str | None:
         return None
     return (
         f"SymPy is {here} here, and the code was derived with {there}: another SymPy may write the same terms in "
-        "another order. Whether it is only that, the 50-digit gate says: ragg derive, then "
-        "python -m pytest tests/generated. For the same bytes install the versions of requirements.lock"
+        "another order. The 50-digit test shows whether it is only that: ragg derive, then python -m pytest tests/generated. For "
+        "the same bytes install the versions of requirements.lock"
     )
 
 

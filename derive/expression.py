@@ -123,7 +123,7 @@ def _channels(tree: ast.Expression, add: str, parameters: Mapping[str, Mapping[s
                 f"{name[:80]!r} cannot name a parameter: expected {EXPECTED}; no word of expressions"
             )
         if "-" in name:
-            raise ExpressionError(f"{name!r} cannot stand in an expression, where - is a minus: write _")
+            raise ExpressionError(f"{name!r} cannot be used in an expression, where - means minus: write _")
         if name not in names:
             raise ExpressionError(f"parameter {name} does not occur in {add!r}")
     if not parameters:

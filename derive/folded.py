@@ -183,7 +183,7 @@ def _standing(order: Order) -> Mapping[tuple[int, ...], PolyElement]:
     voltage = series(chain.tape.assignments, chain.voltage, ring, known)
     if voltage.highest:
         raise ValueError(
-            "seen from the disc the output still turns: the model is not symmetric about its axis"
+            "in the disc's frame the output still depends on the angle: the model is not symmetric about its axis"
         )
     n = len(COEFFICIENT_PARAMETERS)
     return split(voltage.cosine(0), range(n, n + len(TURNED)), COEFFICIENTS, range(n))

@@ -22,8 +22,8 @@ EFFECT = Effect(
     equation=r"V_j \leftarrow V_j + h_j\,\mathrm{sign}(V_j)",
     limits=(
         "A converter for each accelerometer, its step at zero and of no width. A smooth bend of the characteristic is "
-        "cubic-input or K2; finite steps are quantisation. A fit with it leaves out samples so near to zero that the sheet does not "
-        "know their side."
+        "cubic-input or K2; finite steps are quantisation. A fit with it excludes samples so close to zero that their side is "
+        "uncertain."
     ),
     parameters=(EffectParameter("h", "h", "ug", "half the height of the step", 0.01),),
     transducer=transducer,

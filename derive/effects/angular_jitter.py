@@ -18,7 +18,7 @@ EFFECT = Effect(
     id="angular-jitter",
     title="Unrecorded angular jitter",
     physics=(
-        "Angular vibration faster than the recorded rate averages to nothing, but its squares do not: the centrifugal "
+        "Angular vibration faster than the recorded rate averages to zero, but its squares do not: the centrifugal "
         "force of the jitter is a gradient that grows with the square of its level."
     ),
     source="paper, Eq. 9: the square of the angular rate; levels of 1e-4 rad/s, 10 Eo, on stabilised platforms",

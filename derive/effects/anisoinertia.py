@@ -18,8 +18,8 @@ EFFECT = Effect(
     title="Anisoinertia of the pendulum",
     physics=(
         "The pendulum's moments of inertia about its input and its pendulous axis differ: turning about both at once "
-        "twists it about its output axis. The case spins about the pendulous axis all the time, so that the "
-        "platform's rate about the input axis shows times the spin."
+        "twists it about its output axis. The case spins about the pendulous axis all the time, so the platform's rate about the input "
+        "axis appears multiplied by the spin."
     ),
     source="IEEE Std 1293, angular-velocity-sensitive terms of a pendulous accelerometer",
     equation=(
@@ -27,8 +27,8 @@ EFFECT = Effect(
         r" \bm\omega = \bm\omega_{im} + \dot\phi\,\bm e_z"
     ),
     limits=(
-        "Rate of the case along the nominal axes. With a steady spin it is a rate about the tangential axis, as "
-        "pendulum-angular has one in omega x Omega: the two differ by the angular acceleration alone."
+        "Rate of the case along the nominal axes. With a steady spin it acts like the omega x Omega term of pendulum-angular: the two "
+        "differ only by the angular acceleration."
     ),
     parameters=(
         EffectParameter(

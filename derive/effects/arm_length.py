@@ -14,7 +14,7 @@ def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.
 
 EFFECT = Effect(
     id="arm-length",
-    title="Arms longer or shorter than the sheet says",
+    title="Arm length different from the test sheet",
     physics=(
         "All accelerometers sit farther from the axis than the test sheet's radius, or nearer, by one length: another "
         "drawing, a circle through the cases instead of the sensing elements, a diameter in place of a radius."
@@ -22,8 +22,8 @@ EFFECT = Effect(
     source="paper, Eq. 5 to 9 (radius R of the disc)",
     equation=r"R_j \leftarrow R_j + \Delta R",
     limits=(
-        "What the four share; each one's own error is dR of the sheet, which takes it where the sheet is not sure of it. "
-        "In G_out alone it is the scale of everything but the specific force, as a scale of the accelerometers is."
+        "The error common to the four; individual errors are dR, which absorbs it where the sheet's radius is uncertain. In G_out it "
+        "scales everything but the specific force, like a scale factor of the accelerometers."
     ),
     parameters=(
         EffectParameter(

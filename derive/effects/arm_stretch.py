@@ -25,8 +25,7 @@ EFFECT = Effect(
     limits=(
         "Linear, without resonance (that of an accelerometer is second-order-loop, that of the disc's mount imu-filter), "
         "with the force at the unstretched position. A steady horizontal force stretches and releases the arm once a "
-        "turn: what the stretch's own velocity feels on the turning disc (Coriolis) exceeds what the longer arm does, and"
-        " looks mostly like a scale factor."
+        "turn: the Coriolis force on the stretching arm exceeds the effect of its length, and acts mostly like a scale factor."
     ),
     parameters=(EffectParameter("c_r", "c_r", "um/g", "stretch per radial specific force", 0.1),),
     instrument=instrument,

@@ -16,14 +16,14 @@ EFFECT = Effect(
     id="balancing-loop",
     title="Balancing loop of the scale factors",
     physics=(
-        "Loops demodulate the output at the spin frequency and its double, integrate what they find, and change scale "
-        "factors by a current until it is gone: as long as they run no calibration is frozen."
+        "Loops demodulate the output at the spin frequency and its double, integrate the result, and change scale factors by a current "
+        "until it vanishes: while they run no calibration stays valid."
     ),
     source="US 5922951; Sensors 17, 1710 (2017); Sensors 18, 1247 (2018): k' = -gamma LP[G_out sin(phi + ...)]",
     equation=r"K_1 \leftarrow K_1 (1 + \partial_i K_1\, i(t))",
     limits=(
-        "The loop's current is recorded, in one channel; what it acts on is linear in it. Without the record a loop that "
-        "settles looks like gain-drift; one that is stopped and held is none."
+        "The loop's current is recorded, in one channel; the scale factors are linear in it. Without this channel a settling loop looks "
+        "like gain-drift; a stopped loop has no effect."
     ),
     channels=("balance_current",),
     parameters=(

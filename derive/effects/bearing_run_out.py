@@ -29,8 +29,8 @@ EFFECT = Effect(
     id="bearing-run-out",
     title="Run-out of the bearing",
     physics=(
-        "Races and balls of the spin bearing are not round: the disc's centre goes along a small closed path with every "
-        "turn, and all accelerometers feel its acceleration alike."
+        "Races and balls of the spin bearing are not round: the disc's centre moves on a small closed path with every turn, and its "
+        "acceleration acts on all accelerometers alike."
     ),
     source="synchronous run-out of precision spindle bearings (ISO 230-7): below a micrometre",
     equation=(
@@ -38,8 +38,8 @@ EFFECT = Effect(
         r" \bm d = \sum_{n=1}^2 \bm c_n \cos n\phi + \bm s_n \sin n\phi"
     ),
     limits=(
-        "Once and twice a turn, without tilt (else spin-axis-wobble), along axes that do not turn. What turns with the "
-        "disc once a turn is a constant force there: null biases take it. phi is the true angle."
+        "Once and twice a turn, without tilt (else spin-axis-wobble), along axes that do not turn. What turns with the disc once a turn "
+        "is a constant force there, absorbed by null biases. phi is the true angle."
     ),
     parameters=tuple(
         EffectParameter(

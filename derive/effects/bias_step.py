@@ -19,8 +19,8 @@ EFFECT = Effect(
     source="IEEE Std 1293, bias stability; common fault of analogue front ends",
     equation=r"K_0 \leftarrow K_0 + \Delta K_0 [t \ge t_s]",
     limits=(
-        "One step a record; its instant is scanned, not fitted. G_out alone sees one combination of the four, which a "
-        "step of the output's own offset makes as well."
+        "One step a record; its instant is scanned, not fitted. G_out depends on one combination of the four, which is also that of a "
+        "step of the output's offset."
     ),
     kind="step",
     parameters=(

@@ -27,8 +27,8 @@ EFFECT = Effect(
     id="carrier-gradient",
     title="Self-gradient of carrier and fuel",
     physics=(
-        "The stabilised instrument keeps its attitude while the carrier turns around it: the gradient of its masses, and "
-        "that of the fuel that is left, turn with roll, pitch and yaw as one rigid body."
+        "The stabilised instrument keeps its attitude while the carrier turns around it: the gradient of its masses, and that of the "
+        "remaining fuel, turn with roll, pitch and yaw as one rigid body."
     ),
     source="Sensors 19, 1950 (2019); US 11372130: self-gradient of a carrier from its attitude and fuel",
     equation=(
@@ -38,7 +38,7 @@ EFFECT = Effect(
     limits=(
         "Masses fixed to the carrier, fuel at one place. Angles that are not recorded, or fuel, count as zero. The level "
         "carrier is gradient-offset, its fuel fuel-gradient; to first order in small angles it is a self-gradient of five "
-        "values instead of ten, turned about the vertical alone self-gradient-yaw."
+        "values instead of ten, for rotation about the vertical only it is self-gradient-yaw."
     ),
     channels=("roll", "pitch", "yaw"),
     either=True,

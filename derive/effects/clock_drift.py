@@ -20,16 +20,15 @@ EFFECT = Effect(
     id="clock-drift",
     title="Drift of the motion record's clock",
     physics=(
-        "Motion sensor and output are sampled by clocks that drift apart: the motion that is true at t stands in the "
-        "record at t + epsilon t."
+        "Motion sensor and output are sampled by clocks that drift apart: the motion of instant t is recorded at t + epsilon t."
     ),
     source="frequency accuracy of quartz oscillators (IEEE Std 1139): 1e-8 with an oven, 1e-5 without",
     equation=(
         r"\bm v(t) = \bm v_{rec}(t + \epsilon t),\; \bm v = \bm a, \bm\omega_{im}, \dot{\bm\omega}_{im}"
     ),
     limits=(
-        "From the instant 0 of the record's time column (another one is time-offset). Fits take the motion from where it "
-        "stands in the record; exported programs know it to second order in epsilon t, which must be far below the time scale "
+        "From the instant 0 of the record's time column (another one is time-offset). Fits interpolate the recorded motion; exported "
+        "programs approximate the delay to second order in epsilon t, which must be far below the time scale "
         "of the motion."
     ),
     parameters=(

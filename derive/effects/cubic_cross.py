@@ -19,7 +19,7 @@ EFFECT = Effect(
     title="Cubic cross-axis nonlinearity",
     physics=(
         "Force across the input axis bends the pendulum's hinge and its frame and shifts the pick-off: "
-        "beyond the second order of Eq. 1 the accelerometer answers to products of three components."
+        "beyond the second order of Eq. 1 the accelerometer responds to products of three components."
     ),
     source="IEEE Std 1293 (model equation of the linear, single-axis accelerometer), carried to third order",
     equation=(

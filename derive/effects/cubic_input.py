@@ -16,7 +16,7 @@ EFFECT = Effect(
     title="Cubic input nonlinearity",
     physics=(
         "The rebalance loop's torquer and pick-off are odd functions of the current at large force: "
-        "the accelerometer's answer has a third-order term in the force along its input axis."
+        "the accelerometer's response has a third-order term in the force along its input axis."
     ),
     source="IEEE Std 1293 (model equation of the linear, single-axis accelerometer), coefficient K3",
     equation=r"I_j/K_{j1} \mathrel{+}= K_{iii} f_i^3",

@@ -18,7 +18,7 @@ EFFECT = Effect(
     title="Spin of the disc",
     physics=(
         "The accelerometers turn with the disc, whose angular rate is the platform's and the spin's together. "
-        "Eq. 9 takes the platform's alone: it lacks the Coriolis force of the platform's rate and the spin, the "
+        "Eq. 9 has the platform's rate only: it lacks the Coriolis force of the platform's rate and the spin, the "
         "centripetal force of the spin, and the Euler force of a spin that varies."
     ),
     source="rigid-body kinematics: paper, Eq. 9 and 49, with the rate of the disc instead of the platform's",
@@ -27,7 +27,7 @@ EFFECT = Effect(
         r" + \dot\phi^2\,\bm e_z \times (\bm e_z \times \bm r_j) + \ddot\phi\,\bm e_z \times \bm r_j]"
     ),
     limits=(
-        "share is 0 (Eq. 9) or 1 (nature); nothing in between is physical. The centripetal force of a steady "
+        "share is 0 (Eq. 9) or 1 (physical); nothing in between is physical. The centripetal force of a steady "
         "spin is constant, and absorbed by K0, K1, vartheta_y and vartheta_z. The rate is that of spin_angle, or "
         '2 pi spin_frequency where it is not recorded. A model with kinematics = "full" has all of it.'
     ),

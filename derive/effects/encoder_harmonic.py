@@ -27,8 +27,8 @@ EFFECT = Effect(
     equation=r"\phi \leftarrow \phi + \sum_{n=1}^4 c_n \cos n\phi + s_n \sin n\phi",
     limits=(
         "Harmonics one to four; phi on the right is the recorded angle. The force of an uneven spin, R phi'', "
-        "is in a model of full kinematics (or with disc-spin), with the true angle's derivatives: a disc that "
-        "swings about a steady angle feels it, one that turns steadily behind an uneven encoder does not."
+        "is in a model of full kinematics (or with disc-spin), with the true angle's derivatives: it acts on a disc that really swings, "
+        "not on one that turns steadily behind an uneven encoder."
     ),
     parameters=tuple(
         EffectParameter(f"{a}_{n}", f"{a}_{n}", "rad", f"{word} of harmonic {n}", 1e-5, shared=True)

@@ -17,7 +17,7 @@ def sensing(m: Motion, p: Values, c: Context) -> Motion:
 EFFECT = Effect(
     id="fuel-gradient",
     title="Gradient of the fuel",
-    physics="The fuel in the carrier's tanks attracts the instrument, and becomes less along the flight.",
+    physics="The fuel in the carrier's tanks attracts the instrument, and decreases during the flight.",
     source="3 G m / r^3: a ton at three metres is 7 Eo",
     equation=r"\bm\Gamma \leftarrow \bm\Gamma + \bm G\, m_{fuel}(t)",
     limits=(

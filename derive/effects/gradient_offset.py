@@ -19,14 +19,14 @@ EFFECT = Effect(
     id="gradient-offset",
     title="Gradient of masses at rest around the disc",
     physics=(
-        "Housing, gimbals and counterweights that do not turn with the disc attract it with a constant gradient, "
-        "which the gradients known beforehand do not hold."
+        "Housing, gimbals and counterweights that do not turn with the disc attract it with a constant gradient, which is not in the "
+        "recorded gradients."
     ),
     source="self-gradient modelling of airborne gradiometers (paper, Section I: self-gradient modeling)",
     equation=r"\bm\Gamma \leftarrow \bm\Gamma + \bm G",
     limits=(
-        "Constant, at rest in the measurement frame. Only G_xx - G_yy and G_xy are seen by a well-made instrument; "
-        "any other constant signal at twice the spin rate looks the same, that of rectified vibration for one."
+        "Constant, at rest in the measurement frame. A well-made instrument responds only to G_xx - G_yy and G_xy; any other constant "
+        "signal at twice the spin rate looks the same, for example that of rectified vibration."
     ),
     parameters=tuple(
         EffectParameter(f"G_{k}", f"G_{{{k}}}", "Eo", f"constant gradient {k}", 100.0, shared=True)

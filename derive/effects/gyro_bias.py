@@ -14,12 +14,12 @@ def sensing(m: Motion, p: Values, c: Context) -> Motion:
 EFFECT = Effect(
     id="gyro-bias",
     title="Bias of the gyroscopes",
-    physics="Each gyroscope reports a rate that is not there; its derivative is not touched.",
+    physics="Each gyroscope reports a constant false rate, which does not change its derivative.",
     source="IEEE Std 528, bias of a gyroscope: 0.01 deg/h (navigation grade) to 10 deg/h (tactical grade)",
     equation=r"\bm\omega_{im} = \bm\omega_{rec} - \bm b",
     limits=(
-        "Constant over the record. It shows as the product with the rate, and in full kinematics with the spin, "
-        "of which null biases absorb what is constant."
+        "Constant over the record. It acts through the product with the rate, and in full kinematics with the spin; null biases absorb "
+        "the constant part."
     ),
     parameters=tuple(
         EffectParameter(

@@ -22,7 +22,7 @@ EFFECT = Effect(
     title="Delay of the gyroscopes against the accelerometers",
     physics=(
         "Gyroscopes and accelerometers of a motion sensor pass filters of different delay, or are read one after the "
-        "other: the rate that is true at t stands in the record at t + delta, beside the specific force of t."
+        "other: the rate of instant t is recorded at t + delta, together with the specific force of t."
     ),
     source="group delays of the digital filters of inertial sensors; found in a record of real sensors",
     equation=(
@@ -30,9 +30,8 @@ EFFECT = Effect(
         r" \dot{\bm\omega}_{im}(t) = \dot{\bm\omega}_{rec}(t + \delta_{\dot\omega})"
     ),
     limits=(
-        "Specific force keeps its clock (time-offset moves both). Fits take the rates from where they stand in the record; "
-        "exported programs know them to second order in the delays. The two delays are one "
-        "where the angular acceleration is derived from the rate, and two where it is measured."
+        "Specific force keeps its clock (time-offset moves both). Fits interpolate the recorded rates; exported programs approximate "
+        "the delays to second order. The two delays are equal where the angular acceleration is derived from the rate."
     ),
     parameters=(
         EffectParameter(

@@ -17,15 +17,15 @@ EFFECT = Effect(
     id="gyro-g-sensitivity",
     title="Sensitivity of the gyroscopes to specific force",
     physics=(
-        "Unbalanced or elastic suspension lets specific force move a gyroscope's proof mass as a rate does; the "
-        "derivative of the recorded rate holds the derivative of that."
+        "Unbalanced or elastic suspension lets specific force move a gyroscope's proof mass like a rate; the recorded angular "
+        "acceleration contains its derivative."
     ),
     source="IEEE Std 528, acceleration-sensitive drift: 0.1 (ring laser: none) to 50 deg/h/g (MEMS)",
     equation=(
         r"\bm\omega_{im} = \bm\omega_{rec} - \bm D\,\bm a,\;"
         r" \dot{\bm\omega}_{im} = \dot{\bm\omega}_{rec} - \bm D\,\dot{\bm a}"
     ),
-    limits="Linear in the force at the disc centre; the square of the force is left out.",
+    limits="Linear in the force at the disc centre; the square of the force is neglected.",
     parameters=tuple(
         EffectParameter(
             f"d_{i}{k}",

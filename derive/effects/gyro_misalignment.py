@@ -20,12 +20,15 @@ def sensing(m: Motion, p: Values, c: Context) -> Motion:
 EFFECT = Effect(
     id="gyro-misalignment",
     title="Misalignment and cross-axis scale of the gyroscopes",
-    physics="Each gyroscope leans by itself, or its electronics couple, so that it reports a little of the rate about the other axes.",
+    physics=(
+        "Each gyroscope is misaligned individually, or its electronics couple, so that it reports a little of the rate about the "
+        "other axes."
+    ),
     source="IEEE Std 528, misalignment and cross-axis sensitivity: 0.1 mrad (navigation grade) to 2 % (MEMS data sheets)",
     equation=r"\bm\omega_{rec} = (\bm 1 + \bm m)\,\bm\omega_{im},\; m_{kk} = 0",
     limits=(
-        "To second order in m. A common turn of gyroscopes and accelerometers is imu-misalignment; of the accelerometers "
-        "imu-acceleration-misalignment: the force tells which."
+        "To second order in m. A common rotation of gyroscopes and accelerometers is imu-misalignment, of the accelerometers only "
+        "imu-acceleration-misalignment; the force distinguishes them."
     ),
     parameters=tuple(
         EffectParameter(

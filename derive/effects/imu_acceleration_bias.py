@@ -14,7 +14,7 @@ def sensing(m: Motion, p: Values, c: Context) -> Motion:
 EFFECT = Effect(
     id="imu-acceleration-bias",
     title="Bias of the motion sensor's accelerometers",
-    physics="The motion sensor reports a specific force that is not there.",
+    physics="The motion sensor reports a constant false specific force.",
     source="IEEE Std 1293, null bias: 25 ug (navigation grade) to 1 mg (tactical grade)",
     equation=r"\bm a = \bm a_{rec} - \bm b",
     limits=(

@@ -18,14 +18,14 @@ EFFECT = Effect(
     id="imu-acceleration-misalignment",
     title="Misalignment of the motion sensor's accelerometers",
     physics=(
-        "Each accelerometer of the motion sensor leans by itself, so that it reports a little of the force along the "
+        "Each accelerometer of the motion sensor is misaligned individually, so that it reports a little of the force along the "
         "other axes; the gyroscopes' axes are those of the measurement frame."
     ),
     source="IEEE Std 1293, input-axis misalignment: 10 to 1000 microradians",
     equation=r"\bm a_{rec} = (\bm 1 + \bm m)\,\bm a,\; m_{kk} = 0",
     limits=(
-        "To second order in m. A common turn of the three accelerometers is imu-misalignment but for the gyroscopes; "
-        "the two are told apart by the angular rate alone."
+        "To second order in m. A common rotation of the three accelerometers is imu-misalignment without the gyroscopes; only the "
+        "angular rate distinguishes the two."
     ),
     parameters=tuple(
         EffectParameter(

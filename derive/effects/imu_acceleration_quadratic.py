@@ -19,8 +19,8 @@ EFFECT = Effect(
     source="IEEE Std 1293, second-order coefficient: 10 ug/g^2 (navigation grade) to 1 mg/g^2 (MEMS)",
     equation=r"a_k = a_{k,rec} - q_k a_{k,rec}^2",
     limits=(
-        "It does not turn with the disc: the square of a horizontal force stands at the spin "
-        "frequency, where the instrument's own K2 ... K8 put none. Of a_z, which hardly changes, it is a bias, and left out."
+        "It does not turn with the disc: the square of a horizontal force appears at the spin frequency, where the instrument's K2 ... "
+        "K8 have no term. For a_z, which hardly changes, it is a bias, and neglected."
     ),
     parameters=tuple(
         EffectParameter(

@@ -21,7 +21,7 @@ EFFECT = Effect(
     title="Filter between motion sensor and disc",
     physics=(
         "The motion sensor averages over its sampling interval or has a low-pass, or a mount between it and the disc "
-        "resonates: what is fast is recorded smaller, or larger, than the disc feels it."
+        "resonates: fast motion is recorded smaller, or larger, than it acts on the disc."
     ),
     source=(
         "Taylor series of a response without delay: b is a 24th of the square of the averaging interval, and 1/w^2 of a "
@@ -31,7 +31,7 @@ EFFECT = Effect(
         r"\bm a = \bm a_{rec} - b_a\,\ddot{\bm a}_{rec},\; \bm\omega_{im} = \bm\omega_{rec} - b_\omega\,\ddot{\bm\omega}_{rec}"
     ),
     limits=(
-        "First order in b, for what is slow against filter or resonance, whose quality does not show there; alike along all "
+        "First order in b, for motion slow against filter or resonance, whose quality factor does not matter there; alike along all "
         "axes. The delay is time-offset or gyro-delay. A resonance of one accelerometer is second-order-loop."
     ),
     parameters=tuple(

@@ -22,8 +22,8 @@ EFFECT = Effect(
         r" - \bm\omega_{im} \times (\bm\omega_{im} \times \bm l)"
     ),
     limits=(
-        "The gradient between the two places, Gamma l (3e-7 m/s^2 for 0.1 m), is left out: constant, it is "
-        "below any accelerometer's bias."
+        "The gradient between the two places, Gamma l (3e-7 m/s^2 for 0.1 m), is neglected: it is constant and below any "
+        "accelerometer's bias."
     ),
     parameters=tuple(
         EffectParameter(f"l_{k}", f"l_{k}", "m", f"position of the motion sensor, {k}", 0.01, shared=True)

@@ -25,7 +25,7 @@ EFFECT = Effect(
     ),
     limits=(
         "Rotation to second order in e, one for accelerometers and gyroscopes; gradients are not turned. "
-        "e_x, e_y are told from spin-axis-tilt, and e_z from spin-phase-offset, only by the gradients."
+        "only gradients distinguish e_x, e_y from spin-axis-tilt, and e_z from spin-phase-offset."
     ),
     parameters=tuple(
         EffectParameter(

@@ -38,7 +38,7 @@ EFFECT = Effect(
     id="imu-saturation",
     title="Saturation of the motion sensors",
     physics=(
-        "Accelerometers and gyroscopes of the motion sensor have a range; in gusts the record stands at its end while the "
+        "Accelerometers and gyroscopes of the motion sensor have a range; in gusts the recorded value stays at its end while the "
         "platform moves on."
     ),
     source="range of the motion sensor's converters",

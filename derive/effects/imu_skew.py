@@ -14,12 +14,12 @@ def sensing(m: Motion, p: Values, c: Context) -> Motion:
 EFFECT = Effect(
     id="imu-skew",
     title="Sampling skew of the motion sensor's accelerometers",
-    physics="One converter reads the channels in turn, or their filters differ: a_x and a_y stand later in the record than a_z.",
+    physics="One converter reads the channels in turn, or their filters differ: a_x and a_y are recorded later than a_z.",
     source="multiplexed converters: the sampling interval over the number of channels; filters with capacitors of 5 %",
     equation=r"a_x(t) = a_{x,rec}(t + \delta_x),\; a_y(t) = a_{y,rec}(t + \delta_y)",
     limits=(
-        "Against a_z, whose own lateness is time-offset, and where it hardly matters indistinguishable. Fits take a_x and a_y "
-        "from where they stand in the record; exported programs know them to second order in the delays."
+        "Relative to a_z, whose own delay is time-offset; indistinguishable where a_z hardly matters. Fits interpolate the recorded "
+        "a_x and a_y; exported programs approximate the delays to second order."
     ),
     parameters=tuple(
         EffectParameter(

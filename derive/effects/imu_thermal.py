@@ -23,9 +23,9 @@ EFFECT = Effect(
         r"a_{k,rec} = a_k (1 + \partial_T s_k (T - 293.15\,\mathrm{K})) + \partial_T b_k (T - 293.15\,\mathrm{K})"
     ),
     limits=(
-        "Linear in the temperature of the column, which is that of both instruments. The channel along the "
-        "spin axis, that no accelerometer should feel, is left out. A changing scale of the motion sensor "
-        "is one of all four accelerometers, told from thermal-scale by its axes, which do not turn."
+        "Linear in the temperature of the column, which is that of both instruments. The channel along the spin axis, to which no "
+        "accelerometer should respond, is neglected. A changing scale factor of the motion sensor acts like that of all four "
+        "accelerometers; its axes, which do not turn, distinguish it from thermal-scale."
     ),
     channels=("temperature",),
     parameters=tuple(

@@ -24,8 +24,8 @@ EFFECT = Effect(
     equation=r"V_j \leftarrow V_j/(1 + \tau_j s)",
     limits=(
         "Expanded to second order in tau: tau must be far below the time scale of the force (0.1 s). Cross-talk, a share of "
-        "another voltage some time late, is in G_out a gain and a lag of the accelerometer that it comes from: nothing tells "
-        "the two apart there, and tau may then be negative."
+        "another voltage some time late, is in G_out a gain and a lag of the accelerometer that it comes from: the two are degenerate "
+        "there, and tau may then be negative."
     ),
     parameters=(EffectParameter("tau", r"\tau", "s", "time constant of the loop", 1e-8),),
     transducer=transducer,

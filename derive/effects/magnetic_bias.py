@@ -27,8 +27,8 @@ EFFECT = Effect(
     source="IEEE Std 1293, magnetic sensitivity of the bias",
     equation=r"I_j/K_{j1} \mathrel{+}= \partial_B K_0\, \bm B \cdot \bm\tau_{ji}",
     limits=(
-        "Linear, in the field recorded in the measurement frame, taken for uniform over the disc, along the "
-        "input axis alone; a response to the field along the spin axis is magnetic-axial-bias. Components "
+        "Linear, in the field recorded in the measurement frame, assumed uniform over the disc, along the input axis only; a "
+        "response to the field along the spin axis is magnetic-axial-bias. Components "
         "that are not recorded count as zero: without B_z hardly anything is lost, without B_x or B_y half."
     ),
     channels=FIELD,

@@ -27,7 +27,8 @@ EFFECT = Effect(
     equation=r"K_{j1} \leftarrow K_{j1} (1 + \partial_B K_1\, \bm B \cdot \bm\tau_{jx})",
     limits=(
         "Linear, in the recorded field, uniform over the disc, along the nominal input axis, which turns in the "
-        "plane: B_z is left out, and what is not recorded counts as zero. A steady field looks like K2 and K6 of a steady motion."
+        "plane: B_z is neglected, and components that are not recorded count as zero. A steady field looks like K2 and K6 of a "
+        "steady motion."
     ),
     channels=("B_x", "B_y"),
     either=True,

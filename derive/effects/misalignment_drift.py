@@ -21,7 +21,7 @@ EFFECT = Effect(
     limits=(
         "Linear over the record, from the instant 0 of its time column (another one is absorbed by vartheta_y); where a_z hardly "
         "changes it is bias-drift. vartheta_z puts the radial force on the input axis, which is the neighbours' input: in G_out "
-        "it is their gain-drift. A growing radius shows in gradients alone, and is left out."
+        "it is their gain-drift. A growing radius acts on gradients only, and is neglected."
     ),
     parameters=(
         EffectParameter(

@@ -39,7 +39,7 @@ EFFECT = Effect(
     id="near-mass",
     title="Near mass",
     physics=(
-        "The gradient of a mass close to the instrument changes across the disc; Eq. 10 takes it for uniform."
+        "The gradient of a mass close to the instrument changes across the disc; Eq. 10 assumes it uniform."
     ),
     source="Taylor series of the gravity field, continued from paper, Eq. 10",
     equation=r"\bm f_j \mathrel{-}= \tfrac12\, T_{abc}\, r_b r_c + \tfrac16\, T_{abcd}\, r_b r_c r_d",

@@ -20,7 +20,7 @@ EFFECT = Effect(
     ),
     source="IEEE Std 1293, odd quadratic coefficient of the model equation",
     equation=r"I_j/K_{j1} \mathrel{+}= K_{oq} f_i |f_i|",
-    limits="f_i is the recorded force: vibration that the record does not hold is not rectified here.",
+    limits="f_i is the recorded force: unrecorded vibration is not rectified here.",
     parameters=(EffectParameter("K_oq", "K_{oq}", "ug/g^2", "coefficient of f_i |f_i|", 5.0, like="K2"),),
     transducer=transducer,
 )

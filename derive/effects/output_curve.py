@@ -15,16 +15,16 @@ def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
 
 EFFECT = Effect(
     id="output-curve",
-    title="Curve of the output's converter",
+    title="Nonlinearity of the output's converter",
     physics=(
-        "Amplifier and converter of G_out are not straight: a bend towards one side and one towards both ends. What is "
-        "bent is the sum of the voltages, which multiplies forces that no accelerometer feels together."
+        "Amplifier and converter of G_out are nonlinear, with a quadratic and a cubic term. They act on the sum of the voltages, and so "
+        "multiply forces on different accelerometers."
     ),
     source="IEEE Std 1241: integral nonlinearity; 1 to 10 parts in a million of the range at its end",
     equation=r"G_{out} + c_2 G_{out}^2 + c_3 G_{out}^3 \leftarrow G_{out}",
     limits=(
-        "A smooth curve, the third power the last. A test takes what is read as the model predicts it, a program from its "
-        "column. A step is adc-nonlinearity, the end of the range saturation; the curve of a single voltage is K2 and "
+        "A smooth curve up to the third power. A test uses the predicted output, a program the recorded one. A step is "
+        "adc-nonlinearity, the end of the range saturation; the curve of a single voltage is K2 and "
         "cubic-input of its accelerometer. Where the disc centre's force is all that moves the output, K2 ... K8 take c_2, "
         "and c_3 is one combination of cubic-input and cubic-cross."
     ),

@@ -15,8 +15,8 @@ EFFECT = Effect(
     id="output-filter",
     title="Filter of the output",
     physics=(
-        "Before it is recorded, G_out is averaged or low-passed. Of a filter whose delay has been allowed for, what is "
-        "left is its droop: it passes the harmonics of the spin less well than what is slow."
+        "Before it is recorded, G_out is averaged or low-passed. If the filter's delay has been corrected, its droop remains: it "
+        "attenuates the harmonics of the spin more than slow signals."
     ),
     source=(
         "Taylor series of a low-pass of linear phase: b is a 24th of the square of the averaging interval (1.6e-4 s^2 "
@@ -24,8 +24,8 @@ EFFECT = Effect(
     ),
     equation=r"G_{out} \leftarrow G_{out} + b\,\ddot G_{out}",
     limits=(
-        "First order in b, for what is slow against the filter; b is positive. The delay itself is time-offset, but "
-        "for the disc angle's part of it, which beta_z absorbs."
+        "First order in b, for signals slow against the filter; b is positive. The delay itself is time-offset, except for the disc "
+        "angle's part, which beta_z absorbs."
     ),
     parameters=(
         EffectParameter(

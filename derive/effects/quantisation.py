@@ -40,10 +40,10 @@ def quantisation(G: Array, valid: NDArray[np.bool_], noise: float) -> float | No
 EFFECT = Effect(
     id="quantisation",
     title="Quantisation of the output",
-    physics="The converter of G_out has finite steps: the record holds multiples of one of them.",
+    physics="The converter of G_out has finite steps: the recorded values are multiples of a step.",
     source="resolution of the output converter",
     equation=r"G_{out} \leftarrow q\, \mathrm{round}(G_{out}/q)",
-    limits="Uniform steps through zero, of G_out alone.",
+    limits="Uniform steps through zero, of G_out only.",
     kind="output",
     parameters=(
         EffectParameter("q", "q", "V", "step of the recorded output", 1e-3, shared=True, fitted=False),

@@ -52,10 +52,10 @@ def sizes(values: Array, valid: NDArray[np.bool_]) -> Iterator[tuple[slice, Arra
 EFFECT = Effect(
     id="saturation",
     title="Saturation of the output",
-    physics="The amplifier or converter of G_out has a limit, which stands in the record for what is larger.",
+    physics="The amplifier or converter of G_out has a limit, which is recorded in place of larger values.",
     source="range of the output converter",
     equation=r"G_{out} \leftarrow \min(\max(G_{out}, -V_{max}), V_{max})",
-    limits="Symmetric, of G_out alone; single accelerometers do not saturate.",
+    limits="Symmetric, of G_out only; single accelerometers do not saturate.",
     kind="output",
     parameters=(
         EffectParameter(

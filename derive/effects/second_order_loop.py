@@ -15,8 +15,8 @@ EFFECT = Effect(
     id="second-order-loop",
     title="Second-order response of the loop",
     physics=(
-        "The closed rebalance loop has a mass and a spring: beyond the delay that a lag describes it passes what is fast "
-        "better or worse than what is slow, each accelerometer by itself."
+        "The closed rebalance loop has a mass and a spring: beyond the delay that a lag describes it amplifies or attenuates fast "
+        "forces, differently in each accelerometer."
     ),
     source=(
         "closed-loop transfer function 1/(1 + 2 zeta s/w + s^2/w^2), whose delay is the lag tau = 2 zeta/w; "
@@ -24,8 +24,8 @@ EFFECT = Effect(
     ),
     equation=r"V_j \leftarrow V_j + b_j\,\ddot V_j",
     limits=(
-        "First order in b, for what is slow against the loop. The delay itself is lag; b that all accelerometers share is"
-        " output-filter; of the motion alone imu-filter. A mount that resonates at w has b = -1/w^2. The simulator has "
+        "First order in b, for forces slow against the loop. The delay itself is lag; a b common to all accelerometers is"
+        " output-filter, one of the motion only imu-filter. A mount that resonates at w has b = -1/w^2. The simulator has "
         "loops without a resonance (b not negative)."
     ),
     parameters=(

@@ -23,15 +23,15 @@ EFFECT = Effect(
     id="self-gradient",
     title="Self-gradient of the platform",
     physics=(
-        "The stabilised instrument sees the masses of aircraft and gimbals move around it as the carrier "
-        "rolls and pitches; their gravity gradient changes with the attitude."
+        "The masses of aircraft and gimbals move around the stabilised instrument as the carrier rolls and pitches; their gravity "
+        "gradient changes with the attitude."
     ),
     source="self-gradient modelling of airborne gradiometers (paper, Section I: self-gradient modeling)",
     equation=r"\bm\Gamma \leftarrow \bm\Gamma + \bm G_{roll} \sin(roll) + \bm G_{pitch} \sin(pitch)",
     limits=(
         "First harmonic of small attitude angles; masses fixed to one rigid carrier, and its fuel, are carrier-gradient. "
-        "Parts that move with the instrument are constant and no effect. Without roll, or pitch, in the record its five "
-        "values are left out."
+        "Parts that move with the instrument have a constant gradient and no effect. Without roll, or pitch, in the record its five "
+        "values are omitted."
     ),
     channels=ATTITUDE,
     either=True,

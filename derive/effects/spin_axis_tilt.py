@@ -21,10 +21,10 @@ def sensing(m: Motion, p: Values, c: Context) -> Motion:
 
 EFFECT = Effect(
     id="spin-axis-tilt",
-    title="Lean of the spin axis",
+    title="Tilt of the spin axis",
     physics=(
-        "The disc's bearing is not along the z axis of the motion sensor: the plane in which the "
-        "accelerometers turn leans in the measurement frame, and the spin with it."
+        "The disc's bearing is not along the z axis of the motion sensor: the plane in which the accelerometers turn is tilted in the "
+        "measurement frame, and the spin with it."
     ),
     source="rigid-body kinematics",
     equation=(
@@ -32,8 +32,8 @@ EFFECT = Effect(
         r"\; \bm e_z \leftarrow \bm R(\bm\alpha)\, \bm e_z,\; \bm\alpha = (\alpha_x, \alpha_y, 0)"
     ),
     limits=(
-        "Rotation to second order in alpha. The same as turning the motion record back (imu-misalignment), "
-        "but for the gradients, which alpha turns as well."
+        "Rotation to second order in alpha. The same as rotating the motion record back (imu-misalignment), except for the gradients, "
+        "which alpha rotates too."
     ),
     parameters=tuple(
         EffectParameter(

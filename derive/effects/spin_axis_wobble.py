@@ -16,15 +16,15 @@ def geometry(g: Geometry, p: Values, c: Context) -> Geometry:
 EFFECT = Effect(
     id="spin-axis-wobble",
     title="Wobble of the disc",
-    physics="The disc does not sit square on its shaft: its plane leans, and the lean turns with the disc.",
+    physics="The disc does not sit square on its shaft: its plane is tilted, and the tilt turns with the disc.",
     source="rigid-body kinematics",
     equation=(
         r"\bm r_j \leftarrow \bm R(\bm w)\, \bm r_j,\; \bm\tau_j \leftarrow \bm R(\bm w)\, \bm\tau_j,\;"
         r" \bm w = w_x \bm e_r(\phi) + w_y \bm e_t(\phi)"
     ),
     limits=(
-        "Rotation to second order in w; the shaft about which the disc turns stays where it is. To first order it "
-        "is a pattern of the mounting angles of the four accelerometers, so that beta_x and vartheta_y absorb it."
+        "Rotation to second order in w; the shaft about which the disc turns is unchanged. To first order it "
+        "is a pattern of the mounting angles of the four accelerometers, which beta_x and vartheta_y absorb."
     ),
     parameters=tuple(
         EffectParameter(

@@ -13,12 +13,12 @@ def disc_angle(p: Values, c: Context) -> sp.Expr:
 EFFECT = Effect(
     id="spin-phase-offset",
     title="Offset of the disc angle",
-    physics="The encoder's zero is not where A1 stands on the x axis.",
+    physics="The encoder's zero is not at the angle where A1 is on the x axis.",
     source="definition of the disc angle (paper, Section II.A.1)",
     equation=r"\phi \leftarrow \phi + \phi_0",
     limits=(
-        "Exact. A common part of beta_z is the same thing and absorbs it; turning the motion record about z "
-        "is the same but for the gradients."
+        "Exact. A common part of beta_z is equivalent and absorbs it; rotating the motion record about z is equivalent except for the "
+        "gradients."
     ),
     parameters=(
         EffectParameter(

@@ -15,8 +15,8 @@ EFFECT = Effect(
     id="spin-rate-jitter",
     title="Jitter of the spin rate",
     physics=(
-        "Drive and bearing let the disc run unevenly: its true angle strays from the recorded one, freshly "
-        "at every sample or as a random walk. Steady horizontal force turns it into noise of the output."
+        "Drive and bearing let the disc run unevenly: its true angle deviates from the recorded one, independently at every sample or "
+        "as a random walk. Steady horizontal force turns it into noise of the output."
     ),
     source="angle noise of a spin servo",
     equation=r"\phi \leftarrow \phi + \delta\phi(t)",

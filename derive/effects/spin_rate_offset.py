@@ -15,7 +15,7 @@ EFFECT = Effect(
     title="Offset of the spin rate",
     physics=(
         "The clock of the spin servo and that of the recorder differ, or the encoder's turns are counted at a wrong "
-        "rate: the true disc angle runs away from the recorded one steadily."
+        "rate: the true disc angle departs steadily from the recorded one."
     ),
     source="frequency accuracy of quartz oscillators (IEEE Std 1139): 1e-8 with an oven, 1e-5 without",
     equation=r"\phi \leftarrow \phi + \epsilon\,\Omega\,t",

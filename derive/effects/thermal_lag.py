@@ -26,8 +26,7 @@ EFFECT = Effect(
         r" K_1 \leftarrow K_1 (1 + \partial_{\dot T} K_1\,\dot T)"
     ),
     limits=(
-        "A lag that is short against the changes of the temperature: of a coefficient dK_dT it leaves "
-        "dK_dTdot = -tau dK_dT."
+        "A lag that is short against the changes of the temperature: a coefficient dK_dT then gives dK_dTdot = -tau dK_dT."
     ),
     channels=("temperature",),
     parameters=(

@@ -24,8 +24,8 @@ EFFECT = Effect(
     equation=r"\vartheta_y \leftarrow \vartheta_y + \partial_T \vartheta_y (T - 293.15\,\mathrm{K})",
     limits=(
         "Linear in one temperature, without the lag of heat flow; where a_z hardly changes it is thermal-bias. vartheta_z puts "
-        "the radial force on the input axis, which is the neighbours' input: in G_out it is their thermal-scale. beta_x and "
-        "beta_z differ from the two by gradients alone; the growing radius, 20 ppm/K, is below 0.1 Eo/K in 3000 Eo."
+        "the radial force on the input axis, which is the neighbours' input: in G_out it is their thermal-scale. beta_x and beta_z "
+        "differ from the two in gradients only; the growing radius, 20 ppm/K, is below 0.1 Eo/K in 3000 Eo."
     ),
     channels=("temperature",),
     parameters=(

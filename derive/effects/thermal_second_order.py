@@ -17,8 +17,8 @@ EFFECT = Effect(
     id="thermal-second-order",
     title="Temperature coefficient of the second-order coefficient",
     physics=(
-        "What bends an accelerometer's characteristic, the flux that the torquer's own current weakens and the hinge's "
-        "compliance, changes with temperature as bias and scale factor do."
+        "The causes of an accelerometer's curvature, the flux weakened by the torquer's own current and the hinge's compliance, change "
+        "with temperature like bias and scale factor."
     ),
     source="IEEE Std 1293, temperature sensitivity of the model's coefficients: K2 by some per cent in ten kelvin",
     equation=r"K_2 \leftarrow K_2 + \partial_T K_2 (T - 293.15\,\mathrm{K})",

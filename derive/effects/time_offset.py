@@ -20,13 +20,13 @@ EFFECT = Effect(
     id="time-offset",
     title="Clock offset of the motion record",
     physics=(
-        "Motion sensor and output are sampled by different clocks or filtered with different delays: the "
-        "motion that is true at t stands in the record at t + delta_t."
+        "Motion sensor and output are sampled by different clocks or filtered with different delays: the motion of instant t is "
+        "recorded at t + delta_t."
     ),
     source="time synchronisation of inertial sensors",
     equation=r"\bm v(t) = \bm v_{rec}(t + \delta t),\; \bm v = \bm a, \bm\omega_{im}, \dot{\bm\omega}_{im}",
     limits=(
-        "Fits take the motion from where it stands in the record; exported programs know it to second order in delta_t, which "
+        "Fits interpolate the recorded motion; exported programs approximate the delay to second order in delta_t, which "
         "must be far below the time scale of the motion. Gradients and the disc angle, which belong to the output's clock, are "
         "not moved."
     ),

@@ -19,8 +19,8 @@ EFFECT = Effect(
     id="vibration-level",
     title="Rectified vibration of a recorded level",
     physics=(
-        "Vibration above the recorder's bandwidth comes and goes with power and air; its level is recorded, and "
-        "second-order coefficients leave of it a force that follows the square of that level."
+        "Vibration above the recorder's bandwidth varies with engine power and air; its level is recorded, and second-order "
+        "coefficients rectify it into a force that follows the square of that level."
     ),
     source="IEEE Std 1293, vibration rectification; a vibration meter's root mean square",
     equation=r"\bm P(t) = \bm L\, v(t)^2, \text{ in the place of the constant } \bm P \text{ of vibration-rectification}",

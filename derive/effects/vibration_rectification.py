@@ -18,8 +18,8 @@ EFFECT = Effect(
     id="vibration-rectification",
     title="Rectified vibration",
     physics=(
-        "Vibration above the recorder's bandwidth averages to nothing in the linear terms, but its squares "
-        "and products, taken by the second-order coefficients, leave a steady force that turns with the disc."
+        "Vibration above the recorder's bandwidth averages to zero in the linear terms, but its squares and products in the "
+        "second-order terms leave a steady force that turns with the disc."
     ),
     source="IEEE Std 1293, vibration rectification, with the second-order terms of paper, Eq. 1",
     equation=(
@@ -28,7 +28,7 @@ EFFECT = Effect(
     ),
     limits=(
         "Covariance constant over the record (else vibration-level), zero mean, fast against the turn of the disc; exact for Eq. 1, "
-        "rectification by third-order terms is left out. P must be positive semidefinite."
+        "rectification by third-order terms is neglected. P must be positive semidefinite."
     ),
     parameters=tuple(
         EffectParameter(
