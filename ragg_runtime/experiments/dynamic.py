@@ -77,7 +77,7 @@ def dynamic() -> Experiment:
                     ours,
                     reach=bounds(reached[:, k]) if name == "analytical" else None,
                     open_input="the analytical model's error is the product of second-order coefficients and "
-                    "angles (misalignments and mounting errors) alone, vartheta_x among them, of which Table V says nothing; four "
+                    "angles (misalignments and mounting errors) alone, vartheta_x among them, which Table V does not give; four "
                     f"vartheta_x within {LARGEST:g} arcsec, the largest misalignment of Table V, reach it",
                     unexplained="analytical minus simplified follows from Eq. 17-19 and 42-47 with Tables V "
                     "and VI alone, whatever the numerical model",

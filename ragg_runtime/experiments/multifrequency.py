@@ -36,7 +36,7 @@ def multifrequency() -> Experiment:
             paper.DIFFERENCE[name],
             largest(found[name].inline, found[name].cross),
             reach=bounds(np.array([r[column] for r in filters.rows])),
-            open_input="the derived models measure the centre gradient exactly; what is left is the "
+            open_input="the derived models measure the centre gradient exactly; the rest is the "
             "ripple of the low-pass, which the paper does not state (table below)",
             unexplained="no stop-band attenuation from 40 to 100 dB gives it",
         )

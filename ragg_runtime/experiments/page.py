@@ -116,7 +116,7 @@ Of {rows} printed numbers, **{agrees} agree**, **{open} depend on an input that 
 No parameter of the instrument or the models is adjusted to meet the paper. Two choices were made with the
 printed numbers in view, because the paper leaves them open: the sign of a model error, numerical minus
 model (the other would make every printed error of Section III.B differ in sign from ours), and the
-sampling of the turbulence, on which the simplified model's sigmas in experiments 2 and 3 rest.
+sampling of the turbulence, which determines the simplified model's sigmas in experiments 2 and 3.
 """
 
 
