@@ -84,7 +84,7 @@ def _describe_record(r: DataTable, name: str, several: bool) -> Json:
         x = make_flight(r, PAPER_G)
         notes = [*x.notes]
         if not any(map(is_disc_angle, x.channels)):
-            zero = "the first sample (time is given as instants)" if x.instants else "t = 0 of time"
+            zero = "the first sample, since time is given as instants" if x.instants else "t = 0 of time"
             notes.append(
                 f"no spin_angle: the disc angle counts from {zero} (angle_origin in model.toml overrides this)"
             )
