@@ -658,5 +658,19 @@ def contents(m: Loaded) -> Contents:
 
 
 def export(m: Loaded, folder: Path | str, form: str) -> list[Path]:
-    """Write the model into a folder, as ``c``, ``numpy`` or ``json``; the files."""
+    """Write the model with its saved calibration, else the values of model.toml, into a folder.
+
+    Parameters
+    ----------
+    m
+        The model.
+    folder
+        An empty folder, or one of an earlier export.
+    form
+        ``c``, ``numpy`` or ``json``.
+
+    Returns
+    -------
+        The files.
+    """
     return write_export(contents(m), Path(folder), form)

@@ -312,7 +312,7 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
     """
     if form is None:
         raise UserError(
-            "say what to export",
+            "choose what to export",
             expected="--c, --numpy or --json",
             remedy="see: ragg export --help",
         )

@@ -93,7 +93,7 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
         return None
     caption = "Amplitude density of the residual and the estimated noise. Dotted: multiples of the spin rate."
     if any(unknown(o) for o in f.observations):
-        caption += " The notch at 2Ω: the gravity gradient is not recorded, so what varies slowly there is fitted as gradient."
+        caption += " The notch at 2Ω: the gravity gradient is not recorded, so slow variation there is fitted as gradient."
     return Curves("spectrum", caption, tuple(axes), "frequency before demodulation, Hz", 2.9)
 
 

@@ -95,7 +95,7 @@ def test_nothing_is_written_over_what_is_read(option: str, over: str, given: tup
     before = state(model, flight)
     status, said = ragg("compare", model, flight, option, target)
     assert status == 2, said
-    assert "a result would be written over" in said
+    assert "the result would overwrite" in said
     assert state(model, flight) == before
 
 
@@ -117,7 +117,7 @@ def test_a_series_is_not_written_over_what_is_read(command: str, given: tuple[Pa
     read = ["--motion", flight] if command == "simulate" else [flight]
     status, said = ragg(command, model, *read, "-o", flight)
     assert status == 2, said
-    assert "written over what the command reads" in said
+    assert "overwrite what the command reads" in said
     assert state(model, flight) == before
 
 
