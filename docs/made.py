@@ -29,6 +29,8 @@ def commands() -> str:
     text = [
         "# Commands",
         "",
+        "Look up a command and its options.",
+        "",
         "Exit status: 0 done, 2 bad input or usage (one message), 1 a fault of the program.",
         "",
     ]

@@ -97,12 +97,12 @@ def _write_table(columns: Sequence[str], rows: Sequence[Sequence[Cell]]) -> str:
 
 _HEAD = """# The paper's experiments, repeated
 
-Section III of
+See which printed numbers can be reproduced: Section III of
 M. Yu and T. Cai, *Mathematic Model And Error Analysis of Moving-base Rotating Accelerometer Gravity Gradiometer*:
 our numbers and the printed ones (`python -m ragg_runtime.experiments`, as JSON with `--json`).
 
 The numerical model of Eq. 49 to 53 represents the instrument; the analytical (Eq. 17 to 19) and the
-simplified model (Eq. 42 to 47) are the derived ones. The misprints of the printed equations cost too little to show here.
+simplified model (Eq. 42 to 47) are the derived ones. The misprints of the equations are too small to matter here.
 
 Of {rows} printed numbers, **{agrees} agree**, **{open} depend on an input that the paper does not state**, and
 **{unexplained} are unexplained**.
@@ -110,10 +110,10 @@ Of {rows} printed numbers, **{agrees} agree**, **{open} depend on an input that 
 - *agrees*: ours has the printed digits, or the printed order of magnitude, or the printed number lies between
   the least and the greatest of our runs.
 - *open input*: it does not, but an input that the paper does not state moves our number over a range that
-  holds the printed one. This is no proof that the paper had that input.
-- *unexplained*: neither.
+  contains the printed one. This is no proof that the paper had that input.
+- *unexplained*: neither applies.
 
-No parameter of the instrument or the models is adjusted to meet the paper. Two choices were made with the
+No parameter of the instrument or the models is adjusted to fit the paper. Two choices were made with the
 printed numbers in view, because the paper leaves them open: the sign of a model error, numerical minus
 model (the other would make every printed error of Section III.B differ in sign from ours), and the
 sampling of the turbulence, which determines the simplified model's sigmas in experiments 2 and 3.
