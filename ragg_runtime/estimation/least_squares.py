@@ -204,10 +204,10 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
     begun = at(nowhere.tobytes())
     if not np.isfinite(begun.cost):
         return Minimum(
-            start, begun, converged=False, reason="the model has no finite output where the fit begins"
+            start, begun, converged=False, reason="the model output is not finite at the starting point"
         )
     if begun.is_settled:
-        return Minimum(start, begun, converged=True, reason="nothing is left to gain")
+        return Minimum(start, begun, converged=True, reason="no further gain")
     found = optimize.least_squares(
         residual,
         nowhere,
@@ -221,11 +221,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
     end = at(found.x.tobytes())
     # where samples come and go with the parameters, or all is rounding, what is promised is not there
     arrived = end.is_settled or (found.status > 0 and end.decrement < max(INDISTINGUISHABLE, SLOW * end.cost))
-    reason = "nothing worth having is left to gain"
+    reason = "no significant gain"
     if not arrived:
-        reason = (
-            f"it was stopped after {most} trials"
-            if found.status == 0
-            else "no step, however small, lowers the misfit"
-        )
+        reason = f"stopped after {most} trials" if found.status == 0 else "no step reduces the misfit"
     return Minimum(start + found.x, end, converged=arrived, reason=reason)

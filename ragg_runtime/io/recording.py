@@ -321,7 +321,7 @@ def _leave_out_codes(c: DataColumn, null: Null, notes: list[str]) -> DataColumn:
         count, unit = int(np.sum(hit)), "" if c.unit in ("", "1") else f" {c.unit}"
         if count:
             shown = f"{count} value{'s' * (count > 1)} of {code:.10g}{unit}"
-            notes.append(f"{c.name}: {shown} are codes for missing values, left out")
+            notes.append(f"{c.name}: left out as missing: {shown}")
             values = np.where(hit, np.nan, values)
 
     for code in named:

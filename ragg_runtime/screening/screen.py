@@ -225,7 +225,7 @@ def _by_count(x: Flight, steps: Sequence[ClockStep]) -> Flight:
 
 
 def _pause(c: ClockStep, undecided: bool) -> Flag:
-    text = f"the stamps step by {c.size:.4g} s at t = {c.time:.6g} s, by no whole number of samples: taken as a pause"
+    text = f"the time stamps jump by {c.size:.4g} s at t = {c.time:.6g} s, not a whole number of samples: treated as a pause"
     if undecided:
         text += "; whether the clock was set instead is hidden by what the model leaves unexplained"
     return Flag(("time",), text, 1, (c.time, c.time))

@@ -106,7 +106,7 @@ def test_a_result_replaces_no_file_of_another_model(given: tuple[Path, Path], tm
     for name in ("model.toml", "history.json"):
         status, said = ragg("effects", "lag", "--json", model / name)
         assert status == 2, said
-        assert "over a file of a model directory" in said
+        assert "overwrite a file of a model directory" in said
     assert state(model) == before
 
 

@@ -210,7 +210,7 @@ def test_rounded_stamps_are_put_on_their_grid(rate: float, start: float) -> None
     ],
 )
 def test_stamps_that_are_too_coarse_are_no_doubled_rows(stamps: np.ndarray, words: str) -> None:
-    with pytest.raises(UserError, match="too coarse for the rate") as caught:
+    with pytest.raises(UserError, match="too coarse for the sampling rate") as caught:
         make_grid(stamps, None)
     said = str(caught.value)
     assert words in said and "time = row / " in said and "remove" not in said

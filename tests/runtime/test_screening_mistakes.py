@@ -192,7 +192,9 @@ def test_a_clock_that_was_set_beside_a_strong_effect() -> None:
     x = flown(12, {"cubic-input": {"K_iii": [2e-2 / 9.8**2, 0.0, 0.0, 0.0]}})
     late = np.arange(len(x)) >= 2400
     found = screen(MODEL, drawn(12).sheet, replace(x, time=x.time + 0.1 * late))
-    assert any("the stamps step by 0.1 s" in f.reason and "the sample count" in f.reason for f in found.flags)
+    assert any(
+        "the time stamps jump by 0.1 s" in f.reason and "the sample count" in f.reason for f in found.flags
+    )
     np.testing.assert_allclose(found.time, x.time, atol=1e-9)
 
 

@@ -305,7 +305,7 @@ def test_codes_are_left_out_with_a_note_in_every_column(tmp_path: Path) -> None:
     lines = ["null = [-9999]", '[time]\ncolumn = "time"', "[columns]"]
     lines += [f'{n} = {{ column = "{n}", null = [0, "n/a"] }}' for n in given if n != "time"]
     mapped = read_flight(table, G0, mapping=parse_mapping("\n".join(lines), tmp_path))
-    assert any("load: 9 values of 0 stand for" in n for n in mapped.notes)
+    assert any("load: left out as missing: 9 values of 0" in n for n in mapped.notes)
 
 
 def test_flights_in_memory() -> None:
@@ -345,7 +345,7 @@ def test_flights_in_memory() -> None:
         (found,) = read_flights(data, G0, name="x")
         same(found, instants)
         assert (found.name, found.path, len(found.digest)) == ("x", None, 64)
-    with pytest.raises(UserError, match="no flight"):
+    with pytest.raises(UserError, match="not a flight"):
         read_flight(3.0, G0)
 
 
