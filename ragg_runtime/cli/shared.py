@@ -290,7 +290,7 @@ def _check_output(path: Path, inputs: Sequence[Path], *, records: bool) -> None:
         over = "a record"
     if over:
         remedy = "name another file, or delete this one first"
-        raise UserError(f"a result would be written over {over}", where=path, remedy=remedy)
+        raise UserError(f"the result would overwrite {over}", where=path, remedy=remedy)
     check_writable(path)
 
 
