@@ -93,9 +93,18 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
         if abs(len(r) - width) <= 1 or not any(map(_is_filled, r[width:] or "x"))
     ]
     data = [_is_data(rows[k]) for k in alike]
-    # numbers that stand before the header are fewer, and followed by other text
-    fewest = max(3, sum(data) // 40)
-    first = next((k for k in range(len(alike)) if all(data[k : k + fewest])), len(alike))
+    # numbers that stand before the header are followed by other text, or have their names in front
+    usual = _find_usual(
+        [is_number(write_cell(rows[k][0])) for k, yes in zip(alike, data, strict=True) if yes]
+    )
+    first = next(
+        (
+            k
+            for k in range(len(alike))
+            if all(data[k : k + 3]) and usual in (None, is_number(write_cell(rows[alike[k]][0])))
+        ),
+        len(alike),
+    )
     begins = alike[first] if first < len(alike) else len(rows)
     above = [k for k in alike[:first] if any(map(_is_filled, rows[k]))]
     if not above:
@@ -119,6 +128,12 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
         begins=begins,
         share=share,
     )
+
+
+def _find_usual(kinds: Sequence[bool]) -> bool | None:
+    """What nine in ten are; ``None``: there is no such."""
+    share = sum(kinds) / max(1, len(kinds))
+    return None if 0.1 < share < 0.9 else share > 0.5
 
 
 def _is_filled(cell: Any) -> bool:
