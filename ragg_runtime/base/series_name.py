@@ -21,7 +21,7 @@ FunctionName = Literal["abs", "sign", "square"]
 
 
 @dataclass(frozen=True)
-class Channel:
+class ChannelName:
     """A recorded channel, time, or a force that turns with the disc."""
 
     name: str
@@ -34,7 +34,7 @@ class Channel:
 class Derivative:
     """First or second derivative of a channel by time."""
 
-    of: Channel
+    of: ChannelName
     order: int
 
     def __str__(self) -> str:
@@ -63,7 +63,7 @@ class Relaxation:
         return f"slow({self.of}, {self.seconds} s)"
 
 
-Series = Channel | Derivative | Function | Relaxation
+Series = ChannelName | Derivative | Function | Relaxation
 
 _FUNCTION = re.compile(r"(abs|sign|square)\((.+)\)")
 _RELAXATION = re.compile(r"slow\((.+), ([0-9.]+) s\)")
@@ -72,30 +72,30 @@ _DERIVATIVE = re.compile(r"d(2?)_(.+)")
 
 def series(name: str, channels: Collection[str] = ()) -> Series:
     """What a name says; ``channels`` are names that stand for themselves, whatever they look like."""
-    return Channel(name) if name in channels else _parsed(name, frozenset(channels))
+    return ChannelName(name) if name in channels else _parsed(name, frozenset(channels))
 
 
 @cache
 def _parsed(name: str, channels: frozenset[str]) -> Series:
     if name in channels:
-        return Channel(name)
+        return ChannelName(name)
     if (found := _FUNCTION.fullmatch(name)) is not None:
         kind: FunctionName = "abs" if found[1] == "abs" else "sign" if found[1] == "sign" else "square"
         return Function(kind, _parsed(found[2], channels))
     if (found := _RELAXATION.fullmatch(name)) is not None:
         return Relaxation(_parsed(found[1], channels), found[2])
     if (found := _DERIVATIVE.fullmatch(name)) is not None:
-        return Derivative(Channel(found[2]), int(found[1] or 1))
-    return Channel(name)
+        return Derivative(ChannelName(found[2]), int(found[1] or 1))
+    return ChannelName(name)
 
 
 def channel(s: Series) -> str:
     """Name of the channel or force at the bottom of a series."""
-    return s.name if isinstance(s, Channel) else channel(s.of)
+    return s.name if isinstance(s, ChannelName) else channel(s.of)
 
 
 @dataclass(frozen=True)
-class Harmonic:
+class HarmonicName:
     """cos or sin of ``multiple`` times the disc angle; multiple 0 is the constant."""
 
     function: Literal["cos", "sin"]
@@ -105,9 +105,9 @@ class Harmonic:
         return f"{self.function} {self.multiple}" if self.multiple else "const"
 
 
-def harmonic(name: str) -> Harmonic:
+def harmonic(name: str) -> HarmonicName:
     """What the name of a harmonic says: ``const``, ``cos 2``, ``sin 1``."""
     if name == "const":
-        return Harmonic("cos", 0)
+        return HarmonicName("cos", 0)
     function, multiple = name.split()
-    return Harmonic("sin" if function == "sin" else "cos", int(multiple))
+    return HarmonicName("sin" if function == "sin" else "cos", int(multiple))

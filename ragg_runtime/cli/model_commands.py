@@ -197,14 +197,14 @@ def info(flight: Path, mapping: Path | None) -> None:
 
     how = None if mapping is None else read_mapping(mapping)
     found = describe_flight(flight, how)
-    said = describe_other.describe_flight_file(found.as_json())
+    said = describe_other.describe_flight_file(found)
 
     def page(origin: Origin) -> str:
-        usable = not any(r["refused"] for r in found.records)
+        usable = not any(r["refused"] for r in found["records"])
         records = read_flights(flight, PAPER_G, mapping=how) if usable else []
-        return pages.write_info(said, records, replace(origin, sources=[(found.path, found.sha256)]))
+        return pages.write_info(said, records, replace(origin, sources=[(found["path"], found["sha256"])]))
 
-    conclude(found.as_json(), said, page=page, title=flight.name)
+    conclude(found, said, page=page, title=flight.name)
 
 
 @click.command(cls=Command)

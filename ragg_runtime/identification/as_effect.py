@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from math import comb
 
 from ragg_runtime.base import series_name
-from ragg_runtime.base.series_name import Channel, Derivative, Function, Relaxation, Series
+from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, Series
 from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.features import OUTPUT
 from ragg_runtime.io.record import RATES
@@ -43,7 +43,7 @@ def columns(term: Term) -> list[str]:
         s = series_name.series(name)
         while isinstance(s, Function):
             s = s.of
-        if not isinstance(s, Channel) and str(s) not in RATES:
+        if not isinstance(s, ChannelName) and str(s) not in RATES:
             found[_column(s)] = f"{_column(s)} ({in_words(s)})"
     return list(found.values())
 
@@ -51,7 +51,7 @@ def columns(term: Term) -> list[str]:
 def in_words(s: Series) -> str:
     """What a series is."""
     match s:
-        case Channel(name):
+        case ChannelName(name):
             return name
         case Derivative(of, order):
             return f"{'second ' if order == 2 else ''}time derivative of {of}"

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ragg_runtime.base import series_name
-from ragg_runtime.base.series_name import Channel, Derivative, Function, Relaxation, Series
+from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, Series
 from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.model.record import Record
 
@@ -152,7 +152,7 @@ def channel_unit(name: str) -> str:
 
 def _unit(s: Series) -> str:
     match s:
-        case Channel(name):
+        case ChannelName(name):
             return "m/s^2" if name in FORCES else SI_UNITS.get(name, "1")
         case Derivative(of, order):
             unit = _unit(of)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -29,29 +27,7 @@ MOST_GAPS = 20
 Json = dict[str, Any]
 
 
-@dataclass(frozen=True)
-class FileInfo:
-    """A flight file: its ``path``, ``sha256``, ``format``, ``bytes``, and its ``records``, one for each line, as JSON has them.
-
-    Of a record: ``name``, ``line`` (``None``: the file has only one record), ``rows``; ``start_s``, ``duration_s``,
-    ``rate_Hz`` (``None`` where there is no uniform time), ``origin`` (the instant at which time is 0, ISO 8601, or
-    ``None``); ``gap_count``, ``missing`` samples in all gaps, ``gaps`` (the longest: from_s, to_s, samples); ``columns``
-    (name, unit in the file, samples with and without a value, and minimum, maximum and mean in that unit); ``notes``: what
-    was assumed, left out or looks odd, in sentences; ``refused``: why the record is no flight as it stands, or ``None``.
-    """
-
-    path: str
-    sha256: str
-    format: str
-    bytes: int
-    records: list[Json]
-
-    def as_json(self) -> Json:
-        """All of it in the types of JSON."""
-        return dataclasses.asdict(self)
-
-
-def describe_flight(path: Path | str, mapping: Mapped | None = None) -> FileInfo:
+def describe_flight(path: Path | str, mapping: Mapped | None = None) -> Json:
     """What a flight file holds.
 
     Parameters
@@ -63,8 +39,12 @@ def describe_flight(path: Path | str, mapping: Mapped | None = None) -> FileInfo
 
     Returns
     -------
-    FileInfo
-        What keeps a record from being a flight (no unit, a column missing, a clock that runs back) stands in ``refused``.
+    dict
+        ``path``, ``sha256``, ``format``, ``bytes``, and ``records``, one for each line. Of a record: ``name``, ``line`` (``None``: the
+        file has only one record), ``rows``; ``start_s``, ``duration_s``, ``rate_Hz`` (``None`` where there is no uniform time), ``origin``
+        (the instant at which time is 0, ISO 8601, or ``None``); ``gap_count``, ``missing`` samples in all gaps, ``gaps`` (the longest:
+        from_s, to_s, samples); ``columns`` (name, unit in the file, samples with and without a value, minimum, maximum and mean in that
+        unit); ``notes``: what was assumed, left out or looks odd; ``refused``: why the record is no flight as it stands, or ``None``.
 
     Raises
     ------
@@ -73,8 +53,13 @@ def describe_flight(path: Path | str, mapping: Mapped | None = None) -> FileInfo
     """
     path = Path(path)
     made = read_recordings(path, mapping, lenient=True)
-    records = [_describe_record(r, flight_name(path), len(made) > 1) for r in made]
-    return FileInfo(str(path), file_digest(path), find_format(path).name, path.stat().st_size, records)
+    return {
+        "path": str(path),
+        "sha256": file_digest(path),
+        "format": find_format(path).name,
+        "bytes": path.stat().st_size,
+        "records": [_describe_record(r, flight_name(path), len(made) > 1) for r in made],
+    }
 
 
 def _describe_record(r: DataTable, name: str, several: bool) -> Json:

@@ -6,7 +6,7 @@ import math
 import re
 import unicodedata
 
-from ragg_runtime.base.series_name import Channel, Derivative, Function, Relaxation, Series, series
+from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, Series, series
 
 THIN = "\u202f"
 MINUS = "\u2212"
@@ -196,7 +196,7 @@ def _channel(s: Series) -> str:
             return {"abs": f"|{inner}|", "sign": f"sign({inner})", "square": f"{inner}²"}[name]
         case Derivative(of, order):
             return _differentiated(of.name, order)
-        case Channel(name):
+        case ChannelName(name):
             return _differentiated(name, 0)
 
 
@@ -204,7 +204,7 @@ def _differentiated(name: str, order: int) -> str:
     """A derivative of a channel by time; the angular acceleration is itself one of the angular rate."""
     found = _MOTION.fullmatch(name)
     if found is None:
-        return str(Derivative(Channel(name), order)) if order else name
+        return str(Derivative(ChannelName(name), order)) if order else name
     stem = "ω" if found[1].startswith("omega") else found[1]
     order += found[1] == "omegadot"
     text = f"{stem}_{found[2]}"

@@ -446,7 +446,7 @@ def test_what_a_file_holds(tmp_path: Path) -> None:
     kept = [r for k, r in enumerate(rows()) if k not in (20, 21, 40)]
     (tmp_path / "x.csv").write_text(text(PLAIN + ",fuel", [[*r, 1.5] for r in kept]))
     found = describe_flight(tmp_path / "x.csv")
-    (record,) = found.records
+    (record,) = found["records"]
     assert (record["rows"], record["rate_Hz"], record["gap_count"], record["missing"]) == (
         N - 3,
         pytest.approx(RATE),
@@ -455,8 +455,7 @@ def test_what_a_file_holds(tmp_path: Path) -> None:
     )
     assert (record["gaps"][0]["from_s"], record["gaps"][0]["samples"]) == (19 / RATE, 2)
     assert record["refused"] is not None and "'fuel'" in record["refused"]
-    json = found.as_json()["records"][0]
-    assert json["columns"][-1] == {
+    assert record["columns"][-1] == {
         "name": "fuel",
         "unit": "",
         "samples": 57,
@@ -464,7 +463,7 @@ def test_what_a_file_holds(tmp_path: Path) -> None:
         **dict.fromkeys(("minimum", "maximum", "mean"), 1.5),
     }
     (tmp_path / "x.csv").write_text(text(PLAIN, kept))
-    (record,) = describe_flight(tmp_path / "x.csv").records
+    (record,) = describe_flight(tmp_path / "x.csv")["records"]
     assert record["refused"] is None and any("2 gaps" in n for n in record["notes"])
 
 
