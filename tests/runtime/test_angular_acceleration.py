@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from ragg_runtime.estimation.fitted import noise_floor
-from ragg_runtime.estimation.spectrum import estimate
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
@@ -33,16 +32,6 @@ def test_what_a_wide_band_gives() -> None:
     assert np.std((derived - dx)[sure]) < 3e-6 * np.std(dx)
     assert np.std((differentiate(x, RATE) - dx)[sure]) > 0.1 * np.std(dx)
     assert np.flatnonzero(sure)[[0, -1]].tolist() == [REACH, len(t) - REACH - 1]
-
-
-def test_noise_is_no_reason_to_leave_samples_out() -> None:
-    """Beside the ends the derivative is short and noisier; of a noisy rate that is the lesser evil."""
-    t = np.arange(20000) / RATE
-    x = np.sin(2 * np.pi * 0.3 * t) + 1e-3 * np.random.default_rng(2).normal(size=len(t))
-    found = plan_derivative([x], RATE)
-    assert found.unsure <= 4
-    wrong = found.of(x, RATE)[0] - 2 * np.pi * 0.3 * np.cos(2 * np.pi * 0.3 * t)
-    assert np.std(wrong[REACH:-REACH]) < 1.8 * 1e-3 * RATE
 
 
 def test_gaps_cost_little_of_short_runs() -> None:
@@ -99,16 +88,3 @@ def test_the_error_of_the_derivative_is_part_of_the_noise() -> None:
     c = compare(packaged(), sheet, [flight])
     assert c.calibrated.rms_Eo == pytest.approx(noise_floor(c.fitted), rel=0.15)
     assert c.noise_floor > 3 * 2.8, "it is the largest part"
-
-
-def test_white_noise_keeps_its_coarse_spectrum() -> None:
-    """The finer spline is for what asks for it: elsewhere nothing changes, to the last bit."""
-    x = np.random.default_rng(3).normal(size=20000)
-    white = estimate([x], RATE)
-    assert np.max(np.abs(np.diff(white.log_psd))) < 0.05
-    f = np.fft.rfftfreq(len(x), 1 / RATE)
-    gain = 1 + 30 * np.exp(-(((f - 6.5) / 1.0) ** 2))
-    narrow = estimate([np.fft.irfft(np.fft.rfft(x) * gain, len(x))], RATE)
-    some = (f > 0.1) & (f < 7.9)
-    wrong = np.log(narrow.psd(f[some]) / (2 / RATE * gain[some] ** 2))
-    assert np.sqrt(np.mean(wrong**2)) < 0.25

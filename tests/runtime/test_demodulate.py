@@ -81,14 +81,6 @@ def test_a_slow_gradient_comes_through_undelayed() -> None:
     assert out.inline.size == t.size - 2 * out.valid.start
 
 
-def test_any_angle_series_will_do() -> None:
-    t = np.arange(0, 400, 1 / RATE)
-    phi = disc_angle(0.25, t) + 0.3 * np.sin(2 * np.pi * 0.011 * t) + 1.0
-    out = demodulate(3 * np.sin(2 * phi) - 5 * np.cos(2 * phi), phi, RATE, 2.0)
-    np.testing.assert_allclose(out.inline, 3.0, atol=1e-4)
-    np.testing.assert_allclose(out.cross, 2.5, atol=1e-4)
-
-
 def test_filter_is_symmetric_with_half_amplitude_at_the_cutoff() -> None:
     taps = low_pass(RATE)
     np.testing.assert_allclose(taps, taps[::-1], rtol=0, atol=1e-17)
