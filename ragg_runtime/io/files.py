@@ -23,7 +23,6 @@ from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import file_digest, replacing, require_room
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
-from ragg_runtime.instrument.units import units
 from ragg_runtime.io.array_files import (
     HDF5_MAGIC,
     read_hdf5,
@@ -274,27 +273,15 @@ def flight_name(path: Path) -> str:
 # --- writing -------------------------------------------------------------------------------------------
 
 
-def write_flight(
-    flight: Flight, path: Path | str, units_of: Mapping[str, str] | None = None, g0: float | None = None
-) -> None:
-    """Write a flight as CSV, Parquet or NetCDF, by the ending of the name; whole or not at all.
-
-    In SI, the default, reading it back gives the same bits. ``units_of`` gives some columns another unit; ``g0``:
-    m/s^2.
-    """
-    known = units(1.0 if g0 is None else g0)
+def write_flight(flight: Flight, path: Path | str) -> None:
+    """Write a flight in SI as CSV, Parquet or NetCDF, by the ending of the name; whole or not at all. The same bits are read back."""
     ordered = [n for n in SI_UNITS if n in flight.channels]
     ordered += [n for n in flight.channels if n not in SI_UNITS]
-    columns = []
-    for name in ("time", *ordered, *flight.outputs):
-        values = {"time": flight.time, **flight.channels, **flight.outputs}[name]
-        if name in (flight.outputs or flight.channels) and not flight.valid.all():
-            values = np.where(flight.valid, values, np.nan)
-        unit = (units_of or {}).get(name, flight.units[name])
-        if g0 is None and known.uses_g(unit):
-            raise ValueError(f"{name} in {unit}: g0 is needed")
-        converted = known.from_si(values, flight.units[name], unit, f"column {name!r}")
-        columns.append(DataColumn(name, unit, converted))
+    series = {n: flight.channels[n] for n in ordered} | dict(flight.outputs)
+    columns = [DataColumn("time", flight.units["time"], flight.time)]
+    for name, values in series.items():
+        known = values if flight.valid.all() else np.where(flight.valid, values, np.nan)
+        columns.append(DataColumn(name, flight.units[name], known))
     write_tables(Path(path), [DataTable(tuple(columns))])
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,11 +43,8 @@ CLEARLY = 1.1
 
 def propose_demodulator(model: Model, instrument: Instrument, s: Sampler) -> Hypothesis:
     """The low-pass, of those that people use, with which the model leaves least of inline and cross."""
-    fit_taps, rate, half = (
-        fit_low_passes(model, instrument, s.take(s.rows())),
-        s.flight.rate,
-        len(s.taps) // 2,
-    )
+    fit_taps = fit_low_passes(model, instrument, s.take(s.rows()))
+    rate, half = s.flight.rate, len(s.taps) // 2
 
     def fit(how: Demodulation) -> LinearFit:
         if how.cutoff is not None and how.cutoff > HIGHEST * rate:
@@ -69,11 +67,19 @@ def list_families() -> Iterator[Family]:
     """Every kind of low-pass; a causal one also with what it delays slow things by taken back."""
     for n in ORDERS:
         slow = 1.0 / (2 * np.pi * np.sin(np.pi / (2 * n)))
-        yield lambda f, n=n: Demodulation(kind="causal", order=n, cutoff=f)  # type: ignore[misc]
-        yield lambda f, n=n, d=slow: Demodulation(kind="causal", order=n, cutoff=f, delay=-d / f)  # type: ignore[misc]
-        yield lambda f, n=n: Demodulation(kind="butterworth", order=n, cutoff=f)  # type: ignore[misc]
-    yield lambda f: Demodulation(kind="average", length=FLAT / f)
-    yield lambda f: Demodulation(kind="causal average", length=FLAT / f)
+        yield partial(_make_butterworth, "causal", n, 0.0)
+        yield partial(_make_butterworth, "causal", n, slow)
+        yield partial(_make_butterworth, "butterworth", n, 0.0)
+    for kind in ("average", "causal average"):
+        yield partial(_make_average, kind)
+
+
+def _make_butterworth(kind: str, order: int, early: float, corner: float) -> Demodulation:
+    return Demodulation(kind=kind, order=order, cutoff=corner, delay=-early / corner)
+
+
+def _make_average(kind: str, corner: float) -> Demodulation:
+    return Demodulation(kind=kind, length=FLAT / corner)
 
 
 def _find_best(share: Callable[[Demodulation], float], rate: float) -> Demodulation:
@@ -81,13 +87,13 @@ def _find_best(share: Callable[[Demodulation], float], rate: float) -> Demodulat
     corners = [f for f in CORNERS if f < rate / 4]
     best, least = Demodulation(kind="none"), share(Demodulation(kind="none")) / CLEARLY
     for family in list_families() if corners else ():
-        corner = min(corners, key=lambda f, family=family: share(family(f)))  # type: ignore[misc]
-        found = optimize.minimize_scalar(
-            lambda x, family=family: np.log(max(share(family(float(np.exp(x)))), 1e-300)),
-            bounds=(np.log(corner / 2), np.log(2 * corner)),
-            method="bounded",
-            options={"xatol": FINE},
-        )
+        corner = corners[int(np.argmin([share(family(f)) for f in corners]))]
+
+        def loss(x: float, family: Family = family) -> float:
+            return float(np.log(max(share(family(float(np.exp(x)))), 1e-300)))
+
+        bounds = (np.log(corner / 2), np.log(2 * corner))
+        found = optimize.minimize_scalar(loss, bounds=bounds, method="bounded", options={"xatol": FINE})
         fine = family(float(np.exp(found.x)))
         if share(fine) < least:
             best, least = fine, share(fine)
