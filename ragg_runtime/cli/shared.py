@@ -278,15 +278,15 @@ def next_command(
 
 def _check_output(path: Path, inputs: Sequence[Path], *, records: bool) -> None:
     """UserError if ``path`` cannot be written, or is of a model directory, of ``inputs``, or, not for ``records``, a record."""
-    from ragg_runtime.io.files import find_ending  # only here: to import it takes a while
+    from ragg_runtime.io.files import ENDINGS, find_ending  # only here: to import it takes a while
 
-    place = Path(os.path.realpath(path))
+    place, ending = Path(os.path.realpath(path)), find_ending(path.name)
     over = ""
     if any(_is_same(path, x) for x in inputs):
         over = "what the command reads"
     elif any(_is_of_model(x) and (x.exists() or not records) for x in (place, *place.parents)):
         over = "a file of a model directory"
-    elif not records and path.is_file() and path.stat().st_size and find_ending(path.name) is not None:
+    elif not records and path.is_file() and path.stat().st_size and ending and ENDINGS[ending].name != "text":
         over = "a record"
     if over:
         remedy = "name another file, or delete this one first"

@@ -152,11 +152,16 @@ def _is_data(row: Sequence[Any]) -> bool:
 
 def is_number(text: str) -> bool:
     """Whether a cell is a number, with a decimal point or a decimal comma."""
+    found = _is_float(text) or is_comma(text) or _is_float(write_plain(text))
+    return found and text.strip() not in MISSING
+
+
+def _is_float(text: str) -> bool:
     try:
-        float(write_plain(text))
+        float(text)
     except ValueError:
-        return is_comma(text)
-    return text.strip() not in MISSING
+        return False
+    return True
 
 
 def write_plain(text: str) -> str:

@@ -65,10 +65,10 @@ def differentiate(x: Array, rate: float, valid: NDArray[np.bool_] | None = None)
     return result
 
 
-def runs(present: NDArray[np.bool_]) -> list[slice]:
-    """The contiguous runs of True, in order."""
+def runs(present: NDArray[np.bool_], shortest: int = 1) -> list[slice]:
+    """The contiguous runs of True at least ``shortest`` long, in order."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], present.astype(np.int8), [0]])))
-    return [slice(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
+    return [slice(int(a), int(b)) for a, b in edges.reshape(-1, 2) if b - a >= shortest]
 
 
 def _derivative(x: Array) -> Array:
