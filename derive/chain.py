@@ -113,6 +113,7 @@ def _sensing(hooked: Hooked, c: Context, layout: Layout) -> None:
     """Stage 1: the motion at the disc centre, by the axes of the disc at rest."""
     let = c.tape.let
     c.standing = AXES if layout.has(AXES[0, 0]) else None
+    c.turn_of_triad = TURN if layout.has(TURN[0, 0]) else None
     for e, p in _one_by_one(hooked, c):
         if e.sensing:
             c.motion = _named_motion(let, id_in_code(e.id), e.sensing(c.motion, p, c))
@@ -175,9 +176,8 @@ class _Place:
         angles = {n: k[n] for n in ("beta_x", "beta_z")}
         if label == "q":  # second-order terms, whose angles the order counting drops
             angles = {n: sp.Integer(0) for n in angles}
-        turn = TURN if self.layout.has(TURN[0, 0]) else None
         arm = symbol("radius") + k["dR"]
-        g = stages.mounting(arm, order=self.order, height=self._height, turn_of_triad=turn, **angles)
+        g = stages.mounting(arm, order=self.order, height=self._height, turn_of_triad=self.c.turn_of_triad, **angles)
         g = _named_geometry(self.let, f"{label}_disc", g)
         g = _named_geometry(self.let, label, stages.to_measurement_frame(g, self.cos_psi, self.sin_psi))
         for e, p in _one_by_one(self.hooked, self.c):

@@ -40,7 +40,7 @@ class Context:
     ``motion``, ``geometry``, ``force`` and ``sensed`` are those of the stages already passed; a hook of
     the stage ``instrument`` sees the force of the unchanged instrument. ``spin`` is that of the true disc
     angle, ``case`` the motion of what stands on the disc, ``standing`` the axes of a disc at rest that is not level, from
-    before the stage ``sensing`` on. ``small`` are parameters at zero of which only the first order
+    before the stage ``sensing`` on, ``turn_of_triad`` how its accelerometers stand (``None``: as the paper's). ``small`` are parameters at zero of which only the first order
     counts, ``about`` what of a time derivative does.
     """
 
@@ -56,6 +56,7 @@ class Context:
     Omega: sp.Expr = OMEGA
     spin: Spin = RECORDED_SPIN
     axes: sp.Matrix | None = None
+    turn_of_triad: sp.Matrix | None = None
     standing: sp.Matrix | None = None
     small: frozenset[sp.Symbol] = frozenset()
     about: About = EVERYTHING

@@ -55,6 +55,8 @@ class EffectParameter:
         takes them from there, so that ``sensing`` has to describe only what is left of it.
     growing
         Whether they are later by that in every second of the record.
+    shape
+        Whether it but shapes what the others of the effect do: while these are neutral it has no signature.
     """
 
     name: str
@@ -70,6 +72,7 @@ class EffectParameter:
     like: str | None = None
     late: tuple[str, ...] = ()
     growing: bool = False
+    shape: bool = False
 
 
 class Values(Mapping[str, sp.Expr]):
@@ -136,6 +139,11 @@ class Effect:
     switches
         Whether it changes at once where an accelerometer's voltage passes zero: a fit then does without the samples of which
         the sheet leaves the side open.
+    resonance
+        What it takes from the record through a resonance of its parameters ``f_0`` and ``Q``: the motion of a ``mount`` or
+        the force on an ``accelerometer`` (:mod:`derive.resonance`).
+    contains
+        Effects that it holds as special cases: where one of them does as well, it is no alternative.
     moot
         (order, kinematics) -> whether a model of that kind holds it already, so that it is not offered.
     recogniser
@@ -163,6 +171,8 @@ class Effect:
     told_from: tuple[str, ...] = ()
     turning: bool = False
     switches: bool = False
+    resonance: str | None = None
+    contains: tuple[str, ...] = ()
     moot: Callable[[Order, Kinematics], bool] = lambda order, kinematics: False
     recogniser: str = ""
 

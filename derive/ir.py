@@ -284,6 +284,8 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
         **({"told_from": list(e.told_from)} if e.told_from else {}),
         **({"turning": True} if e.turning else {}),
         **({"switches": True} if e.switches else {}),
+        **({} if e.resonance is None else {"resonance": e.resonance}),
+        **({"contains": list(e.contains)} if e.contains else {}),
         "kind": e.kind,
         "parameters": [
             {
@@ -301,6 +303,7 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
                 **({} if q.like is None else {"like": q.like}),
                 **({"late": list(q.late)} if q.late else {}),
                 **({"growing": True} if q.growing else {}),
+                **({"shape": True} if q.shape else {}),
             }
             for q in e.parameters
         ],

@@ -114,7 +114,7 @@ def turn(axis: Vector, angle: sp.Expr, order: int | None) -> sp.Matrix:
 
 # Axes of the disc frame at the accelerometer: radial, tangential, axial.
 _RADIAL, _TANGENTIAL, _AXIAL = sp.Matrix([1, 0, 0]), sp.Matrix([0, 1, 0]), sp.Matrix([0, 0, 1])
-_NOMINAL_TRIAD = sp.Matrix([[0, 1, 0], [1, 0, 0], [0, 0, -1]])
+NOMINAL_TRIAD = sp.Matrix([[0, 1, 0], [1, 0, 0], [0, 0, -1]])
 
 
 def mounting(
@@ -132,7 +132,7 @@ def mounting(
     about_axis = turn(_AXIAL, beta_z, order.rotation)
     lift = turn(_TANGENTIAL, -beta_x, order.rotation)
     dip = turn(_TANGENTIAL, beta_x, order.rotation)
-    nominal = _NOMINAL_TRIAD.T if turn_of_triad is None else turn_of_triad * _NOMINAL_TRIAD.T
+    nominal = NOMINAL_TRIAD.T if turn_of_triad is None else turn_of_triad * NOMINAL_TRIAD.T
     position = R * about_axis * lift * _RADIAL
     return Geometry(position if height == 0 else position + height * _AXIAL, (about_axis * dip * nominal).T)
 

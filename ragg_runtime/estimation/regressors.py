@@ -18,6 +18,7 @@ from ragg_runtime.model.evaluate import Evaluator, unit_factor, voltages
 from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Effect, Model
 from ragg_runtime.model.record import Record, made_of
+from ragg_runtime.model.resonance import neutral_values, with_responses
 
 Array = NDArray[np.float64]
 
@@ -241,6 +242,7 @@ def linearise(at: Point, o: Observation, residual: Array | None = None) -> Array
     columns = np.zeros((n_base + len(at.candidates) + 1, len(o.series), len(r.time)))
     _put_derivatives(columns, at.model.evaluators("chain"), at.base, r, o, p)
     if at.candidates:
+        r = with_responses(r, neutral_values(at.model.candidates))
         q = np.concatenate([p, np.zeros(at.model.signatures.SIZE - len(p))])
         _put_derivatives(columns[n_base:], at.model.evaluators("signatures"), at.candidates, r, o, q)
     for column in columns[:-1] if o.recorded.demodulated else ():

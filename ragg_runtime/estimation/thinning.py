@@ -26,6 +26,7 @@ from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.lateness import late
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import HALO
+from ragg_runtime.model.resonance import memory, values_of
 from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
@@ -50,9 +51,9 @@ def certain(model: Model, instrument: Instrument, observations: Sequence[Observa
 
 
 def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation:
-    """Without as much of either end as motion may be late."""
-    moving = dict(late(model))
-    if not moving:
+    """Without as much of either end as motion may be late, and what a resonance may remember of what was before."""
+    moving, resonant = dict(late(model)), [*values_of(model, vector(model, instrument))]
+    if not (moving or resonant):
         return o
     r = o.record
     most = [
@@ -61,8 +62,11 @@ def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation
         if k in moving
     ]
     n = int(np.ceil(LATEST * max(most, default=0.0)))
+    settled = max((memory(f_0, LATEST * Q) * r.rate for _, f_0, Q in resonant), default=0.0)
+    begun = max(n, int(min(settled, MOST_LEFT_OUT / 2 * len(r.valid))))
+    n = max(n, HALO if resonant else 0)  # beyond the end the record is continued as it stands
     inside = np.zeros(len(r.valid), dtype=np.bool_)
-    inside[n : len(inside) - n] = True
+    inside[begun : len(inside) - n] = True
     kept = r.valid & inside
     if np.array_equal(kept, r.valid) or np.sum(kept) < (1.0 - MOST_LEFT_OUT) * np.sum(r.valid):
         return o

@@ -234,7 +234,7 @@ def _linear(f: Fitted, given: Sequence[int], extended: Model, instrument: Instru
     value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
     p = vector(extended, f.instrument)
     for c, place in design.list_base_columns(extended, instrument):
-        p[place] = value[c.label]
+        p[place] = value.get(c.label, p[place])  # what but shapes the others has no linear fit
     return p
 
 

@@ -1,4 +1,4 @@
-"""Motion that stands late in a record, taken from where it stands.
+"""The record as a model with certain parameters takes it: motion from where it stands, and through resonances.
 
 A Taylor series in a lateness fails at half a sample: so it is taken about the lateness that a fit has come to.
 """
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.model.model import EffectParameter, Model
 from ragg_runtime.model.record import Record
+from ragg_runtime.model.resonance import values_of, with_responses
 
 Array = NDArray[np.float64]
 
@@ -21,7 +22,13 @@ the change, as well as derivatives are known (up to 42 % of the Nyquist frequenc
 
 
 def about(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
-    """The record with its motion moved, and what of the parameters p (size,), SI, is left for the series beside it."""
+    """The record with its motion moved, and what of the parameters p (size,), SI, is left for the series beside it.
+
+    Parameters of resonances are left at their neutral values, about which the chain has its series.
+    """
+    resonant = [*values_of(model, p)]
+    if resonant:
+        r, p = with_responses(r, resonant), _at_neutral(model, p)
     rest = p
     moves: dict[str, tuple[float, float]] = {}
     end = float((r.whole or r).time[-1])
@@ -35,6 +42,15 @@ def about(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
                 offset, drift = moves.get(quantity, (0.0, 0.0))
                 moves[quantity] = (offset, drift + by) if q.growing else (offset + by, drift)
     return (r.moved(moves) if moves else r), rest
+
+
+def _at_neutral(model: Model, p: Array) -> Array:
+    neutral = {q.symbol: q.neutral for e in model.effects for q in e.parameters if q.shape}
+    rest, place = p.copy(), 0
+    for name, size in model.chain.PARAMETERS:
+        rest[place : place + size] = neutral.get(name, rest[place : place + size])
+        place += size
+    return rest
 
 
 def late(model: Model) -> Iterator[tuple[int, EffectParameter]]:

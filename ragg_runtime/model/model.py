@@ -58,7 +58,8 @@ class EffectParameter:
 
     ``physical`` is the one value, beside the neutral one, that nature knows (``None``: any). ``plausible`` is of a
     navigation instrument; of another it grows with the sigma that the sheet gives the accelerometers' parameter ``like``.
-    ``late``, ``growing``: which quantities of the motion it makes late (:mod:`ragg_runtime.model.lateness`).
+    ``late``, ``growing``: which quantities of the motion it makes late (:mod:`ragg_runtime.model.lateness`). ``shape``: it does
+    nothing while the others are neutral.
     """
 
     name: str
@@ -75,6 +76,7 @@ class EffectParameter:
     like: str | None = None
     late: tuple[str, ...] = ()
     growing: bool = False
+    shape: bool = False
 
     @property
     def default(self) -> float:
@@ -87,7 +89,8 @@ class Effect:
     """What the runtime knows of a physical effect, from the manifest of the derivation.
 
     ``common_of``, ``told_from``: parameters of the accelerometers that the sheet knows; ``turning``: it is one only where the disc
-    turns (:mod:`ragg_runtime.identification.sheet`); ``switches``: where a voltage passes zero.
+    turns (:mod:`ragg_runtime.identification.sheet`); ``switches``: where a voltage passes zero;
+    ``resonance``: what it takes through one (:mod:`ragg_runtime.model.resonance`); ``contains``: effects that are special cases.
     """
 
     id: str
@@ -104,6 +107,8 @@ class Effect:
     told_from: tuple[str, ...] = ()
     turning: bool = False
     switches: bool = False
+    resonance: str | None = None
+    contains: tuple[str, ...] = ()
 
     def missing(self, recorded: Container[str]) -> tuple[str, ...]:
         """The channels that it needs and a flight, which has those recorded, does not have."""
@@ -232,5 +237,5 @@ def _effect(entry: Mapping[str, Any]) -> Effect:
     parameters = tuple(
         EffectParameter(**{**q, "late": tuple(q.get("late", ()))}) for q in entry["parameters"]
     )
-    several = {k: tuple(entry.get(k, ())) for k in ("channels", "told_from")}
+    several = {k: tuple(entry.get(k, ())) for k in ("channels", "told_from", "contains")}
     return Effect(**{**entry, **several, "parameters": parameters})

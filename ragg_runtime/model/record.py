@@ -175,7 +175,7 @@ class Record:
         if name == "phi":
             return np.asarray(np.mod(self.phi, 2 * np.pi))
         if name in ("input", "input-rms"):
-            x, y = self._in_plane
+            x, y, _ = self.along_disc
             along, across = y * self.cos_phi - x * self.sin_phi, x * self.cos_phi + y * self.sin_phi
             forces = [(w, np.abs(along * cosine - across * sine)) for cosine, sine, w in self.input_axes]
             if name == "input":
@@ -189,13 +189,14 @@ class Record:
         return np.sqrt(sum((self.channels[f"{inner}_{k}"] ** 2 for k in "xyz"), np.zeros(len(self.time))))
 
     @property
-    def _in_plane(self) -> tuple[Array, Array]:
-        """The specific force along the first two axes of the disc at rest, (N,) each, m/s^2."""
+    def along_disc(self) -> tuple[Array, Array, Array]:
+        """The specific force along the axes of the disc at rest, (N,) each, m/s^2."""
         a = [self.channels[n] for n in SPECIFIC_FORCE]
         if self.axes is None:
-            return a[0], a[1]
-        one, two = (np.asarray(sum(w * x for w, x in zip(axis, a, strict=True))) for axis in self.axes)
-        return one, two
+            return a[0], a[1], a[2]
+        axes = (*self.axes, np.cross(*self.axes))
+        x, y, z = (np.asarray(sum(w * v for w, v in zip(axis, a, strict=True))) for axis in axes)
+        return x, y, z
 
     def part(self, rows: slice, only: Container[str] | None = None) -> Record:
         """Some of the samples, copied, with what derivatives need of their neighbours; ``only`` some channels, and the angle."""

@@ -17,6 +17,7 @@ from ragg_runtime.reference.chain import Auxiliary, Chain
 from ragg_runtime.reference.effects import EffectValues, Injected, channels_needed, resolve
 from ragg_runtime.reference.effects.geometry import Kinematics, random_angle, spin_share
 from ragg_runtime.reference.effects.output import record_output
+from ragg_runtime.reference.effects.resonance import swallowed
 from ragg_runtime.reference.effects.sensing import record_motion
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
 from ragg_runtime.reference.gravity import COMPONENTS, Gravity
@@ -170,6 +171,8 @@ def _clean(chain: Chain, time: Array, rate: float, seed: int) -> Array:
     for begin in range(0, time.size, _CHUNK):
         part = slice(begin, begin + _CHUNK)
         clean[:, part] = chain.voltages(time[part], error[part])
+    if resonance := chain.effects.get("accelerometer-resonance"):
+        clean -= swallowed(resonance, lambda t: chain.voltages(t, np.zeros(t.size)), time)
     return clean
 
 

@@ -43,6 +43,7 @@ def _shared(unit: str, *names: str, neutral: float = 0.0) -> dict[str, Parameter
 _TRACELESS = ("xx", "xy", "xz", "yy", "yz")
 _PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
 _TURNING = tuple(f"G_{c}_{axis}" for axis in ("roll", "pitch") for c in _TRACELESS)
+_RESONANCE = _shared("Hz", "f_0", neutral=5.0) | _shared("1", "Q", neutral=10.0)
 
 CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "cubic-input": _each("1/(m/s^2)^2", "K_iii"),
@@ -104,6 +105,8 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "bearing-run-out": _shared("m", *(f"{a}_{k}{n}" for n in (1, 2) for k in "xyz" for a in "cs")),
     "adc-nonlinearity": _each("m/s^2", "h"),
     "second-order-loop": _each("s^2", "b"),
+    "mount-resonance": _shared("1", "share") | _RESONANCE,
+    "accelerometer-resonance": _each("s", "u") | _each("s^2", "v") | _RESONANCE,
     "output-curve": _shared("1/V", "c_2") | _shared("1/V^2", "c_3"),
     "thermal-misalignment": _each("rad/K", "dvartheta_y_dT"),
     "thermal-second-order": _each("1/(m/s^2)/K", "dK2_dT"),

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected, Values
+from ragg_runtime.reference.effects.resonance import recoil
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE, averaging
 from ragg_runtime.reference.motion import Motion, MotionState
 from ragg_runtime.reference.rotation import by_vector
@@ -47,6 +48,10 @@ def record_motion(
                 omega + w * (past.omega - true.omega),
                 omegadot + w * (past.omegadot - true.omegadot),
             )
+    if mount := effects.get("mount-resonance"):
+        a = a + np.stack([recoil(mount, lambda t, x=x: x.rate(t, delay), time)[0] for x in motion.a])
+        turning = [recoil(mount, lambda t, x=x: x.rate(t, delay), time) for x in motion.omega]
+        omega, omegadot = (x + np.stack(more) for x, more in zip((omega, omegadot), zip(*turning)))
     if turned := effects.get("imu-misalignment"):
         # Components along axes turned by e: the inverse rotation of the vector.
         to_sensor = by_vector([turned["e_x"], turned["e_y"], turned["e_z"]]).T

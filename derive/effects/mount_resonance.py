@@ -1,0 +1,47 @@
+"""A mount between motion sensor and disc that resonates."""
+
+import sympy as sp
+
+from derive.context import Context
+from derive.effect import Effect, EffectParameter, Values
+from derive.resonance import PARAMETERS, response
+from derive.stages import Motion
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    def through(name: str, v: sp.Matrix) -> sp.Matrix:
+        further = [response(f"mount_{name}_{k}", p, c, changes=name == "a") for k in "xyz"]
+        return v + p.share * sp.Matrix(further)
+
+    return m._replace(
+        a=through("a", m.a), omega=through("omega", m.omega), omegadot=through("omegadot", m.omegadot)
+    )
+
+
+EFFECT = Effect(
+    id="mount-resonance",
+    title="Resonance of the mount",
+    physics=(
+        "Isolators or a frame stand between the motion sensor and the disc: spring and damper pass slow motion as it is, "
+        "what is near their resonance enlarged, and what is faster not at all."
+    ),
+    source="transmissibility of a mass on spring and damper (D. J. Ewins, Modal Testing, 2000; ISO 2041)",
+    equation=(
+        r"\bm a = \bm a_{rec} + \kappa (H - 1)\,\bm a_{rec},\; H = \frac{1 + d s}{1 + d s + b s^2},\;"
+        r" b = (2\pi f_0)^{-2},\; d = (2\pi f_0 Q)^{-1};\; \bm\omega, \dot{\bm\omega} \text{ likewise}"
+    ),
+    limits=(
+        "One resonance, alike along all axes; kappa is 1 where all of the disc stands on it, less for the share of a mode. "
+        "Far above what the motion holds only kappa/f_0^2 shows, as imu-filter; Q shows where the motion comes near f_0. "
+        "A record begins at rest, so that its first seconds are left out."
+    ),
+    parameters=(
+        EffectParameter(
+            "share", r"\kappa", "1", "share of the motion that passes the resonance", 1.0, shared=True
+        ),
+        *PARAMETERS,
+    ),
+    sensing=sensing,
+    resonance="mount",
+    contains=("imu-filter",),
+)

@@ -1,0 +1,66 @@
+"""Resonances of a mount and of accelerometers, as differential equations integrated in time from rest on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+from scipy.interpolate import make_interp_spline
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.reference.effects.catalogue import Values
+
+Array = NDArray[np.float64]
+
+FINE = 1024.0
+"""Steps per second of the integration, by the trapezoidal rule: motion of 1 Hz comes out to a hundred-thousandth of its change."""
+
+OVER = 8
+"""Instants between two samples at which voltages are known before they are interpolated."""
+
+
+def oscillator(values: Values) -> tuple[float, float]:
+    """(d, b) of 1 + d s + b s^2, s and s^2; UserError if it is no resonance."""
+    f_0, Q = float(values["f_0"]), float(values["Q"])
+    if not (f_0 > 0 and Q > 0):
+        raise UserError("f_0 and Q of a resonance must be positive", found=f"{f_0:g} Hz, Q = {Q:g}")
+    return 1 / (2 * np.pi * f_0 * Q), 1 / (2 * np.pi * f_0) ** 2
+
+
+def recoil(values: Values, rate: Callable[[Array], Array], time: Array) -> tuple[Array, Array]:
+    """What the sensor beside a mount misses of a quantity (N,), less that of the disc, and its rate.
+
+    The disc's x is that of the sensor, x_s, and a share of what the resonance adds; solved for x_s with the disc's given by its
+    ``rate``: x_s - x = share b s^2 / (1 + d s + (1 - share) b s^2) x.
+    """
+    (d, b), share = oscillator(values), float(values["share"])
+    fine = time[0] + np.arange(int(np.ceil((time[-1] - time[0]) * FINE)) + 2) / FINE
+    y = _integrated(rate(fine), [share * b, 0.0], [(1 - share) * b, d, 1.0])
+    slope = np.gradient(y, 1 / FINE)
+    return make_interp_spline(fine, y, k=3)(time), make_interp_spline(fine, slope, k=3)(time)
+
+
+def swallowed(values: Values, voltages: Callable[[Array], Array], time: Array) -> Array:
+    """What a resonance takes from voltages (n, N) of accelerometers, V, with (u s + v s^2)/(1 + d s + b s^2) for each."""
+    if len(time) < 2:
+        return np.zeros((len(values["u"]), len(time)))
+    d, b = oscillator(values)
+    known = np.linspace(time[0], time[-1], OVER * (len(time) - 1) + 1)
+    splines = make_interp_spline(known, voltages(known), k=5, axis=1)
+    few = int(np.ceil(FINE * (time[1] - time[0])))
+    fine = np.linspace(time[0], time[-1], few * (len(time) - 1) + 1)
+    rate = 1 / (fine[1] - fine[0])
+    parts = zip(splines(fine), values["u"], values["v"], strict=True)
+    return np.stack([_integrated(x, [v, u, 0.0], [b, d, 1.0], rate)[::few] for x, u, v in parts])
+
+
+def _integrated(
+    x: Array, numerator: Sequence[float], denominator: Sequence[float], rate: float = FINE
+) -> Array:
+    """A series behind a rational response of s, in falling powers, from the state on in which x has always been as at first."""
+    if not np.any(numerator):
+        return np.zeros_like(x)
+    B, A = signal.bilinear(np.trim_zeros(numerator, "f"), np.trim_zeros(denominator, "f"), rate)
+    return np.asarray(signal.lfilter(B, A, x, zi=signal.lfilter_zi(B, A) * x[0])[0])
