@@ -177,7 +177,9 @@ class _Place:
         if label == "q":  # second-order terms, whose angles the order counting drops
             angles = {n: sp.Integer(0) for n in angles}
         arm = symbol("radius") + k["dR"]
-        g = stages.mounting(arm, order=self.order, height=self._height, turn_of_triad=self.c.turn_of_triad, **angles)
+        g = stages.mounting(
+            arm, order=self.order, height=self._height, turn_of_triad=self.c.turn_of_triad, **angles
+        )
         g = _named_geometry(self.let, f"{label}_disc", g)
         g = _named_geometry(self.let, label, stages.to_measurement_frame(g, self.cos_psi, self.sin_psi))
         for e, p in _one_by_one(self.hooked, self.c):

@@ -42,7 +42,8 @@ def log_bayes(chi2: Array | float, rank: Array | float) -> Array:
 @dataclass(frozen=True)
 class Test:
     """A likelihood-ratio test of some columns: chi-square with ``rank`` degrees of freedom; ``log_p`` is corrected for the number
-    of sub-blocks tried, of which ``which`` are the best one's columns; ``log_b``: the log evidence, charged alike.
+    of sub-blocks tried, of which ``which`` are the best one's columns; ``log_b``: the log evidence, charged alike. ``inflation``: how
+    much more its scores vary than they should.
     """
 
     chi2: float
@@ -50,6 +51,12 @@ class Test:
     log_p: float
     which: tuple[int, ...]
     log_b: float = 0.0
+    inflation: float = 1.0
+
+    @property
+    def charge(self) -> float:
+        """Logarithm of the number of variants that it was chosen from."""
+        return float(log_bayes(self.chi2 / self.inflation, self.rank)) - self.log_b
 
 
 def project(T: Array, onto: int) -> Array:

@@ -115,16 +115,14 @@ class Evidence:
         tests = {e: self.last.field.tests([o for o in chosen if o != e])[e] for e in chosen}
         return {e: t.log_p for e, t in tests.items()}
 
-    def _tests(self, o: Outcome) -> list[Test]:
-        tests = dict(self.first.choice.tests) | {t.effect: t.test for t in self.steps}
-        return [tests[e] for e in o.effects if e in tests]
-
     def explained(self, o: Outcome) -> tuple[float, int]:
         """Chi-square that an outcome's effects explain of what the model leaves without them, and with how many coefficients."""
         field = self.first.field
         known = [e for e in o.effects if e in field.candidates]
         linear, rank = field.joint([self._block(e) for e in known]) if known else (0.0, 0)
         rank += len(o.effects) - len(known)
+        if not o.given:
+            rank += sum(q.shape for e in o.target.model.effects if e.id in o.effects for q in e.parameters)
         if o.given or (linear < strong.STRONG and len(known) == len(o.effects)):
             return linear, rank
         # second orders of strong effects: what is left once they are derived into the model, with a noise that is estimated anew
@@ -138,7 +136,11 @@ class Evidence:
 
     def charge(self, o: Outcome) -> float:
         """Logarithm of the number of ways in which an outcome's effects may be present."""
-        return sum(float(log_bayes(t.chi2, t.rank)) - t.log_b for t in self._tests(o) if t.rank)
+        tests = {e: self.first.choice.tests[e] for e in o.effects if e in self.first.choice.tests}
+        charges = {e: float(log_bayes(t.chi2, t.rank)) - t.log_b for e, t in tests.items() if t.rank}
+        # of what is strong the scores vary with what a linear test misses, and the model with it does not
+        charges |= {t.effect: t.test.charge for t in self.steps if t.effect in o.effects}
+        return sum(charges.values())
 
     def rivals(self) -> Mapping[str, tuple[str, ...]]:
         """For every chosen effect those that would do as well in its place."""

@@ -46,7 +46,7 @@ class Field:
     ``candidates`` are columns after the base, by effect; ``penalty`` the logarithm of the number of variants an effect was chosen
     from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``blocks``: R factors
     of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``). ``within``: a field of some of
-    the effects on the same flights, whose tests hold here.
+    the effects on the same flights, whose tests hold here. ``contains``: the special cases of effects, which are no alternatives to them.
     """
 
     T: Array
@@ -57,6 +57,7 @@ class Field:
     freedom: float = np.inf
     blocks: tuple[Array, ...] = ()
     within: Field | None = None
+    contains: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     norms: Array = field(init=False)
     P: Array = field(init=False)
     _known: dict[tuple[str, ...], Mapping[str, Test]] = field(init=False, default_factory=dict)
@@ -229,7 +230,8 @@ def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
         others = [o for o in choice.chosen if o != e]
         conditional = f.tests(others)
         mine = conditional[e]
-        result[e] = tuple(sorted(o for o, t in conditional.items() if o != e and t.rank and alike(mine, t)))
+        alternatives = (o for o, t in conditional.items() if o != e and t.rank and alike(mine, t))
+        result[e] = tuple(sorted(o for o in alternatives if e not in f.contains.get(o, ())))
     return result
 
 
@@ -242,8 +244,16 @@ def field_of(
     freedom = sum(n.freedom for n in f.calibration.noise)
     uneven_noise = any(n.uneven for n in f.calibration.noise)
     blocks = uneven.telling(t for own in f.triangles for t in own) if uneven_noise else ()
-    T = f.whole if T is None else T
-    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks, within=within)
+    return Field(
+        T=f.whole if T is None else T,
+        n_base=f.n_base,
+        candidates=kept,
+        rows=f.calibration.rows,
+        freedom=freedom,
+        blocks=blocks,
+        within=within,
+        contains={e.id: e.contains for e in f.model.candidates},
+    )
 
 
 def testable_effects(f: Fitted) -> list[str]:

@@ -181,12 +181,14 @@ def _best(
     # effects with the same signature are all of its group, however many they are
     alike = [e for e in near[CONTENDERS:] if _alike(tests[e], tests[best])]
     left |= score(alike) if alike else {}
+    contains = stage.field.contains
     equal = [e for e in left if left[e] < left[best] + INDISTINGUISHABLE]
-    effect = min(equal, key=near.index)
+    effect = min((e for e in equal if not {*contains.get(e, ())} & {*equal}), key=near.index)
     as_near = [
         e for e in left if left[e] < left[effect] + INDISTINGUISHABLE and _as_sure(tests[e], tests[effect])
     ]
-    return effect, tuple(sorted({*equal, *as_near} - {effect}))
+    others = sorted({*equal, *as_near} - {effect})
+    return effect, tuple(e for e in others if effect not in contains.get(e, ()))
 
 
 def _evidence(t: Test, columns: int) -> float:

@@ -95,4 +95,4 @@ def tempered(t: Test, by: float, freedom: float, blocks: int) -> Test:
     known = min(freedom, blocks - 1.0)
     change = log_sf(t.chi2 / by, t.rank, known) - log_sf(t.chi2, t.rank, freedom)
     less = float(log_bayes(t.chi2, t.rank) - log_bayes(t.chi2 / by, t.rank))
-    return replace(t, log_p=min(0.0, t.log_p + change), log_b=t.log_b - less)
+    return replace(t, log_p=min(0.0, t.log_p + change), log_b=t.log_b - less, inflation=by)

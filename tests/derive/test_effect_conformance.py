@@ -40,7 +40,7 @@ STEP_AT = 7.3
 """Instant of the gain step, s: between two samples."""
 
 by_effect = pytest.mark.parametrize("effect", HOOKED, ids=lambda e: e.id)
-FITTED = [(e, q) for e in HOOKED for q in e.parameters if q.fitted]
+FITTED = [(e, q) for e in HOOKED for q in e.parameters if q.fitted and not q.shape]
 by_parameter = pytest.mark.parametrize(
     ("effect", "parameter"), FITTED, ids=[f"{e.id}.{q.name}" for e, q in FITTED]
 )
@@ -104,7 +104,17 @@ AUXILIARIES = {
 EOTVOS_VOLTS = float(np.mean(INSTRUMENT.accelerometers["k_VI"] * INSTRUMENT.accelerometers["K1"])) * 1e-10
 """Volts of one accelerometer for a gradient of 1 Eo across a radius of 0.1 m."""
 
+_UNITS = {"a": "m/s^2", "omega": "rad/s", "omegadot": "rad/s^2"}
+RESPONSES = {
+    **{f"C__mount_{n}_{k}": u for n, u in _UNITS.items() for k in "xyz"},
+    **{f"C__rate_{k}": "m/s^3" for k in ("radial", "tangential", "axial")},
+    **{f"C__curvature_{k}": "m/s^4" for k in ("radial", "tangential", "axial")},
+}
+"""What passes resonances at their neutral values, with its unit; its changes beside these are zero here."""
+
 CHANNEL_UNIT = {
+    **RESPONSES,
+    **{f"{n}_by_{q}": unit for n, unit in RESPONSES.items() for q in ("f_0", "Q")},
     "d_temperature": "K/s",
     "d_spin_angle": "rad/s",
     "d2_spin_angle": "rad/s^2",
@@ -154,6 +164,9 @@ def _reference(
             by = late + (float(skew.get(f"delta_{k}", 0.0)) if name == "a" else 0.0)
             channels[f"d_{name}_{k}"] = _rate_of(_averaged(s, b)).value(recorded, by)
             channels[f"d2_{name}_{k}"] = _rate_of(_rate_of(_averaged(s, b))).value(recorded, by)
+    for n, name in enumerate(RESPONSES):
+        channels[name] = _signal(np.random.default_rng(n), 0.0, 0.1).value(found.time)
+        channels |= {f"{name}_by_{q}": np.zeros_like(found.time) for q in ("f_0", "Q")}
     channels["G_out"] = found.G_out
     phi = disc_angle(INSTRUMENT.spin_frequency, found.time)
     spin = np.full(found.time.size, 2 * np.pi * INSTRUMENT.spin_frequency)
@@ -297,9 +310,11 @@ def reach(effect: Effect, q: EffectParameter, share: float) -> float:
     )
 
 
+# what passes a resonance is formed of a record by the runtime: tests/runtime/test_resonance.py
+KNOWN = [(e, q) for e, q in FITTED if (e.id in CATALOGUE or e.id in DIRECT) and e.resonance is None]
 by_known_parameter = pytest.mark.parametrize(
     ("effect", "parameter"),
-    [pytest.param(e, q, id=f"{e.id}.{q.name}") for e, q in FITTED if e.id in CATALOGUE or e.id in DIRECT],
+    [pytest.param(e, q, id=f"{e.id}.{q.name}") for e, q in KNOWN],
 )
 
 
@@ -422,9 +437,11 @@ def test_units_are_consistent(effect: Effect) -> None:
         name = effect.symbol(q).name
         # A random process enters as the disc angle itself.
         constants[name] = 1.0 if effect.kind == "random" else scale(q.unit)
-        p[name] = reach(effect, q, 1e-3) if q.fitted else STEP_AT
+        p[name] = q.neutral if q.shape else reach(effect, q, 1e-3) if q.fitted else STEP_AT
     f = voltage((effect,), PAPER)
-    neutral = {n: STEP_SYMBOLS.get(n, 0.0) for n in p}
+    neutral = {n: STEP_SYMBOLS.get(n, 0.0) for n in p} | {
+        effect.symbol(q).name: q.neutral for q in effect.parameters if q.shape
+    }
     for j in range(4):
         values = {n: v for n, v in (chain_values(j, channels) | p).items() if n in f.inputs}
         nothing = values | {n: v for n, v in neutral.items() if n in f.inputs}
@@ -447,6 +464,7 @@ def test_it_reads_the_channels_that_it_declares(effect: Effect) -> None:
     known |= {"d_spin_angle", "d2_spin_angle"}
     declared = {*effect.channels, *(q.channel for q in effect.parameters if q.channel)}
     rates = {f"d_{name}" for name in declared}
+    known |= RESPONSES.keys() if effect.resonance else set()
     assert set(a.inputs) - known <= declared | rates
     # An accelerometer's own misalignment may hide a channel from one signature, but not from the model.
     read = set(voltage((effect,), LIKE_REFERENCE).inputs)

@@ -102,12 +102,14 @@ SIZES = {
     "1/(m/s^2)/s": 1e-8,
     "1/T": 1.0,
     "1/A": 1e-3,
+    "Hz": 5.0,
 }
 RECORD_ONLY = {
     "time-offset", "clock-drift", "imu-lever-arm", "imu-misalignment", "gyro-scale", "gyro-delay",
     "gyro-bias",
     "gyro-g-sensitivity", "imu-acceleration-scale", "imu-acceleration-bias", "imu-acceleration-misalignment",
     "imu-saturation", "imu-filter", "imu-skew", "imu-acceleration-quadratic", "imu-thermal", "gyro-misalignment",
+    "mount-resonance",
 }  # fmt: skip
 OUTPUT_ONLY = {"saturation", "quantisation", "output-curve"}
 

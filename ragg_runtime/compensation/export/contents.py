@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, gain, sees
@@ -120,6 +121,14 @@ class Contents:
 
     def inputs(self) -> list[Json]:
         """The series that the model reads, in order: a column of the flight, or a time derivative of one; of :data:`DISC` one a disc."""
+        for e in self.model.effects:
+            if e.resonance is not None:
+                raise UserError(
+                    "a model with a resonance cannot be exported",
+                    where=f"the effect {e.id}",
+                    found="motion that has passed it, of many seconds before every sample",
+                    remedy="ragg remove the effect, or compensate with ragg",
+                )
         found = []
         for name in self.model.chain.INPUTS:
             match = None if name in SI_UNITS else re.fullmatch(r"d(?P<order>2?)_(?P<of>.+)", name)

@@ -44,7 +44,7 @@ def recoil(values: Values, rate: Callable[[Array], Array], time: Array) -> tuple
 
 def swallowed(values: Values, voltages: Callable[[Array], Array], time: Array) -> Array:
     """What a resonance takes from voltages (n, N) of accelerometers, V, with (u s + v s^2)/(1 + d s + b s^2) for each."""
-    if len(time) < 2:
+    if len(time) < 2 or not (np.any(values["u"]) or np.any(values["v"])):
         return np.zeros((len(values["u"]), len(time)))
     d, b = oscillator(values)
     known = np.linspace(time[0], time[-1], OVER * (len(time) - 1) + 1)
