@@ -40,8 +40,8 @@ class Context:
     ``motion``, ``geometry``, ``force`` and ``sensed`` are those of the stages already passed; a hook of
     the stage ``instrument`` sees the force of the unchanged instrument. ``spin`` is that of the true disc
     angle, ``case`` the motion of what stands on the disc, ``standing`` the axes of a disc at rest that is not level, from
-    before the stage ``sensing`` on, ``turn_of_triad`` how its accelerometers stand (``None``: as the paper's). ``small`` are parameters at zero of which only the first order
-    counts, ``about`` what of a time derivative does.
+    before the stage ``sensing`` on, ``turn_of_triad`` how its accelerometers stand (``None``: as the paper's). ``small``
+    are parameters at zero of which only the first order counts, ``about`` what of a time derivative does.
     """
 
     tape: Tape

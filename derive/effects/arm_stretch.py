@@ -23,7 +23,7 @@ EFFECT = Effect(
         r" \times \dot R_j \bm e_r + \ddot R_j \bm e_r"
     ),
     limits=(
-        "Linear, without resonance (that of an accelerometer is second-order-loop, that of the disc's mount imu-filter), "
+        "Linear, without resonance (that of an accelerometer is accelerometer-resonance, that of the disc's mount mount-resonance), "
         "with the force at the unstretched position. A steady horizontal force stretches and releases the arm once a "
         "turn: the Coriolis force on the stretching arm exceeds the effect of its length, and acts mostly like a scale factor."
     ),

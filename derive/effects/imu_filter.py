@@ -32,7 +32,8 @@ EFFECT = Effect(
     ),
     limits=(
         "First order in b, for motion slow against filter or resonance, whose quality factor does not matter there; alike along all "
-        "axes. The delay is time-offset or gyro-delay. A resonance of one accelerometer is second-order-loop."
+        "axes. The delay is time-offset or gyro-delay. A resonance near the motion's frequencies is mount-resonance, one of an "
+        "accelerometer accelerometer-resonance."
     ),
     parameters=tuple(
         EffectParameter(f"b_{n}", latex, "s^2", f"curvature of the response to {of}", 1e-5, shared=True)

@@ -25,8 +25,8 @@ EFFECT = Effect(
     equation=r"V_j \leftarrow V_j + b_j\,\ddot V_j",
     limits=(
         "First order in b, for forces slow against the loop. The delay itself is lag; a b common to all accelerometers is"
-        " output-filter, one of the motion only imu-filter. A mount that resonates at w has b = -1/w^2. The simulator has "
-        "loops without a resonance (b not negative)."
+        " output-filter, one of the motion only imu-filter. A mount that resonates at w has b = -1/w^2; near the force's "
+        "frequencies it is accelerometer-resonance. The simulator has loops without a resonance (b not negative)."
     ),
     parameters=(
         EffectParameter("b", "b", "s^2", "curvature of the loop's response at low frequencies", 1e-8),

@@ -71,14 +71,14 @@ def _responses(r: Record, kind: str, f_0: float, Q: float) -> dict[str, Array]:
     given = _motion(near) if kind == "mount" else _turning_force(near)
     size = last - first + 2 * reach
     length = next_fast_len(size, real=True)
-    s = 2j * np.pi * rfftfreq(length, 1.0 / r.rate)
+    s = np.asarray(2j * np.pi * rfftfreq(length, 1.0 / r.rate), dtype=np.complex128)
     found: dict[str, Array] = {}
     at = np.arange(last - first)
     for name, x in given.items():
         there = near.valid | ((x != 0.0) & np.isfinite(x))  # a part has zeros for what is missing
         if there.any() and not there.all():
             x = np.interp(at, at[there], x[there])
-        spectrum = rfft(_continued(x, reach, length - size + reach))
+        spectrum: Complex = rfft(_continued(x, reach, length - size + reach))
         for response, H in _transfer(kind, name, s, f_0, Q).items():
             found[response] = irfft(spectrum * H, length)[reach + start - first :][: stop - start]
     return found

@@ -489,12 +489,13 @@ def test_without_its_channel_nothing_is_left(effect: Effect, parameter: EffectPa
 @by_effect
 def test_derivatives_hold_where_the_effect_is_strong(effect: Effect) -> None:
     """Calibration differentiates the extended model away from the neutral point."""
-    fitted = [q for q in effect.parameters if q.fitted]
+    fitted = [q for q in effect.parameters if q.fitted and not q.shape]
     channels = _nothing()[0]
     a = accelerometer((effect,), PAPER)
     whole, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, {}))
     rows = Evaluated(whole.program([(q.name, by(effect.symbol(q))) for q in fitted]))
-    at = {effect.symbol(q).name: reach(effect, q, 3e-3) for q in fitted}
+    at = {effect.symbol(q).name: q.neutral for q in effect.parameters if q.shape}
+    at |= {effect.symbol(q).name: reach(effect, q, 3e-3) for q in fitted}
     for q in fitted:
         name = effect.symbol(q).name
         h = reach(effect, q, 1e-5)

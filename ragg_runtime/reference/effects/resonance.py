@@ -11,6 +11,7 @@ from scipy.interpolate import make_interp_spline
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Values
+from ragg_runtime.reference.motion import Signal
 
 Array = NDArray[np.float64]
 
@@ -29,15 +30,15 @@ def oscillator(values: Values) -> tuple[float, float]:
     return 1 / (2 * np.pi * f_0 * Q), 1 / (2 * np.pi * f_0) ** 2
 
 
-def recoil(values: Values, rate: Callable[[Array], Array], time: Array) -> tuple[Array, Array]:
-    """What the sensor beside a mount misses of a quantity (N,), less that of the disc, and its rate.
+def recoil(values: Values, x: Signal, time: Array, delay: float = 0.0) -> tuple[Array, Array]:
+    """What the sensor beside a mount feels of a quantity of the disc beyond it, (N,), and its rate.
 
-    The disc's x is that of the sensor, x_s, and a share of what the resonance adds; solved for x_s with the disc's given by its
-    ``rate``: x_s - x = share b s^2 / (1 + d s + (1 - share) b s^2) x.
+    The disc's x is that of the sensor, x_s, and a share of what the resonance adds; solved for x_s it is
+    x_s - x = share b s^2 / (1 + d s + (1 - share) b s^2) x.
     """
     (d, b), share = oscillator(values), float(values["share"])
     fine = time[0] + np.arange(int(np.ceil((time[-1] - time[0]) * FINE)) + 2) / FINE
-    y = _integrated(rate(fine), [share * b, 0.0], [(1 - share) * b, d, 1.0])
+    y = _integrated(x.rate(fine, delay), [share * b, 0.0], [(1 - share) * b, d, 1.0])
     slope = np.gradient(y, 1 / FINE)
     return make_interp_spline(fine, y, k=3)(time), make_interp_spline(fine, slope, k=3)(time)
 

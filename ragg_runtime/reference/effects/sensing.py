@@ -49,9 +49,10 @@ def record_motion(
                 omegadot + w * (past.omegadot - true.omegadot),
             )
     if mount := effects.get("mount-resonance"):
-        a = a + np.stack([recoil(mount, lambda t, x=x: x.rate(t, delay), time)[0] for x in motion.a])
-        turning = [recoil(mount, lambda t, x=x: x.rate(t, delay), time) for x in motion.omega]
-        omega, omegadot = (x + np.stack(more) for x, more in zip((omega, omegadot), zip(*turning)))
+        a = a + np.stack([recoil(mount, x, time, delay)[0] for x in motion.a])
+        turning = [recoil(mount, x, time, delay) for x in motion.omega]
+        omega = omega + np.stack([swing for swing, _ in turning])
+        omegadot = omegadot + np.stack([rate for _, rate in turning])
     if turned := effects.get("imu-misalignment"):
         # Components along axes turned by e: the inverse rotation of the vector.
         to_sensor = by_vector([turned["e_x"], turned["e_y"], turned["e_z"]]).T
