@@ -70,10 +70,6 @@ class Flag:
         Names of the columns that it is about; empty: the whole record.
     reason
         What is odd, and what was done about it, as one sentence for people: the note that a user reads.
-    samples
-        How many samples are affected.
-    time
-        First and last instant of them, s, if they have any.
     open
         Whether it is still in the record: nothing is claimed of such a record but what ``effects`` says.
     effects
@@ -84,8 +80,6 @@ class Flag:
 
     columns: tuple[str, ...]
     reason: str
-    samples: int = 0
-    time: tuple[float, float] | None = None
     open: bool = False
     effects: tuple[str, ...] = ()
     kind: str = ""

@@ -123,9 +123,7 @@ def _still(flight: Flight) -> list[Flag]:
     text = "the motion does not change: a record at rest determines little of an instrument"
     if len(still) < len(names):
         text = f"{', '.join(still)} {'does' if len(still) == 1 else 'do'} not change at all: a stuck sensor?"
-    return [
-        Flag(tuple(still), text, len(flight), open=True, kind="still" if len(still) == len(names) else "")
-    ]
+    return [Flag(tuple(still), text, open=True, kind="still" if len(still) == len(names) else "")]
 
 
 def _find_one_value(x: Array) -> float | None:

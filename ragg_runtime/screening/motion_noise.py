@@ -120,7 +120,7 @@ def _describe(
         if stepped
         else f"{who} {have} a noise floor of {size:.2g} {unit} rms; as sensor noise it causes {makes}"
     )
-    return Flag(tuple(names), text, len(x), kind="motion-noise")
+    return Flag(tuple(names), text, kind="motion-noise")
 
 
 def _made_of(model: Model, s: Sampler, rows: Rows, errors: Mapping[str, float], fitted: LinearFit) -> float:

@@ -235,9 +235,7 @@ def _flag(names: Sequence[str], r: _Repeated, flight: Flight) -> Flag:
         )
         more = f" and {len(begins) - 3} times more" if len(begins) > 3 else ""
         what = f"{', '.join(names)}: the value is stuck for {some}{more}, unlike noise; {len(at)} samples not used"
-    return Flag(
-        tuple(names), what, len(at), (float(flight.time[at[0]]), float(flight.time[at[-1]])), open=lost
-    )
+    return Flag(tuple(names), what, open=lost)
 
 
 def _is_lost(name: str, r: _Repeated, flight: Flight) -> bool:

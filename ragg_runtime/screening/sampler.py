@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -181,9 +180,12 @@ class Sampler:
         if backwards:
             phi = -phi
             channels |= {name: -channels[name] for name in SPIN if name in channels}
+        data = np.nan_to_num(np.stack([x.outputs[v][rows + output_later] for v in self.columns]), copy=False)
+        if self.recorded.demodulated:  # inline and cross
+            data *= self.instrument.scale_factor * np.array([[0.5], [-1.0]])
         return Rows(
             recorded=self.recorded,
-            data=np.nan_to_num(np.stack([v[rows + output_later] for v in self._outputs()]), copy=False),
+            data=data,
             time=time,
             phi=phi + (phase if isinstance(phase, float) else phase[inside]),
             channels=channels,
@@ -192,16 +194,6 @@ class Sampler:
             names=self.columns,
             usable=self.usable[rows + output_later] if self.recorded.demodulated else None,
         )
-
-    @cached_property
-    def _demodulated(self) -> list[Array]:
-        k, outputs = self.instrument.scale_factor, self.flight.outputs
-        return [k / 2 * outputs["inline"], -k * outputs["cross"]]
-
-    def _outputs(self) -> list[Array]:
-        if self.recorded.demodulated:
-            return self._demodulated
-        return [self.flight.outputs[v] for v in self.columns]
 
 
 def find_stem(name: str) -> str:

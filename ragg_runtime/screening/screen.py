@@ -143,7 +143,7 @@ def _saturated(s: Sampler) -> list[Flag]:
         return []
     top = float(np.max(np.abs(G[there])))
     text = f"{name}: {clipped} samples are at the extreme value of {top:.6g} V: saturated, not used"
-    return [Flag((name,), text, clipped)]
+    return [Flag((name,), text)]
 
 
 # --- the clock -----------------------------------------------------------------------------------------
@@ -178,7 +178,7 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
             f"the time stamps jump {where} (was the clock adjusted?), but sampling continued: times are taken from the sample"
             f" count ({np.exp(gain):.3g} times less remains unexplained)"
         )
-        return derive_acceleration(_by_count(x, several[-k])).flagged([Flag(("time",), text, len(x))])
+        return derive_acceleration(_by_count(x, several[-k])).flagged([Flag(("time",), text)])
     x = x.flagged([_pause(c, abs(INDEPENDENT * gain) < CLOCK) for c in steps if c.part])
     even = replace(x, time=instants, began=(x.began or 0.0) + float(instants[0] - x.time[0]))
     if worst <= EVEN or not _is_even(model, s, make_sampler(even, instrument, inputs, s.place), own.p):
@@ -187,7 +187,7 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
         f"the time stamps jitter by up to {worst:.2g} of a step, but the output was sampled evenly: they are"
         " replaced by an even grid"
     )
-    return derive_acceleration(even).flagged([Flag(("time",), text, len(x))] * (worst > JITTER_NOTED))
+    return derive_acceleration(even).flagged([Flag(("time",), text)] * (worst > JITTER_NOTED))
 
 
 def _is_even(model: Model, s: Sampler, even: Sampler, p: Array) -> bool:
@@ -228,7 +228,7 @@ def _pause(c: ClockStep, undecided: bool) -> Flag:
     text = f"the time stamps jump by {c.size:.4g} s at t = {c.time:.6g} s, not a whole number of samples: treated as a pause"
     if undecided:
         text += "; whether the clock was set instead is hidden by what the model leaves unexplained"
-    return Flag(("time",), text, 1, (c.time, c.time))
+    return Flag(("time",), text)
 
 
 # --- spikes of the output ------------------------------------------------------------------------------
@@ -241,7 +241,7 @@ def _without_output_spikes(model: Model, instrument: Instrument, s: Sampler, fli
     fitted = fit_rows(model, instrument, s.take(s.rows())).p
     found = np.array([find_spikes(e, s.usable) for e in _residual(model, s, fitted, slice(None))])
     flags = [
-        Flag((name,), describe_spikes(name, mask, flight.time), int(np.sum(mask)))
+        Flag((name,), describe_spikes(name, mask, flight.time))
         for name, mask in zip(s.columns, found, strict=True)
         if mask.any()
     ]

@@ -109,7 +109,7 @@ def leave_out_glitches(flight: Flight) -> Flight:
         mask, channels[name] = find(flight.channels[name], flight.valid)
         if mask.any():
             valid &= ~mask
-            flags[name] = Flag((name,), describe_spikes(name, mask, flight.time), int(np.sum(mask)))
+            flags[name] = Flag((name,), describe_spikes(name, mask, flight.time))
     if not flags:
         return flight
     changed = replace(flight, channels=channels, valid=valid)

@@ -97,7 +97,7 @@ def test_a_scale_factor_off_its_sheet_is_no_wrong_unit(trim: str) -> None:
         wrong = replace(sheet.replace(K1=off * K1), sigmas={"K1": 1e-4 * K1})
         (flag,) = screen(MODEL, wrong, x).flags
         assert "the test sheet is too confident: K1 of A" in flag.reason and not flag.open
-        assert f"where it says {10 * off[0]:.6g}" in flag.reason
+        assert f"instead of {10 * off[0]:.6g}" in flag.reason
     other = drawn(9, "matched" if trim == "table-v" else "table-v").sheet
     assert "K1 of A4" in screen(MODEL, other, x).flags[0].reason
 
@@ -148,7 +148,7 @@ def test_lost_rows_are_said_before_the_disc_is_blamed(count: int, words: str) ->
         channels={n: v[kept] for n, v in x.channels.items()},
         outputs={n: v[kept] for n, v in x.outputs.items()},
     )
-    with pytest.raises(UserError, match=rf"rows were lost at t = 6[78](\.\d+)? s: {words}") as caught:
+    with pytest.raises(UserError, match=rf"rows are missing at t = 6[78](\.\d+)? s: {words}") as caught:
         screen(MODEL, drawn(12).sheet, lost)
     assert "write spin_frequency" not in str(caught.value)
 
