@@ -128,5 +128,5 @@ def test_a_disc_that_stands_still_is_left_out_and_alone_refused() -> None:
     model, _ = derive.derived((), (), still.form, still.layout)
     _, flight = flown("odd")
     outputs = {"G_out": flight.outputs["G_out_B"]}
-    with pytest.raises(UserError, match="no output sees one"):
+    with pytest.raises(UserError, match="no output of a spinning disc"):
         prepare(model, still, [dataclasses.replace(flight, outputs=outputs)], "self")

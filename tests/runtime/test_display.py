@@ -120,8 +120,8 @@ def test_every_verdict_has_its_sentence(result: Result) -> None:
     assert describe.write_verdict(nothing).startswith("Unexplained: ")
     assert "Not explained:" in render_text(describe.describe_diagnosis(nothing))
     assert describe.write_verdict(d | {"verdict": "adequate"}).startswith("Adequate: ")
-    failed = describe.write_verdict(d | {"converged": False, "remark": "it was stopped"})
-    assert failed == "No verdict: it was stopped."
+    failed = describe.write_verdict(d | {"converged": False, "remark": "stopped after"})
+    assert failed == "No verdict: stopped after."
 
 
 def hostile(x: Any) -> Any:

@@ -165,7 +165,7 @@ def test_the_page_counts_the_verdicts_of_all_printed_numbers(
     third_b: Experiment, third_c: Experiment
 ) -> None:
     text = write_page([multifrequency(), third_b, third_c])
-    assert "Of 42 printed numbers, **15 agree**, **20 hang on an input" in " ".join(text.split())
+    assert "Of 42 printed numbers, **15 agree**, **20 depend on an input" in " ".join(text.split())
     for row in third_c.rows:
         assert f"| {row.quantity} | {row.printed.text} |" in text
 

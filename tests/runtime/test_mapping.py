@@ -134,7 +134,7 @@ def test_lines_become_flights(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "facts"),
     [
-        ('unit = "dps"', 'unit = "?"', ("omega_x", "not answered", "not guessed")),
+        ('unit = "dps"', 'unit = "?"', ("omega_x", "not answered", "none is guessed")),
         ('unit = "dps"', 'unit = "parsnips"', ("not a unit", "parsnips")),
         ("sign = -1", "sign = -2", ("sign", "scale")),
         ("scale = 1e-3", "scale = 0", ("zero",)),

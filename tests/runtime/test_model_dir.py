@@ -183,7 +183,7 @@ def test_what_fails_leaves_not_a_trace(tmp_path: Path, monkeypatch: pytest.Monke
 def test_a_stale_change_is_refused(tmp_path: Path, by: str) -> None:
     first = make(tmp_path, 1)
     (first.path / "model.toml").write_text(by)
-    with pytest.raises(UserError, match="changed by someone else"):
+    with pytest.raises(UserError, match="changed in the meantime"):
         change(first, 3)
 
 

@@ -152,7 +152,7 @@ def test_without_a_compiler_numpy_serves_and_says_so_once(
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     assert find_compiler()[1:] == ["-m", "ziglang", "cc"]
     monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
-    with pytest.warns(NativeWarning, match="slower NumPy code serves: there is no C compiler") as said:
+    with pytest.warns(NativeWarning, match="slower NumPy code is used: there is no C compiler") as said:
         e = packaged().compiled()
     assert len(said) == 1
     assert e.backend == "numpy"

@@ -83,7 +83,7 @@ def test_effects_of_an_installed_package(tmp_path: Path, monkeypatch: pytest.Mon
         ("EFFECT = 3", "defines no EFFECT"),
         ("1 / 0", "ZeroDivisionError"),
         ("raise SystemExit(3)", "SystemExit"),
-        (mine("lag"), "the id of another"),
+        (mine("lag"), "the id of your effect is taken"),
     ],
 )
 def test_one_that_cannot_be_read_is_one_message(

@@ -236,7 +236,7 @@ def test_clean_flight_is_adequate_in_words(clean: Case) -> None:
     assert said.startswith("The model is adequate")
     for e in (c.calibrated, c.nominal):
         assert numbers.to_ascii(numbers.number(e.rms_Eo)) in said
-    assert "Adequate: no effect is missing" in render_text(
+    assert "Adequate: this record shows no missing effect" in render_text(
         describe.describe_diagnosis(clean.diagnosis.as_json())
     )
 

@@ -155,7 +155,7 @@ def never_arrives(monkeypatch: pytest.MonkeyPatch) -> None:
     found = calibration.minimise
 
     def stopped(*arguments: Any, **options: Any) -> Any:
-        return dataclasses.replace(found(*arguments, **options), converged=False, reason="it was stopped")
+        return dataclasses.replace(found(*arguments, **options), converged=False, reason="stopped after")
 
     monkeypatch.setattr(calibration, "minimise", stopped)
 
@@ -169,11 +169,11 @@ def test_what_has_not_converged_says_so_and_adds_nothing(
     c, d = ragg.compare(m, [flight]), ragg.diagnose(m, [flight])
     for result in (c.as_json(), d.as_json()):
         assert result["converged"] is False
-        assert "not converged: it was stopped" in str(result["reason"])
+        assert "not converged: stopped after" in str(result["reason"])
     assert not c.adequate
     assert (d.verdict, d.found) == ("partly-explained", ("cubic-input",))
     assert describe.write_verdict(d.as_json()).startswith("Partly explained: cubic-input.")
-    assert "Note: the calibration has not converged: it was stopped" in str(
+    assert "Note: the calibration has not converged: stopped after" in str(
         describe.describe_diagnosis(d.as_json())
     )
     before = {p: p.read_bytes() for p in sorted((tmp_path / "m").rglob("*")) if p.is_file()}

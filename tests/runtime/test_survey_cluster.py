@@ -150,7 +150,7 @@ def test_a_record_of_another_program_is_not_taken(flights: Flights) -> None:
     toml = flights[0] / "model.toml"
     asked = replace(make_job(toml.read_text(), toml), program=(("numpy", "1.0"),))
     record = examine(asked, str(flights[1][0]))
-    assert "another program" in record["error"]["message"]
+    assert "another version of the program" in record["error"]["message"]
 
 
 @pytest.mark.parametrize("address", ["free", "127.0.0.1", "tcp://", "", "scheduler.json"])

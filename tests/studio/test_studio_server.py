@@ -142,7 +142,7 @@ def test_no_folder_beside_those_named_is_shown(client: httpx.Client, folder: Pat
         (folder / "link").symlink_to("/etc")
     answer = client.get("/api/folder", params={"place": place.format(folder=folder)})
     assert answer.status_code == 400
-    assert "not open to the studio" in answer.json()["error"]["what"]
+    assert "may not use this folder" in answer.json()["error"]["what"]
 
 
 def test_nothing_is_opened_made_or_served_from_elsewhere(
@@ -313,7 +313,7 @@ def test_a_directory_that_several_change_loses_nothing(tmp_path: Path) -> None:
         change = {"values": {"K0": {"value": [1.0, 2.0, 3.0, 4.0], "unit": row["unit"]}}}
         refused = two.post("/api/do/edit", json=change)
         if refused.status_code != 202:
-            assert "meanwhile" in refused.json()["error"]["what"] or refused.status_code == 409
+            assert "meantime" in refused.json()["error"]["what"] or refused.status_code == 409
         assert effects() == there
         with one.stream("GET", "/api/events") as events:  # whoever listens makes the server look
             for _ in events.iter_lines():
