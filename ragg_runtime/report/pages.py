@@ -227,7 +227,7 @@ def _plot_errors(s: Survey) -> Plot:
     every = [v for b in bars for v in (b.value, b.dots[0])]
     caption = "Error before demodulation of every flight, calibrated alone. Bars: with the effects found in it; grey: unexplained."
     log = max(every) > 6.0 * min(every)
-    return Bars("errors", caption, tuple(bars), "error, Eo rms", log=log, dots=("as the model is",))
+    return Bars("errors", caption, tuple(bars), "error, Eo rms", log=log, dots=("current model",))
 
 
 def _plot_trend(t: Json, n: int) -> Plot:

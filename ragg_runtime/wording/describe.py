@@ -334,7 +334,7 @@ def describe_diagnosis(d: Json, then: str = "") -> Sections:
         sentences=(write_verdict(d), *map(finding, claimed), *_remarks(d), *explain_patterns(values)),
         state=state,
     )
-    rows = [("model as it is", d["error"]["before"])]
+    rows = [("current model", d["error"]["before"])]
     if d["found"]:
         rows.append((f"with {listed([str(e) for e in d['found']])}", d["error"]["after"]))
     found = [first, tabulate_errors([*rows, make_floor_row(d)]), *describe_values(claimed)]
