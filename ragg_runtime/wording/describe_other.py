@@ -216,7 +216,7 @@ def describe_effect(e: Json) -> Sections:
         "meaning": lambda q: str(q["meaning"]),
     }
     facts = (
-        ("needs", ", ".join(e["channels"]) or "the motion alone"),
+        ("needs", ", ".join(e["channels"]) or "motion only"),
         ("limits", e["limits"] or "none stated"),
         ("source", e["source"]),
     )

@@ -131,11 +131,11 @@ def test_wrong_arguments_are_said(backend: str, case: tuple[Array, Array, Array]
     e = packaged().compiled(backend)  # type: ignore[arg-type]
     with pytest.raises(UserError, match="wrong number of input series"):
         e.output(t, inputs[:14], p)
-    with pytest.raises(UserError, match="omega_y is no series"):
+    with pytest.raises(UserError, match="omega_y is not a series"):
         e.output(t, [x[:-1] if n == "omega_y" else x for n, x in zip(e.inputs, inputs, strict=True)], p)
     with pytest.raises(UserError, match="wrong number of parameters"):
         e.output(t, inputs, p[:-1])
-    with pytest.raises(UserError, match="angle is no series"):
+    with pytest.raises(UserError, match="angle is not a series"):
         e.output(t, inputs, p, angle=np.zeros((2, len(t))))
     with pytest.raises(UserError, match="no such accelerometer"):
         e.derivatives(4, t, inputs, p)
