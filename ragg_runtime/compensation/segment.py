@@ -21,7 +21,8 @@ from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model import lateness
-from ragg_runtime.model.evaluate import Evaluator, scale_factor, vector
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.evaluator import Evaluator
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
 from ragg_runtime.signals.tensor import across

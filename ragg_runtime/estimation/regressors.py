@@ -14,7 +14,8 @@ from ragg_runtime.estimation.observation import Observation, Thin, bridge_gaps
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
-from ragg_runtime.model.evaluate import Evaluator, unit_factor, voltages
+from ragg_runtime.model.evaluate import unit_factor, voltages
+from ragg_runtime.model.evaluator import Evaluator
 from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Effect, Model
 from ragg_runtime.model.record import Record, made_of

@@ -7,39 +7,18 @@ import json
 import sys
 from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property, partial
+from functools import cache, cached_property
 from importlib import resources
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.layout import PAPER, Layout
-
-if TYPE_CHECKING:
-    from ragg_runtime.model.evaluate import Backend, Evaluator
+from ragg_runtime.model.evaluator import Backend, Chain, Evaluator, compile_or_interpret, compile_quietly
 
 Array = NDArray[np.float64]
-
-
-class Chain(Protocol):
-    """A generated module: one accelerometer's V_j and its derivatives (see ``generated/chain.py``)."""
-
-    INPUTS: tuple[str, ...]
-    PARAMETERS: tuple[tuple[str, int], ...]
-    ROWS: tuple[tuple[str, bool], ...]
-    SIZE: int
-
-    def accelerometer(
-        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
-    ) -> Array: ...
-
-    def derivatives(
-        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
-    ) -> Array: ...
-
-    def values_of(self, j: int, p: Array) -> Array: ...
 
 
 class Recogniser(Protocol):
@@ -161,15 +140,18 @@ class Model:
     @cached_property
     def evaluators(self) -> Callable[[str], Evaluator]:
         """``chain`` and ``signatures``, as fits evaluate them."""
-        from ragg_runtime.model.evaluate import compile_module
 
-        return cache(partial(compile_module, self))
+        @cache
+        def compiled(name: str) -> Evaluator:
+            own = {n: text for n, text in self.c.items() if n.partition(".")[0] == name}
+            # what comes with the program is compiled once for all flights, a derived model for one fit
+            return compile_quietly(getattr(self, name), self.layout, own, name, quick=not self.lasting)
+
+        return compiled
 
     def compiled(self, backend: Backend = "auto") -> Evaluator:
         """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
-        from ragg_runtime.model.evaluate import compile_model
-
-        return compile_model(self, backend)
+        return compile_or_interpret(self.chain, self.layout, self.sources, backend, self.folded)
 
     def effect(self, identifier: str) -> Effect | None:
         """The effect of this id, in the model or not; ``None`` if unknown."""

@@ -16,7 +16,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout, Vector3, gain
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import RATES, SPECIFIC_FORCE
-from ragg_runtime.model.model import Chain
+from ragg_runtime.model.evaluator import Chain
 from ragg_runtime.signals import demodulators
 from ragg_runtime.signals.demodulate import CUTOFF
 from ragg_runtime.signals.demodulators import Demodulator

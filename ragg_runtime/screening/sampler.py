@@ -14,7 +14,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.model import Chain
+from ragg_runtime.model.evaluator import Chain
 from ragg_runtime.model.record import SPIN, differentiated, disc_angle, kernel, record, spin, start_of
 from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.fir import convolved

@@ -12,7 +12,7 @@ from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import derive
 from ragg_runtime.model.evaluate import scale_factor, vector
-from ragg_runtime.model.model import Chain
+from ragg_runtime.model.evaluator import Chain
 from tests.generated import fifty_digits as fifty
 from tests.layouts import sheets
 from tests.layouts.test_layouts_physics import instrument

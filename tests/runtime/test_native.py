@@ -17,7 +17,8 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import observation
 from ragg_runtime.estimation.regressors import Point, linearise
 from ragg_runtime.model.compile import BuildError, build, find_compiler, load
-from ragg_runtime.model.evaluate import Evaluator, NativeWarning, _warn_once, vector
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.evaluator import Evaluator, NativeWarning, _warn_once
 from ragg_runtime.model.model import from_files, packaged
 from ragg_runtime.reference.scenario import scenario
 from tests.generated import draws

@@ -1,0 +1,288 @@
+"""Output voltages of a generated module and their derivatives: in machine code, called by ctypes, or in NumPy."""
+
+from __future__ import annotations
+
+import ctypes
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from types import ModuleType
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from generated.folded import disc_angle
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import stretches
+from ragg_runtime.instrument.layout import Layout
+from ragg_runtime.model.compile import BuildError, build, load
+
+Array = NDArray[np.float64]
+
+
+class Chain(Protocol):
+    """A generated module: one accelerometer's V_j and its derivatives (see ``generated/chain.py``)."""
+
+    INPUTS: tuple[str, ...]
+    PARAMETERS: tuple[tuple[str, int], ...]
+    ROWS: tuple[tuple[str, bool], ...]
+    SIZE: int
+
+    def accelerometer(
+        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
+    ) -> Array: ...
+
+    def derivatives(
+        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
+    ) -> Array: ...
+
+    def values_of(self, j: int, p: Array) -> Array: ...
+
+
+Inputs = Sequence[ArrayLike | None] | NDArray[np.floating]
+"""One series of N samples each, in the order of the model; ``None``: not recorded, zero (the rate of the disc angle: 2 pi
+spin_frequency)."""
+Backend = Literal["auto", "c", "numpy"]
+
+BLOCK = 4096
+"""Samples that NumPy evaluates at a time, in cache."""
+
+TOGETHER, LONGEST = 16, 128
+"""Parameter vectors that the generated C takes at a time for :meth:`Evaluator.changes`, and samples of a mean at most."""
+
+
+class NativeWarning(UserWarning):
+    """There is no machine code; the NumPy model serves."""
+
+
+@dataclass(frozen=True)
+class Evaluator:
+    """A generated module, in machine code (``library``) or in NumPy.
+
+    Times t in s, (N,); parameters p in SI, in the order of the model's PARAMETERS. ``angle`` is the disc angle, rad, (N,), of
+    several discs that of the one whose accelerometers are asked for; by default 2 pi spin_frequency t, reduced exactly. ``folded``:
+    the module whose form serves for outputs in NumPy. ``name`` is the generated module's.
+    """
+
+    chain: Chain
+    layout: Layout
+    library: ctypes.CDLL | None = None
+    folded: ModuleType | None = None
+    name: str = "chain"
+
+    @property
+    def backend(self) -> str:
+        return "numpy" if self.library is None else "c"
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        return self.chain.INPUTS
+
+    def output(
+        self, t: ArrayLike, inputs: Inputs, p: ArrayLike, angle: ArrayLike | None = None, which: int = 0
+    ) -> Array:
+        """G_out, or another of the layout's outputs, (N,), V."""
+        t, x, p, angle = self._case(t, inputs, p, angle)
+        own = () if self.layout.like_paper else (which,)
+        G = np.empty(len(t))
+        if self.library is not None:
+            name = "folded" if hasattr(self.library, "ragg_folded_output") else self.name
+            self._call(f"{name}_output", own, (t, x, p, angle), G)
+        elif self.folded is not None:
+            for some in stretches(len(t), BLOCK):
+                phi = None if angle is None else angle[some]
+                G[some] = self.folded.output(t[some], np.stack([v[some] for v in x]), p, phi, *own)
+        else:
+            o = self.layout.outputs[which]
+            G[:] = o.combined(self.voltages(t, x, p, angle, o.members))
+        return G
+
+    def voltages(
+        self,
+        t: ArrayLike,
+        inputs: Inputs,
+        p: ArrayLike,
+        angle: ArrayLike | None = None,
+        members: Sequence[int] | None = None,
+    ) -> Array:
+        """V_1 ... V_4, or those of some accelerometers (counted from 0), (members, N), V."""
+        case = self._case(t, inputs, p, angle)
+        wanted = tuple(range(self.layout.size) if members is None else members)
+        if self.library is not None and self.layout.like_paper:
+            V = np.empty((4, len(case[0])))
+            self._call(f"{self.name}_voltages", (), case, V)
+            return V if wanted == (0, 1, 2, 3) else np.asarray(V[list(wanted)])
+        V = np.empty((len(wanted), len(case[0])))
+        for v, j in zip(V, wanted, strict=True):
+            if self.library is not None:
+                self._call(f"{self.name}_voltage", (j,), case, v)
+            else:
+                for some, block in self._blocks(j, case):
+                    v[some] = self.chain.accelerometer(j, *block)
+        return V
+
+    def derivatives(
+        self, j: int, t: ArrayLike, inputs: Inputs, p: ArrayLike, angle: ArrayLike | None = None
+    ) -> Array:
+        """Derivatives of V_j, j counted from 0, (rows, N), in the order of the chain's ROWS."""
+        if j not in range(self.layout.size):
+            raise UserError(
+                "there is no such accelerometer", found=j, expected=f"0 ... {self.layout.size - 1}"
+            )
+        case = self._case(t, inputs, p, angle)
+        D = np.empty((len(self.chain.ROWS), len(case[0])))
+        if self.library is not None:
+            self._call(f"{self.name}_derivatives", (j,), case, D)
+        else:
+            for some, block in self._blocks(j, case):
+                D[:, some] = self.chain.derivatives(j, *block)
+        return D
+
+    def changes(
+        self,
+        t: Array,
+        inputs: Inputs,
+        p: Array,
+        steps: Array,
+        angle: Array,
+        few: int,
+        weights: Array,
+        which: int = 0,
+    ) -> Array:
+        """Means over ``few`` samples of what small changes of the parameters make of an output, weighted.
+
+        Parameters
+        ----------
+        t, inputs, angle
+            (N,) s, inputs as of :meth:`output`, (N,) rad.
+        p, steps
+            (size,) and (k, size), SI.
+        weights
+            (2, N).
+
+        Returns
+        -------
+        Array
+            (k, 2, N // few), V: means of G_out(p + step) - G_out(p) times the weights.
+        """
+        count = len(t) // few
+        made = np.empty((len(steps), 2, count))
+        if (
+            self.library is not None
+            and hasattr(self.library, "ragg_folded_changes")
+            and self.layout.like_paper
+            and few <= LONGEST
+        ):
+            weights, case = np.ascontiguousarray(weights), self._case(t, inputs, p, angle)
+            for some in stretches(len(steps), TOGETHER):
+                vectors = np.concatenate([p[None], p + steps[some]])
+                sizes = (_SIZE(len(vectors) - 1),)
+                arguments = _pointers((case[0], case[1], vectors, case[3]), sizes)
+                self.library.ragg_folded_changes(*arguments, _SIZE(few), _at(weights), _at(made[some]))
+            return made
+        reference = self.output(t, inputs, p, angle, which)
+        grouped = weights[:, : count * few].reshape(2, count, few) / few
+        for row, step in zip(made, steps, strict=True):
+            change = (self.output(t, inputs, p + step, angle, which) - reference)[: count * few]
+            row[:] = np.einsum("nf,wnf->wn", change.reshape(count, few), grouped)
+        return made
+
+    def _call(self, function: str, leading: tuple[int, ...], case: _Case, result: Array) -> None:
+        call = getattr(self.library, f"ragg_{function}")
+        call(*map(_SIZE, leading), *_pointers(case), _at(result))
+
+    def _blocks(self, j: int, case: _Case) -> Iterator[tuple[slice, tuple[Array, ...]]]:
+        """Samples, and what the generated NumPy functions take of them for accelerometer j."""
+        t, x, p, angle = case
+        q = self.chain.values_of(j, p)
+        for some in stretches(len(t), BLOCK):
+            phi = disc_angle(t[some], float(q[1])) if angle is None else angle[some]
+            yield some, (t[some], np.cos(phi), np.sin(phi), np.stack([v[some] for v in x]), q)
+
+    def _case(self, t: ArrayLike, inputs: Inputs, p: ArrayLike, angle: ArrayLike | None) -> _Case:
+        """Checked arguments: contiguous float64 is used where it lies, the rest converted."""
+        names, time = self.chain.INPUTS, _series(t, "t")
+        if len(inputs) != len(names):
+            expected = f"{len(names)}: {' '.join(names)}"
+            raise UserError("wrong number of input series", found=len(inputs), expected=expected)
+        values = np.ascontiguousarray(p, dtype=np.float64)
+        if values.shape != (self.chain.SIZE,):
+            raise UserError("wrong number of parameters", found=values.shape, expected=(self.chain.SIZE,))
+        zero = np.zeros(len(time)) if any(x is None for x in inputs) else time
+        rows = [
+            zero if x is None else _series(x, name, len(time)) for name, x in zip(names, inputs, strict=True)
+        ]
+        if "d_spin_angle" in names and inputs[names.index("d_spin_angle")] is None:
+            if angle is not None:
+                expected = "a series d_spin_angle, rad/s"
+                raise UserError("the disc angle is given, but not its rate", expected=expected)
+            spin = values[1 if self.layout.like_paper else self.layout.size]
+            rows[names.index("d_spin_angle")] = np.full(len(time), 2 * np.pi * spin)
+        return time, rows, values, None if angle is None else _series(angle, "angle", len(time))
+
+
+_Case = tuple[Array, Sequence[Array], Array, Array | None]
+"""Times (N,), inputs, parameters, disc angle (N,)."""
+
+_SIZE = ctypes.c_size_t
+
+
+def _series(x: ArrayLike, name: str, length: int | None = None) -> Array:
+    series = np.ascontiguousarray(x, dtype=np.float64)
+    if series.ndim != 1 or (length is not None and len(series) != length):
+        expected = "one number per sample" if length is None else f"shape ({length},)"
+        raise UserError(
+            f"{name} is not a series of samples", found=f"shape {series.shape}", expected=expected
+        )
+    return series
+
+
+def _at(x: Array | None) -> ctypes.c_void_p:
+    return ctypes.c_void_p(None if x is None else x.ctypes.data)
+
+
+def _pointers(case: _Case, before_p: Sequence[object] = ()) -> list[object]:
+    """A case as the generated C takes it: n, t, in, p, angle."""
+    t, x, p, angle = case
+    rows = (ctypes.c_void_p * len(x))(*(v.ctypes.data for v in x))
+    return [_SIZE(len(t)), _at(t), rows, *before_p, _at(p), _at(angle)]
+
+
+def compile_or_interpret(
+    chain: Chain,
+    layout: Layout,
+    sources: Mapping[str, str],
+    backend: Backend = "auto",
+    folded: ModuleType | None = None,
+) -> Evaluator:
+    """The evaluator of C ``sources``, name -> text, or, of ``auto``, NumPy with a note where it cannot be made (``c``: UserError)."""
+    if backend not in ("auto", "c", "numpy"):
+        raise UserError("unknown backend", found=repr(backend), expected="auto, c or numpy")
+    if backend != "numpy":
+        try:
+            return Evaluator(chain, layout, load(build(sources)))
+        except BuildError as error:
+            if backend == "c":
+                raise UserError("the model cannot be compiled", found=str(error)) from None
+            _warn_once(str(error))
+    return Evaluator(chain, layout, folded=folded)
+
+
+@cache
+def _warn_once(why: str) -> None:
+    warnings.warn(
+        f"the model is not compiled, the slower NumPy code is used: {why}", NativeWarning, stacklevel=4
+    )
+
+
+def compile_quietly(
+    chain: Chain, layout: Layout, sources: Mapping[str, str], name: str, *, quick: bool
+) -> Evaluator:
+    """The evaluator of the module ``name`` for fits: in NumPy, without a note, where there is no machine code."""
+    try:
+        library = load(build(sources, quick=quick)) if sources else None
+    except BuildError:
+        library = None
+    return Evaluator(chain, layout, library, name=name)
