@@ -1,7 +1,7 @@
 """The frozen result of the derivation: the only thing that emitters see.
 
 Two products of one derivation. :class:`Harmonic` is the paper's form (amplitudes of harmonics, for the
-analytical and the simplified model). :class:`Chain` is the same instrument unexpanded, one accelerometer
+analytical and the simplified model). :class:`ChainProgram` is the same instrument unexpanded, one accelerometer
 at a time, with exact derivatives: it holds for any list of effects.
 """
 
@@ -80,7 +80,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Chain:
+class ChainProgram:
     """One accelerometer as a straight-line program: V_j and its derivatives (``rows``)."""
 
     name: str
@@ -172,7 +172,7 @@ def chain(
     candidates: Sequence[Effect] = (),
     kinematics: Kinematics = "platform",
     layout: Layout = FOUR,
-) -> Chain:
+) -> ChainProgram:
     """V_j of the instrument with ``effects``, and its derivatives.
 
     Without ``candidates``: by every fitted parameter. With them: by every parameter of the candidates, at
@@ -201,7 +201,7 @@ def chain(
     reserved = known | {"cos_phi", "sin_phi", "time", *layout.constants} | {c.name for c in MOTION}
     read = {s.name for program in (value, derivatives) for s in program.inputs}
     extra = sorted(read - reserved)
-    return Chain(
+    return ChainProgram(
         name=name,
         title=title,
         value=value,
@@ -221,14 +221,14 @@ def _neutral(e: Effect, q: EffectParameter) -> sp.Expr:
     return sp.Float(q.neutral) if q.neutral else sp.Integer(0)
 
 
-def operations(m: Harmonic | Chain | Folded) -> Mapping[str, int]:
+def operations(m: Harmonic | ChainProgram | Folded) -> Mapping[str, int]:
     """Arithmetic operations as SymPy counts them, by what they serve.
 
     Of a chain: ``value`` and ``derivatives`` of one accelerometer at one instant. Of a harmonic model:
     ``coefficients`` once for an instrument, ``amplitudes`` (motion numbers included) at one instant;
     of a folded one likewise, with ``value`` that of G_out but for the cosine and sine of the disc angle.
     """
-    if isinstance(m, Chain):
+    if isinstance(m, ChainProgram):
         programs = {"value": m.value, "derivatives": m.derivatives}
         return {name: _operations(e for _, e in (*p.assignments, *p.outputs)) for name, p in programs.items()}
     if isinstance(m, Folded):
@@ -251,12 +251,12 @@ def _operations(expressions: Iterable[sp.Expr]) -> int:
     return sum(int(sp.count_ops(e)) for e in expressions)
 
 
-def manifest_of_model(m: Harmonic | Chain | Folded, *, counted: bool) -> Mapping[str, object]:
+def manifest_of_model(m: Harmonic | ChainProgram | Folded, *, counted: bool) -> Mapping[str, object]:
     """What a user of the generated code has to know: inputs, parameters, outputs; ``counted``: its cost, a tenth of a derivation."""
     outputs: dict[str, list[str]] = {}
     if isinstance(m, Harmonic):
         outputs = {"amplitudes": [name for name, _ in m.amplitudes]}
-    elif isinstance(m, Chain):
+    elif isinstance(m, ChainProgram):
         outputs = {"rows": [r.name for r in m.rows]}
     return {
         "title": m.title,

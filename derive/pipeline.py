@@ -117,7 +117,7 @@ def _derive(
             parts.append(t.paper(*equations))
     files = joined(parts)
     every = [*candidates, *(e for e in effects if e not in candidates)]
-    models: list[ir.Harmonic | ir.Chain | Folded] = [*harmonics, *forms, *chains]
+    models: list[ir.Harmonic | ir.ChainProgram | Folded] = [*harmonics, *forms, *chains]
     whole = _complete(form, files, effects, every, models, below, packaged=packaged)
     signatures = [] if packaged else [_c.chain(x, packaged=True) for x in chains if x.name == "signatures"]
     return whole | {f"{FITS}/{n.rpartition('/')[2]}": text for c in signatures for n, text in c.items()}
@@ -134,7 +134,7 @@ def _active(effects: Sequence[Effect]) -> list[Effect]:
     return [e for e in effects if e.kind in ("deterministic", "step")]
 
 
-def _chains(form: Form, effects: Sequence[Effect], candidates: Sequence[Effect]) -> list[ir.Chain]:
+def _chains(form: Form, effects: Sequence[Effect], candidates: Sequence[Effect]) -> list[ir.ChainProgram]:
     active = _active(effects)
     title = "The instrument as a chain of stages (paper, Eq. 1-15)."
     chains = [ir.chain(active, "chain", title, form.order, kinematics=form.kinematics, layout=form.layout)]
@@ -161,7 +161,7 @@ def _complete(
     files: dict[str, str],
     effects: Sequence[Effect],
     candidates: Sequence[Effect],
-    models: Sequence[ir.Harmonic | ir.Chain | Folded],
+    models: Sequence[ir.Harmonic | ir.ChainProgram | Folded],
     below: Sequence[str],
     *,
     packaged: bool,

@@ -50,7 +50,7 @@ from ragg_runtime.io.files import require_writable as check_output
 from ragg_runtime.io.record import distinct
 from ragg_runtime.model import derive
 from ragg_runtime.model.catalogue import Catalogue, effects
-from ragg_runtime.model.directory import CALIBRATION, Step, replace_model_dir
+from ragg_runtime.model.directory import CALIBRATION, HistoryStep, replace_model_dir
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model, missing_channels
 from ragg_runtime.model.record import recorded_channels
@@ -315,7 +315,7 @@ def add(
         after = after.with_nominal(replace(extended, effects=(*others.effects, setting)))
     made = Added(m, effect, before, after, parameters, combinations)
     text = add_effect(m.directory.text, setting)
-    step = Step(
+    step = HistoryStep(
         action="add",
         time=now(),
         effect=effect,
@@ -382,7 +382,7 @@ def _written(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> d
     return values
 
 
-def _planned(m: Loaded, text: str, model: Model, step: Step) -> Loaded:
+def _planned(m: Loaded, text: str, model: Model, step: HistoryStep) -> Loaded:
     """What the model will be after this step."""
     instrument = parse_instrument(text, m.directory.path / "model.toml")
     history = (*m.directory.history, step)
@@ -403,7 +403,7 @@ def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None)
     """
     text = remove_effect(m.directory.text, effect)
     instrument = parse_instrument(text, m.directory.path / "model.toml")
-    step = Step("remove", now(), effect, text=text)
+    step = HistoryStep("remove", now(), effect, text=text)
     if tell is not None:
         tell(_planned(m, text, derive.model_of(instrument), step))
     directory = replace_model_dir(m.directory, text, generated=derive.files_of(instrument), step=step)
@@ -538,7 +538,7 @@ def calibrate(
 def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | None) -> Loaded:
     d = m.directory
     new = _calibrate.make_saved(c, flights, now())
-    step = Step("calibrate", new.time, after=new.error, flights=MappingProxyType(dict(new.flights)))
+    step = HistoryStep("calibrate", new.time, after=new.error, flights=MappingProxyType(dict(new.flights)))
     directory = replace_model_dir(
         d,
         d.text,

@@ -23,8 +23,8 @@ from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model import derive
 from ragg_runtime.model.directory import (
     MAPPING,
+    HistoryStep,
     ModelDir,
-    Step,
     create_model_dir,
     identity,
     load_model_dir,
@@ -98,7 +98,7 @@ def new(path: Path | str, source: Path | str | None = None, mapping: Path | str 
         path,
         completed,
         generated=derive.files_of(instrument),
-        history=(Step("new", now(), text=completed),),
+        history=(HistoryStep("new", now(), text=completed),),
         mapping=kept,
     )
     m = load_state(made)
@@ -148,7 +148,7 @@ def as_of(m: Loaded, text: str) -> Loaded:
 def change(m: Loaded, text: str, action: str, effect: str = "") -> Loaded:
     """Put another text in the place of model.toml, derive its model, and note the step in the history."""
     instrument = as_of(m, text).instrument
-    step = Step(action, now(), effect, text=text)
+    step = HistoryStep(action, now(), effect, text=text)
     directory = replace_model_dir(m.directory, text, generated=derive.files_of(instrument), step=step)
     return load(directory.path)
 

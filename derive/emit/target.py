@@ -12,7 +12,7 @@ import sympy as sp
 
 import derive.emit
 from derive.folded import Folded
-from derive.ir import Chain, Harmonic
+from derive.ir import ChainProgram, Harmonic
 from derive.propagation import Term
 
 Files = Mapping[str, str]
@@ -31,7 +31,7 @@ class Target(Protocol):
     def folded(self, m: Folded) -> Files:
         """A model as one polynomial, the parameters folded into its coefficients."""
 
-    def chain(self, m: Chain, *, packaged: bool) -> Files:
+    def chain(self, m: ChainProgram, *, packaged: bool) -> Files:
         """A model as a chain of small named expressions; ``packaged``: of the program itself, not of a model directory."""
 
     def paper(self, starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, ...]]) -> Files:

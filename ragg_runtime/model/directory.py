@@ -38,7 +38,7 @@ def digest(text: str | None) -> str:
 
 
 @dataclass(frozen=True)
-class Step:
+class HistoryStep:
     """An entry of history.json; ``time`` is UTC, ISO 8601, ``before`` and ``after`` are error objects (rms_V, rms_Eo,
     ...).
 
@@ -76,7 +76,7 @@ class Step:
         }
 
 
-def history_text(steps: Sequence[Step]) -> str:
+def history_text(steps: Sequence[HistoryStep]) -> str:
     """The text of a history.json."""
     return json.dumps({"steps": [step.as_json() for step in steps]}, indent=2, allow_nan=False) + "\n"
 
@@ -90,14 +90,14 @@ def _error(found: Any) -> Mapping[str, Any] | None:
     return None if found is None else dict(found)
 
 
-def read_history(path: Path) -> tuple[Step, ...]:
+def read_history(path: Path) -> tuple[HistoryStep, ...]:
     """The steps of a history.json, oldest first; none if there is no file. UserError if it is damaged."""
     if not path.exists():
         return ()
     try:
         content = json.loads(read_text(path, LONGEST))
         return tuple(
-            Step(
+            HistoryStep(
                 action=one_line(str(s["action"])),
                 time=one_line(str(s["time"])),
                 effect=one_line(str(s["effect"] or "")),
@@ -131,7 +131,7 @@ class ModelDir:
     text: str
     instrument: Instrument
     generated: Path | None
-    history: tuple[Step, ...]
+    history: tuple[HistoryStep, ...]
     calibration: str | None = None
     mapping: Path | None = None
 
@@ -175,7 +175,7 @@ def create_model_dir(
     text: str,
     *,
     generated: Mapping[str, str],
-    history: tuple[Step, ...] = (),
+    history: tuple[HistoryStep, ...] = (),
     mapping: str | None = None,
 ) -> ModelDir:
     """Make a model directory, whole or not at all; UserError if ``path`` is not empty or ``text`` is no good model.toml."""
@@ -207,7 +207,7 @@ def replace_model_dir(
     text: str,
     *,
     generated: Mapping[str, str],
-    step: Step,
+    step: HistoryStep,
     calibration: Callable[[str | None], str] | None = None,
     mapping: str | None = None,
 ) -> ModelDir:

@@ -11,14 +11,14 @@ from ragg_runtime.base.errors import at, check_keys
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.instrument.units import EOTVOS, Units, units
-from ragg_runtime.model.evaluator import Chain
+from ragg_runtime.model.evaluator import ChainModule
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]
 
 
-def voltages(chain: Chain, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
+def voltages(chain: ChainModule, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
     """V_j of the accelerometers of an output, (members, N), V."""
     x = r.inputs(chain)
     return np.stack(
@@ -26,7 +26,7 @@ def voltages(chain: Chain, r: Record, p: Array, o: Output = PAPER.outputs[0]) ->
     )
 
 
-def output(chain: Chain, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
+def output(chain: ChainModule, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
     """An output, (N,), V (Eq. 15)."""
     return o.combined(voltages(chain, r, p, o))
 
@@ -38,7 +38,7 @@ def scale_factor(model: Model, p: Array, output: int = 0) -> float:
     return scale(model.layout.outputs[output], k1, R) * EOTVOS
 
 
-def named(chain: Chain, p: Array) -> dict[str, Array]:
+def named(chain: ChainModule, p: Array) -> dict[str, Array]:
     """A parameter vector as name -> values (one or four)."""
     result, start = {}, 0
     for name, size in chain.PARAMETERS:

@@ -22,7 +22,7 @@ from ragg_runtime.model.compile import BuildError, build, load
 Array = NDArray[np.float64]
 
 
-class Chain(Protocol):
+class ChainModule(Protocol):
     """A generated module: one accelerometer's V_j and its derivatives (see ``generated/chain.py``)."""
 
     INPUTS: tuple[str, ...]
@@ -66,7 +66,7 @@ class Evaluator:
     the module whose form serves for outputs in NumPy. ``name`` is the generated module's.
     """
 
-    chain: Chain
+    chain: ChainModule
     layout: Layout
     library: ctypes.CDLL | None = None
     folded: ModuleType | None = None
@@ -251,7 +251,7 @@ def _pointers(case: _Case, before_p: Sequence[object] = ()) -> list[object]:
 
 
 def compile_or_interpret(
-    chain: Chain,
+    chain: ChainModule,
     layout: Layout,
     sources: Mapping[str, str],
     backend: Backend = "auto",
@@ -278,7 +278,7 @@ def _warn_once(why: str) -> None:
 
 
 def compile_quietly(
-    chain: Chain, layout: Layout, sources: Mapping[str, str], name: str, *, quick: bool
+    chain: ChainModule, layout: Layout, sources: Mapping[str, str], name: str, *, quick: bool
 ) -> Evaluator:
     """The evaluator of the module ``name`` for fits: in NumPy, without a note, where there is no machine code."""
     try:

@@ -16,7 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.layout import PAPER, Layout
-from ragg_runtime.model.evaluator import Backend, Chain, Evaluator, compile_or_interpret, compile_quietly
+from ragg_runtime.model.evaluator import (
+    Backend,
+    ChainModule,
+    Evaluator,
+    compile_or_interpret,
+    compile_quietly,
+)
 
 Array = NDArray[np.float64]
 
@@ -115,8 +121,8 @@ class Model:
 
     effects: tuple[Effect, ...]
     candidates: tuple[Effect, ...]
-    chain: Chain
-    signatures: Chain
+    chain: ChainModule
+    signatures: ChainModule
     digest: str
     c: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     folded: ModuleType | None = field(default=None, repr=False, compare=False)
@@ -209,8 +215,8 @@ def _model(manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleTyp
     return Model(
         effects=tuple(by_id[i] for i in present),
         candidates=tuple(e for e in effects if e.id not in present) if signatures is not None else (),
-        chain=cast(Chain, chain),
-        signatures=cast(Chain, signatures or chain),
+        chain=cast(ChainModule, chain),
+        signatures=cast(ChainModule, signatures or chain),
         digest=manifest["digest"],
     )
 

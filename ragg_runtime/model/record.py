@@ -16,7 +16,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout, Vector3, gain
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import RATES, SPECIFIC_FORCE
-from ragg_runtime.model.evaluator import Chain
+from ragg_runtime.model.evaluator import ChainModule
 from ragg_runtime.signals import demodulators
 from ragg_runtime.signals.demodulate import CUTOFF
 from ragg_runtime.signals.demodulators import Demodulator
@@ -149,7 +149,7 @@ class Record:
         """Of all samples, those of the halo too."""
         return lateness(self.time if self.instants is None else self.instants, self.rate)
 
-    def inputs(self, chain: Chain) -> Array:
+    def inputs(self, chain: ChainModule) -> Array:
         """(n_inputs, N) in the order of the module's INPUTS; channels that were not recorded are zero."""
         x = np.zeros((len(chain.INPUTS), len(self.time)))
         for n, name in enumerate(chain.INPUTS):

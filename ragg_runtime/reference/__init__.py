@@ -8,7 +8,14 @@ from __future__ import annotations
 
 from ragg_runtime.reference.angle import disc_angle, turns
 from ragg_runtime.reference.effects import CATALOGUE, EffectValues
-from ragg_runtime.reference.motion import Motion, MotionState, Recorded, Sinusoids, recorded_motion, still
+from ragg_runtime.reference.motion import (
+    Motion,
+    MotionState,
+    RecordedSignal,
+    Sinusoids,
+    recorded_motion,
+    still,
+)
 from ragg_runtime.reference.simulate import Simulation, instants, simulate
 
 __all__ = [
@@ -16,7 +23,7 @@ __all__ = [
     "EffectValues",
     "Motion",
     "MotionState",
-    "Recorded",
+    "RecordedSignal",
     "Simulation",
     "Sinusoids",
     "disc_angle",

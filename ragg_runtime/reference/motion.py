@@ -86,7 +86,7 @@ class Sinusoids:
 
 
 @dataclass(frozen=True)
-class Recorded:
+class RecordedSignal:
     """A record, ``time`` (M,) s, M >= 6, ``samples`` (M,) SI, interpolated by a quintic spline. The spline *is* the motion."""
 
     time: Array
@@ -181,6 +181,6 @@ def still(a: Sequence[float] = (0.0, 0.0, 0.0), omega: Sequence[float] = (0.0, 0
 def recorded_motion(time: ArrayLike, a: ArrayLike, omega: ArrayLike) -> Motion:
     """Motion through a record: time (M,) s, a (3, M) m/s^2, omega (3, M) rad/s."""
     t = np.asarray(time, dtype=np.float64)
-    ax, ay, az = (Recorded(t, v) for v in np.asarray(a, dtype=np.float64))
-    wx, wy, wz = (Recorded(t, v) for v in np.asarray(omega, dtype=np.float64))
+    ax, ay, az = (RecordedSignal(t, v) for v in np.asarray(a, dtype=np.float64))
+    wx, wy, wz = (RecordedSignal(t, v) for v in np.asarray(omega, dtype=np.float64))
     return Motion((ax, ay, az), (wx, wy, wz))

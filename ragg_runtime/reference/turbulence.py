@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfftfreq
 
 from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.reference.motion import Recorded
+from ragg_runtime.reference.motion import RecordedSignal
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ def turbulence(
     cutoff: float = 1.2,
     bursts: float = 0.0,
     start: float = 0.0,
-) -> Recorded:
+) -> RecordedSignal:
     """One component of a random motion, smooth in time.
 
     ``duration``, ``start``: of the flight, s; the signal goes on for ten seconds at both ends. ``rms``, ``mean``: SI,
@@ -76,4 +76,4 @@ def turbulence(
         record = record * np.exp(bursts * slow)
     flight = (nodes >= start) & (nodes <= start + duration)
     record = (record - record[flight].mean()) / record[flight].std()
-    return Recorded(nodes, mean + rms * record)
+    return RecordedSignal(nodes, mean + rms * record)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.reference.angle import disc_angle, turns
-from ragg_runtime.reference.motion import Recorded
+from ragg_runtime.reference.motion import RecordedSignal
 from ragg_runtime.reference.taylor import Taylor
 
 Array = NDArray[np.float64]
@@ -25,7 +25,7 @@ class Turning:
     frequency: float
     swings: tuple[tuple[float, float, float], ...] = ()
     start: float = 0.0
-    recorded: Recorded | None = None
+    recorded: RecordedSignal | None = None
 
     @classmethod
     def of_record(cls, time: Array, angle: Array) -> Turning:
@@ -33,7 +33,7 @@ class Turning:
         whole = np.unwrap(angle)
         frequency = float((whole[-1] - whole[0]) / (time[-1] - time[0]) / (2 * np.pi))
         steady = 2 * np.pi * frequency * (time - time[0])
-        rest = Recorded(time, whole - whole[0] - steady)
+        rest = RecordedSignal(time, whole - whole[0] - steady)
         start = float(angle[0] - 2 * np.pi * turns(frequency, time[0]))
         return cls(frequency=frequency, start=start, recorded=rest)
 

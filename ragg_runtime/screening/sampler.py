@@ -14,7 +14,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.evaluator import Chain
+from ragg_runtime.model.evaluator import ChainModule
 from ragg_runtime.model.record import SPIN, differentiated, disc_angle, kernel, record, spin, start_of
 from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.fir import convolved
@@ -65,7 +65,7 @@ class Rows:
     names: tuple[str, ...]
     usable: Mask | None = None
 
-    def inputs(self, chain: Chain) -> Array:
+    def inputs(self, chain: ChainModule) -> Array:
         """(n_inputs, n) in the order of the chain's INPUTS; what was not recorded is zero."""
         x = np.zeros((len(chain.INPUTS), len(self.time)))
         for n, name in enumerate(chain.INPUTS):

@@ -25,7 +25,7 @@ from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
-from ragg_runtime.model.directory import Step, load_model_dir
+from ragg_runtime.model.directory import HistoryStep, load_model_dir
 from ragg_runtime.studio.files import Places, is_foreign
 
 T = TypeVar("T")
@@ -383,7 +383,7 @@ def list_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Load
 # --- the history as branches ---------------------------------------------------------------------------
 
 
-def text_of(history: Sequence[Step], step: int) -> str:
+def text_of(history: Sequence[HistoryStep], step: int) -> str:
     """model.toml as it was after a step; UserError if that was not kept."""
     if not history[step].text:
         raise UserError(
@@ -394,7 +394,7 @@ def text_of(history: Sequence[Step], step: int) -> str:
     return history[step].text
 
 
-def split_history(history: Sequence[Step]) -> tuple[list[int], list[int]]:
+def split_history(history: Sequence[HistoryStep]) -> tuple[list[int], list[int]]:
     """Steps on the present branch, and those that undo has left (nearest last); undo and redo are steps themselves."""
     past: list[int] = []
     future: list[int] = []
@@ -411,7 +411,7 @@ def split_history(history: Sequence[Step]) -> tuple[list[int], list[int]]:
     return past, future
 
 
-def trace_history(history: Sequence[Step]) -> list[int]:
+def trace_history(history: Sequence[HistoryStep]) -> list[int]:
     """The steps that lead to the present state, without those that were undone or left."""
     past, _ = split_history(history)
     back = next((k for k in reversed(range(len(past))) if history[past[k]].action == "restore"), None)

@@ -12,7 +12,7 @@ from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import derive
 from ragg_runtime.model.evaluate import scale_factor, vector
-from ragg_runtime.model.evaluator import Chain
+from ragg_runtime.model.evaluator import ChainModule
 from tests.generated import fifty_digits as fifty
 from tests.layouts import sheets
 from tests.layouts.test_layouts_physics import instrument
@@ -63,7 +63,7 @@ BALANCED = ("two", "complements", "umbrella", "vertical")
 """Layouts whose accelerometers' places leave nothing of a specific force."""
 
 
-def true_outputs(i: Instrument, chain: Chain, p: Array, phi: Array, x: Array) -> NDArray[np.object_]:
+def true_outputs(i: Instrument, chain: ChainModule, p: Array, phi: Array, x: Array) -> NDArray[np.object_]:
     """(outputs, N) at 50 digits: the channels as they are, the places as the sheet writes them."""
     turns = layouts.constants(i.layout)
     exact = i.form.preset == "exact"
@@ -97,7 +97,7 @@ UPRIGHT = [[np.full(12, float(a == b)) for b in range(3)] for a in range(3)]
 
 
 def unavoidable(
-    i: Instrument, chain: Chain, p: Array, phi: Array, x: Array, true: NDArray[np.object_]
+    i: Instrument, chain: ChainModule, p: Array, phi: Array, x: Array, true: NDArray[np.object_]
 ) -> Array:
     """(outputs, N) V: what half a unit in the last place of each channel, of the angle and of the output is worth.
 

@@ -19,8 +19,8 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import locked
 from ragg_runtime.model import directory as md
 from ragg_runtime.model.directory import (
+    HistoryStep,
     ModelDir,
-    Step,
     create_model_dir,
     digest,
     load_model_dir,
@@ -50,8 +50,8 @@ def code_of(n: int) -> dict[str, str]:
     return {} if n % 3 == 0 else {"deep/chain.py": f"STATE = {n}\n" * 50, "digest": str(n)}
 
 
-def step_of(n: int) -> Step:
-    return Step("add", "2024-01-01T00:00:00Z", f"state-{n}")
+def step_of(n: int) -> HistoryStep:
+    return HistoryStep("add", "2024-01-01T00:00:00Z", f"state-{n}")
 
 
 def state_number(found: ModelDir) -> int:
@@ -115,7 +115,7 @@ def test_a_change_that_was_cut_off_is_dropped_and_an_edit_by_hand_is_not(tmp_pat
 def test_a_calibration_saved_meanwhile_hinders_nobody_and_stays(tmp_path: Path) -> None:
     """As in a notebook: calibrate(m, flights, save=True), then add(m, effect, flights) with the same m."""
     first = make(tmp_path, 1)
-    step = Step("calibrate", "2024-01-01T00:00:00Z")
+    step = HistoryStep("calibrate", "2024-01-01T00:00:00Z")
     for n in (1, 2):
         replace_model_dir(
             first,

@@ -7,13 +7,15 @@ import pytest
 from scipy.integrate import quad
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.reference.motion import Recorded, Signal, Sinusoids, recorded_motion
+from ragg_runtime.reference.motion import RecordedSignal, Signal, Sinusoids, recorded_motion
 
 ENVELOPE = Sinusoids(1.0, [0.5], [0.02], [0.3])
 SIGNALS: dict[str, Signal] = {
     "sinusoids": Sinusoids(0.7, [1.0, 0.4, 0.2], [0.11, 0.63, 1.2], [0.1, 2.0, 4.0]),
     "bursts": Sinusoids(-0.2, [1.0, 0.3], [0.31, 0.9], [0.1, 1.0], ENVELOPE),
-    "recorded": Recorded(np.arange(400) / 8, np.random.default_rng(3).standard_normal(400) * np.hanning(400)),
+    "recorded": RecordedSignal(
+        np.arange(400) / 8, np.random.default_rng(3).standard_normal(400) * np.hanning(400)
+    ),
 }
 
 
@@ -38,7 +40,7 @@ def test_a_shift_is_another_instant(signal: Signal) -> None:
 
 def test_record_passes_through_its_samples_and_reproduces_a_sine() -> None:
     t = np.arange(0, 60, 1 / 16)
-    sine = Recorded(t, np.sin(2 * np.pi * 0.5 * t))
+    sine = RecordedSignal(t, np.sin(2 * np.pi * 0.5 * t))
     np.testing.assert_allclose(sine.value(t), sine.samples, rtol=0, atol=1e-13)
     between = np.arange(5, 55, 0.0173)
     np.testing.assert_allclose(sine.value(between), np.sin(np.pi * between), rtol=0, atol=1e-6)
@@ -66,6 +68,6 @@ def test_a_record_too_short_says_so() -> None:
 )
 def test_a_bad_record_is_refused(time: list[float], samples: list[float]) -> None:
     with pytest.raises(UserError):
-        Recorded(np.array(time, dtype=float), np.array(samples, dtype=float))
+        RecordedSignal(np.array(time, dtype=float), np.array(samples, dtype=float))
     with pytest.raises(UserError):
         Sinusoids(0.0, [1.0], [0.1, 0.2], [0.0])

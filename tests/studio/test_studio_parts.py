@@ -24,7 +24,7 @@ from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import field_of
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import write_flight
-from ragg_runtime.model.directory import Step
+from ragg_runtime.model.directory import HistoryStep
 from ragg_runtime.simulate import simulated
 from ragg_runtime.studio import mapping, session, views
 from ragg_runtime.studio.files import Places
@@ -115,16 +115,20 @@ def test_a_window_of_a_series_loses_no_extreme_and_no_gap() -> None:
 
 def test_undo_and_redo_walk_along_a_branch() -> None:
     actions = ["new", "add", "add", "undo", "undo", "redo", "edit", "undo", "redo"]
-    steps = [Step(a, "2026-01-01", text=str(n)) for n, a in enumerate(actions)]
+    steps = [HistoryStep(a, "2026-01-01", text=str(n)) for n, a in enumerate(actions)]
     assert split_history(steps[:3]) == ([0, 1, 2], [])
     assert split_history(steps[:5]) == ([0], [2, 1])
     assert split_history(steps[:6]) == ([0, 1], [2])
     assert split_history(steps[:7]) == ([0, 1, 6], [])
     assert split_history(steps[:8]) == ([0, 1], [6])
     assert split_history(steps) == ([0, 1, 6], [])
-    kept = [*steps[:2], Step("calibrate", "2026-01-01")]  # leaves the model as it is
-    assert split_history([*kept, Step("undo", "2026-01-01", "0", text="0")]) == ([0], [1])
-    went = [*steps[:4], Step("add", "2026-01-01", text="4"), Step("restore", "2026-01-01", "2", text="2")]
+    kept = [*steps[:2], HistoryStep("calibrate", "2026-01-01")]  # leaves the model as it is
+    assert split_history([*kept, HistoryStep("undo", "2026-01-01", "0", text="0")]) == ([0], [1])
+    went = [
+        *steps[:4],
+        HistoryStep("add", "2026-01-01", text="4"),
+        HistoryStep("restore", "2026-01-01", "2", text="2"),
+    ]
     assert trace_history(went[:5]) == [0, 1, 4]
     assert trace_history(went) == [0, 1, 2]  # what is shown is the state after step 2
 
@@ -234,7 +238,10 @@ def test_names_of_several_lines_stay_in_the_comments_of_a_shell(tmp_path: Path) 
     evil = "x\ntouch PWNED\n#"
     new(tmp_path / evil)
     m = api.load(tmp_path / evil)
-    steps = (Step(action="add", time="", effect="lag", flights={evil: ""}), Step(action=evil, time=""))
+    steps = (
+        HistoryStep(action="add", time="", effect="lag", flights={evil: ""}),
+        HistoryStep(action=evil, time=""),
+    )
     shown = SimpleNamespace(
         loaded=m,
         model=SimpleNamespace(directory=SimpleNamespace(path=m.directory.path, history=(*m.directory.history, *steps))),

@@ -11,7 +11,7 @@ from derive.emit.c import fast
 from derive.emit.printers import to_c
 from derive.emit.render import environment
 from derive.folded import Folded
-from derive.ir import Chain, Harmonic
+from derive.ir import ChainProgram, Harmonic
 from derive.propagation import Term
 from derive.tape import Program
 
@@ -60,7 +60,7 @@ class Turned(Program):
         )
 
 
-def chain(m: Chain, *, packaged: bool) -> dict[str, str]:
+def chain(m: ChainProgram, *, packaged: bool) -> dict[str, str]:
     """The packaged models are whole in C; of a model directory, C serves to evaluate it elsewhere."""
     if not packaged and m.name != "chain":
         return {}
@@ -73,7 +73,7 @@ def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, ...]])
     return {}
 
 
-def plain(m: Chain) -> dict[str, str]:
+def plain(m: ChainProgram) -> dict[str, str]:
     """G_out alone, in the order of operations of the NumPy code."""
     return {f"plain.{end}": _render(f"plain.{end}.j2", m=m) for end in ("h", "c")}
 

@@ -9,7 +9,7 @@ import sympy as sp
 from derive.emit.printers import to_latex
 from derive.emit.render import environment
 from derive.folded import Folded
-from derive.ir import AmplitudeTerm, Chain, Coefficient, Harmonic
+from derive.ir import AmplitudeTerm, ChainProgram, Coefficient, Harmonic
 from derive.propagation import Term, monomial
 from derive.symbols import symbol
 
@@ -22,7 +22,7 @@ def folded(m: Folded) -> dict[str, str]:
     return {}
 
 
-def chain(m: Chain, *, packaged: bool) -> dict[str, str]:
+def chain(m: ChainProgram, *, packaged: bool) -> dict[str, str]:
     return {}
 
 

@@ -9,7 +9,7 @@ import sympy as sp
 from derive.emit.printers import to_numpy
 from derive.emit.render import environment
 from derive.folded import Folded
-from derive.ir import AmplitudeTerm, Chain, Harmonic
+from derive.ir import AmplitudeTerm, ChainProgram, Harmonic
 from derive.propagation import Term
 
 BLOCK = 4096
@@ -24,7 +24,7 @@ def folded(m: Folded) -> dict[str, str]:
     return {f"{m.name}.py": _render("folded.py.j2", m=m)}
 
 
-def chain(m: Chain, *, packaged: bool) -> dict[str, str]:
+def chain(m: ChainProgram, *, packaged: bool) -> dict[str, str]:
     return {f"{m.name}.py": _render("chain.py.j2", m=m)}
 
 

@@ -6,9 +6,9 @@ from ragg_runtime.reference.effects.catalogue import (
     CATALOGUE,
     EffectValues,
     Injected,
-    Parameter,
+    InjectedParameter,
     channels_needed,
     resolve,
 )
 
-__all__ = ["CATALOGUE", "EffectValues", "Injected", "Parameter", "channels_needed", "resolve"]
+__all__ = ["CATALOGUE", "EffectValues", "Injected", "InjectedParameter", "channels_needed", "resolve"]

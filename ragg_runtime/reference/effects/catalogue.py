@@ -21,7 +21,7 @@ EffectValues = Mapping[str, Mapping[str, ArrayLike]]
 
 
 @dataclass(frozen=True)
-class Parameter:
+class InjectedParameter:
     """One number of an effect (``per_accelerometer``: one each), absent at ``neutral``.
 
     ``unit``: SI; m/s^2 is the unit of specific force, so 1/(m/s^2)^2 stands for the paper's g/g^3.
@@ -32,12 +32,12 @@ class Parameter:
     neutral: float = 0.0
 
 
-def _each(unit: str, *names: str) -> dict[str, Parameter]:
-    return {name: Parameter(unit, per_accelerometer=True) for name in names}
+def _each(unit: str, *names: str) -> dict[str, InjectedParameter]:
+    return {name: InjectedParameter(unit, per_accelerometer=True) for name in names}
 
 
-def _shared(unit: str, *names: str, neutral: float = 0.0) -> dict[str, Parameter]:
-    return {name: Parameter(unit, neutral=neutral) for name in names}
+def _shared(unit: str, *names: str, neutral: float = 0.0) -> dict[str, InjectedParameter]:
+    return {name: InjectedParameter(unit, neutral=neutral) for name in names}
 
 
 _TRACELESS = ("xx", "xy", "xz", "yy", "yz")
@@ -45,7 +45,7 @@ _PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
 _TURNING = tuple(f"G_{c}_{axis}" for axis in ("roll", "pitch") for c in _TRACELESS)
 _RESONANCE = _shared("Hz", "f_0", neutral=5.0) | _shared("1", "Q", neutral=10.0)
 
-CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
+CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "cubic-input": _each("1/(m/s^2)^2", "K_iii"),
     "cubic-cross": _each(
         "1/(m/s^2)^2", "K_iio", "K_iip", "K_ioo", "K_iop", "K_ipp", "K_ooo", "K_oop", "K_opp", "K_ppp"
@@ -187,7 +187,7 @@ def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
 
 
 def _values(
-    effect: str, name: str, parameter: Parameter, given: ArrayLike, count: int
+    effect: str, name: str, parameter: InjectedParameter, given: ArrayLike, count: int
 ) -> NDArray[np.float64]:
     expected = (
         f"{'four' if count == 4 else count} numbers, or one for all, in {parameter.unit}"
