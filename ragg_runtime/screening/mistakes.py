@@ -14,14 +14,12 @@ from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units
-from ragg_runtime.io import Flight
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
+from ragg_runtime.io.record import ANGULAR_ACCELERATION
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening import other_demodulator, timing
 from ragg_runtime.screening.linear_fit import INDEPENDENT, Hypothesis, LinearFit, fit_each, fit_rows
 from ragg_runtime.screening.sampler import Rows, Sampler, find_stem
-from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
 
@@ -158,7 +156,12 @@ def _wrong(model: Model, instrument: Instrument, s: Sampler, rows: Rows) -> list
     """The most promising mistakes of unit, sign and axis."""
     few = s.take(s.rows(most=FEW))
     possible = list(
-        list_mistakes(rows, instrument.units, s.flight.written, derived=has_derived_rates(s.flight))
+        list_mistakes(
+            rows,
+            instrument.units,
+            s.flight.written,
+            derived=ANGULAR_ACCELERATION[0] not in (s.flight.written or s.flight.channels),
+        )
     )
     rough = fit_each(model, instrument, (m.undo(few) for m in possible))
     order = sorted(range(len(possible)), key=lambda k: rough[k].score + possible[k].plainness / 2)
@@ -355,20 +358,3 @@ def _turned(rows: Rows, group: tuple[str, ...], order: tuple[int, ...], signs: t
         if all(n in rows.channels for n in own):
             changed |= {own[k]: signs[k] * rows.channels[own[order[k]]] for k in range(3)}
     return replace(rows, channels={**rows.channels, **changed})
-
-
-def has_derived_rates(x: Flight) -> bool:
-    """Whether the angular acceleration is the derivative of the rate: then it has the rate's mistakes."""
-    if x.written:
-        return ANGULAR_ACCELERATION[0] not in x.written
-    part = slice(0, min(len(x), 4096))
-    for rate, change in zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True):
-        if change not in x.channels:
-            continue
-        found = differentiate(x.channels[rate][part], x.rate)
-        there = np.isfinite(found)
-        there[:16] = there[-16:] = False
-        given = x.channels[change][part]
-        if not np.allclose(found[there], given[there], rtol=1e-9, atol=1e-9 * float(np.std(given))):
-            return False
-    return True

@@ -71,7 +71,7 @@ def leave_out_repeated(flight: Flight) -> Flight:
     for name in (
         *flight.outputs,
         *angles,
-        *(n for n in MOTION if n in flight.written or _is_given(n, flight)),
+        *(n for n in MOTION if n in (flight.written or flight.channels)),
     ):
         x = flight.outputs.get(name, flight.channels.get(name))
         if x is None:
@@ -110,11 +110,6 @@ def derive_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
         for n, slope in zip(ANGULAR_ACCELERATION, slopes, strict=True)
     }
     return replace(x, channels={**x.channels, **made}, valid=x.valid & sure)
-
-
-def _is_given(name: str, flight: Flight) -> bool:
-    """Whether a flight that was not read from a file holds a column of its own."""
-    return not flight.written and name in flight.channels
 
 
 @dataclass(frozen=True)

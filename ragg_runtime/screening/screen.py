@@ -36,8 +36,7 @@ HALVED = 2.0
 """Factor from which what the model leaves is told as smaller; below, the parameters' nearness to the sheet spoke for the mistake."""
 
 CLOCK = INDEPENDENT * float(np.log(1.3))
-"""Gain in log evidence from which a clock was set and sampling did not pause: of 145 pauses beside effects of any strength, up to a
-hundred times the clock's, none gained 24, of 116 clocks set 65 more than this (a factor of 5 as for other mistakes: 44)."""
+"""Gain in log evidence from which a clock was set and sampling did not pause (docs/contributors/decisions.md)."""
 
 LONGEST = 1 << 18
 """Samples of which it is told whether they were taken at uneven instants."""
