@@ -191,7 +191,7 @@ def make_table(
     about
         Further fields of the table.
     """
-    given, arrays = given or {}, [(n, np.asarray(x), dict(*a)) for n, x, *a in arrays]
+    given, arrays = given or {}, [(n, _read_array(x), dict(*a)) for n, x, *a in arrays]
     sizes = [(read_heading(n)[0], max(x.shape)) for n, x, _ in arrays if _is_narrow(x.shape)]
     common = Counter(size for _, size in sizes if size > 1).most_common(1)
     length = next((size for n, size in sizes if n == "time" and size > 1), common[0][0] if common else 1)
@@ -215,6 +215,16 @@ def make_table(
         shown = ", ".join(other[:6]) + (" ..." if len(other) > 6 else "")
         notes.append(f"skipped, not of the {length} rows of the table: {one_line(shown)}")
     return DataTable(tuple(columns), notes=tuple(notes), **about)
+
+
+def _read_array(x: Any) -> NDArray[Any]:
+    """Anything as an array; what is masked holds nothing."""
+    if isinstance(x, np.ma.MaskedArray) and x.dtype.kind in "biuf":
+        return np.where(np.ma.getmaskarray(x), np.nan, x.data)
+    try:
+        return np.asarray(x)
+    except ValueError:  # parts of several lengths
+        return np.asarray(x, dtype=object)
 
 
 def _is_narrow(shape: tuple[int, ...]) -> bool:
@@ -340,6 +350,10 @@ def tabulate(data: Any) -> list[DataTable]:
         return [_tabulate_frame(data)]
     if hasattr(data, "data_vars") and hasattr(data, "coords"):
         return [make_table((str(n), v.values, _unpack_range(v)) for n, v in data.variables.items())]
+    if hasattr(data, "to_pandas"):  # tables of Arrow and Polars
+        return [_tabulate_frame(data.to_pandas())]
+    if getattr(getattr(data, "dtype", None), "names", None):  # records of NumPy
+        data = {n: data[n] for n in data.dtype.names}
     if isinstance(data, Mapping):
         about = [data[n] for n in ("units", "attrs") if isinstance(data.get(n), Mapping)]
         arrays = ((str(n), *_read_series(v)) for n, v in data.items() if not isinstance(v, Mapping))
@@ -360,6 +374,7 @@ def _unpack_range(v: Any) -> Attributes:
 
 def _tabulate_frame(frame: Any) -> DataTable:
     """The table of a DataFrame; an index that is more than row numbers is its first column."""
+    frame = frame.reset_index() if frame.index.nlevels > 1 else frame  # by line and time
     arrays = []
     for k, c in enumerate(frame.columns):
         parts = [str(x) for x in c] if isinstance(c, tuple) else [str(c)]
@@ -375,7 +390,9 @@ def _tabulate_frame(frame: Any) -> DataTable:
 
 
 def _read_series(series: Any) -> tuple[Any, Attributes]:
-    """A column of pandas as an array of NumPy, any other array as it is; and its attributes."""
+    """A column of pandas as an array of NumPy, any other array as it is; and its attributes, or the unit beside it in a pair."""
+    if isinstance(series, tuple) and len(series) == 2 and isinstance(series[1], str):
+        return series[0], {"units": series[1]}
     if not hasattr(series, "to_numpy") or not hasattr(series, "index"):
         return series, getattr(series, "attrs", {})
     dtype = series.dtype

@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 import openpyxl
 import pandas as pd
+import pyarrow as pa
 import pytest
 import xarray
 from scipy.io import savemat
@@ -337,6 +338,10 @@ def test_flights_in_memory() -> None:
         (dated.tz_localize("UTC").rename_axis("time"), True),
         (two, False),
         (pd.DataFrame(plain).astype("Float64"), False),
+        (pa.table(plain), False),
+        ({n: (v, UNITS[n]) for n, v in VALUES.items()}, False),
+        (pd.DataFrame(plain).assign(line="A").set_index(["line", HEADER[0]]), False),
+        (pd.DataFrame(plain).to_records(index=False), False),
         (attributes, True),
         (seconds, False),
         ({**VALUES, "attrs": {"units": UNITS}}, False),
@@ -345,6 +350,8 @@ def test_flights_in_memory() -> None:
         (found,) = read_flights(data, G0, name="x")
         same(found, instants)
         assert (found.name, found.path, len(found.digest)) == ("x", None, 64)
+    masked = np.ma.masked_array(VALUES["a_x"], np.arange(N) == 9)
+    assert np.flatnonzero(~read_flight(plain | {HEADER[1]: masked}, G0).valid).tolist() == [9]
     with pytest.raises(UserError, match="not a flight"):
         read_flight(3.0, G0)
 
