@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ragg_runtime.base import false_alarms
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.identification import series
@@ -83,9 +82,8 @@ def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
     """The sections, the one that says where the model fails with its figures."""
     f = c.fitted
     harmonics = panels.plot_harmonics(f, f.vector(np.zeros(f.n_base)), "where")
-    terms = panels.plot_terms(c.terms(), c.calibrated.rms_Eo, "where")
     if any(s.title == "Where it fails" for s in sections):
-        return [_with_plots(s, harmonics, terms) if s.title == "Where it fails" else s for s in sections]
+        return [_with_plots(s, harmonics) if s.title == "Where it fails" else s for s in sections]
     return [*sections, *_figure("Residual by harmonic of the spin", harmonics)]
 
 
@@ -97,15 +95,10 @@ def write_diagnosis(d: Diagnosis, origin: Origin) -> str:
     parts = {s.title: s for s in said[1:]}
     open_ = []
     if d.verdict in ("unexplained", "partly-explained"):
-        terms = panels.plot_terms(d.terms(), d.after.rms_Eo, "where")
         harmonics = panels.plot_harmonics(f, d.coefficients, "where")
         rest = parts.pop("Not explained", Section(title="Not explained"))
-        open_.append(_with_plots(rest, terms, harmonics))
+        open_.append(_with_plots(rest, harmonics))
     open_ += [parts.pop(name) for name in ("Values", "Next motion") if name in parts]
-    if "Evidence" in parts:
-        level = -float(np.log10(false_alarms.CATALOGUE / max(1, len(d.ranking))))
-        evidence = panels.plot_evidence([r.as_json() for r in d.ranking], d.found, level)
-        parts["Evidence"] = _with_plots(parts["Evidence"], evidence)
     known = [e for e in map(d.fitted.model.effect, d.found) if e is not None]
     physics = [f"{e.id}, {e.title}: {e.physics} Source: {e.source or 'none'}" for e in known]
     sections = [

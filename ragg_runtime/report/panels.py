@@ -183,29 +183,6 @@ def plot_harmonics(f: Fitted, coefficients: Array, key: str) -> Bars | None:
     return Bars(f"{key}-harmonic", caption, bars, "slow error, Eo", upright=True)
 
 
-def plot_terms(terms: Sequence[Mapping[str, Any]], rms_Eo: float, key: str) -> Bars | None:
-    """Generic terms of a residual by their own size, Eo before demodulation."""
-    sizes = [(describe.label_term(t), float(np.sqrt(float(t["share"]))) * rms_Eo) for t in terms]
-    bars = tuple(Bar(label, size) for label, size in sorted(sizes, key=lambda x: -x[1]))
-    caption = "Motion terms that are significant in the residual, by their own size before demodulation."
-    return Bars(f"{key}-terms", caption, bars, "Eo rms") if len(bars) > 2 else None
-
-
-def plot_evidence(ranking: Sequence[Mapping[str, Any]], found: Sequence[str], level: float) -> Bars | None:
-    """Evidence of the best effects, -log10 p; ``level`` is that from which the whole catalogue would claim one."""
-    values = [
-        (str(r["effect"]), np.inf if r["log10_p"] is None else -float(r["log10_p"])) for r in ranking[:12]
-    ]
-    if not values:
-        return None
-    finite = [v for _, v in values if np.isfinite(v)]
-    log = bool(finite) and max(finite) > 8.0 * level
-    bars = tuple(Bar(e, v, strong=e in found) for e, v in values)
-    axis = "evidence, −log₁₀ p" + (" (logarithmic scale)" if log else "")
-    caption = "Evidence for each effect alone, best first. Dark: claimed."
-    return Bars("evidence", caption, bars, axis, log=log, threshold=(level, "needed for a claim"))
-
-
 def list_error_steps(steps: Sequence[Mapping[str, Any]], now: float | None = None) -> list[Bar]:
     """The error after every step of a history, held out as dots, and ``now``: pale where the flights, not the model, are others."""
     bars: list[Bar] = []

@@ -167,8 +167,7 @@ def write_comparison_headline(c: Json) -> tuple[str, ...]:
         return (f"The calibration has not converged: {c['reason']!s}.",)
     if c["adequate"]:
         return (
-            f"The model is adequate: after calibration the error is {number(error)} Eo, the noise of this record"
-            f" ({number(noise)} Eo).",
+            f"The model is adequate: after calibration the error is {number(error)} Eo, the noise floor {number(noise)} Eo.",
         )
     why = "; ".join(map(str, c.get("grounds", ())))
     return (
@@ -231,8 +230,8 @@ def write_verdict(d: Json) -> str:
         return f"No verdict: {d['remark']!s}."
     if d["verdict"] == "adequate":
         return (
-            f"Adequate: this record shows no missing effect. The calibrated model leaves {format_error(before)} Eo;"
-            f" the noise floor is {format_error(noise)} Eo."
+            f"Adequate: this record shows no missing effect. After calibration the error is {format_error(before)} Eo,"
+            f" the noise floor {format_error(noise)} Eo."
         )
     falls = f"With {it} the error falls from {format_error(before)} to {format_error(after)} Eo"
     if not after["rms_Eo"] < before["rms_Eo"] * (1.0 - 1e-6):

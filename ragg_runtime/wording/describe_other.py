@@ -155,7 +155,8 @@ def describe_compensation(r: Json, output: str) -> Sections:
     meanings = [str(x).split(": ", 1) for x in r["quality"].values()]
     for x in r["flights"]:
         name = str(x["flight"]) + (f": {x['output']!s}" if several else "")
-        text = f"Of {x['samples']} samples {x['values']} have a value and {x['good']} are good."
+        samples, values, good = (numbers.fixed(x[k], 0) for k in ("samples", "values", "good"))
+        text = f"{samples} samples: {values} with a value, {good} of them good."
         flags = [f"{x['quality'][flag]} {said}." for flag, said in meanings if x["quality"][flag]]
         removed = [(str(q["of"]), number(q["inline_Eo"]), number(q["cross_Eo"])) for q in x["contributions"]]
         found += [
