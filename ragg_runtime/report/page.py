@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -28,13 +27,13 @@ class Origin:
 def _find_renderer() -> Callable[[Plot], str]:
     """What draws a plot as SVG; where matplotlib is not installed, a line that says so."""
     try:
-        from ragg_runtime.report.plots import draw_plot
+        from ragg_runtime.report.plots import draw_both
     except ModuleNotFoundError as error:
         missing = missing_package(error)
         if missing is None:
             raise
         return lambda plot: f"<p>no figure: {escape(missing.what)} ({escape(missing.remedy or '')})</p>"
-    return draw_plot
+    return draw_both
 
 
 def render_page(
@@ -55,8 +54,7 @@ def render_page(
         )
         sections = [*sections, done]
     first, *others = sections
-    draw_plot = _find_renderer()
-    body, contents = _anchored(render_html(others, draw_plot))
+    draw = _find_renderer()
     return numbers.clean(
         f"""<!DOCTYPE html>
 <html lang="en">
@@ -73,11 +71,10 @@ def render_page(
 <header>
 <p class="kind">{escape(kind)}</p>
 <h1>{escape(origin.title)}</h1>
-{render_html([first], draw_plot)}
+{render_html([first], draw)}
 </header>
-{contents}
 <main>
-{body}
+{render_html(others, draw)}
 </main>
 {_footer(origin, facts)}
 </body>
@@ -100,20 +97,6 @@ def _footer(origin: Origin, facts: Sequence[tuple[str, str]]) -> str:
     table = f'<div class="wide"><table><tbody>{files}</tbody></table></div>' if files else ""
     facts_ = f'<details><summary>Record, versions and digests</summary><dl class="facts">{listed}</dl>{table}</details>'
     return f"<footer><h2>How this was made</h2><pre>{escape(origin.command)}</pre>{facts_}</footer>"
-
-
-def _anchored(text: str) -> tuple[str, str]:
-    """The text with its headings numbered for links, and the list of these links where they are more than two."""
-    found: list[str] = []
-
-    def anchor(heading: re.Match[str]) -> str:
-        found.append(f'<li><a href="#section-{len(found) + 1}">{heading[1]}</a></li>')
-        return f'<h2 id="section-{len(found)}">{heading[1]}</h2>'
-
-    text = re.sub(r"<h2>(.*?)</h2>", anchor, text, flags=re.DOTALL)
-    listed = "\n".join(found)
-    nav = f'<nav class="contents" aria-label="Contents"><ol>\n{listed}\n</ol></nav>'
-    return text, nav if len(found) > 2 else ""
 
 
 @cache

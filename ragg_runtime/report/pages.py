@@ -55,9 +55,9 @@ def write_comparison(c: Comparison, origin: Origin, frozen: Held | None = None) 
     sections = [
         _with_plots(said[0], panels.plot_blocks(f, lines, envelope=True)),
         *_with_failures(said[1:], c),
-        *_figure("Measured over model", panels.plot_measured(f, c.residual)),
-        *_figure("Spectrum", panels.plot_spectrum(f, lines)),
-        *_figure("Demodulated channels", panels.plot_channels(f, lines)),
+        *_figure("Spectrum", panels.plot_spectrum(f, lines), detail=True),
+        *_figure("Measured over model", panels.plot_measured(f, c.residual), detail=True),
+        *_figure("Demodulated channels", panels.plot_channels(f, lines), detail=True),
         *_ask_whiteness(f, c.residual),
         *describe_parameters(f),
     ]
@@ -136,9 +136,9 @@ def write_addition(
         *step[1:],
         Section(title="History", table=describe.tabulate_history(history), detail=True),
         *_figure("The residual before and after", *both),
-        *_figure("Demodulated channels", panels.plot_channels(f, lines)),
-        *_with_failures([], after),
-        *_figure("What each group of parameters contributes", panels.plot_budget(f, after.noise_floor)),
+        *_figure("Demodulated channels", panels.plot_channels(f, lines), detail=True),
+        *(replace(s, detail=True) for s in _with_failures([], after)),
+        *_figure("Contributions of the parameters", panels.plot_budget(f, after.noise_floor), detail=True),
     ]
     if diagnosis is not None:
         said = describe.describe_diagnosis(diagnosis.as_json())

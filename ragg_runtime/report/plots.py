@@ -8,6 +8,7 @@ import re
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from importlib import resources
 from typing import Any
 
@@ -36,19 +37,25 @@ distinguishable in black and white."""
 
 NAMES = {colour: name for name, colour in COLOURS.items()}
 
-WIDTH = 9.6
-"""Width of every figure, inches: at the page's width a point is a little more than a pixel."""
+WIDTH, NARROW = 9.6, 4.6
+"""Widths of a figure, inches, on a page and on a narrow one: on either a point is a little more than a pixel."""
 
 HALO = {"facecolor": COLOURS["paper"], "edgecolor": "none", "pad": 0.6}
 """Behind a value that may lie on a line."""
 
 
-def draw_plot(plot: Plot) -> str:
-    """The plot as an inline ``<svg>`` element."""
+def draw_plot(plot: Plot, width: float = WIDTH) -> str:
+    """The plot as an inline ``<svg>`` element, so many inches wide."""
     with _style():
         if isinstance(plot, Matrix):
-            return _draw_matrix(plot)
-        return _draw_curves(plot) if isinstance(plot, Curves) else _draw_bars(plot)
+            return _draw_matrix(plot, width)
+        return _draw_curves(plot, width) if isinstance(plot, Curves) else _draw_bars(plot, width)
+
+
+def draw_both(plot: Plot) -> str:
+    """The plot for a page, and again for a narrow one; the style sheet shows one of them."""
+    narrow = draw_plot(replace(plot, key=f"{plot.key}-n"), NARROW)
+    return draw_plot(plot) + narrow.replace("<svg ", '<svg class="narrow" ', 1)
 
 
 def draw_file(plot: Plot) -> str:
@@ -74,9 +81,9 @@ def _style() -> Iterator[None]:
         yield
 
 
-def _make_figure(height: float) -> Figure:
-    """A figure ``height`` inches high, in constrained layout."""
-    made = Figure(figsize=(WIDTH, height), layout="constrained")
+def _make_figure(width: float, height: float) -> Figure:
+    """A figure of so many inches, in constrained layout."""
+    made = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasSVG(made)
     return made
 
@@ -84,10 +91,10 @@ def _make_figure(height: float) -> Figure:
 # --- curves --------------------------------------------------------------------------------------------
 
 
-def _draw_curves(plot: Curves) -> str:
+def _draw_curves(plot: Curves, width: float) -> str:
     """Axes below each other, each with its curves, the noise dashed."""
     shares = [a.share for a in plot.axes]
-    fig = _make_figure(plot.height * sum(shares) + 0.3)
+    fig = _make_figure(width, plot.height * sum(shares) + 0.3)
     found = fig.subplots(len(plot.axes), 1, squeeze=False, height_ratios=shares)[:, 0]
     noise: dict[str, Any] = {"color": COLOURS["noise"], "linestyle": "--", "linewidth": 1.0, "zorder": 3}
     for ax, axes in zip(found, plot.axes, strict=True):
@@ -177,10 +184,12 @@ def _add_legend(ax: Drawn, columns: int) -> None:
 # --- bars and matrices ---------------------------------------------------------------------------------
 
 
-def _draw_bars(plot: Bars) -> str:
+def _draw_bars(plot: Bars, width: float) -> str:
     """Bars with their values beside them, a dashed line or dashed ticks where the noise is."""
-    count, up = len(plot.bars), plot.upright
-    fig = _make_figure(2.8 if up else 0.75 + 0.245 * count)
+    count = len(plot.bars)
+    plot = replace(plot, upright=plot.upright and (width == WIDTH or count < 4))
+    up = plot.upright
+    fig = _make_figure(width, 2.4 if up else 0.75 + 0.245 * count)
     ax = fig.subplots()
     place = np.arange(count, dtype=np.float64)
     low, shown = _scale_bars(plot)
@@ -213,7 +222,7 @@ def _draw_bars(plot: Bars) -> str:
         x, y = (place[kept] + 0.35, dots[kept]) if up else (dots[kept], place[kept])
         look: dict[str, Any] = {"color": COLOURS["ink"], "markerfacecolor": COLOURS["paper"]}
         ax.plot(x, y, marker, markersize=4.5, label=name, **look)
-    _label_bars(ax, plot, low, float(np.max(shown, initial=1e-12)))
+    _label_bars(ax, plot, low, float(np.max(shown, initial=1e-12)), narrow=width < WIDTH)
     return _write_svg(fig, plot.key, plot.caption)
 
 
@@ -228,7 +237,7 @@ def _scale_bars(plot: Bars) -> tuple[float, Array]:
     return low, np.maximum(shown, low)
 
 
-def _label_bars(ax: Drawn, plot: Bars, low: float, top: float) -> None:
+def _label_bars(ax: Drawn, plot: Bars, low: float, top: float, *, narrow: bool) -> None:
     count, up = len(plot.bars), plot.upright
     limit, scale = (ax.set_ylim, ax.set_yscale) if up else (ax.set_xlim, ax.set_xscale)
     if plot.log:
@@ -238,6 +247,7 @@ def _label_bars(ax: Drawn, plot: Bars, low: float, top: float) -> None:
     else:
         limit(0.0, 1.18 * max(top, plot.threshold[0] if plot.threshold else 0.0))
     length = 56 if not up else 28 if count < 6 else 16
+    length = length // 2 if narrow else length
     texts = ["\n".join(numbers.short(part, length) for part in b.label.split("\n")) for b in plot.bars]
     if up:
         ax.set_xticks(range(count), texts)
@@ -253,10 +263,10 @@ def _label_bars(ax: Drawn, plot: Bars, low: float, top: float) -> None:
         _add_legend(ax, 3)
 
 
-def _draw_matrix(plot: Matrix) -> str:
+def _draw_matrix(plot: Matrix, width: float) -> str:
     """Squares below the diagonal whose areas are the sizes of the entries; those of less than 0.1 are left out."""
     count = len(plot.names)
-    fig = _make_figure(max(2.0, 0.17 * count + 1.4))
+    fig = _make_figure(width, max(2.0, 0.17 * count + 1.4))
     ax = fig.subplots()
     for sign, colour, words in ((1.0, "residual", "positive"), (-1.0, "noise", "negative")):
         found = [(i, j, float(plot.values[i, j]) * sign) for i in range(count) for j in range(i)]

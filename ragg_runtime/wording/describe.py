@@ -14,8 +14,14 @@ Json = Mapping[str, Any]
 Sections = tuple[Section, ...]
 Columns = dict[str, Callable[[Json], str]]
 
-ERROR_KEYS = ("rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz")
-ERROR_HEADS = ("error", "rms, Eo", "inline, Eo", "cross, Eo", "inline, Eo/√Hz", "cross, Eo/√Hz")
+ERROR_HEADS = {
+    "rms_Eo": "rms, Eo",
+    "inline_Eo": "inline, Eo",
+    "cross_Eo": "cross, Eo",
+    "inline_Eo_per_rtHz": "inline, Eo/√Hz",
+    "cross_Eo_per_rtHz": "cross, Eo/√Hz",
+}
+"""Key of an error object -> the head of its column."""
 
 RANKED = 6
 """Effects of a ranking that a terminal shows unless it is asked for all."""
@@ -73,10 +79,14 @@ def tabulate_errors(
     rows: Sequence[tuple[str, Json | None]], title: str = "Errors", *, detail: bool = False
 ) -> Section:
     """The table of errors, before demodulation and of both channels; a dash where there is none."""
-    cells = [(label, *(number(None if e is None else e.get(k)) for k in ERROR_KEYS)) for label, e in rows]
-    missing = any(e is not None and e.get("inline_Eo") is None for _, e in rows)
-    note = "–: no channels. The disc does not spin, or no part of the record is as long as the demodulator's low-pass."
-    table = Table(heads=ERROR_HEADS, rows=tuple(cells), note=note if missing else "")
+    given = [e for _, e in rows if e is not None]
+    shown = [k for k in ERROR_HEADS if k == "rms_Eo" or any(e.get(k) is not None for e in given)]
+    heads = ("error", *(ERROR_HEADS[k] for k in shown))
+    cells = [(label, *(number(None if e is None else e.get(k)) for k in shown)) for label, e in rows]
+    why = "the disc does not spin, or no part of the record is as long as the demodulator's low-pass."
+    missing = any(e.get("inline_Eo") is None for e in given)
+    note = f"No demodulated channels: {why}" if missing else ""
+    table = Table(heads=heads, rows=tuple(cells), note=note)
     return Section(title=title, table=table, detail=detail)
 
 
@@ -302,8 +312,11 @@ def explain_patterns(values: Sequence[Json]) -> list[str]:
     return [f"{', '.join(said)}, each accelerometer weighted by its scale factor."] if said else []
 
 
-def describe_values(effects: Sequence[Json]) -> Sections:
-    """All values of effects (name, parameters, combinations): those that are larger than their uncertainty, and the others."""
+def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sections:
+    """All values of effects (name, parameters, combinations): those that are larger than their uncertainty, and the others.
+
+    ``explained``: what their combinations are has been said.
+    """
     every = [(e, p) for e in effects for p in _values_of(e)]
     if not every:
         return ()
@@ -314,7 +327,8 @@ def describe_values(effects: Sequence[Json]) -> Sections:
         "parameter": lambda x: label_parameter(x[1]),
         "value": lambda x: format_value(x[1]),
     }
-    found = [Section("Values", table=tabulate(clear, columns, words=3))] if clear else []
+    note = "" if explained else " ".join(explain_patterns([p for _, p in clear]))
+    found = [Section("Values", table=tabulate(clear, columns, words=3, note=note))] if clear else []
     if hidden := len(every) - len(clear):
         summary = f"{counted(hidden, 'value')} of little significance"
         table = tabulate(every, columns, words=3)
@@ -336,7 +350,7 @@ def describe_diagnosis(d: Json, then: str = "") -> Sections:
     rows = [("current model", d["error"]["before"])]
     if d["found"]:
         rows.append((f"with {listed([str(e) for e in d['found']])}", d["error"]["after"]))
-    found = [first, tabulate_errors([*rows, make_floor_row(d)]), *describe_values(claimed)]
+    found = [first, tabulate_errors([*rows, make_floor_row(d)]), *describe_values(claimed, explained=True)]
     terms = d["unexplained"]["terms"]
     if terms and d["verdict"] in ("unexplained", "partly-explained"):
         found.append(Section(title="Not explained", table=tabulate_terms(terms)))
@@ -479,16 +493,13 @@ def describe_step(
     ]
     if new["holdout"]["rms_Eo"] > old["holdout"]["rms_Eo"]:
         text.append("Held out, the error does not fall: this record does not confirm the step.")
-    every = _clear_values(values)
     rows = [
         ("before", old["calibrated"]),
         ("after", new["calibrated"]),
         ("held out", new["holdout"]),
         make_floor_row(after),
     ]
-    first = Section(
-        sentences=(*text, *explain_patterns(every)), state="good" if after["adequate"] else "found"
-    )
+    first = Section(sentences=tuple(text), state="good" if after["adequate"] else "found")
     return (first, tabulate_errors(rows), *describe_values(values))
 
 

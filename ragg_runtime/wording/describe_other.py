@@ -80,8 +80,8 @@ def tabulate_parameters(
     clear = [p for p in combinations if significance(p) > CLEAR]
     value: Columns = {"parameter": label_parameter, "value": format_value}
     sheet: Columns = {
-        "test sheet": lambda p: number(p["sheet"], 4),
-        "its uncertainty": lambda p: number(p["sheet_sigma"], 4),
+        "test sheet": lambda p: numbers.plain(p["sheet"]),
+        "its uncertainty": lambda p: numbers.plain(p["sheet_sigma"], 3),
         "shift, σ of the sheet": lambda p: numbers.fixed((p["value"] - p["sheet"]) / p["sheet_sigma"], 2),
     }
     note, summary = " ".join(explain_patterns(clear)), f"all {len(parameters)} parameters"

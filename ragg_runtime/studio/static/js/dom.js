@@ -45,7 +45,7 @@ export function pictureNode(what, values) {
   const source = `/api/panel?${new URLSearchParams({ what, ...values })}`;
   const note = h("p.note", { hidden: true });
   const image = h("img.picture", { src: source, alt: what, onerror: () => fetch(source).then((r) => r.json()).then((e) => { image.hidden = true; note.hidden = false; note.textContent = e.error.what; }) });
-  return h("div", {}, image, note, h("a", { href: source, download: `${what.replace(/\W+/g, "-")}.svg` }, "SVG"));
+  return h("div", {}, image, note);
 }
 
 const SVG = "http://www.w3.org/2000/svg";

@@ -16,7 +16,7 @@ export function parametersView(main) {
     if (!p) return void fill(main, h("p.empty-note", {}, "The parameters are known once a flight is compared."));
     fill(
       main,
-      p.map((s) => h("section.card", {}, h("h2", {}, s.title), s.title.startsWith("Correlations") ? pictureNode("correlations", { flight: view.flight }) : null, sectionNode({ ...s, title: "", detail: false }))),
+      p.map((s) => h("section.card", {}, h("h2", {}, s.title), s.title.startsWith("Correlations") ? pictureNode("correlations", { flight: view.flight }) : null, sectionNode({ ...s, title: "", detail: s.title === "Every parameter" }))),
       h("section.card", {}, h("h2", {}, "Next motion"), state.next_motion.length ? h("ul", {}, state.next_motion.map((m) => h("li", {}, m))) : h("p.note", {}, "No other motion is needed to separate effects.")),
     );
   };
