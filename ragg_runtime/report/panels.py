@@ -91,8 +91,10 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
         axes.append(Axes(tuple(curves), "residual, Eo/√Hz", name, ends, log=True, marks=marks))
     if not axes:
         return None
-    caption = "Amplitude density of the residual and the estimated noise. Dotted: multiples of the spin rate."
-    if any(unknown(o) for o in f.observations):
+    caption = "Amplitude density of the residual and the estimated noise."
+    if any(a.marks for a in axes):
+        caption += " Dotted: multiples of the spin rate."
+    if any(a.marks for a in axes) and any(unknown(o) for o in f.observations):
         caption += " The notch at 2Ω: the gravity gradient is not recorded, so slow variation there is fitted as gradient."
     return Curves("spectrum", caption, tuple(axes), "frequency before demodulation, Hz", 2.9)
 
@@ -174,7 +176,7 @@ def plot_harmonics(f: Fitted, coefficients: Array, key: str) -> Bars | None:
         for h in noise
         if h in rows
     )
-    if not bars:
+    if len(bars) < 2:  # a disc that does not spin has no harmonics
         return None
     caption = (
         "Residual by harmonic of the spin, multiplied by 1, 2 cos kΩt or 2 sin kΩt and low-passed at 0.2 Hz as the"

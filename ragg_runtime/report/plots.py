@@ -113,7 +113,7 @@ def _draw_curves(plot: Curves, width: float) -> str:
         if axes.frame is not None:
             ax.axvspan(*axes.frame, facecolor="none", edgecolor=COLOURS["noise"], linewidth=0.9)
         ax.set_ylabel(axes.y_label)
-        ax.set_title(numbers.short(axes.title, 70))
+        ax.set_title(numbers.short(axes.title, 70), pad=6.0 if width == WIDTH else 20.0)  # above the legend
         _add_legend(ax, 3)
     found[-1].set_xlabel(plot.x_label)
     return _write_svg(fig, plot.key, plot.caption)
