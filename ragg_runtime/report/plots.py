@@ -304,11 +304,13 @@ def _write_svg(made: Figure, key: str, label: str) -> str:
 
 
 def _rewrite_tag(tag: str, key: str) -> str:
-    """A tag with ids of its own figure, colours by name, the reader's own sans-serif, and coordinates to 0.01 pt."""
+    """A tag with ids of its own figure, colours by name, the reader's own sans-serif, and coordinates to 0.1 pt."""
+    tag = re.sub(r'^<g id="[^"]*"', "<g", tag)
+    tag = re.sub(r' transform="rotate\(-0 [^"]*"', "", tag)
     tag = re.sub(
         r"(: )(#[0-9a-f]{6})\b", lambda c: f"{c[1]}var(--{NAMES[c[2]]})" if c[2] in NAMES else c[0], tag
     )
-    tag = re.sub(r"(\.\d\d)\d+", r"\1", tag)
+    tag = re.sub(r"(\d\.\d)\d+", r"\1", tag)
     tag = re.sub(r'( d=")([^"]*)', lambda d: d[1] + re.sub(r"\s*([A-Za-z])\s*", r"\1", d[2]), tag)
     tag = tag.replace(' id="', f' id="{key}-').replace('href="#', f'href="#{key}-')
     tag = tag.replace("url(#", f"url(#{key}-")
