@@ -69,7 +69,7 @@ def test_a_line_beside_a_multiple_of_the_spin_rate_accuses_nothing(frequency: fl
     if own:
         assert d.verdict == "missing-effect"
         said = str(d.as_json()["reason"])
-        assert f"what {d.found[0]} explains is a constant term at twice the spin rate" in said
+        assert f"{d.found[0]} acts as a constant term at twice the spin rate" in said
         assert "gradient-offset" in said  # of those that would do as well
         (group,) = d.groups
         assert group.name == "constant term at twice the spin rate"
