@@ -1,16 +1,7 @@
 """Null bias linear in time."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"K0": k["K0"] + p.dK0_dt * c.time}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import elapsed, following
 
 EFFECT = Effect(
     id="bias-drift",
@@ -20,5 +11,5 @@ EFFECT = Effect(
     equation=r"K_0 \leftarrow K_0 + \partial_t K_0\, t",
     limits="Linear over the record, from the instant 0 of its time column (another one is absorbed by K0).",
     parameters=(EffectParameter("dK0_dt", r"\partial_t K_0", "ug/s", "rate of the null bias", 1e-4),),
-    instrument=instrument,
+    instrument=following("K0", "dK0_dt", elapsed),
 )

@@ -1,16 +1,7 @@
 """A null bias, or an offset of the output, that jumps at an unknown instant."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"K0": k["K0"] + p.dK0 * sp.Heaviside(c.time - p.t_step, 1)}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import begun, following
 
 EFFECT = Effect(
     id="bias-step",
@@ -27,5 +18,5 @@ EFFECT = Effect(
         EffectParameter("dK0", r"\Delta K_0", "ug", "step of the null bias", 0.01),
         EffectParameter("t_step", "t_s", "s", "instant of the step", 1.0, shared=True, fitted=False),
     ),
-    instrument=instrument,
+    instrument=following("K0", "dK0", begun),
 )

@@ -1,16 +1,7 @@
 """Scale factor linear in time."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"K1": k["K1"] * (1 + p.dK1_dt * c.time)}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import elapsed, following
 
 EFFECT = Effect(
     id="gain-drift",
@@ -22,5 +13,5 @@ EFFECT = Effect(
     parameters=(
         EffectParameter("dK1_dt", r"\partial_t K_1", "1/s", "relative rate of the scale factor", 1e-9),
     ),
-    instrument=instrument,
+    instrument=following("K1", "dK1_dt", elapsed),
 )

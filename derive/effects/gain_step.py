@@ -1,16 +1,7 @@
 """A scale factor that jumps at an unknown instant."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"K1": k["K1"] * (1 + p.dK1 * sp.Heaviside(c.time - p.t_step, 1))}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import begun, following
 
 EFFECT = Effect(
     id="gain-step",
@@ -24,5 +15,5 @@ EFFECT = Effect(
         EffectParameter("dK1", r"\Delta K_1", "1", "relative step of the scale factor", 1e-6),
         EffectParameter("t_step", "t_s", "s", "instant of the step", 1.0, shared=True, fitted=False),
     ),
-    instrument=instrument,
+    instrument=following("K1", "dK1", begun),
 )

@@ -4,7 +4,7 @@ import sympy as sp
 
 from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-from derive.effects.thermal_scale import REFERENCE_KELVIN
+from derive.following import REFERENCE_KELVIN
 from derive.stages import Motion
 
 

@@ -1,16 +1,7 @@
 """Misalignment angles linear in time."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"vartheta_y": k["vartheta_y"] + p.dvartheta_y_dt * c.time}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import elapsed, following
 
 EFFECT = Effect(
     id="misalignment-drift",
@@ -33,5 +24,5 @@ EFFECT = Effect(
             like="vartheta_y",
         ),
     ),
-    instrument=instrument,
+    instrument=following("vartheta_y", "dvartheta_y_dt", elapsed),
 )

@@ -1,16 +1,7 @@
 """A misalignment that jumps at an unknown instant."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"vartheta_y": k["vartheta_y"] + p.dvartheta_y * sp.Heaviside(c.time - p.t_step, 1)}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import begun, following
 
 EFFECT = Effect(
     id="misalignment-step",
@@ -29,5 +20,5 @@ EFFECT = Effect(
         ),
         EffectParameter("t_step", "t_s", "s", "instant of the step", 1.0, shared=True, fitted=False),
     ),
-    instrument=instrument,
+    instrument=following("vartheta_y", "dvartheta_y", begun),
 )

@@ -1,19 +1,7 @@
 """Null bias proportional to air pressure."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-
-REFERENCE_PASCAL = sp.Integer(101325)
-"""Pressure at which the test sheet's null bias holds; another one is absorbed by K0."""
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"K0": k["K0"] + p.dK0_dp * (c.channel("pressure") - REFERENCE_PASCAL)}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import following, overpressure
 
 EFFECT = Effect(
     id="pressure-bias",
@@ -24,5 +12,5 @@ EFFECT = Effect(
     limits="Linear in one pressure, without the lag of a leaking seal.",
     channels=("pressure",),
     parameters=(EffectParameter("dK0_dp", r"\partial_p K_0", "ug/kPa", "change of the null bias", 0.1),),
-    instrument=instrument,
+    instrument=following("K0", "dK0_dp", overpressure),
 )

@@ -1,16 +1,7 @@
 """Second-order coefficient linear in time."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"K2": k["K2"] + p.dK2_dt * c.time}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import elapsed, following
 
 EFFECT = Effect(
     id="second-order-drift",
@@ -23,5 +14,5 @@ EFFECT = Effect(
         "the disc; under a steady weight the drifts of K4, K7 and K8 are gain-drift, bias-drift and misalignment-drift."
     ),
     parameters=(EffectParameter("dK2_dt", r"\partial_t K_2", "ug/g^2/s", "rate of K2", 1e-4, like="K2"),),
-    instrument=instrument,
+    instrument=following("K2", "dK2_dt", elapsed),
 )

@@ -1,17 +1,7 @@
 """Null bias proportional to temperature."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.effects.thermal_scale import REFERENCE_KELVIN
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"K0": k["K0"] + p.dK0_dT * (c.channel("temperature") - REFERENCE_KELVIN)}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import following, warmth
 
 EFFECT = Effect(
     id="thermal-bias",
@@ -22,5 +12,5 @@ EFFECT = Effect(
     limits="Linear in one temperature, without the lag of heat flow.",
     channels=("temperature",),
     parameters=(EffectParameter("dK0_dT", r"\partial_T K_0", "ug/K", "change of the null bias", 1.0),),
-    instrument=instrument,
+    instrument=following("K0", "dK0_dT", warmth),
 )

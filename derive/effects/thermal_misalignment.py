@@ -1,17 +1,7 @@
 """Misalignment angles proportional to temperature."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.effects.thermal_scale import REFERENCE_KELVIN
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"vartheta_y": k["vartheta_y"] + p.dvartheta_y_dT * (c.channel("temperature") - REFERENCE_KELVIN)}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import following, warmth
 
 EFFECT = Effect(
     id="thermal-misalignment",
@@ -38,5 +28,5 @@ EFFECT = Effect(
             like="vartheta_y",
         ),
     ),
-    instrument=instrument,
+    instrument=following("vartheta_y", "dvartheta_y_dT", warmth),
 )

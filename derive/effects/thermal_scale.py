@@ -1,19 +1,7 @@
 """Scale factor proportional to temperature."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-
-REFERENCE_KELVIN = sp.Rational(29315, 100)
-"""Temperature at which the test sheet's scale factor holds; another one is absorbed by K1."""
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"K1": k["K1"] * (1 + p.dK1_dT * (c.channel("temperature") - REFERENCE_KELVIN))}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import following, warmth
 
 EFFECT = Effect(
     id="thermal-scale",
@@ -26,5 +14,5 @@ EFFECT = Effect(
     parameters=(
         EffectParameter("dK1_dT", r"\partial_T K_1", "1/K", "relative change of the scale factor", 1e-6),
     ),
-    instrument=instrument,
+    instrument=following("K1", "dK1_dT", warmth),
 )

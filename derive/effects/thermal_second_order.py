@@ -1,17 +1,7 @@
 """Second-order coefficients proportional to temperature."""
 
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.effects.thermal_scale import REFERENCE_KELVIN
-
-
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    return {"K2": k["K2"] + p.dK2_dT * (c.channel("temperature") - REFERENCE_KELVIN)}
-
+from derive.effect import Effect, EffectParameter
+from derive.following import following, warmth
 
 EFFECT = Effect(
     id="thermal-second-order",
@@ -29,5 +19,5 @@ EFFECT = Effect(
     ),
     channels=("temperature",),
     parameters=(EffectParameter("dK2_dT", r"\partial_T K_2", "ug/g^2/K", "change of K2", 0.03, like="K2"),),
-    instrument=instrument,
+    instrument=following("K2", "dK2_dT", warmth),
 )
