@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted, with_held
 from ragg_runtime.estimation.scores import Error, finite
 from ragg_runtime.identification import likelihood_ratio, probability, selection, sheet
@@ -204,6 +205,10 @@ def list_not_testable(f: Fitted, field: Field) -> list[NotTestable]:
     return found
 
 
+WEAK = 0.5
+"""Share of a signature that the calibration leaves of one that is too weak, and not absorbed."""
+
+
 def _absorbed(f: Fitted, field: Field, e: Effect) -> str:
     """In words: which parameters of the model absorb an effect, or that it is too weak to be seen."""
     columns = [n for n, _ in field.candidates[e.id]]
@@ -212,8 +217,11 @@ def _absorbed(f: Fitted, field: Field, e: Effect) -> str:
     left = np.linalg.norm(field.P[:, columns], axis=0)
     k = int(np.argmax(whole))
     strongest = columns[k]
-    if whole[k] < likelihood_ratio.TESTABLE:
-        return "not observable in this flight, even at a hundred times its plausible size"
+    if left[k] > WEAK * whole[k] or whole[k] < likelihood_ratio.TESTABLE:
+        # what an unknown gradient can be has been taken out of the columns before
+        unknown = any(map(unknown_gradient.unknown, f.observations))
+        beside = "beside a gradient that is not recorded" if unknown else "in this flight"
+        return f"not observable {beside}, even at a hundred times its plausible size"
     solution = np.linalg.solve(field.T[:n, :n], field.T[:n, n + strongest])
     names: dict[str, float] = {}
     for c, v, norm in zip(
@@ -221,7 +229,7 @@ def _absorbed(f: Fitted, field: Field, e: Effect) -> str:
     ):
         names[c.name] = names.get(c.name, 0.0) + float(np.abs(v * norm))
     most = sorted(names, key=lambda x: -names[x])[:3]
-    share = float(left[k] / whole[k]) if whole[k] else 0.0
+    share = float(left[k] / whole[k])
     return f"absorbed by {', '.join(most)}: the calibration leaves {100.0 * share:.2g} % of its signature"
 
 
