@@ -27,8 +27,8 @@ EFFECT = Effect(
     id="accelerometer-resonance",
     title="Resonance of an accelerometer",
     physics=(
-        "The mount of an accelerometer, or its rebalance loop, resonates: of the force along its input axis, which turns with "
-        "the disc, what is near the resonance shows larger and later than what is slow."
+        "The mount of an accelerometer, or its rebalance loop, resonates: force along its input axis, which turns with the disc, is "
+        "amplified and delayed near the resonance."
     ),
     source="closed-loop response of second order (IEEE Std 1293, frequency response); of a mount as mount-resonance",
     equation=(
@@ -36,8 +36,8 @@ EFFECT = Effect(
     ),
     limits=(
         "One frequency and Q for all accelerometers. A loop has u = d and v = b, a mount u = 0 and v = b, a mode a share of them. "
-        "Far above the spin rate and the motion lag and second-order-loop are all that shows of u and v. Gradients, of which "
-        "the response is a millionth, are left out, and so are the first seconds of a record."
+        "For a resonance far above the spin rate and the motion, u and v are lag and second-order-loop. The response to gradients, a "
+        "millionth, is neglected, and the first seconds of a record are excluded."
     ),
     parameters=(
         EffectParameter("u", "u", "s", "first order of what the resonance takes away", 1e-8),

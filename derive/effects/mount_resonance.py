@@ -22,8 +22,8 @@ EFFECT = Effect(
     id="mount-resonance",
     title="Resonance of the mount",
     physics=(
-        "Isolators or a frame stand between the motion sensor and the disc: spring and damper pass slow motion as it is, "
-        "what is near their resonance enlarged, and what is faster not at all."
+        "Isolators or a frame connect the motion sensor and the disc: spring and damper transmit slow motion unchanged, amplify it near "
+        "their resonance, and isolate faster motion."
     ),
     source="transmissibility of a mass on spring and damper (D. J. Ewins, Modal Testing, 2000; ISO 2041)",
     equation=(
@@ -31,9 +31,9 @@ EFFECT = Effect(
         r" b = (2\pi f_0)^{-2},\; d = (2\pi f_0 Q)^{-1};\; \bm\omega, \dot{\bm\omega} \text{ likewise}"
     ),
     limits=(
-        "One resonance, alike along all axes; kappa is 1 where all of the disc stands on it, less for the share of a mode. "
-        "Far above what the motion holds only kappa/f_0^2 shows, as imu-filter; Q shows where the motion comes near f_0. "
-        "A record begins at rest, so that its first seconds are left out."
+        "One resonance, equal along all axes; kappa is 1 where it carries the whole disc, less for the share of a mode. For f_0 far "
+        "above the motion only kappa/f_0^2 matters, as imu-filter; Q matters where the motion is near f_0. The record is assumed to "
+        "begin at rest, and its first seconds are excluded."
     ),
     parameters=(
         EffectParameter(
