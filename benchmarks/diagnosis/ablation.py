@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import optimize
 
 from benchmarks.diagnosis import plan, score
 from benchmarks.diagnosis.fly import fly
@@ -151,8 +152,42 @@ def _level(*args: Any) -> Any:
     return Level()
 
 
+def _scipy(linearise: Callable[[Array], Any], start: Array, most: int = 150, ceiling: float = np.inf) -> Any:
+    """``scipy.optimize.least_squares`` on the triangles: residual [y, sqrt(rest)], Jacobian -R."""
+    from ragg_runtime.estimation.least_squares import Minimum, settled
+
+    known: dict[bytes, Any] = {}
+
+    def at(x: Array) -> Any:
+        key = x.tobytes()
+        if key not in known:
+            while len(known) > 3:
+                known.pop(next(iter(known)))
+            known[key] = linearise(x)
+        return known[key]
+
+    def residual(x: Array) -> Array:
+        p = at(x)
+        there = np.isfinite(p.cost)
+        return np.append(p.y, np.sqrt(p.rest)) if there else np.full(len(x) + 1, 1e100)
+
+    def jacobian(x: Array) -> Array:
+        return np.vstack([-at(x).R, np.zeros((1, len(x)))])
+
+    x = np.array(start, dtype=np.float64)
+    if not np.isfinite(at(x).cost):
+        return Minimum(x=x, at=at(x), converged=False, reason="no finite output", trials=1)
+    got = optimize.least_squares(residual, x, jac=jacobian, ftol=1e-7, xtol=1e-10, gtol=1e-10, max_nfev=most)
+    end = at(got.x)
+    arrived = bool(got.status > 0 or settled(end))
+    return Minimum(x=got.x, at=end, converged=arrived, reason=got.message, trials=got.nfev, faithful=True)
+
+
 # fmt: off
 RULES: tuple[Rule, ...] = (
+    Rule("trust-region", "own trust region instead of scipy.optimize.least_squares",
+         (*OFF, ("strong", "white"), ("pair", "red")), ("estimation/least_squares.py",),
+         (Patch("estimation.calibration:minimise", _scipy, constant=True),)),
     Rule("line-rival", "a line beside a multiple of the spin rate in the place of an effect",
          (*quiet("near-line"), ("ten", "white"), ("quiet", "spin-off")), ("identification/line_rival.py",),
          (Patch("identification.verdict:line_rival", lambda *a: (None, ()), acts=lambda r: r[0] is not None or bool(r[1])),)),
@@ -206,6 +241,9 @@ RULES: tuple[Rule, ...] = (
          (("ten", "white"), ("strong", "red"), *quiet("jump")), ("identification/steps.py:refined", "identification/steps.py:sharpened"),
          (Patch("identification.steps:refined", lambda prepared, step, *a: step),
           Patch("identification.steps:sharpened", lambda prepared, sample, *a: sample),)),
+    Rule("shared-noise", "voltages are whitened in their principal components",
+         (("ten", "voltages"), ("quiet", "voltages"), ("pair", "voltages")), ("estimation/noise_estimate.py:_principal_components",),
+         (Patch("estimation.noise_estimate:_principal_components", _nothing),)),
     Rule("loud", "a residual that is louder than its noise is unexplained",
          (*OUTSIDE, *quiet("sensors-1-mg", "clock-set")), ("identification/comparison.py:loud",),
          (Patch("identification.comparison:loud", _false, acts=bool),)),

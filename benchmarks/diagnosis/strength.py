@@ -230,6 +230,8 @@ def _orthonormal(rows: Array) -> Array:
 
 def _beside(signature: Array, others: Array) -> Array:
     sizes = np.linalg.norm(others, axis=1)
+    if not np.any(sizes):
+        return signature
     some = others[sizes > 0.0] / sizes[sizes > 0.0, None]
     U, s, _ = np.linalg.svd(some.T, full_matrices=False)
     U = U[:, s > 1e-7 * s[0]]

@@ -1,10 +1,10 @@
-"""Least squares on R factors: QR of columns in stretches, joined flights, priors; nonlinear by SciPy."""
+"""Least squares on R factors: QR of columns in stretches, joined flights, priors; nonlinear by a trust region."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -113,15 +113,30 @@ direction, well below what noise does to any estimate."""
 RELATIVE = 1e-5
 """The same as a share of chi-square, where what is left is far more than noise: half of it is the share of the rms."""
 
-SLOW = 0.01
-"""Share of chi-square that may still be promised where no step gains anything: half of it is the share of the rms, below the 1 % to
-which it is asked for."""
+VALLEY = 1.0
+"""Chi-square still promised at which a search ends that gains less than :data:`SETTLED` in a step: a curved valley, or rounding."""
 
-TRUSTED = 100.0
-"""Length of the first step, in widths of the priors, that is taken as it is: the sheet is seldom so far off."""
+SLOW = 0.01
+"""The same where what is left is far more than noise, as a share of chi-square: half of it is the share of the rms, below the
+1 % to which it is asked for. A search ends there whose step gained less than :data:`RELATIVE` and could not have been longer."""
+
+ACCEPTED = 1e-4
+"""Least share of the promised decrease for which a step is taken."""
+
+POOR, GOOD = 0.25, 0.75
+"""Shares below which the radius shrinks, and above which it may grow (Moré's)."""
+
+CORRECTION = 0.5
+"""Length of a step back to the floor of a valley over that of the step along it."""
+
+CORRECTIONS = 2
+"""Most of them after a step."""
+
+FAITHFUL = 0.01
+"""Difference between a step's fall and what was promised of it, as a share, up to which the problem counts as linear."""
 
 MOST_TRIALS = 150
-"""Most trials of a fit; usual are three or four. Where there is no noise but the last digits of a file the floor of the valley is a
+"""Most trials of a fit; usual are two or three. Where there is no noise but the last digits of a file the floor of the valley is a
 thousand times narrower, and a hundred steps lead along it."""
 
 
@@ -136,7 +151,12 @@ class Linear:
     @property
     def cost(self) -> float:
         """The sum of squares at the point itself."""
-        return self.decrement + self.rest
+        return float(self.y @ self.y) + self.rest
+
+    @cached_property
+    def _factors(self) -> tuple[Array, Array, Array]:
+        U, s, Vt = np.linalg.svd(self.R)
+        return s, U.T @ self.y, Vt.T
 
     @property
     def step(self) -> Array:
@@ -154,10 +174,33 @@ class Linear:
         inverse = np.linalg.inv(self.R)
         return np.asarray(inverse @ inverse.T)
 
-    @property
-    def is_settled(self) -> bool:
-        """The test of optimality: nothing worth having is promised any more."""
-        return self.decrement <= max(SETTLED, RELATIVE * self.cost)
+    def damped(self, damping: float) -> Array:
+        """(n,): the step that minimises |y - R step|^2 + damping |step|^2."""
+        s, d, V = self._factors
+        return np.asarray(V @ (s * d / (s**2 + damping)))
+
+    def within(self, radius: float) -> Array:
+        """(n,): the best step no longer than ``radius``."""
+        free = self.damped(0.0)
+        if np.linalg.norm(free) <= radius:
+            return free
+        s, d, _ = self._factors
+
+        def excess(log_damping: float) -> float:
+            # Moré: one over the length is nearly linear in the damping
+            length = float(np.linalg.norm(s * d / (s**2 + np.exp(log_damping))))
+            return 1.0 / radius - 1.0 / max(length, 1e-300)
+
+        low, high = 2 * np.log(float(s[-1])) - 60.0, np.log(float(np.linalg.norm(s * d)) / radius) + 1.0
+        return self.damped(float(np.exp(optimize.brentq(excess, min(low, high - 1.0), high, xtol=1e-6))))
+
+    def promised(self, step: Array) -> float:
+        """Decrease that a step promises."""
+        return self.decrement - float(np.sum((self.y - self.R @ step) ** 2))
+
+    def slope(self, step: Array) -> float:
+        """Half of the rate at which the sum of squares falls at the beginning of a step."""
+        return float(self.y @ (self.R @ step))
 
 
 L = TypeVar("L", bound=Linear)
@@ -165,63 +208,90 @@ L = TypeVar("L", bound=Linear)
 
 @dataclass(frozen=True)
 class Minimum(Generic[L]):
-    """Where the search ended: ``x`` (n,), the problem linearised ``at`` it, and why it ended there."""
+    """Where the search ended: ``x`` (n,), the problem linearised ``at`` it, and the ``trials`` it took.
+
+    ``faithful``: the last step did what was promised of it, and none before had to be shortened.
+    """
 
     x: Array
     at: L
     converged: bool
     reason: str
+    trials: int
+    faithful: bool = False
 
     @property
     def last(self) -> Array:
         """(n,): the step to the optimum of the linearised problem, where that is below what noise does."""
-        return self.at.step if self.at.decrement < SETTLED else np.zeros(len(self.x))
+        trusted = self.faithful and self.at.decrement < SETTLED
+        return self.at.damped(0.0) if trusted else np.zeros(len(self.x))
+
+
+def settled(at: Linear) -> bool:
+    """The test of optimality: nothing worth having is promised any more."""
+    return at.decrement <= max(SETTLED, RELATIVE * at.cost)
 
 
 def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRIALS) -> Minimum[L]:
-    """Minimise a sum of squares from ``start`` (n,) by SciPy's trust region; a point of infinite cost is out of the model's reach.
+    """Minimise a sum of squares from ``start`` (n,); chi-square never rises. A point of infinite cost is out of the model's reach."""
+    x = np.array(start, dtype=np.float64)
+    at = linearise(x)
+    radius, faithful, trials = np.inf, False, 1
 
-    Of a point x + d residual and Jacobian are those of the triangle there: [y, sqrt(rest)] and -R, of which only inner products matter.
-    """
+    def ended(converged: bool, reason: str, faithful: bool = False) -> Minimum[L]:
+        return Minimum(x=x, at=at, converged=converged, reason=reason, trials=trials, faithful=faithful)
 
-    @lru_cache(maxsize=4)
-    def at(moved: bytes) -> L:
-        return linearise(start + np.frombuffer(moved))
+    if not np.isfinite(at.cost):
+        return ended(False, "the model output is not finite at the starting point")
+    while trials < most:
+        if settled(at):
+            return ended(True, "no further gain", faithful)
+        step = at.within(radius)
+        length = float(np.linalg.norm(step))
+        end, ahead, tried = _followed(linearise, at, x, step)
+        trials += tried
+        fallen = at.cost - ahead.cost
+        ratio = fallen / at.promised(step) if np.isfinite(fallen) else -np.inf
+        if ratio < POOR:
+            radius = length * _shrunk(at.slope(step), fallen)
+        elif ratio > GOOD:
+            radius = max(radius, 2.0 * length)
+        if ratio > ACCEPTED:
+            x, at = end, ahead
+            faithful = tried == 1 and abs(ratio - 1.0) < FAITHFUL and not np.isfinite(radius)
+            creeps = ratio <= GOOD and fallen < RELATIVE * at.cost and at.decrement < SLOW * at.cost
+            if creeps or (fallen < SETTLED and at.decrement < VALLEY):
+                return ended(True, "no significant gain")
+        elif radius < _smallest(x):
+            # where samples come and go with the parameters, or all is rounding, what is promised is not there
+            if at.decrement < INDISTINGUISHABLE:
+                return ended(True, "no significant gain")
+            return ended(False, "no step reduces the misfit")
+    return ended(settled(at), f"stopped after {most} trials")
 
-    def residual(moved: Array) -> Array:
-        p = at(moved.tobytes())
-        return np.append(p.y, np.sqrt(p.rest))
 
-    def jacobian(moved: Array) -> Array:
-        R = at(moved.tobytes()).R
-        return np.vstack([-R, np.zeros(len(R))])
+def _followed(linearise: Callable[[Array], L], at: L, x: Array, step: Array) -> tuple[Array, L, int]:
+    """The end of a step from x, with a second-order correction (Fletcher 1982), the problem about it, and the points tried."""
+    end = x + step
+    ahead = linearise(end)
+    room = CORRECTION * float(np.linalg.norm(step))
+    for tried in range(1, CORRECTIONS + 1):
+        if at.cost - ahead.cost >= POOR * at.promised(step) or not np.isfinite(ahead.cost):
+            return end, ahead, tried
+        back = ahead.within(room)
+        nearer = linearise(end + back)
+        if not nearer.cost < ahead.cost:
+            return end, ahead, tried + 1
+        end, ahead = end + back, nearer
+    return end, ahead, CORRECTIONS + 1
 
-    def end_if_settled(intermediate_result: optimize.OptimizeResult) -> None:
-        if at(intermediate_result.x.tobytes()).is_settled:
-            raise StopIteration
 
-    nowhere = np.zeros(len(start))
-    begun = at(nowhere.tobytes())
-    if not np.isfinite(begun.cost):
-        return Minimum(
-            start, begun, converged=False, reason="the model output is not finite at the starting point"
-        )
-    if begun.is_settled:
-        return Minimum(start, begun, converged=True, reason="no further gain")
-    found = optimize.least_squares(
-        residual,
-        nowhere,
-        jacobian,
-        ftol=1e-6,
-        xtol=1e-9,
-        x_scale=TRUSTED,
-        max_nfev=most,
-        callback=end_if_settled,
-    )
-    end = at(found.x.tobytes())
-    # where samples come and go with the parameters, or all is rounding, what is promised is not there
-    arrived = end.is_settled or (found.status > 0 and end.decrement < max(INDISTINGUISHABLE, SLOW * end.cost))
-    reason = "no significant gain"
-    if not arrived:
-        reason = f"stopped after {most} trials" if found.status == 0 else "no step reduces the misfit"
-    return Minimum(start + found.x, end, converged=arrived, reason=reason)
+def _shrunk(slope: float, fallen: float) -> float:
+    """Factor for the radius after a poor step: where the parabola with this slope and this fall has its minimum."""
+    if not np.isfinite(fallen):
+        return 0.1
+    return float(np.clip(slope / max(2.0 * slope - fallen, 1e-300), 0.1, 0.5))
+
+
+def _smallest(x: Array) -> float:
+    return 1e-9 * (1.0 + float(np.linalg.norm(x)))

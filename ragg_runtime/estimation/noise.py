@@ -55,6 +55,8 @@ class NoiseModel:
         How loud the noise is from sample to sample.
     lines
         Those that are neither of the motion nor beside a multiple of the spin rate; what they span is taken out of data and columns.
+    combinations
+        (m, m), orthonormal rows: the whitened series are these combinations of the observed ones; ``None``: they are these themselves.
     disturbed
         Which lines and jumps are no part of it, and how its level changes, in words.
     freedom
@@ -65,6 +67,7 @@ class NoiseModel:
     filters: tuple[Array, ...]
     level: Level = field(default_factory=Level)
     lines: tuple[Line, ...] = ()
+    combinations: Array | None = field(default=None, compare=False)
     disturbed: str | None = None
     freedom: float = np.inf
 
@@ -101,15 +104,18 @@ class NoiseModel:
 
     def line_power_of(self, signs: Array) -> float:
         """V^2, of the lines, of the output in which the series count so (m,)."""
-        return float(sum(signs[x.output] ** 2 * x.amplitude**2 / 2 for x in self.lines))
+        weights = self.weights(signs)
+        return float(sum(weights[x.output] ** 2 * x.amplitude**2 / 2 for x in self.lines))
 
     def psd(self, f: Array, signs: Array) -> Array:
         """One-sided density at frequencies f, V^2/Hz, of the output in which the series count so (m,)."""
-        return np.asarray(sum(w**2 * s.psd(f) for w, s in zip(signs, self.spectra, strict=True)))
+        weights = self.weights(signs) ** 2
+        return np.asarray(sum(w * s.psd(f) for w, s in zip(weights, self.spectra, strict=True)))
 
     def variance(self, signs: Array) -> float:
         """V^2, of that output."""
-        return float(sum(w**2 * s.rms**2 for w, s in zip(signs, self.spectra, strict=True)))
+        weights = self.weights(signs) ** 2
+        return float(sum(w * s.rms**2 for w, s in zip(weights, self.spectra, strict=True)))
 
     def swell(self, r: Record) -> float:
         """Power of all noise of a record over that of the segments that it was estimated from."""
@@ -118,6 +124,10 @@ class NoiseModel:
     def level_of(self, quantity: Callable[[str], Array]) -> Array | float:
         """(N,), or one number if it is even: how loud it is where quantities, by name, are (N,)."""
         return self.level.of(quantity)
+
+    def weights(self, w: Array) -> Array:
+        """(outputs,): how what counts so in the series (m,) counts in the whitened ones."""
+        return w if self.combinations is None else self.combinations @ w
 
     def taps(self, most: int) -> list[Array]:
         """The beginnings of the filters, for terms that are searched through shorter ones."""
@@ -153,8 +163,8 @@ class NoiseModel:
         """
 
         def through(k: int) -> Array:
-            past = None if tail is None else tail[:, k]
-            y = filtered(columns[:, k], self.filters[k], past, lead)
+            past = None if tail is None else self._series(tail, k)
+            y = filtered(self._series(columns, k), self.filters[k], past, lead)
             y = y / level if self.uneven else y
             return y if valid is None or valid.all() else y[:, valid]
 
@@ -165,7 +175,7 @@ class NoiseModel:
 
     def line_columns(self, time: Array, series: int) -> Array:
         """(k, m, n): what the lines span at some times, s, each in its own of the m ``series``."""
-        shown = np.eye(series)
+        shown = np.eye(series) if self.combinations is None else self.combinations
         found = [
             Disturbance("line", x.frequency, 1.0).columns(time)[:, None] * shown[x.output][:, None]
             for x in self.lines
@@ -176,6 +186,10 @@ class NoiseModel:
         """(k, rows): what the variance of whitened samples may follow (:func:`noise_level.shapes`), one output after the other."""
         found = noise_level.shapes(r.quantity, level_quantities(r), self.level)[:, r.valid]
         return np.tile(found, self.outputs)
+
+    def _series(self, x: Array, k: int) -> Array:
+        """What the filter k takes of series (n, m, N): (n, N)."""
+        return x[:, k] if self.combinations is None else np.tensordot(self.combinations[k], x, (0, 1))
 
 
 def level_quantities(r: Record) -> list[str]:

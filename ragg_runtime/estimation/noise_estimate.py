@@ -85,21 +85,24 @@ def estimate_noise(
             remedy="give a longer or cleaner recording",
         )
     chosen = _chosen(o, most, samples)
-    parts = _parts(at, o, chosen)
+    parts = _parts(at, o, None, chosen)
     if o.recorded.demodulated:
         return _of_channels(parts, o)
-    means = averages(at, o, _unwhitened(o)) if slow else None
+    apart = _principal_components(parts) if len(o.series) > 1 else None
+    if apart is not None:
+        parts = _parts(at, o, apart, chosen)
+    means = averages(at, o, _unwhitened(o, apart)) if slow else None
     noise = _of_level(parts, o, CONSTANT, means)
     level = _level(parts, o, noise)
     if (
         level.parts
     ):  # what is loud has been in the fit: of what is quiet columns have left more than the noise
-        parts = _parts(at, o, chosen, level)
+        parts = _parts(at, o, apart, chosen, level)
         noise = _of_level(parts, o, level, means)
     said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
     words = "; ".join(w for w in said if w is not None) or None
     free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
-    return replace(noise, disturbed=words, freedom=free, lines=_lines(parts, o))
+    return replace(noise, disturbed=words, freedom=free, combinations=apart, lines=_lines(parts, o))
 
 
 @dataclass(frozen=True)
@@ -118,6 +121,16 @@ class _Part:
     def rest(self, m: int) -> Array:
         """(N,): of an output, zero where a sample is not valid."""
         return place_valid(self.outputs[m].rest, self.valid)
+
+
+def _principal_components(parts: Sequence[_Part]) -> Array:
+    """(m, m), orthonormal rows: the principal components of the residuals of m voltages, which are not correlated.
+
+    What shakes a whole disc (a servo of the spin, an angular acceleration that the motion sensors measure poorly) is in all voltages at
+    once: taken one by one each would seem as noisy as that, and what they share would look like a signal. It is one component.
+    """
+    rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
+    return np.asarray(np.linalg.eigh(rests @ rests.T)[1].T)
 
 
 RESOLVED = 4.0
@@ -202,8 +215,10 @@ def _chosen(o: Observation, most: int, samples: int) -> list[Segment]:
     return [s for s in found if np.sum(o.record.valid[s.rows]) >= SHORTEST]
 
 
-def _parts(at: Point, o: Observation, chosen: Sequence[Segment], level: Level = CONSTANT) -> list[_Part]:
-    """What is left of some segments of the flight, of its series, by a fit that weighs by a level."""
+def _parts(
+    at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segment], level: Level = CONSTANT
+) -> list[_Part]:
+    """What is left of some segments of the flight, of the series as they are or in combinations, by a fit that weighs by a level."""
     band = unknown_gradient.band(o)
     rate = None if o.recorded.demodulated else o.record.rate
     random = {e.id for e in at.model.candidates if e.kind == "random"}
@@ -233,12 +248,13 @@ def _parts(at: Point, o: Observation, chosen: Sequence[Segment], level: Level = 
             },
         )
 
-    return list(pass_over(at, o, _unwhitened(o, level), part, chosen=chosen))
+    return list(pass_over(at, o, _unwhitened(o, apart, level), part, chosen=chosen))
 
 
-def _unwhitened(o: Observation, level: Level = CONSTANT) -> NoiseModel:
-    """What leaves the series as they are, over a level."""
-    return replace(NoiseModel.white(o.record.rate, len(o.series)), level=level)
+def _unwhitened(o: Observation, apart: Array | None, level: Level = CONSTANT) -> NoiseModel:
+    """What leaves the series as they are, or in combinations, over a level."""
+    plain = replace(NoiseModel.white(o.record.rate, len(o.series)), level=level)
+    return plain if apart is None else replace(plain, combinations=apart)
 
 
 def _through(piece: Piece, m: int, outputs: int, loud: Array, columns: Array) -> Array:
@@ -320,7 +336,7 @@ ENOUGH = 2
 def averages(at: Point, o: Observation, unwhitened: NoiseModel) -> list[Averages] | None:
     """What all columns leave of each output's means; ``None`` of a flight seen in one piece, or in too few means.
 
-    ``unwhitened``: the noise that leaves the columns as they are.
+    ``unwhitened``: the noise that makes the columns as they are, or in combinations.
     """
     if not longer(o):
         return None

@@ -262,7 +262,7 @@ def _waves(x: PreparedFlight, piece: Piece, frequencies: Array) -> Array:
     X = _turning(2 * np.pi * frequencies, r.time[r.valid])
     if x.noise.uneven:
         X /= np.asarray(x.noise.level_of(r.quantity))[r.valid]
-    weights = piece.observation.weights
+    weights = x.noise.weights(piece.observation.weights)
     X = X if len(weights) == 1 else np.concatenate([w * X for w in weights], axis=1)
     unknown_gradient.project(X, piece.windows)
     return X

@@ -59,7 +59,9 @@ class Directions:
         r = piece.observation.record
         self.filters = prepared.noise.taps(MEMORY)
         o = piece.observation
-        self.weights = o.weights if only is None else np.where(np.arange(len(o.signs)) == only, o.signs, 0.0)
+        self.weights = prepared.noise.weights(
+            o.weights if only is None else np.where(np.arange(len(o.signs)) == only, o.signs, 0.0)
+        )
         self.level = prepared.noise.level_of(r.quantity)
 
     def whitened(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:

@@ -1,4 +1,4 @@
-"""The fit finds minima, never goes up, and says whether it has arrived."""
+"""The trust region finds minima, never goes up, and says whether it has arrived."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import optimize
 
-from ragg_runtime.estimation.least_squares import SETTLED, Linear, minimise, with_prior
+from ragg_runtime.estimation.least_squares import SETTLED, VALLEY, Linear, minimise, settled, with_prior
 
 Array = NDArray[np.float64]
 Residual = Callable[[Array], Array]
@@ -52,8 +52,24 @@ def test_the_minimum_is_that_of_scipy_and_no_accepted_step_went_up(
         for m in ("lm", "trf")
     )
     assert found.converged
-    assert found.at.cost <= best + 1.0
+    assert found.at.cost <= best + VALLEY
     assert found.at.cost <= costs[0]
+
+
+def test_the_step_within_a_radius_is_the_best_of_its_length() -> None:
+    rng = np.random.default_rng(4)
+    R = np.triu(rng.standard_normal((6, 6))) * np.logspace(0, -4, 6)[:, None]
+    at = Linear(R, rng.standard_normal(6), 1.0)
+    free = at.within(np.inf)
+    np.testing.assert_allclose(R @ free, at.y, rtol=1e-6)
+    assert at.promised(free) == pytest.approx(at.decrement)
+    for radius in np.linalg.norm(free) * np.array([0.9, 0.1, 1e-4]):
+        step = at.within(float(radius))
+        assert np.linalg.norm(step) == pytest.approx(radius, rel=1e-4)
+        for _ in range(200):
+            other = step + 0.05 * radius * rng.standard_normal(6)
+            other *= radius / np.linalg.norm(other)
+            assert at.promised(other) <= at.promised(step) * (1 + 1e-6)
 
 
 def test_a_rise_that_was_promised_as_a_fall_is_not_settled() -> None:
@@ -79,7 +95,7 @@ def test_a_model_that_does_not_follow_its_slope_has_not_converged() -> None:
     found = minimise(liar, np.zeros(2))
     assert not found.converged
     assert "no step reduces the misfit" in found.reason
-    assert not found.at.is_settled
+    assert not settled(found.at)
 
 
 @pytest.mark.parametrize(("promise", "converged"), [(0.8, True), (2.5, True), (12.0, False)])
