@@ -88,8 +88,12 @@ def estimate_noise(
     parts = _parts(at, o, None, chosen)
     if o.recorded.demodulated:
         return _of_channels(parts, o)
-    apart = _principal_components(parts) if len(o.series) > 1 else None
-    if apart is not None:
+    apart: Array | None = None
+    for _ in range(TURNS_OF_AXES):
+        turn = _principal_components(parts)
+        if turn is None:
+            break
+        apart = turn if apart is None else turn @ apart
         parts = _parts(at, o, apart, chosen)
     means = averages(at, o, _unwhitened(o, apart)) if slow else None
     noise = _of_level(parts, o, CONSTANT, means)
@@ -123,13 +127,23 @@ class _Part:
         return place_valid(self.outputs[m].rest, self.valid)
 
 
-def _principal_components(parts: Sequence[_Part]) -> Array:
-    """(m, m), orthonormal rows: the principal components of the residuals of m voltages, which are not correlated.
+CHANCE = 5.0
+"""Standard errors from which a correlation of two series is none of chance."""
+
+TURNS_OF_AXES = 4
+"""Most times that voltages are turned to their principal components. Each is fitted by itself, which takes some of what they share: noise
+that is shared became 30 times weaker with each turn in the others."""
+
+
+def _principal_components(parts: Sequence[_Part]) -> Array | None:
+    """(m, m), orthonormal rows: the principal components of the residuals of m voltages; ``None`` if these are not correlated.
 
     What shakes a whole disc (a servo of the spin, an angular acceleration that the motion sensors measure poorly) is in all voltages at
     once: taken one by one each would seem as noisy as that, and what they share would look like a signal. It is one component.
     """
     rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
+    if len(rests) == 1 or np.max(np.abs(np.tril(np.corrcoef(rests), -1))) < CHANCE / np.sqrt(rests.shape[1]):
+        return None
     return np.asarray(np.linalg.eigh(rests @ rests.T)[1].T)
 
 
