@@ -261,11 +261,10 @@ def run_turbulent(
     seed: int,
     *,
     instrument: Instrument | None = None,
-    duration: float = DURATION,
     rate: float = RATE,
     derivative: Derivative = "central",
 ) -> Simulation:
     """The numerical model in turbulence experiment 1, 2 or 3; one seed gives all three the same random numbers."""
-    motion = draw_motion(np.random.default_rng(seed), experiment, duration, rate, derivative)
+    motion = draw_motion(np.random.default_rng(seed), experiment, DURATION, rate, derivative)
     known = instrument or table_v()
-    return simulate(known, motion, duration, rate, rotations="first-order", seed=seed, auxiliaries={})
+    return simulate(known, motion, DURATION, rate, rotations="first-order", seed=seed, auxiliaries={})

@@ -68,7 +68,7 @@ def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
     caption = "Error before demodulation in 24 blocks of time."
     if len(chosen) < len(f.prepared):
         caption += f" The {len(chosen)} worst of {len(f.prepared)} flights."
-    return Curves("time", caption, tuple(axes), SECONDS)
+    return Curves("time", caption, tuple(axes), SECONDS, height=1.8)
 
 
 def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
