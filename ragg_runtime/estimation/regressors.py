@@ -113,8 +113,9 @@ def tested_columns(model: Model, instrument: Instrument, records: Sequence[Recor
 
     def is_tested(c: Column) -> bool:
         e = effects[c.effect or ""]
-        own = next(q.channel for q in e.parameters if c.name == f"{e.id}.{q.name}")
-        return not any(e.missing(h) for h in have) and (own is None or any(own in h for h in have))
+        q = next(q for q in e.parameters if c.name == f"{e.id}.{q.name}")
+        there = q.channel is None or any(q.channel in h for h in have)
+        return there and not q.shape and not any(e.missing(h) for h in have)
 
     return tuple(n for n, c in enumerate(list_candidate_columns(model, instrument)) if is_tested(c))
 
@@ -243,7 +244,7 @@ def linearise(at: Point, o: Observation, residual: Array | None = None) -> Array
     columns = np.zeros((n_base + len(at.candidates) + 1, len(o.series), len(r.time)))
     _put_derivatives(columns, at.model.evaluators("chain"), at.base, r, o, p)
     if at.candidates:
-        r = with_responses(r, neutral_values(at.model.candidates))
+        r = with_responses(r, neutral_values(at.model.candidates), at.model.signatures.INPUTS)
         q = np.concatenate([p, np.zeros(at.model.signatures.SIZE - len(p))])
         _put_derivatives(columns[n_base:], at.model.evaluators("signatures"), at.candidates, r, o, q)
     for column in columns[:-1] if o.recorded.demodulated else ():

@@ -115,9 +115,8 @@ def taken(first: Stage, extend: Extend | None, budget: Budget) -> tuple[list[Tak
 
 
 def unneeded(field: Field, effect: str, which: Sequence[int]) -> frozenset[str]:
-    """Labels of an effect's columns that its test does not need; those that but shape the others have none yet."""
-    seen = np.any(field.P != 0.0, axis=0)
-    return frozenset(c.label for n, c in field.candidates[effect] if n not in which and seen[n])
+    """Labels of an effect's columns that its test does not need."""
+    return frozenset(c.label for n, c in field.candidates[effect] if n not in which)
 
 
 def _strongest(stage: Stage, extend: Extend, budget: Budget) -> Taken | None:

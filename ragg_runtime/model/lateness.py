@@ -28,7 +28,7 @@ def about(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
     """
     resonant = [*values_of(model, p)]
     if resonant:
-        r, p = with_responses(r, resonant), _at_neutral(model, p)
+        r, p = with_responses(r, resonant, model.chain.INPUTS), _at_neutral(model, p)
     rest = p
     moves: dict[str, tuple[float, float]] = {}
     end = float((r.whole or r).time[-1])

@@ -6,7 +6,7 @@ accelerometer sees s/(1 + d s + b s^2) and s^2/(1 + d s + b s^2) of the force th
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -51,15 +51,17 @@ def memory(f_0: float, Q: float) -> float:
     return MEMORY * Q / (np.pi * f_0)
 
 
-def with_responses(r: Record, effects: Iterable[tuple[Effect, float, float]]) -> Record:
-    """The record with the series that these effects take through their resonances."""
+def with_responses(
+    r: Record, effects: Iterable[tuple[Effect, float, float]], wanted: Container[str]
+) -> Record:
+    """The record with the ``wanted`` series that these effects take through their resonances."""
     wide = dict(r.wide)
     for e, f_0, Q in effects:
-        wide |= _responses(r, str(e.resonance), f_0, Q)
+        wide |= _responses(r, str(e.resonance), f_0, Q, wanted)
     return r if len(wide) == len(r.wide) else replace(r, wide=wide)
 
 
-def _responses(r: Record, kind: str, f_0: float, Q: float) -> dict[str, Array]:
+def _responses(r: Record, kind: str, f_0: float, Q: float, wanted: Container[str]) -> dict[str, Array]:
     """Name -> (before + N + after,), as the channels of a part."""
     whole = r.whole or r
     before, after = r.halo
@@ -80,7 +82,8 @@ def _responses(r: Record, kind: str, f_0: float, Q: float) -> dict[str, Array]:
             x = np.interp(at, at[there], x[there])
         spectrum: Complex = rfft(_continued(x, reach, length - size + reach))
         for response, H in _transfer(kind, name, s, f_0, Q).items():
-            found[response] = irfft(spectrum * H, length)[reach + start - first :][: stop - start]
+            if response in wanted:
+                found[response] = irfft(spectrum * H, length)[reach + start - first :][: stop - start]
     return found
 
 
@@ -106,21 +109,17 @@ def _turning_force(r: Record) -> Mapping[str, Array]:
 
 
 def _transfer(kind: str, name: str, s: Complex, f_0: float, Q: float) -> dict[str, Complex]:
-    """Response -> transfer function at s, 1/s, with its derivatives by f_0 and Q: those that the derivation asks for."""
+    """Response -> transfer function at s, 1/s, and its derivatives by f_0 and Q."""
     d, b = 1 / (2 * np.pi * f_0 * Q), 1 / (2 * np.pi * f_0) ** 2
     D = 1 + d * s + b * s**2
     if kind == "mount":
-        by_b, by_d = -(s**2) * (1 + d * s) / D**2, b * s**3 / D**2
-        found = {name: -b * s**2 / D}
-        return found if not name.startswith("mount_a_") else found | _by(name, by_b, by_d, f_0, Q)
-    found = {}
-    for label, N in (("rate", s), ("curvature", s**2)):
-        found[f"{label}_{name}"] = N / D
-        if name != "axial":
-            found |= _by(f"{label}_{name}", -N * s**2 / D**2, -N * s / D**2, f_0, Q)
+        ways = {name: (-b * s**2 / D, -(s**2) * (1 + d * s) / D**2, b * s**3 / D**2)}
+    else:
+        powers = {"rate": s, "curvature": s**2}
+        ways = {f"{k}_{name}": (N / D, -N * s**2 / D**2, -N * s / D**2) for k, N in powers.items()}
+    found: dict[str, Complex] = {}
+    for response, (H, by_b, by_d) in ways.items():
+        found[response] = H
+        found[f"{response}_by_f_0"] = -(2 * b * by_b + d * by_d) / f_0
+        found[f"{response}_by_Q"] = -d / Q * by_d
     return found
-
-
-def _by(name: str, by_b: Complex, by_d: Complex, f_0: float, Q: float) -> dict[str, Complex]:
-    d, b = 1 / (2 * np.pi * f_0 * Q), 1 / (2 * np.pi * f_0) ** 2
-    return {f"{name}_by_f_0": -(2 * b * by_b + d * by_d) / f_0, f"{name}_by_Q": -d / Q * by_d}
