@@ -116,6 +116,7 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
         raise UserError("a report of `add` needs a flight", remedy="name a flight file after the effect")
     records = read(m, flights, mapping) if flights else []
     check = next_command("diagnose", model_dir, records, mapping)
+    use = next_command("calibrate", model_dir, records, mapping) + " --save"
 
     def tell(result: Added) -> None:
         def page(origin: Origin) -> str:
@@ -125,7 +126,7 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
             return pages.write_addition(steps, result.before, result.after, origin)
 
         found = result.as_json()
-        said = describe.describe_addition(found, [e.id for e in result.loaded.model.effects], check)
+        said = describe.describe_addition(found, [e.id for e in result.loaded.model.effects], check, use)
         conclude(found, said, Source(result.loaded, records, before=m), page, f"{m.name}: {effect} added")
 
     with working(f"deriving the model with {effect}{', calibrating' if flights else ''}", "add", records):

@@ -503,8 +503,11 @@ def describe_step(
     return (first, tabulate_errors(rows), *describe_values(values))
 
 
-def describe_addition(a: Json, effects: Sequence[str], then: str = "") -> Sections:
-    """The result of ``add``; ``effects`` are those of the model afterwards."""
+def describe_addition(a: Json, effects: Sequence[str], then: str = "", use: str = "") -> Sections:
+    """The result of ``add``; ``effects`` are those of the model afterwards.
+
+    ``then``, ``use``: the command that follows where the model is not adequate yet, and where it is.
+    """
     if not a.get("converged", True):
         return say_plainly(f"{a['effect']!s} was NOT added: {a['reason']!s}.")
     if a["before"] is None or a["after"] is None:
@@ -515,7 +518,7 @@ def describe_addition(a: Json, effects: Sequence[str], then: str = "") -> Sectio
     ]
     if a["off_sheet"]:
         found.append(_off_sheet(a["off_sheet"]))
-    return (*found, *(suggest_next(then) if not a["after"]["adequate"] else ()))
+    return (*found, *suggest_next(use if a["after"]["adequate"] else then))
 
 
 def find_rms(entry: Json | None, which: str = "calibrated") -> float | None:
