@@ -142,6 +142,8 @@ class Effect:
     resonance
         What it takes from the record through a resonance of its parameters ``f_0`` and ``Q``: the motion of a ``mount`` or
         the force on an ``accelerometer`` (:mod:`derive.resonance`).
+    searched
+        Whether a diagnosis looks for it; one that can look like many others is only added by name.
     contains
         Effects that it holds as special cases: where one of them does as well, it is no alternative.
     moot
@@ -172,6 +174,7 @@ class Effect:
     turning: bool = False
     switches: bool = False
     resonance: str | None = None
+    searched: bool = True
     contains: tuple[str, ...] = ()
     moot: Callable[[Order, Kinematics], bool] = lambda order, kinematics: False
     recogniser: str = ""

@@ -285,6 +285,7 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
         **({"turning": True} if e.turning else {}),
         **({"switches": True} if e.switches else {}),
         **({} if e.resonance is None else {"resonance": e.resonance}),
+        **({} if e.searched else {"searched": False}),
         **({"contains": list(e.contains)} if e.contains else {}),
         "kind": e.kind,
         "parameters": [

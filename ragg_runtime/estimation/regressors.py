@@ -115,7 +115,7 @@ def tested_columns(model: Model, instrument: Instrument, records: Sequence[Recor
         e = effects[c.effect or ""]
         q = next(q for q in e.parameters if c.name == f"{e.id}.{q.name}")
         there = q.channel is None or any(q.channel in h for h in have)
-        return there and not q.shape and not any(e.missing(h) for h in have)
+        return there and e.searched and not q.shape and not any(e.missing(h) for h in have)
 
     return tuple(n for n, c in enumerate(list_candidate_columns(model, instrument)) if is_tested(c))
 

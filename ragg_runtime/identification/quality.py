@@ -15,12 +15,9 @@ from ragg_runtime.identification.result import Diagnosis, Reason, name_verdict
 from ragg_runtime.io import Flight
 from ragg_runtime.screening.repeated import derive_acceleration
 
-ALIKE = 3.0
-"""Standard errors within which an effect is as large as what the noise of motion sensors feigns."""
-
-
-FEIGNED = 0.5
-"""Standard deviations of what the noise must feign, over those of what remains, for that to be no more: both are known to a few."""
+FEIGNED = 1.0 / 3.0
+"""Share of the standard deviations of what is found, or remains, that the noise must feign for that to be no more. Measured on flights
+without effects, where it should be 1: 0.43 to 1.1, as what is feigned differs with what else is in the model."""
 
 
 def heed_flags(
@@ -71,14 +68,14 @@ def _without_feigned(
     A filter or a delay correlates with the errors of the measured motion (errors in variables: W. Fuller, Measurement Error Models,
     1987). What that feigns is found by doing it again (J. Cook, L. Stefanski, J. Am. Stat. Assoc. 89, 1994, 1314): flights whose output
     is what the calibrated model makes of the recorded motion are diagnosed with motion that is off by as much once more. An
-    effect that is significant there and comes out alike is not claimed.
+    effect that is significant there, and nearly as strong, is not claimed.
     """
     noisy = sorted({n for x in flights for n in x.motion_noise})
     if not noisy or d.verdict == "adequate" or len(d.residual) != len(flights):
         return d
     feigned = again([_measured_again(x, e) for x, e in zip(flights, d.residual, strict=True)])
     made = {r.effect: r for r in feigned.ranking if r.log_p < np.log(false_alarms.CATALOGUE)}
-    alike = [r.effect for r in d.ranking if r.effect in d.found and _is_alike(r, made.get(r.effect))]
+    alike = [r.effect for r in d.ranking if r.effect in d.found and _is_as_strong(made.get(r.effect), r)]
     kept = tuple(e for e in d.found if e not in alike)
     term = _feigned_term(d, feigned) if d.remains else None
     if not alike and term is None:
@@ -111,10 +108,6 @@ def _measured_again(x: Flight, residual: NDArray[np.float64]) -> Flight:
     return derive_acceleration(changed) if any(n.startswith("omega_") for n in moved) else changed
 
 
-def _is_alike(found: Ranked, made: Ranked | None) -> bool:
-    """Whether an effect has the size that was made without it."""
-    if made is None:
-        return False
-    other = {(p.name, p.accelerometer): p for p in made.parameters}
-    pairs = [(p, other[k]) for p in found.parameters if (k := (p.name, p.accelerometer)) in other]
-    return bool(pairs) and all(abs(p.value - q.value) < ALIKE * np.hypot(p.std, q.std) for p, q in pairs)
+def _is_as_strong(made: Ranked | None, found: Ranked) -> bool:
+    """Whether what was made without an effect explains as much by it as was found."""
+    return made is not None and made.chi2 > FEIGNED**2 * found.chi2

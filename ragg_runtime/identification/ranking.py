@@ -198,6 +198,10 @@ def list_not_testable(f: Fitted, field: Field) -> list[NotTestable]:
         missing = sorted({c for o in f.observations for c in e.missing(o.record.recorded)})
         if missing:
             found.append(NotTestable(e.id, f"the flight has no channel {', '.join(missing)}"))
+        elif not e.searched:
+            found.append(
+                NotTestable(e.id, f"it can look like many other effects: add it by name, ragg add ... {e.id}")
+            )
         elif e.id in field.candidates and not field.testable(e.id):
             found.append(NotTestable(e.id, _absorbed(f, field, e)))
         elif e.kind == "deterministic" and (why := sheet.doubtful(f, e.id)):

@@ -263,6 +263,7 @@ def testable_effects(f: Fitted) -> list[str]:
         e.id
         for e in f.model.candidates
         if e.kind == "deterministic"
+        and e.searched
         and not any(e.missing(h) for h in have)
         and sheet.doubtful(f, e.id) is None
     ]

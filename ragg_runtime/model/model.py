@@ -75,7 +75,8 @@ class Effect:
 
     ``common_of``, ``told_from``: parameters of the accelerometers that the sheet knows; ``turning``: it is one only where the disc
     turns (:mod:`ragg_runtime.identification.sheet`); ``switches``: where a voltage passes zero;
-    ``resonance``: what it takes through one (:mod:`ragg_runtime.model.resonance`); ``contains``: effects that are special cases.
+    ``resonance``: what it takes through one (:mod:`ragg_runtime.model.resonance`); ``searched``: whether a diagnosis looks for it;
+    ``contains``: effects that are special cases.
     """
 
     id: str
@@ -93,6 +94,7 @@ class Effect:
     turning: bool = False
     switches: bool = False
     resonance: str | None = None
+    searched: bool = True
     contains: tuple[str, ...] = ()
 
     def missing(self, recorded: Container[str]) -> tuple[str, ...]:
