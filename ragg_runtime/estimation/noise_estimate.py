@@ -127,8 +127,8 @@ class _Part:
         return place_valid(self.outputs[m].rest, self.valid)
 
 
-CHANCE = 5.0
-"""Standard errors from which a correlation of two series is none of chance."""
+SHARED = 0.1
+"""Gain in log likelihood a sample from which voltages are turned to their principal components: a correlation of 0.43 between two."""
 
 TURNS_OF_AXES = 4
 """Most times that voltages are turned to their principal components. Each is fitted by itself, which takes some of what they share: noise
@@ -136,13 +136,13 @@ that is shared became 30 times weaker with each turn in the others."""
 
 
 def _principal_components(parts: Sequence[_Part]) -> Array | None:
-    """(m, m), orthonormal rows: the principal components of the residuals of m voltages; ``None`` if these are not correlated.
+    """(m, m), orthonormal rows: the principal components of the residuals of m voltages; ``None`` if they share little.
 
     What shakes a whole disc (a servo of the spin, an angular acceleration that the motion sensors measure poorly) is in all voltages at
     once: taken one by one each would seem as noisy as that, and what they share would look like a signal. It is one component.
     """
     rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
-    if len(rests) == 1 or np.max(np.abs(np.tril(np.corrcoef(rests), -1))) < CHANCE / np.sqrt(rests.shape[1]):
+    if len(rests) == 1 or -0.5 * np.linalg.slogdet(np.corrcoef(rests))[1] < SHARED:
         return None
     return np.asarray(np.linalg.eigh(rests @ rests.T)[1].T)
 

@@ -44,7 +44,7 @@ def test_terms_in_another_order_are_told_with_the_versions(
     assert "-b + a" in said
     assert "+a + b" in said
     assert f"SymPy is {sympy.__version__} here, and the code was derived with 1.0" in said
-    assert "50-digit gate" in said
+    assert "50-digit test" in said
 
 
 @pytest.mark.parametrize("damage", ["", "[]", '{"sympy": 3}', "{"])

@@ -108,10 +108,10 @@ def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> No
     assert platform.effect("disc-spin") is not None
     assert full.effect("disc-spin") is None
     m = api.new(tmp_path / "full")
-    with pytest.raises(UserError, match="holds the effect disc-spin already"):
+    with pytest.raises(UserError, match="the effect disc-spin is already in the model"):
         api.add(m, "disc-spin")
     (tmp_path / "bad.toml").write_text(EXAMPLE.replace("effects = []", 'effects = ["disc-spin"]'))
-    with pytest.raises(UserError, match="holds the effect disc-spin already"):
+    with pytest.raises(UserError, match="the effect disc-spin is already in the model"):
         api.new(tmp_path / "bad", tmp_path / "bad.toml")
     keeping = parse_instrument(sheet("[model]\norder = { second_order_angles = true }"))
     assert derive.model_of(keeping).effect("second-order-misalignment") is None
