@@ -74,8 +74,12 @@ def _without_feigned(
     if not noisy or d.verdict == "adequate" or len(d.residual) != len(flights):
         return d
     feigned = again([_measured_again(x, e) for x, e in zip(flights, d.residual, strict=True)])
-    made = {r.effect: r for r in feigned.ranking if r.log_p < np.log(false_alarms.CATALOGUE)}
-    alike = [r.effect for r in d.ranking if r.effect in d.found and _is_as_strong(made.get(r.effect), r)]
+    level = np.log(false_alarms.CATALOGUE)
+    made = {r.effect: r for r in feigned.ranking if r.log_p < level}
+    found = [r for r in d.ranking if r.effect in d.found]
+    alike = [r.effect for r in found if _is_as_strong(made.get(r.effect), r) or _smooths_motion(d, r.effect)]
+    if alike:  # what is significant beside them alone is no more
+        alike += [r.effect for r in found if r.effect not in alike and r.log_p >= level]
     kept = tuple(e for e in d.found if e not in alike)
     term = _feigned_term(d, feigned) if d.remains else None
     if not alike and term is None:
@@ -111,3 +115,9 @@ def _measured_again(x: Flight, residual: NDArray[np.float64]) -> Flight:
 def _is_as_strong(made: Ranked | None, found: Ranked) -> bool:
     """Whether what was made without an effect explains as much by it as was found."""
     return made is not None and made.chi2 > FEIGNED**2 * found.chi2
+
+
+def _smooths_motion(d: Diagnosis, effect: str) -> bool:
+    """Whether an effect passes the motion through a resonance: the best prediction from noisy motion is a smoothed one."""
+    e = d.target.model.effect(effect)
+    return e is not None and e.resonance == "mount"
