@@ -198,9 +198,9 @@ def test_a_paper_model_lacks_the_spin_and_adding_it_brings_the_error_to_the_nois
     (tmp_path / "sheet.toml").write_text(sheet("[model]"))
     m = api.new(tmp_path / "paper", tmp_path / "sheet.toml")
     flight = simulated(
-        replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=300.0, rate=RATE
+        replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=150.0, rate=RATE
     )
-    same = simulated(m.instrument, ["disc-spin:share=1"], seed=4, duration=300.0, rate=RATE)
+    same = simulated(m.instrument, ["disc-spin:share=1"], seed=4, duration=150.0, rate=RATE)
     np.testing.assert_array_equal(flight.outputs["G_out"], same.outputs["G_out"])
     d = api.diagnose(m, [flight])
     assert (d.verdict, d.found) == ("missing-effect", ("disc-spin",))

@@ -55,7 +55,7 @@ def test_frequency_and_q_are_fitted_down_to_noise(effect: str, f_0: float, Q: fl
 
 
 def test_a_mount_that_resonates_is_named() -> None:
-    s = scenario(5, duration=300.0)
+    s = scenario(5, duration=150.0)
     d = diagnosed(s, s.simulate(hidden("mount-resonance", 3.0, 15.0, 1.0)).flight())
     assert d.found == ("mount-resonance",)
 

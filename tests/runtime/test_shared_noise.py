@@ -18,7 +18,7 @@ SIGNS = np.array([1.0, 1.0, -1.0, -1.0])
 def test_an_effect_is_found_beside_a_shake_that_all_accelerometers_share() -> None:
     i = example()
     x = simulated(
-        i, ["cubic-input:K_iii=0/3/0/0"], seed=4, duration=150.0, rate=RATE, voltages=True, no_gradient=False
+        i, ["cubic-input:K_iii=0/3/0/0"], seed=4, duration=100.0, rate=RATE, voltages=True, no_gradient=False
     )
     G = sum(s * x.outputs[f"V_{j}"] for j, s in enumerate(SIGNS, 1))
     shake = 30.0 * np.std(np.diff(G)) * np.random.default_rng(5).standard_normal(len(G))
