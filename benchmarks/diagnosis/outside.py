@@ -151,8 +151,6 @@ SINCE: Mapping[str, str] = {
     "misalignment drift": "misalignment-drift",
     "cube of G_out (converter)": "output-curve",
     "square of G_out (converter)": "output-curve",
-    "resonance at 3 Hz": "accelerometer-resonance",
-    "mount resonant at 3 Hz, Q 15": "accelerometer-resonance",
 }
 """Those that have become effects of the catalogue since the terms were chosen: naming these is right."""
 

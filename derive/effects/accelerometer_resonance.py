@@ -48,5 +48,4 @@ EFFECT = Effect(
     transducer=transducer,
     resonance="accelerometer",
     searched=False,
-    contains=("lag", "second-order-loop"),
 )

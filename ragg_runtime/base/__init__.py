@@ -1,1 +1,1 @@
-"""What every room stands on: errors, files written whole, locks, progress, linear algebra on one thread."""
+"""What every package uses: errors, files written whole, locks, progress, linear algebra on one thread."""

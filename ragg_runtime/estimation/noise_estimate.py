@@ -141,8 +141,10 @@ def _principal_components(parts: Sequence[_Part]) -> Array | None:
     What shakes a whole disc (a servo of the spin, an angular acceleration that the motion sensors measure poorly) is in all voltages at
     once: taken one by one each would seem as noisy as that, and what they share would look like a signal. It is one component.
     """
+    if len(parts[0].outputs) == 1:
+        return None
     rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
-    if len(rests) == 1 or -0.5 * np.linalg.slogdet(np.corrcoef(rests))[1] < SHARED:
+    if -0.5 * np.linalg.slogdet(np.corrcoef(rests))[1] < SHARED:
         return None
     return np.asarray(np.linalg.eigh(rests @ rests.T)[1].T)
 

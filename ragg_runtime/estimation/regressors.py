@@ -15,7 +15,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.model.evaluate import unit_factor, voltages
-from ragg_runtime.model.evaluator import Evaluator
+from ragg_runtime.model.evaluator import Evaluator, find_places
 from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Effect, Model
 from ragg_runtime.model.record import Record, made_of
@@ -63,12 +63,8 @@ def list_base_columns(model: Model, instrument: Instrument) -> list[tuple[Column
     """The calibratable parameters of the model, each with its index in the parameter vector."""
     known = units(instrument.g0)
     found: list[tuple[Column, int]] = []
-    start = {}
-    position = 0
+    start = {name: place.start for name, place in find_places(model.chain).items()}
     places = instrument.layout.names
-    for name, size in model.chain.PARAMETERS:
-        start[name] = position
-        position += size
     for q in PARAMETERS:
         if q.name in UNOBSERVABLE or q.name in instrument.fixed:
             continue
@@ -244,7 +240,8 @@ def linearise(at: Point, o: Observation, residual: Array | None = None) -> Array
     columns = np.zeros((n_base + len(at.candidates) + 1, len(o.series), len(r.time)))
     _put_derivatives(columns, at.model.evaluators("chain"), at.base, r, o, p)
     if at.candidates:
-        r = with_responses(r, neutral_values(at.model.candidates), at.model.signatures.INPUTS)
+        searched = neutral_values(e for e in at.model.candidates if e.searched)
+        r = with_responses(r, searched, at.model.signatures.INPUTS)
         q = np.concatenate([p, np.zeros(at.model.signatures.SIZE - len(p))])
         _put_derivatives(columns[n_base:], at.model.evaluators("signatures"), at.candidates, r, o, q)
     for column in columns[:-1] if o.recorded.demodulated else ():

@@ -26,7 +26,7 @@ from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.lateness import late
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import HALO
-from ragg_runtime.model.resonance import memory, values_of
+from ragg_runtime.model.resonance import list_resonances, memory
 from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
@@ -52,7 +52,7 @@ def certain(model: Model, instrument: Instrument, observations: Sequence[Observa
 
 def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation:
     """Without as much of either end as motion may be late, and what a resonance may remember of what was before."""
-    moving, resonant = dict(late(model)), [*values_of(model, vector(model, instrument))]
+    moving, resonant = dict(late(model)), [*list_resonances(model, vector(model, instrument))]
     if not (moving or resonant):
         return o
     r = o.record

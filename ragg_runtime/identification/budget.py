@@ -12,6 +12,7 @@ from ragg_runtime.estimation.scores import error
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.evaluate import output, unit_factor
+from ragg_runtime.model.evaluator import find_places
 from ragg_runtime.model.model import Model
 from ragg_runtime.wording import numbers
 
@@ -59,8 +60,7 @@ def contributions(f: Fitted) -> list[Contribution]:
 
 def list_groups(model: Model, instrument: Instrument, p: Array) -> list[ParameterGroup]:
     """The groups of the parameters p (size,) of which something is there: of accelerometers, then of each effect."""
-    ends = np.cumsum([size for _, size in model.chain.PARAMETERS])
-    places = {n: slice(end - size, end) for (n, size), end in zip(model.chain.PARAMETERS, ends, strict=True)}
+    places = find_places(model.chain)
     found = []
     for q in (q for q in PARAMETERS if q.name in places):
         without = p.copy()

@@ -11,7 +11,7 @@ from ragg_runtime.base.errors import at, check_keys
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.instrument.units import EOTVOS, Units, units
-from ragg_runtime.model.evaluator import ChainModule
+from ragg_runtime.model.evaluator import ChainModule, find_places
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import Record
 
@@ -40,11 +40,7 @@ def scale_factor(model: Model, p: Array, output: int = 0) -> float:
 
 def named(chain: ChainModule, p: Array) -> dict[str, Array]:
     """A parameter vector as name -> values (one or four)."""
-    result, start = {}, 0
-    for name, size in chain.PARAMETERS:
-        result[name] = p[start : start + size]
-        start += size
-    return result
+    return {name: p[place] for name, place in find_places(chain).items()}
 
 
 def vector(model: Model, instrument: Instrument) -> Array:

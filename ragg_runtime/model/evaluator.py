@@ -41,6 +41,12 @@ class ChainModule(Protocol):
     def values_of(self, j: int, p: Array) -> Array: ...
 
 
+def find_places(chain: ChainModule) -> dict[str, slice]:
+    """Where each parameter of a generated module is in its parameter vector."""
+    ends = np.cumsum([size for _, size in chain.PARAMETERS])
+    return {n: slice(int(e) - size, int(e)) for (n, size), e in zip(chain.PARAMETERS, ends, strict=True)}
+
+
 Inputs = Sequence[ArrayLike | None] | NDArray[np.floating]
 """One series of N samples each, in the order of the model; ``None``: not recorded, zero (the rate of the disc angle: 2 pi
 spin_frequency)."""

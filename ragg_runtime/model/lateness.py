@@ -10,9 +10,10 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.model.evaluator import find_places
 from ragg_runtime.model.model import EffectParameter, Model
 from ragg_runtime.model.record import Record
-from ragg_runtime.model.resonance import values_of, with_responses
+from ragg_runtime.model.resonance import list_resonances, with_responses
 
 Array = NDArray[np.float64]
 
@@ -26,7 +27,7 @@ def about(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
 
     Parameters of resonances are left at their neutral values, about which the chain has its series.
     """
-    resonant = [*values_of(model, p)]
+    resonant = [*list_resonances(model, p)]
     if resonant:
         r, p = with_responses(r, resonant, model.chain.INPUTS), _at_neutral(model, p)
     rest = p
@@ -46,18 +47,14 @@ def about(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
 
 def _at_neutral(model: Model, p: Array) -> Array:
     neutral = {q.symbol: q.neutral for e in model.effects for q in e.parameters if q.shape}
-    rest, place = p.copy(), 0
-    for name, size in model.chain.PARAMETERS:
-        rest[place : place + size] = neutral.get(name, rest[place : place + size])
-        place += size
+    rest, places = p.copy(), find_places(model.chain)
+    for name, value in neutral.items():
+        rest[places[name]] = value
     return rest
 
 
 def late(model: Model) -> Iterator[tuple[int, EffectParameter]]:
     """Parameters of a model that make motion late, each with its place in the parameter vector."""
-    found = {q.symbol: q for e in model.effects for q in e.parameters if q.late}
-    place = 0
-    for name, size in model.chain.PARAMETERS if found else ():
-        if name in found:
-            yield place, found[name]
-        place += size
+    found = [q for e in model.effects for q in e.parameters if q.late]
+    places = find_places(model.chain) if found else {}
+    yield from sorted(((places[q.symbol].start, q) for q in found), key=lambda x: x[0])

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
+from ragg_runtime.model.evaluator import find_places
 from ragg_runtime.model.model import Effect, Model
 from ragg_runtime.model.record import Record
 
@@ -26,16 +27,12 @@ LEAST = 1e-2
 """Least frequency, Hz, and Q: a fit may try others on its way."""
 
 
-def values_of(model: Model, p: Array) -> Iterator[tuple[Effect, float, float]]:
+def list_resonances(model: Model, p: Array) -> Iterator[tuple[Effect, float, float]]:
     """The effects of a model that act through a resonance, with its frequency, Hz, and Q by the parameters p (size,), SI."""
-    places, start = {}, 0
-    for name, size in model.chain.PARAMETERS:
-        places[name] = start
-        start += size
-    for e in model.effects:
-        if e.resonance is not None:
-            f_0, Q = (float(p[places[q.symbol]]) for q in e.parameters if q.shape)
-            yield e, max(f_0, LEAST), max(Q, LEAST)
+    for e in (e for e in model.effects if e.resonance is not None):
+        places = find_places(model.chain)
+        f_0, Q = (float(p[places[q.symbol].start]) for q in e.parameters if q.shape)
+        yield e, max(f_0, LEAST), max(Q, LEAST)
 
 
 def neutral_values(effects: Iterable[Effect]) -> Iterator[tuple[Effect, float, float]]:
