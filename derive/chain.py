@@ -14,7 +14,7 @@ import sympy as sp
 from derive import stages
 from derive.context import OMEGA, Context
 from derive.effect import Effect, Values
-from derive.layout import AXES, HEIGHT, TURN, Layout
+from derive.layout import AXES, HEIGHT, TURN, SymbolicLayout
 from derive.layout import PAPER as FOUR
 from derive.names import id_in_code
 from derive.stages import PAPER, Force, Geometry, Kinematics, Motion, Order, SensedForce, Spin
@@ -55,7 +55,7 @@ def accelerometer(
     order: Order = PAPER,
     tape: Tape | None = None,
     kinematics: Kinematics = "platform",
-    layout: Layout = FOUR,
+    layout: SymbolicLayout = FOUR,
     candidates: Sequence[Effect] = (),
 ) -> Accelerometer:
     """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape.
@@ -109,7 +109,7 @@ def _one_by_one(hooked: Hooked, c: Context) -> Iterator[tuple[Effect, Values]]:
     c.enter(frozenset())
 
 
-def _sensing(hooked: Hooked, c: Context, layout: Layout) -> None:
+def _sensing(hooked: Hooked, c: Context, layout: SymbolicLayout) -> None:
     """Stage 1: the motion at the disc centre, by the axes of the disc at rest."""
     let = c.tape.let
     c.standing = AXES if layout.has(AXES[0, 0]) else None
@@ -154,7 +154,7 @@ class _Place:
     c: Context
     let: Let
     order: Order
-    layout: Layout
+    layout: SymbolicLayout
     M: sp.Matrix
     cos_psi: sp.Expr
     sin_psi: sp.Expr

@@ -24,7 +24,7 @@ from derive import stages
 from derive.chain import accelerometer, auxiliary_channel, recorded_motion
 from derive.context import RECORDED_SPIN
 from derive.harmonics import NotHarmonic, Series, constant, rotating, series, split
-from derive.layout import AXES, Layout, instrument_parameters
+from derive.layout import AXES, SymbolicLayout, instrument_parameters
 from derive.layout import PAPER as FOUR
 from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS
 from derive.stages import PAPER, Kinematics, Order
@@ -63,7 +63,7 @@ _EMPTY = Program((), ())
 
 
 @dataclass(frozen=True)
-class Part:
+class AccelerometerTerm:
     """What one accelerometer adds to a coefficient: sign times an expression in its parameters."""
 
     sign: int
@@ -93,13 +93,13 @@ class Folded:
     name: str
     title: str
     expressions: tuple[sp.Expr, ...]
-    coefficients: tuple[tuple[Part, ...], ...]
+    coefficients: tuple[tuple[AccelerometerTerm, ...], ...]
     numbers: Program
     value: sp.Expr
     inputs: tuple[Channel, ...] = MOTION
     parameters: tuple[Parameter, ...] = INSTRUMENT
     own: Program = _EMPTY
-    layout: Layout = FOUR
+    layout: SymbolicLayout = FOUR
 
     @property
     def size(self) -> int:
@@ -112,7 +112,7 @@ def folded(
     title: str,
     order: Order = PAPER,
     kinematics: Kinematics = "platform",
-    layout: Layout = FOUR,
+    layout: SymbolicLayout = FOUR,
 ) -> Folded:
     """Derive the folded form of an instrument's outputs."""
     inputs = MOTION if kinematics == "platform" else (*MOTION, *SPIN_CHANNELS)
@@ -138,7 +138,7 @@ def _in_parts(name: str, title: str, kinematics: Kinematics, inputs: tuple[Chann
     """That of the paper's instrument, whose quarter turns only swap numbers: coefficients as sums of few expressions."""
     own = _standing(PAPER)
     expressions: dict[sp.Expr, int] = {}
-    sums: dict[tuple[int, ...], list[Part]] = {}
+    sums: dict[tuple[int, ...], list[AccelerometerTerm]] = {}
     for nominal in (True, False):  # equal parts of the coefficients first: little is lost when they cancel
         for j, (sign, quarter) in enumerate(zip(SIGNS, QUARTER_TURNS, strict=True)):
             for powers, coefficient in own.items():
@@ -146,7 +146,7 @@ def _in_parts(name: str, title: str, kinematics: Kinematics, inputs: tuple[Chann
                 part = _part(coefficient, nominal)
                 if part:
                     number = expressions.setdefault(_readable(part), len(expressions))
-                    sums.setdefault(target, []).append(Part(sign * turned_sign, number, j))
+                    sums.setdefault(target, []).append(AccelerometerTerm(sign * turned_sign, number, j))
     keys = sorted(sums, key=lambda m: (sum(m), tuple(-k for k in m)))
     value = _nested({m: symbol(f"c[{n}]") for n, m in enumerate(keys)}, 0)
     return Folded(
@@ -234,13 +234,13 @@ def _nested(
     return total
 
 
-def _names(layout: Layout) -> tuple[str, ...]:
+def _names(layout: SymbolicLayout) -> tuple[str, ...]:
     """Of the turned numbers; where the disc's axis is not that of the measurement frame, its direction is called s."""
     return tuple(n.replace("z", "s") for n in TURNED) if layout.has(AXES[0, 0]) else TURNED
 
 
 def _numbers(
-    kinematics: Kinematics, layout: Layout = FOUR, used: tuple[bool, ...] = (True,) * len(TURNED)
+    kinematics: Kinematics, layout: SymbolicLayout = FOUR, used: tuple[bool, ...] = (True,) * len(TURNED)
 ) -> Program:
     """The turned numbers by the inputs and cos_phi, sin_phi, shared subexpressions apart."""
     tape = Tape()
@@ -279,7 +279,7 @@ class Standing:
     coefficients: Program
 
 
-def standing(numbers: Sequence[str], order: Order, layout: Layout) -> Standing:
+def standing(numbers: Sequence[str], order: Order, layout: SymbolicLayout) -> Standing:
     """Derive V_j by ``numbers``: a (3) and M (3 x 3) along the directions r, t, z of the disc, in this order.
 
     Monomials that vanish for every place of the layout are left out.
@@ -354,7 +354,7 @@ def _product(p: Polynomial, q: Polynomial) -> Polynomial:
     return {m: sp.Add(*terms) for m, terms in found.items()}
 
 
-def _occurring(tape: Tape, outputs: Sequence[tuple[str, sp.Expr]], layout: Layout) -> set[str]:
+def _occurring(tape: Tape, outputs: Sequence[tuple[str, sp.Expr]], layout: SymbolicLayout) -> set[str]:
     """Outputs that do not vanish at some place of the layout, by its constants that are 0, 1 or -1."""
     places = {
         tuple((n, int(v[j])) for n, v in layout.constants.items() if v[j] in (0.0, 1.0, -1.0))

@@ -18,7 +18,7 @@ from derive.chain import accelerometer, auxiliary_channel
 from derive.effect import Effect, EffectParameter
 from derive.folded import Folded
 from derive.layout import PAPER as FOUR
-from derive.layout import Layout, instrument_parameters
+from derive.layout import SymbolicLayout, instrument_parameters
 from derive.propagation import COEFFICIENT_PARAMETERS, Collected, monomial, motion_numbers
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of
@@ -72,7 +72,7 @@ class Harmonic:
 
 
 @dataclass(frozen=True)
-class Row:
+class DerivativeRow:
     """One derivative of V_j: by which parameter, and whether that has one value or four."""
 
     name: str
@@ -87,11 +87,11 @@ class ChainProgram:
     title: str
     value: Program
     derivatives: Program
-    rows: tuple[Row, ...]
+    rows: tuple[DerivativeRow, ...]
     inputs: tuple[Channel, ...]
     parameters: tuple[Parameter, ...]
     effects: tuple[Effect, ...]
-    layout: Layout = FOUR
+    layout: SymbolicLayout = FOUR
 
 
 def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
@@ -171,7 +171,7 @@ def chain(
     order: Order = PAPER,
     candidates: Sequence[Effect] = (),
     kinematics: Kinematics = "platform",
-    layout: Layout = FOUR,
+    layout: SymbolicLayout = FOUR,
 ) -> ChainProgram:
     """V_j of the instrument with ``effects``, and its derivatives.
 
@@ -206,7 +206,7 @@ def chain(
         title=title,
         value=value,
         derivatives=derivatives,
-        rows=tuple(Row(n, shared) for _, n, shared in named),
+        rows=tuple(DerivativeRow(n, shared) for _, n, shared in named),
         inputs=(*MOTION, *(auxiliary_channel(column_of(n)) for n in extra)),
         parameters=parameters,
         effects=tuple(candidates) or tuple(effects),

@@ -31,7 +31,7 @@ AXES = _matrix("axes")
 
 
 @dataclass(frozen=True)
-class Output:
+class SymbolicOutput:
     """An output: the sum of voltages of accelerometers (counted from 0) with their signs."""
 
     name: str
@@ -40,7 +40,7 @@ class Output:
 
 
 @dataclass(frozen=True)
-class Layout:
+class SymbolicLayout:
     """The accelerometers of an instrument.
 
     Attributes
@@ -63,7 +63,7 @@ class Layout:
 
     names: tuple[str, ...]
     constants: Mapping[str, tuple[float, ...]] = field(hash=False)
-    outputs: tuple[Output, ...]
+    outputs: tuple[SymbolicOutput, ...]
     rest: Mapping[str, tuple[float, ...]] = field(hash=False, default_factory=dict)
     own: bool = False
 
@@ -87,7 +87,7 @@ class Layout:
             if n not in ("cos_j", "sin_j") and v[0] in (0.0, 1.0, -1.0) and len(set(v)) == 1
         }
 
-    def without_common(self) -> Layout:
+    def without_common(self) -> SymbolicLayout:
         """The layout with the other constants alone."""
         known = {s.name for s in self.common}
         return replace(self, constants={n: v for n, v in self.constants.items() if n not in known})
@@ -99,7 +99,7 @@ class Layout:
 def rest_of_angles(
     degrees: Sequence[Fraction | None], cosines: Sequence[float], sines: Sequence[float]
 ) -> Mapping[str, tuple[float, ...]]:
-    """``Layout.rest`` of angles in degrees, where they are known exactly (``None``: nothing is added)."""
+    """``SymbolicLayout.rest`` of angles in degrees, where they are known exactly (``None``: nothing is added)."""
     found: dict[str, tuple[float, ...]] = {}
     for name, of, known in (("cos_j", sp.cos, cosines), ("sin_j", sp.sin, sines)):
         rest = [
@@ -117,18 +117,18 @@ def _difference(exact: sp.Expr, x: float) -> float:
 
 _COSINES, _SINES = (1.0, 0.0, -1.0, 0.0), (0.0, 1.0, 0.0, -1.0)
 
-PAPER = Layout(
+PAPER = SymbolicLayout(
     names=("A1", "A2", "A3", "A4"),
     constants={
         "cos_j": tuple(_COSINES[q] for q in QUARTER_TURNS),
         "sin_j": tuple(_SINES[q] for q in QUARTER_TURNS),
     },
-    outputs=(Output("G_out", (0, 1, 2, 3), SIGNS),),
+    outputs=(SymbolicOutput("G_out", (0, 1, 2, 3), SIGNS),),
 )
 """Four quarter turns, G_out = V_1 + V_2 - V_3 - V_4 (Eq. 15)."""
 
 
-def instrument_parameters(layout: Layout) -> tuple[Parameter, ...]:
+def instrument_parameters(layout: SymbolicLayout) -> tuple[Parameter, ...]:
     """Those of the paper's instrument; of another layout each accelerometer has its own radius and spin frequency."""
     if layout.is_paper:
         return INSTRUMENT

@@ -26,7 +26,7 @@ from derive.emit import numpy as _numpy
 from derive.emit.target import joined, targets
 from derive.folded import Folded, folded
 from derive.layout import PAPER as FOUR
-from derive.layout import Layout
+from derive.layout import SymbolicLayout
 from derive.propagation import collect, ideal
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import SECOND_ORDER, symbol
@@ -44,15 +44,15 @@ FULL = "full"
 
 
 @dataclass(frozen=True)
-class Form:
+class SymbolicForm:
     """What a model keeps: at which order, and whose rotation its accelerometers feel."""
 
     order: Order = PAPER
     kinematics: Kinematics = "platform"
-    layout: Layout = FOUR
+    layout: SymbolicLayout = FOUR
 
 
-PAPERS = Form()
+PAPERS = SymbolicForm()
 
 
 def derive_base() -> Files:
@@ -67,14 +67,16 @@ def derive_base() -> Files:
     simple = ir.harmonic(
         simplified(), "simplified", "The simplified analytical model of the RAGG (paper, Eq. 42-47)."
     )
-    full = _derive(Form(kinematics="full"), (), catalogue(), packaged=True)
+    full = _derive(SymbolicForm(kinematics="full"), (), catalogue(), packaged=True)
     below = {f"{FULL}/{name}": text for name, text in full.items()}
     below |= {**recogniser.files(catalogue()), **recogniser.package_file(catalogue())}
     own = _derive(PAPERS, (), catalogue(), analytical, simple, packaged=True, below=tuple(below))
     return dict(sorted({**own, **below}.items()))
 
 
-def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect], form: Form = PAPERS) -> Files:
+def derive_model(
+    effects: Sequence[Effect], candidates: Sequence[Effect], form: SymbolicForm = PAPERS
+) -> Files:
     """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file).
 
     What stands in the folder :data:`FITS` is beside the model: the manifest does not name it.
@@ -85,19 +87,19 @@ def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect], form: 
     return dict(sorted({**files, **below}.items()))
 
 
-def derive_plain(effects: Sequence[Effect], form: Form = PAPERS) -> Files:
+def derive_plain(effects: Sequence[Effect], form: SymbolicForm = PAPERS) -> Files:
     """The model with ``effects`` in C, for G_out alone, in the order of operations of the NumPy code."""
     (chain, *_) = _chains(form, effects, ())
     return _c.plain(chain)
 
 
-def offered(candidates: Sequence[Effect], form: Form) -> tuple[Effect, ...]:
+def offered(candidates: Sequence[Effect], form: SymbolicForm) -> tuple[Effect, ...]:
     """The effects that a model of this form does not hold already."""
     return tuple(e for e in candidates if not e.moot(form.order, form.kinematics))
 
 
 def _derive(
-    form: Form,
+    form: SymbolicForm,
     effects: Sequence[Effect],
     candidates: Sequence[Effect],
     *harmonics: ir.Harmonic,
@@ -123,7 +125,7 @@ def _derive(
     return whole | {f"{FITS}/{n.rpartition('/')[2]}": text for c in signatures for n, text in c.items()}
 
 
-def _folded(form: Form) -> Folded:
+def _folded(form: SymbolicForm) -> Folded:
     title = "The analytical model of the RAGG, folded for evaluation (paper, Eq. 1-15"
     title += ")." if form.kinematics == "platform" else ", with the rate of the disc in Eq. 9)."
     return folded("folded", title, form.order, form.kinematics, form.layout)
@@ -134,7 +136,9 @@ def _active(effects: Sequence[Effect]) -> list[Effect]:
     return [e for e in effects if e.kind in ("deterministic", "step")]
 
 
-def _chains(form: Form, effects: Sequence[Effect], candidates: Sequence[Effect]) -> list[ir.ChainProgram]:
+def _chains(
+    form: SymbolicForm, effects: Sequence[Effect], candidates: Sequence[Effect]
+) -> list[ir.ChainProgram]:
     active = _active(effects)
     title = "The instrument as a chain of stages (paper, Eq. 1-15)."
     chains = [ir.chain(active, "chain", title, form.order, kinematics=form.kinematics, layout=form.layout)]
@@ -157,7 +161,7 @@ def _chains(form: Form, effects: Sequence[Effect], candidates: Sequence[Effect])
 
 
 def _complete(
-    form: Form,
+    form: SymbolicForm,
     files: dict[str, str],
     effects: Sequence[Effect],
     candidates: Sequence[Effect],
@@ -183,7 +187,7 @@ def _complete(
     return dict(sorted(files.items()))
 
 
-def _told(form: Form) -> Mapping[str, object]:
+def _told(form: SymbolicForm) -> Mapping[str, object]:
     """A form in the manifest; the paper's layout is not worth a word."""
     described = dataclasses.asdict(form)
     del described["layout"]["own"]  # it follows from the rest of model.toml

@@ -93,7 +93,7 @@ def gradient_in_motion_numbers() -> dict[str, sp.Expr]:
 
 
 @dataclass(frozen=True)
-class Term:
+class MonomialTerm:
     """One term of an amplitude: combination[coefficient] times a monomial of motion numbers.
 
     ``motion`` holds the powers of :data:`MOTION_NUMBERS`; ``coefficient`` is a polynomial in
@@ -113,7 +113,7 @@ class Collected:
     (harmonic, "c" or "s") -> {powers of the motion numbers: polynomial in the parameters}.
     """
 
-    amplitudes: Mapping[str, tuple[Term, ...]]
+    amplitudes: Mapping[str, tuple[MonomialTerm, ...]]
     generic: Mapping[tuple[int, str], Mapping[tuple[int, ...], PolyElement]]
     ring: PolyRing
 
@@ -161,13 +161,13 @@ def collect(order: Order = PAPER) -> Collected:
     return from_generic(_generic(series(a.tape.assignments, a.voltage, _ALL, known)))
 
 
-def ideal(c: Collected) -> dict[str, tuple[Term, ...]]:
+def ideal(c: Collected) -> dict[str, tuple[MonomialTerm, ...]]:
     """Eq. 30: what is left for four equal accelerometers, perfectly mounted, without second-order terms.
 
     Imbalances D vanish, and of Sigma what is made of k1 and R alone remains.
     """
     nominal = tuple(n in ("k1", "R") for n in COEFFICIENT_PARAMETERS)
-    left: dict[str, tuple[Term, ...]] = {}
+    left: dict[str, tuple[MonomialTerm, ...]] = {}
     for name, terms in c.amplitudes.items():
         kept = []
         for t in terms:
@@ -177,7 +177,7 @@ def ideal(c: Collected) -> dict[str, tuple[Term, ...]]:
                 if all(n or not e for n, e in zip(nominal, m, strict=True))
             }
             if t.combination == "Sigma" and pure:
-                kept.append(Term(t.motion, t.combination, c.ring.from_dict(pure)))
+                kept.append(MonomialTerm(t.motion, t.combination, c.ring.from_dict(pure)))
         if kept:
             left[name] = tuple(kept)
     return left
@@ -195,7 +195,7 @@ def _generic(v: Series) -> dict[tuple[int, str], dict[tuple[int, ...], PolyEleme
 
 def from_generic(generic: Mapping[tuple[int, str], Mapping[tuple[int, ...], PolyElement]]) -> Collected:
     """Add the four accelerometers: the series of one, in its own angle, becomes the amplitudes of G_out."""
-    amplitudes: dict[str, tuple[Term, ...]] = {}
+    amplitudes: dict[str, tuple[MonomialTerm, ...]] = {}
     for n, phase in generic:
         terms: dict[tuple[tuple[int, ...], Combination], PolyElement] = {}
         for source in ("c", "s"):
@@ -205,7 +205,7 @@ def from_generic(generic: Mapping[tuple[int, str], Mapping[tuple[int, ...], Poly
                     signed = coefficient if sign > 0 else -coefficient
                     terms[key] = terms[key] + signed if key in terms else signed
         ordered = sorted((k for k in terms if terms[k]), key=lambda k: (_reading_order(k[0]), k[1]))
-        amplitudes[amplitude_name(n, phase)] = tuple(Term(m, c, terms[m, c]) for m, c in ordered)
+        amplitudes[amplitude_name(n, phase)] = tuple(MonomialTerm(m, c, terms[m, c]) for m, c in ordered)
     return Collected(amplitudes, generic, COEFFICIENTS)
 
 

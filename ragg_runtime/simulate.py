@@ -17,7 +17,7 @@ from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.mapping import Mapped
-from ragg_runtime.model.model import Effect, packaged
+from ragg_runtime.model.model import DerivedEffect, packaged
 from ragg_runtime.model.record import start_of
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.auxiliaries import further, plausible
@@ -172,7 +172,7 @@ def _noise(density: float, radius: float) -> Noise | None:
     return Noise(alpha=0.05 * white.omega_T, b=1.0, omega_T=white.omega_T) if density else None
 
 
-def _recorded(x: Flight, start: float) -> tuple[reference.Motion, float, float]:
+def _recorded(x: Flight, start: float) -> tuple[reference.MotionSignals, float, float]:
     """The motion of a flight, from ``start``, s, on, the time, s, in which it was sampled, and its rate, Hz: flown, it has as many
     samples.
     """
@@ -180,7 +180,7 @@ def _recorded(x: Flight, start: float) -> tuple[reference.Motion, float, float]:
     return reference.recorded_motion(x.time - x.time[0] + start, a, omega), len(x) / x.rate, x.rate
 
 
-def _drawn(seed: int, duration: float, rate: float, shape: str | None) -> reference.Motion:
+def _drawn(seed: int, duration: float, rate: float, shape: str | None) -> reference.MotionSignals:
     if duration * rate > MOST_SAMPLES:
         raise UserError(
             "the flight is too long to be simulated",
@@ -211,7 +211,7 @@ def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
     return identifier, values
 
 
-def _numbers(effect: Effect, name: str, text: str, instrument: Instrument) -> Array:
+def _numbers(effect: DerivedEffect, name: str, text: str, instrument: Instrument) -> Array:
     count, parameters = instrument.layout.size, {q.name: q for q in effect.parameters}
     if name not in parameters:
         raise UserError(f"{effect.id} has no parameter {name!r}", expected=", ".join(parameters))

@@ -21,7 +21,7 @@ import ragg
 from benchmarks.diagnosis import outside, plan, records
 from benchmarks.diagnosis.outside import Outside
 from benchmarks.diagnosis.plan import Spec, World
-from benchmarks.diagnosis.records import Loudness, Recorded, Table
+from benchmarks.diagnosis.records import CleanOutput, Loudness, Table
 from benchmarks.diagnosis.strength import Hidden, Oracle
 from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
@@ -98,7 +98,9 @@ def prepared(spec: Spec) -> Prepared:
     hidden: tuple[Hidden, ...] = ()
     term = None
     if spec.kind != "quiet":
-        changed = kind.change(channels, Recorded(plain.G_out_noise_free, 1.0, w.scenario.rate), spec.rng(4))
+        changed = kind.change(
+            channels, CleanOutput(plain.G_out_noise_free, 1.0, w.scenario.rate), spec.rng(4)
+        )
         lost = np.isnan(changed["G_out"])
         flight = plain.flight("plain", voltages=w.output == "voltages")
         oracle = Oracle(w, flight, loudness, lost, spec.catalogue)
@@ -167,7 +169,7 @@ def _recorded(
         x = {n: v for n, v in x.items() if not n.startswith("V_")}
     rms = float(np.std(combine(noise))) or 1e-12 * float(np.std(x["G_out"]))
     clean = x["G_out"] - combine(noise)
-    x = records.KINDS[spec.record].change(x, Recorded(clean, rms, s.rate), spec.rng(4))
+    x = records.KINDS[spec.record].change(x, CleanOutput(clean, rms, s.rate), spec.rng(4))
     x["G_out"] = record_output(x["G_out"], resolve(recorder))
     return _channels(w, x) if w.output == "channels" else x
 

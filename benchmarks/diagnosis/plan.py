@@ -17,7 +17,7 @@ from ragg_runtime.reference.accelerometer_noise import eotvos_noise
 from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import perturbed, table_v, trimmed
-from ragg_runtime.reference.motion import Motion, Signal, recorded_motion
+from ragg_runtime.reference.motion import MotionSignals, Signal, recorded_motion
 from ragg_runtime.reference.scenario import Scenario, draw_gradient, draw_motion
 from ragg_runtime.reference.turbulence import SHAPES
 
@@ -164,7 +164,7 @@ def world(s: Spec) -> World:
         del auxiliaries["balance_current"]
     start = float(str(options.get("start", 0.0)))
     if start:
-        motion = Motion(*(_later(part, start) for part in (motion.a, motion.omega)))
+        motion = MotionSignals(*(_later(part, start) for part in (motion.a, motion.omega)))
         tensor = gravity.tensor
         gravity = Gradient(lambda time: tensor(time - start))
         auxiliaries = {n: (lambda time, f=f: f(time - start)) for n, f in auxiliaries.items()}
@@ -211,7 +211,7 @@ def _later(part: Sequence[Signal], by: float) -> tuple[Signal, Signal, Signal]:
     return x, y, z
 
 
-def _recorded(rng: np.random.Generator, duration: float) -> Motion:
+def _recorded(rng: np.random.Generator, duration: float) -> MotionSignals:
     x = read_flight(RECORD, 9.8, need_output=False)
     a, omega = (np.stack([x.channels[f"{q}_{k}"] for k in "xyz"]) for q in ("a", "omega"))
     spare = x.time[-1] - x.time[0] - duration - 2.0

@@ -33,7 +33,7 @@ class Loudness:
 
 
 NoiseKind = Callable[[Table, np.random.Generator], Loudness]
-Change = Callable[[Table, "Recorded", np.random.Generator], Table]
+Change = Callable[[Table, "CleanOutput", np.random.Generator], Table]
 
 
 def flat(f: Array) -> Array:
@@ -121,7 +121,7 @@ def cyclic(x: Table, rng: np.random.Generator) -> Loudness:
 
 
 @dataclass(frozen=True)
-class Recorded:
+class CleanOutput:
     """What a change may need to know of a flight: the clean output (N,) V, the rms of its noise, the rate, Hz."""
 
     clean: Array
@@ -129,11 +129,11 @@ class Recorded:
     rate: float
 
 
-def as_it_is(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def as_it_is(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     return x
 
 
-def heavy(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def heavy(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """Noise of Student's t with three degrees of freedom."""
     return x | {"G_out": r.clean + r.rms * rng.standard_t(3, len(r.clean)) / np.sqrt(3.0)}
 
@@ -142,7 +142,7 @@ def _added(x: Table, e: Array) -> Table:
     return x | {"G_out": x["G_out"] + e}
 
 
-def mains(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def mains(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """50 Hz, which wanders by some mHz, seen through the sampling, 0.3 to 3 times the noise."""
     n = len(r.clean)
     f = 50.0 + 0.005 * np.cumsum(rng.standard_normal(n)) / np.sqrt(n)
@@ -150,34 +150,34 @@ def mains(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
     return _added(x, np.sqrt(2.0) * rng.uniform(0.3, 3.0) * r.rms * np.cos(phase))
 
 
-def line(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def line(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """A line of 0.3 to 10 times the noise, far from the multiples of the spin rate."""
     f = float(rng.uniform(0.06, 0.45) * r.rate)
     size = np.sqrt(2.0) * r.rms * 10 ** rng.uniform(-0.5, 1.0)
     return _added(x, size * np.cos(2 * np.pi * f * x["time"] + rng.uniform(0, 6)))
 
 
-def near_line(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def near_line(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """A line 0.3 mHz beside one or two turns, 0.05 to 1 times the noise."""
     f = float(rng.choice([SPIN, 2 * SPIN])) + 0.0003
     size = np.sqrt(2.0) * r.rms * 10 ** rng.uniform(-1.3, 0.0)
     return _added(x, size * np.cos(2 * np.pi * f * x["time"] + rng.uniform(0, 6)))
 
 
-def jump(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def jump(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """The output's zero jumps by 0.3 to 3 times the noise."""
     n = len(r.clean)
     size = rng.choice([-1.0, 1.0]) * 10 ** rng.uniform(-0.5, 0.5) * r.rms
     return _added(x, np.where(np.arange(n) > rng.uniform(0.2, 0.8) * n, size, 0.0))
 
 
-def coarse(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def coarse(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """Output in steps of 0.3 to 3 times the noise."""
     q = rng.uniform(0.3, 3.0) * r.rms
     return x | {"G_out": np.round(x["G_out"] / q) * q}
 
 
-def spikes(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def spikes(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """Ten samples of the output 20 to 1,000 times the noise off."""
     at = rng.choice(len(r.clean), 10, replace=False)
     e = np.zeros(len(r.clean))
@@ -185,7 +185,7 @@ def spikes(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
     return _added(x, e)
 
 
-def gaps(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def gaps(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """30 % of the output's samples are missing, in gaps of 0.1 to 10 s."""
     lost = np.zeros(len(r.clean), dtype=np.bool_)
     while np.mean(lost) < 0.3:
@@ -194,13 +194,13 @@ def gaps(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
     return x | {"G_out": np.where(lost, np.nan, x["G_out"])}
 
 
-def rough_gaps(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def rough_gaps(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """The output fails where it is rough."""
     a = np.hypot(*(x[n] - np.mean(x[n]) for n in ("a_x", "a_z")))
     return x | {"G_out": np.where(a < np.quantile(a, rng.uniform(0.7, 0.95)), x["G_out"], np.nan)}
 
 
-def rows_lost(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def rows_lost(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """One row in a hundred is not in the file, and one stretch of up to 5 s."""
     n = len(r.clean)
     kept = rng.random(n) > 0.01
@@ -210,14 +210,14 @@ def rows_lost(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
     return {c: v[kept] for c, v in x.items()}
 
 
-def codes(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def codes(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """-9999 or 999 in one column where a value is missing, one sample in two hundred."""
     name = str(rng.choice(["G_out", "a_x", "omega_y", "temperature"]))
     gone = rng.random(len(r.clean)) < 0.005
     return x | {name: np.where(gone, float(rng.choice([-9999.0, 999.0])), x[name])}
 
 
-def stuck(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def stuck(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """The output or a motion sensor repeats its last value for 2 to 8 s, twice."""
     name = str(rng.choice(["G_out", "a_x", "a_z", "omega_y"]))
     v = x[name].copy()
@@ -227,7 +227,7 @@ def stuck(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
     return x | {name: v}
 
 
-def noisy_sensors(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def noisy_sensors(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """White noise of every sensor of motion: 0.1 ug, 2e-4 deg/h, and what a good derivative makes of it."""
     sizes = {"a": 1e-6, "omega": 1e-9, "omegadot": 1e-8}
     names = [(f"{q}_{k}", s) for q, s in sizes.items() for k in "xyz"]
@@ -237,7 +237,7 @@ def noisy_sensors(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
 def sensors_in_steps(step: float) -> Change:
     """Motion sensors that resolve so much, m/s^2 (and 1e-5 rad/s)."""
 
-    def change(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    def change(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
         steps = {"a": step, "omega": 1e-5}
         names = [(f"{q}_{k}", s) for q, s in steps.items() for k in "xyz"]
         return x | {n: np.round(x[n] / s) * s for n, s in names}
@@ -245,32 +245,32 @@ def sensors_in_steps(step: float) -> Change:
     return change
 
 
-def rounded_stamps(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def rounded_stamps(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """Stamps to one or ten milliseconds."""
     return x | {"time": np.round(x["time"], int(rng.integers(2, 4)))}
 
 
-def uneven_stamps(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def uneven_stamps(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """Stamps that are off by 1e-5 to 1e-3 of a step, at random."""
     e = 10 ** rng.uniform(-5.0, -3.0) / r.rate * rng.standard_normal(len(r.clean))
     e[0] = 0.0
     return x | {"time": x["time"] + e}
 
 
-def clock_set(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def clock_set(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """The recorder's clock is set forward by 25 ms on the way; sampling goes on."""
     late = np.arange(len(r.clean)) > rng.uniform(0.3, 0.7) * len(r.clean)
     return x | {"time": x["time"] + 0.025 * late}
 
 
-def digits(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def digits(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """As a file of 6 to 9 significant digits holds it."""
     n = int(rng.integers(6, 10))
     written = {k: np.array([float(f"{v:.{n}g}") for v in values]) for k, values in x.items() if k != "time"}
     return x | written
 
 
-def without_omegadot(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def without_omegadot(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """No angular acceleration, and gaps of up to 20 rows every few seconds."""
     kept = np.ones(len(r.clean), dtype=np.bool_)
     at = int(5 * r.rate)
@@ -280,18 +280,18 @@ def without_omegadot(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
     return {c: v[kept] for c, v in x.items() if not c.startswith("omegadot")}
 
 
-def shuffled(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def shuffled(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """The output's samples in another order."""
     return x | {"G_out": rng.permutation(x["G_out"])}
 
 
-def pure_noise(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+def pure_noise(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """White noise of the size of the output."""
     return x | {"G_out": float(np.std(x["G_out"])) * rng.standard_normal(len(r.clean))}
 
 
 @dataclass(frozen=True)
-class Kind:
+class RecordKind:
     """A kind of record.
 
     Attributes
@@ -319,61 +319,61 @@ class Kind:
     world: Mapping[str, object] = field(default_factory=dict)
 
 
-def _tame(noise: NoiseKind = white, **world: object) -> Kind:
-    return Kind(noise, known=True, tame=True, world=world)
+def _tame(noise: NoiseKind = white, **world: object) -> RecordKind:
+    return RecordKind(noise, known=True, tame=True, world=world)
 
 
 _STEPS, _SPIN = frozenset({"quantisation"}), frozenset({"spin-rate-offset"})
 
-KINDS: Mapping[str, Kind] = {
+KINDS: Mapping[str, RecordKind] = {
     "white": _tame(),
     "red": _tame(red),
     "walk": _tame(walk),
     "bump": _tame(bump),
     "along-axes": _tame(along_axes),
     "with-size": _tame(with_size),
-    "with-ax": Kind(with_ax, tame=True),
+    "with-ax": RecordKind(with_ax, tame=True),
     "with-temperature": _tame(with_temperature),
     "ramp": _tame(ramp),
-    "louder-part": Kind(louder_part, tame=True),
-    "bursts": Kind(bursts, known=True, tame=True),
-    "cyclic": Kind(cyclic, tame=True),
-    "heavy-tails": Kind(change=heavy, known=True, tame=True),
+    "louder-part": RecordKind(louder_part, tame=True),
+    "bursts": RecordKind(bursts, known=True, tame=True),
+    "cyclic": RecordKind(cyclic, tame=True),
+    "heavy-tails": RecordKind(change=heavy, known=True, tame=True),
     "unknown-gradient": _tame(red, gradient=False),
     "recorded-motion": _tame(recorded=True),
     "elsewhere": _tame(elsewhere=True),
     "voltages": _tame(output="voltages"),
-    "channels": Kind(tame=True, world={"output": "channels", "duration": 1200.0, "rate": 8.0}),
-    "20s": Kind(tame=True, world={"duration": 20.0}),
-    "60s": Kind(tame=True, world={"duration": 60.0}),
+    "channels": RecordKind(tame=True, world={"output": "channels", "duration": 1200.0, "rate": 8.0}),
+    "20s": RecordKind(tame=True, world={"duration": 20.0}),
+    "60s": RecordKind(tame=True, world={"duration": 60.0}),
     "4-Hz": _tame(rate=4.0),
-    "gaps": Kind(change=gaps, known=True, tame=True),
-    "rough-gaps": Kind(change=rough_gaps, tame=True),
-    "rows-lost": Kind(change=rows_lost, tame=True),
-    "noisy-sensors": Kind(change=noisy_sensors),
-    "sensors-0.5-mg": Kind(change=sensors_in_steps(0.5 * MILLI_G)),
-    "sensors-1-mg": Kind(change=sensors_in_steps(MILLI_G)),
-    "mains": Kind(change=mains),
-    "line": Kind(change=line),
-    "near-line": Kind(change=near_line),
-    "jump": Kind(change=jump, allowed=frozenset({"bias-step"})),
-    "spikes": Kind(change=spikes),
-    "coarse": Kind(change=coarse, allowed=_STEPS),
-    "codes": Kind(change=codes),
-    "stuck": Kind(change=stuck),
-    "rounded-stamps": Kind(change=rounded_stamps),
-    "uneven-stamps": Kind(change=uneven_stamps),
-    "clock-set": Kind(change=clock_set),
-    "from-2-s": Kind(world={"start": 2.0}),
-    "from-10-s": Kind(world={"start": 10.0}),
-    "from-1802-s": Kind(world={"start": 1802.0}),
-    "clock-50-ppm": Kind(allowed=_SPIN, world={"spin_off": 50e-6}),
-    "spin-off": Kind(allowed=_SPIN, world={"spin_off": 1e-8}),
-    "no-omegadot": Kind(change=without_omegadot),
-    "digits": Kind(change=digits, allowed=_STEPS),
-    "noiseless": Kind(change=digits, allowed=_STEPS, world={"density": 0.0}),
-    "shuffled": Kind(change=shuffled, nothing=True),
-    "pure-noise": Kind(change=pure_noise, nothing=True),
+    "gaps": RecordKind(change=gaps, known=True, tame=True),
+    "rough-gaps": RecordKind(change=rough_gaps, tame=True),
+    "rows-lost": RecordKind(change=rows_lost, tame=True),
+    "noisy-sensors": RecordKind(change=noisy_sensors),
+    "sensors-0.5-mg": RecordKind(change=sensors_in_steps(0.5 * MILLI_G)),
+    "sensors-1-mg": RecordKind(change=sensors_in_steps(MILLI_G)),
+    "mains": RecordKind(change=mains),
+    "line": RecordKind(change=line),
+    "near-line": RecordKind(change=near_line),
+    "jump": RecordKind(change=jump, allowed=frozenset({"bias-step"})),
+    "spikes": RecordKind(change=spikes),
+    "coarse": RecordKind(change=coarse, allowed=_STEPS),
+    "codes": RecordKind(change=codes),
+    "stuck": RecordKind(change=stuck),
+    "rounded-stamps": RecordKind(change=rounded_stamps),
+    "uneven-stamps": RecordKind(change=uneven_stamps),
+    "clock-set": RecordKind(change=clock_set),
+    "from-2-s": RecordKind(world={"start": 2.0}),
+    "from-10-s": RecordKind(world={"start": 10.0}),
+    "from-1802-s": RecordKind(world={"start": 1802.0}),
+    "clock-50-ppm": RecordKind(allowed=_SPIN, world={"spin_off": 50e-6}),
+    "spin-off": RecordKind(allowed=_SPIN, world={"spin_off": 1e-8}),
+    "no-omegadot": RecordKind(change=without_omegadot),
+    "digits": RecordKind(change=digits, allowed=_STEPS),
+    "noiseless": RecordKind(change=digits, allowed=_STEPS, world={"density": 0.0}),
+    "shuffled": RecordKind(change=shuffled, nothing=True),
+    "pure-noise": RecordKind(change=pure_noise, nothing=True),
 }
 """Every kind of record, by name."""
 

@@ -66,7 +66,7 @@ class Mistake:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class EquationComparison:
     """The outcome for one equation. ``missing`` are derived terms that no printed term stands for."""
 
     equation: Equation
@@ -102,7 +102,7 @@ def read(equation: Equation, reader: Reader, expand: Expansion | None = None) ->
     return Reading(equation, ring, terms, atoms, {m: dict(p.terms()) for m, p in meaning.items()}, total)
 
 
-def compare(printed: Reading, derived: PolyElement) -> Comparison:
+def compare(printed: Reading, derived: PolyElement) -> EquationComparison:
     """Compare one printed equation with its derivation (a polynomial in the ring of the reading)."""
     atoms, meaning = printed.atoms, printed.meaning
     rest = dict((derived - printed.total).terms())
@@ -119,7 +119,7 @@ def compare(printed: Reading, derived: PolyElement) -> Comparison:
     wrong += [(a, QQ(0)) for a in unexplained]
     touched = {m for a in atoms for m in meaning[a.monomial]}
     missing = [Change(m, QQ(0), v) for m, v in rest.items() if m not in touched]
-    return Comparison(printed.equation, len(atoms) - len(wrong), *_grouped(printed, wrong, missing))
+    return EquationComparison(printed.equation, len(atoms) - len(wrong), *_grouped(printed, wrong, missing))
 
 
 def monomial(ring: PolyRing, powers: Monomial) -> PolyElement:

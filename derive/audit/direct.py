@@ -21,7 +21,7 @@ ACCELEROMETER_NUMBERS = (
 
 
 @dataclass(frozen=True)
-class Point:
+class NumericPoint:
     """Numbers to evaluate at: an accelerometer's (four of each), the motion's, and a disc angle."""
 
     accelerometers: Mapping[str, tuple[Fraction, ...]]
@@ -33,7 +33,7 @@ class Point:
     sine: Fraction
 
 
-def points(count: int, seed: int) -> tuple[Point, ...]:
+def points(count: int, seed: int) -> tuple[NumericPoint, ...]:
     """Random rational points; the gradient is symmetric and free of trace, the disc angle exact."""
     draw = random.Random(seed)
 
@@ -48,7 +48,7 @@ def points(count: int, seed: int) -> tuple[Point, ...]:
         (xx, xy, xz), (yy, yz, _) = vector(), vector()
         half = number()  # tangent of half the disc angle
         made.append(
-            Point(
+            NumericPoint(
                 {n: tuple(number() for _ in range(4)) for n in ACCELEROMETER_NUMBERS},
                 vector(),
                 vector(),
@@ -79,13 +79,13 @@ _PLACES = ((1, 0), (-1, 0), (0, 1), (0, -1))
 """Cosine and sine of the angles at which A1, A2, A3, A4 sit on the disc."""
 
 
-def output(p: Point) -> Fraction:
+def output(p: NumericPoint) -> Fraction:
     """G_out = V_1 + V_2 - V_3 - V_4 (Eq. 15)."""
     V = [_voltage(p, j) for j in range(4)]
     return V[0] + V[1] - V[2] - V[3]
 
 
-def _voltage(p: Point, j: int) -> Fraction:
+def _voltage(p: NumericPoint, j: int) -> Fraction:
     """V_j with beta_z to the first power: it is of the second degree, so a central difference is exact."""
     b = p.accelerometers["beta_z"][j]
     at_zero = _linear(p, j, Fraction(0))
@@ -96,14 +96,14 @@ def _voltage(p: Point, j: int) -> Fraction:
     return first_power + k["k1"] * (k["K0"] + second + k["K8"] * y * z)
 
 
-def _linear(p: Point, j: int, beta_z: Fraction) -> Fraction:
+def _linear(p: NumericPoint, j: int, beta_z: Fraction) -> Fraction:
     """k1 times f_i of Eq. 3."""
     k = {n: v[j] for n, v in p.accelerometers.items()}
     x, y, z = _force(p, j, k["beta_x"], beta_z)
     return k["k1"] * (x + y * k["vartheta_z"] - z * k["vartheta_y"])
 
 
-def _force(p: Point, j: int, beta_x: Fraction, beta_z: Fraction) -> Vector:
+def _force(p: NumericPoint, j: int, beta_x: Fraction, beta_z: Fraction) -> Vector:
     """f_jx, f_jy, f_jz (Eq. 11 and 12)."""
     c, s = _PLACES[j]
     cosine, sine = p.cosine * c - p.sine * s, p.sine * c + p.cosine * s
@@ -117,7 +117,7 @@ def _force(p: Point, j: int, beta_x: Fraction, beta_z: Fraction) -> Vector:
     return dot(f, around), dot(f, dipped), dot(f, down)
 
 
-def current(p: Point, j: int, f: Vector) -> Fraction:
+def current(p: NumericPoint, j: int, f: Vector) -> Fraction:
     """I_j / K_j1 - K_j0 of Eq. 1 for a force in the nominal frame, its first-order rotations one by one."""
     k = {n: v[j] for n, v in p.accelerometers.items()}
     x, y, z = f
@@ -128,7 +128,7 @@ def current(p: Point, j: int, f: Vector) -> Fraction:
     return x + second + k["K8"] * y * z
 
 
-def rates(p: Point) -> dict[str, Fraction]:
+def rates(p: NumericPoint) -> dict[str, Fraction]:
     """The numbers of Eq. 16 by name: omega_x ..., omegadot_x ..., Gamma_xx ..., and omega_im^2."""
     vectors = {"omega": p.omega, "omegadot": p.omegadot}
     named = {f"{n}_{'xyz'[k]}": u[k] for n, u in vectors.items() for k in range(3)}

@@ -40,7 +40,7 @@ def _printed_motion() -> Mapping[str, PolyElement]:
     return {e.left: sum(map(reader.read, e.terms), reader.ring.zero) for e in MOTION}
 
 
-def motion_numbers(point: direct.Point) -> dict[str, Fraction]:
+def motion_numbers(point: direct.NumericPoint) -> dict[str, Fraction]:
     """T_1 ... S_5 by the *printed* Eq. 16, and everything else that Eq. 18 and 19 name."""
     rates = direct.rates(point)
     square = rates.pop("omega_im^2")
@@ -59,7 +59,7 @@ def motion_numbers(point: direct.Point) -> dict[str, Fraction]:
 Named = tuple[tuple[str, int], ...]
 
 
-def amplitude_value(p: PolyElement, point: direct.Point, motion: Mapping[str, Fraction]) -> Fraction:
+def amplitude_value(p: PolyElement, point: direct.NumericPoint, motion: Mapping[str, Fraction]) -> Fraction:
     """An amplitude of Eq. 18 or 19 (independent motion numbers only) for the point's four accelerometers."""
     names = [s.name for s in p.ring.symbols]
     by_motion: dict[Named, Fraction] = {}
@@ -88,7 +88,7 @@ def _product(factors: Iterable[tuple[Fraction, int]]) -> Fraction:
     return Fraction(numerator, denominator)
 
 
-def wave(name: str, point: direct.Point) -> Fraction:
+def wave(name: str, point: direct.NumericPoint) -> Fraction:
     """cos or sin of n times the disc angle, for an amplitude's name."""
     real, imaginary = Fraction(1), Fraction(0)
     for _ in range(int(name[2])):
@@ -97,14 +97,14 @@ def wave(name: str, point: direct.Point) -> Fraction:
     return imaginary if name.endswith("s") else real
 
 
-def output(amplitudes: Mapping[str, PolyElement], point: direct.Point) -> Fraction:
+def output(amplitudes: Mapping[str, PolyElement], point: direct.NumericPoint) -> Fraction:
     """G_out of Eq. 17 with these amplitudes."""
     motion = motion_numbers(point)
     terms = (amplitude_value(p, point, motion) * wave(n, point) for n, p in amplitudes.items())
     return sum(terms, Fraction(0))
 
 
-def current(rows: Mapping[str, PolyElement], point: direct.Point, j: int) -> Fraction:
+def current(rows: Mapping[str, PolyElement], point: direct.NumericPoint, j: int) -> Fraction:
     """I_j / K_j1 - K_j0 of Eq. 5a with these coefficients, for the force a of the point."""
     numbers = {n: point.accelerometers[n][j] for n in ("K2", "K4", "K5", "K6", "K7", "K8")}
     numbers |= {f"vartheta_{k}": point.accelerometers[f"vartheta_{k}"][j] for k in "xyz"}

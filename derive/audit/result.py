@@ -148,7 +148,7 @@ def readings(
 
 
 def _proved(
-    analytical: Amplitudes, transducer: Mapping[str, PolyElement], points: tuple[direct.Point, ...]
+    analytical: Amplitudes, transducer: Mapping[str, PolyElement], points: tuple[direct.NumericPoint, ...]
 ) -> bool:
     outputs = all(direct.output(p) == proof.output(analytical, p) for p in points)
     return outputs and all(
@@ -156,7 +156,7 @@ def _proved(
     )
 
 
-def _erratum(r: Reading, m: Mistake, point: direct.Point) -> Erratum:
+def _erratum(r: Reading, m: Mistake, point: direct.NumericPoint) -> Erratum:
     residual, cost = None, None
     if r.ring is MODEL_RING:
         difference = {amplitude(r.equation.left): printed_minus_right(m)}

@@ -13,7 +13,7 @@ import sympy as sp
 import derive.emit
 from derive.folded import Folded
 from derive.ir import ChainProgram, Harmonic
-from derive.propagation import Term
+from derive.propagation import MonomialTerm
 
 Files = Mapping[str, str]
 """Path below ``generated/`` -> text."""
@@ -34,7 +34,7 @@ class Target(Protocol):
     def chain(self, m: ChainProgram, *, packaged: bool) -> Files:
         """A model as a chain of small named expressions; ``packaged``: of the program itself, not of a model directory."""
 
-    def paper(self, starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, ...]]) -> Files:
+    def paper(self, starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[MonomialTerm, ...]]) -> Files:
         """Eq. 5b and Eq. 30 of the paper, for documents."""
 
 

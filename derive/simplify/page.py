@@ -162,7 +162,7 @@ MISALIGNMENTS = ("beta_x", "beta_z", "vartheta_y", "vartheta_z")
 
 
 @dataclass(frozen=True)
-class Kind:
+class TermKind:
     """A kind of error term: powers of what its basic term is a product of (besides k1 and R)."""
 
     where: str
@@ -191,22 +191,24 @@ class Condition:
     acceleration in m/s^2 (``angular`` is ``None``). Infinite if the envelope has no such error.
     """
 
-    kind: Kind
+    kind: TermKind
     critical: float
     angular: AngularMotion | None
 
 
 KINDS = (
-    Kind("Table I", "k_{jp} T_{n_1} T_{n_2} R_j^2", second_order=1, angular=2),
-    Kind("below Eq. 37", "k_{jp} a_{n_1} a_{n_2}", second_order=1, linear=2),
-    Kind("below Eq. 37a", "dk_{j1} a_n", imbalance=1, linear=1),
-    Kind("Table II", "k_{jp} T_{n_1} R_j a_{n_2}", second_order=1, angular=1, linear=1),
-    Kind("Table III, row 1", r"\beta_{jn} k_{j1} T_p R_j", angles=1, angular=1),
-    Kind("Table III, row 2", r"\beta_{jn_1} \beta_{jn_2} k_{j1} T_p R_j", angles=2, angular=1),
-    Kind("Table III, row 3", r"\beta_{jn_1} \beta_{jn_2} \vartheta_{jm} k_{j1} T_p R_j", angles=3, angular=1),
-    Kind("below Eq. 41, one angle", r"\beta_{jn} k_{j1} a_z", angles=1, linear=1),
-    Kind("below Eq. 41, two angles", r"\beta_{jn_1} \beta_{jn_2} k_{j1} a_z", angles=2, linear=1),
-    Kind(
+    TermKind("Table I", "k_{jp} T_{n_1} T_{n_2} R_j^2", second_order=1, angular=2),
+    TermKind("below Eq. 37", "k_{jp} a_{n_1} a_{n_2}", second_order=1, linear=2),
+    TermKind("below Eq. 37a", "dk_{j1} a_n", imbalance=1, linear=1),
+    TermKind("Table II", "k_{jp} T_{n_1} R_j a_{n_2}", second_order=1, angular=1, linear=1),
+    TermKind("Table III, row 1", r"\beta_{jn} k_{j1} T_p R_j", angles=1, angular=1),
+    TermKind("Table III, row 2", r"\beta_{jn_1} \beta_{jn_2} k_{j1} T_p R_j", angles=2, angular=1),
+    TermKind(
+        "Table III, row 3", r"\beta_{jn_1} \beta_{jn_2} \vartheta_{jm} k_{j1} T_p R_j", angles=3, angular=1
+    ),
+    TermKind("below Eq. 41, one angle", r"\beta_{jn} k_{j1} a_z", angles=1, linear=1),
+    TermKind("below Eq. 41, two angles", r"\beta_{jn_1} \beta_{jn_2} k_{j1} a_z", angles=2, linear=1),
+    TermKind(
         "below Eq. 41, three angles",
         r"\beta_{jn_1} \beta_{jn_2} \vartheta_{jm} k_{j1} a_z",
         angles=3,
@@ -225,7 +227,7 @@ def critical_conditions(envelope: Envelope) -> tuple[Condition, ...]:
     return tuple(_condition_of(envelope, k) for k in KINDS)
 
 
-def _condition_of(envelope: Envelope, kind: Kind) -> Condition:
+def _condition_of(envelope: Envelope, kind: TermKind) -> Condition:
     share = (
         max(getattr(envelope, n) for n in SECOND_ORDER) ** kind.second_order
         * max(getattr(envelope, n) for n in MISALIGNMENTS) ** kind.angles

@@ -84,7 +84,7 @@ SHIPPED = ("page", "first half", "second half", "half rate")
 
 
 @dataclass(frozen=True)
-class Case:
+class SensorSet:
     """A gradiometer: which sensors it is made of, its rests and its motion; and the motion with nothing marked as saturated."""
 
     name: str
@@ -124,7 +124,7 @@ class Raw:
         rested: float = 1.0,
         thin: int = 1,
         noise: tuple[float, float] = (0.0, 0.0),
-    ) -> Case:
+    ) -> SensorSet:
         """``seconds`` of the motion, and of the time before it the share ``rested``."""
         rng = np.random.default_rng(15)
         force, rate = (
@@ -136,10 +136,10 @@ class Raw:
         marked, none = self.saturated[at], np.zeros_like(self.saturated[at])
         flown = [record.motion(force[at], rate[at], x, picked) for x in (marked, none)]
         flown = [replace(x, time=x.time * thin) for x in flown]
-        return Case(name=name, picked=picked, rests=lying, moved=flown[0], unmarked=flown[1])
+        return SensorSet(name=name, picked=picked, rests=lying, moved=flown[0], unmarked=flown[1])
 
 
-def cases(path: Path | None) -> Iterator[Case]:
+def cases(path: Path | None) -> Iterator[SensorSet]:
     """The record of the page, and others, of a recording, or of what is shipped."""
     if path is None:
         yield from _shipped()
@@ -156,7 +156,7 @@ def cases(path: Path | None) -> Iterator[Case]:
     yield raw.case("noise", noise=NOISE)
 
 
-def _shipped() -> Iterator[Case]:
+def _shipped() -> Iterator[SensorSet]:
     """Of the flights beside this file, in which saturated samples are marked already."""
     lying, moved = (read_flight(HERE / f"{n}.parquet", record.G0) for n in ("rests", "motion"))
     half = len(moved) // 2
@@ -166,7 +166,7 @@ def _shipped() -> Iterator[Case]:
         part = replace(
             moved, time=moved.time[rows], channels=channels, outputs=outputs, valid=moved.valid[rows]
         )
-        yield Case(name, FRONT, lying, part)
+        yield SensorSet(name, FRONT, lying, part)
 
 
 @dataclass(frozen=True)
@@ -184,7 +184,7 @@ class Answer:
         return Answer(question, holds, words, tuple(e for e in d.found if e not in FOUNDED))
 
 
-def questions(c: Case) -> Iterator[Answer]:
+def questions(c: SensorSet) -> Iterator[Answer]:
     """What is asked, and the answers."""
     own = [f"{x:.4g} mm" for x in c.lifts]
     flat = sheet(height="0 mm", lift="10")
@@ -205,7 +205,7 @@ def questions(c: Case) -> Iterator[Answer]:
     yield Answer.of("saturation", d, "imu-saturation" in d.found)
 
 
-def ask(c: Case, text: str, factor: float = 1.0) -> Diagnosis:
+def ask(c: SensorSet, text: str, factor: float = 1.0) -> Diagnosis:
     """What ``ragg diagnose`` says of a case with this sheet, the rates times a factor."""
     i = parse_instrument(text)
     with tempfile.TemporaryDirectory() as folder:

@@ -34,7 +34,7 @@ RADIUS = 13.364
 
 
 @dataclass(frozen=True)
-class Found:
+class RestCalibration:
     """A calibration on rests and motion.
 
     ``rms`` of the rests' and of the motion's G_out, m/s^2; ``arm`` and ``lift`` values and uncertainties (2, 4), mm;
@@ -87,7 +87,7 @@ def flights(
 
 def calibrated(
     text: str, effects: tuple[str, ...] = (), motion: Path = HERE / "motion.parquet", misread: float = 1.0
-) -> Found:
+) -> RestCalibration:
     """Calibrate a sheet, with these effects in the model beside its own."""
     i = parse_instrument(text)
     i = dataclasses.replace(i, effects=(*i.effects, *(EffectSetting(e) for e in effects)))
@@ -102,7 +102,7 @@ def calibrated(
 
     own = [n for n, q in enumerate(c.columns) if q.effect]
     (scored,) = f.score([np.zeros(f.size)])
-    return Found(
+    return RestCalibration(
         fitted=f,
         rms=tuple(G0 * float(np.sqrt(x)) for x in scored.mean_square),
         arm=of("dR", 1e3) + np.array([[f.instrument.radius * 1e3], [0.0]]),
@@ -165,7 +165,7 @@ def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
-def known(unlifted: Found, delayed: Found) -> str:
+def known(unlifted: RestCalibration, delayed: RestCalibration) -> str:
     """What is known from elsewhere, beside what the fit says."""
 
     def four(x: Array) -> str:

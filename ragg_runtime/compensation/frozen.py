@@ -19,7 +19,7 @@ from ragg_runtime.estimation.fitted import Fitted, about
 from ragg_runtime.estimation.least_squares import join
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation, observations_of, segments, spread
-from ragg_runtime.estimation.regressors import Column, Point
+from ragg_runtime.estimation.regressors import Column, LinearisationPoint
 from ragg_runtime.estimation.scores import Error, finite, log_sf
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.comparison import Comparison
@@ -134,7 +134,7 @@ def as_calibration(
 ) -> Calibration:
     """The saved parameters as the calibration of these flights, of which the noise alone is estimated."""
     root = invert_root(saved.information)
-    at = Point(model, instrument, saved.p, with_candidates=True)
+    at = LinearisationPoint(model, instrument, saved.p, with_candidates=True)
     noise = tuple(estimate_noise(at, o, most=SEGMENTS, samples=SAMPLES, slow=False) for o in observations)
     return Calibration(
         p=saved.p,

@@ -24,7 +24,13 @@ from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.compensation.segment import Quality
 from ragg_runtime.estimation.least_squares import of_some
 from ragg_runtime.estimation.observation import ROWS, Observation, as_output, observations_of
-from ragg_runtime.estimation.regressors import Column, Point, linearise, list_base_columns, own_columns
+from ragg_runtime.estimation.regressors import (
+    Column,
+    LinearisationPoint,
+    linearise,
+    list_base_columns,
+    own_columns,
+)
 from ragg_runtime.identification.parameters import parameter_values
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings
@@ -134,7 +140,9 @@ class Online:
         r = o.record
         wide = {name: x for name, x in r.wide.items() if name not in GRADIENT}
         bare = replace(o, record=replace(r, wide=wide))
-        columns = as_output(bare, linearise(Point(self.model, self.instrument, self.p, False), bare))
+        columns = as_output(
+            bare, linearise(LinearisationPoint(self.model, self.instrument, self.p, False), bare)
+        )
         columns = columns[[*self.own, len(columns) - 1]]
         zero, one = np.zeros(len(r.time)), np.ones(len(r.time))
         gradient = np.stack([carried(one, zero, r, self.k_ggi), carried(zero, one, r, self.k_ggi)])

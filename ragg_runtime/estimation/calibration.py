@@ -16,7 +16,7 @@ from ragg_runtime.estimation.least_squares import Linear, Minimum, join, minimis
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation
-from ragg_runtime.estimation.regressors import Column, Point, spelt, tested_columns
+from ragg_runtime.estimation.regressors import Column, LinearisationPoint, spelt, tested_columns
 from ragg_runtime.estimation.unknown_gradient import Window
 from ragg_runtime.estimation.whitening import Piece, heard, pass_over, take_excerpt
 from ragg_runtime.instrument.instrument import Instrument
@@ -153,7 +153,7 @@ class _Task:
         places = {o.place for o in self.observations}
         if not all(scale_factor(self.model, p, place) > 0.0 for place in places):
             return self._nowhere(x)
-        point = Point(self.model, self.instrument, p, with_candidates=False)
+        point = LinearisationPoint(self.model, self.instrument, p, with_candidates=False)
         triangles, rows = [], 0
         sums = {o.place: np.zeros(len(x) + 1) for o in self.observations}
         for o, n, w in zip(self.observations, noise, windows, strict=True):
@@ -170,7 +170,9 @@ class _Task:
     def noise(self, x: Array) -> list[NoiseModel]:
         """NoiseModel of every flight from what nothing explains about x."""
         tested = tested_columns(self.model, self.instrument, [o.record for o in self.observations])
-        everything = Point(self.model, self.instrument, self.vector(x), with_candidates=True, only=tested)
+        everything = LinearisationPoint(
+            self.model, self.instrument, self.vector(x), with_candidates=True, only=tested
+        )
         return [estimate_noise(everything, o) for o in self.observations]
 
     def size(self, noise: Sequence[NoiseModel]) -> float:

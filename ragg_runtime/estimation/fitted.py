@@ -296,7 +296,7 @@ def about(
 ) -> Fitted:
     """The evidence about a calibration, however it was found; of its parameters alone without ``candidates``."""
     tested = regressors.tested_columns(model, instrument, [o.record for o in observations])
-    at = regressors.Point(model, instrument, c.p, with_candidates=candidates, only=tested)
+    at = regressors.LinearisationPoint(model, instrument, c.p, with_candidates=candidates, only=tested)
     prepared = tuple(prepare_flight(o, own, at) for o, own in zip(observations, c.noise, strict=True))
     triangles, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
     return Fitted(

@@ -29,7 +29,7 @@ MOTION = frozenset((*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION, *GRAD
 
 
 @dataclass(frozen=True)
-class Line:
+class SpectralLine:
     """A sinusoid in one of the whitened series: Hz, and its amplitude, V; 0 where that is counted with another one beside it."""
 
     output: int
@@ -66,7 +66,7 @@ class NoiseModel:
     spectra: tuple[Spectrum, ...]
     filters: tuple[Array, ...]
     level: Level = field(default_factory=Level)
-    lines: tuple[Line, ...] = ()
+    lines: tuple[SpectralLine, ...] = ()
     combinations: Array | None = field(default=None, compare=False)
     disturbed: str | None = None
     freedom: float = np.inf

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import noise_level, unknown_gradient
-from ragg_runtime.estimation.noise import Line, NoiseModel, level_quantities
+from ragg_runtime.estimation.noise import NoiseModel, SpectralLine, level_quantities
 from ragg_runtime.estimation.noise_level import Level
 from ragg_runtime.estimation.observation import (
     ROWS,
@@ -22,8 +22,14 @@ from ragg_runtime.estimation.observation import (
     spread,
     telling,
 )
-from ragg_runtime.estimation.regressors import Point
-from ragg_runtime.estimation.residual import Disturbance, Left, fit_columns, in_words, place_valid
+from ragg_runtime.estimation.regressors import LinearisationPoint
+from ragg_runtime.estimation.residual import (
+    Disturbance,
+    ProjectedResidual,
+    fit_columns,
+    in_words,
+    place_valid,
+)
 from ragg_runtime.estimation.spectrum import LOWEST, Averages, Spectrum, estimate, periodogram, without_lines
 from ragg_runtime.estimation.whitening import Piece, flight_segments, longer, pass_over
 from ragg_runtime.io.record import ANGULAR_RATE, SPECIFIC_FORCE
@@ -53,7 +59,7 @@ CONSTANT = Level()
 
 
 def estimate_noise(
-    at: Point,
+    at: LinearisationPoint,
     o: Observation,
     *,
     most: int = NOISE_SEGMENTS,
@@ -118,7 +124,7 @@ class _Part:
 
     rows: slice
     valid: NDArray[np.bool_]
-    outputs: tuple[Left, ...]
+    outputs: tuple[ProjectedResidual, ...]
     taken: float
     random: Mapping[str, tuple[Array, ...]]
 
@@ -163,11 +169,11 @@ def line_width(o: Observation) -> float:
     return RESOLVED / min(seconds, unknown_gradient.WINDOW_SECONDS)
 
 
-def _lines(parts: Sequence[_Part], o: Observation) -> tuple[Line, ...]:
+def _lines(parts: Sequence[_Part], o: Observation) -> tuple[SpectralLine, ...]:
     """The lines of the output that are none of the motion's: where that has lines itself, they may be."""
     r, width = o.record, line_width(o)
     spin = unknown_gradient.spin_frequency(o) if r.turning else np.inf
-    found: list[Line] = []
+    found: list[SpectralLine] = []
     for p in parts:
         for m, x in enumerate(p.outputs):
             lines = np.array([d.at if d.kind == "line" else np.inf for d in x.found])
@@ -178,7 +184,7 @@ def _lines(parts: Sequence[_Part], o: Observation) -> tuple[Line, ...]:
                     continue
                 # several beside each other are one that wanders
                 own = np.sum(x.shapes[np.abs(lines - f) < width], axis=0)
-                found.append(Line(m, float(f), 0.0 if near else float(np.sqrt(2 * np.mean(own**2)))))
+                found.append(SpectralLine(m, float(f), 0.0 if near else float(np.sqrt(2 * np.mean(own**2)))))
     return () if found and any(_has_lines(o, p) for p in parts) else tuple(found)
 
 
@@ -232,7 +238,11 @@ def _chosen(o: Observation, most: int, samples: int) -> list[Segment]:
 
 
 def _parts(
-    at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segment], level: Level = CONSTANT
+    at: LinearisationPoint,
+    o: Observation,
+    apart: Array | None,
+    chosen: Sequence[Segment],
+    level: Level = CONSTANT,
 ) -> list[_Part]:
     """What is left of some segments of the flight, of the series as they are or in combinations, by a fit that weighs by a level."""
     band = unknown_gradient.band(o)
@@ -240,7 +250,7 @@ def _parts(
     random = {e.id for e in at.model.candidates if e.kind == "random"}
     shown = [(n, c.effect) for n, c in enumerate(at.candidates, len(at.base)) if c.effect in random]
 
-    def kept(x: Left, loud: Array) -> Left:
+    def kept(x: ProjectedResidual, loud: Array) -> ProjectedResidual:
         x = replace(x, rest=x.rest * loud, shapes=x.shapes * loud)
         # of several segments only the means know what is slow
         return x if len(chosen) == 1 else replace(x, columns=np.empty(0), directions=np.empty(0))
@@ -349,7 +359,7 @@ ENOUGH = 2
 """Means for every column, at least."""
 
 
-def averages(at: Point, o: Observation, unwhitened: NoiseModel) -> list[Averages] | None:
+def averages(at: LinearisationPoint, o: Observation, unwhitened: NoiseModel) -> list[Averages] | None:
     """What all columns leave of each output's means; ``None`` of a flight seen in one piece, or in too few means.
 
     ``unwhitened``: the noise that makes the columns as they are, or in combinations.

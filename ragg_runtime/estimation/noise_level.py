@@ -56,7 +56,7 @@ MOST = 3
 
 
 @dataclass(frozen=True)
-class Part:
+class LevelFactor:
     """A factor of the level: ``values`` (k,) of a quantity, which has a name: between ``at`` (k - 1,) of it, or, geometrically
     interpolated, where it is as large as ``at`` (k,).
     """
@@ -81,7 +81,7 @@ class Part:
 class Level:
     """The product of its parts, of mean square one over the record; without parts one everywhere."""
 
-    parts: tuple[Part, ...] = ()
+    parts: tuple[LevelFactor, ...] = ()
     scale: float = 1.0
 
     def of(self, quantity: Callable[[str], Array]) -> Array | float:
@@ -139,7 +139,7 @@ def estimated(
     Nothing is concluded once one of the ``rivals``, variances (N,) that random effects would add, explains it best and more than
     quantities can: that is for a test of that effect.
     """
-    parts: list[Part] = []
+    parts: list[LevelFactor] = []
     u = white
     asked = len(quantities) + len(rivals)
     rivals = {n: x for n, x in rivals.items() if _is_rival(white, x, quantities, asked)}
@@ -172,7 +172,7 @@ class _Follows:
     """
 
     log_p: float = 0.0
-    part: Part | None = None
+    part: LevelFactor | None = None
     gain: float = 0.0
 
 
@@ -201,7 +201,7 @@ def _test(u: Array, name: str, x: Array) -> _Follows:
     each = 2.0 if name == "time" else 1.0  # an instant, too
     return _Follows(
         log_p,
-        Part(name, np.asarray(at), np.sqrt(mean_of / mean)),
+        LevelFactor(name, np.asarray(at), np.sqrt(mean_of / mean)),
         gain - 0.5 * each * len(edges) * float(np.log(len(u))),
     )
 

@@ -16,7 +16,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.io import Flight
 from ragg_runtime.model.record import Record, record
-from ragg_runtime.model.recorded import Recorded, recorded
+from ragg_runtime.model.recorded import RecordedSeries, recorded
 from ragg_runtime.signals.fir import convolved
 
 BLOCKS = 24
@@ -146,7 +146,7 @@ class Observation:
     scale factors over their mean; ``thin``: of what record this is a thinned one.
     """
 
-    recorded: Recorded
+    recorded: RecordedSeries
     record: Record
     series: tuple[Array, ...]
     name: str

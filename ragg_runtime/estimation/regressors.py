@@ -17,7 +17,7 @@ from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.model.evaluate import unit_factor, voltages
 from ragg_runtime.model.evaluator import Evaluator, find_places
 from ragg_runtime.model.lateness import about
-from ragg_runtime.model.model import Effect, Model
+from ragg_runtime.model.model import DerivedEffect, Model
 from ragg_runtime.model.record import Record, made_of
 from ragg_runtime.model.resonance import neutral_values, with_responses
 
@@ -116,7 +116,7 @@ def tested_columns(model: Model, instrument: Instrument, records: Sequence[Recor
     return tuple(n for n, c in enumerate(list_candidate_columns(model, instrument)) if is_tested(c))
 
 
-def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Column, str]]:
+def _of_effect(e: DerivedEffect, known: Units, instrument: Instrument) -> list[tuple[Column, str]]:
     columns = []
     places = instrument.layout.names
     for q in e.parameters:
@@ -187,7 +187,7 @@ def grouped(columns: Iterable[Column], offset: int = 0) -> dict[str, list[tuple[
 
 
 @dataclass(frozen=True)
-class Point:
+class LinearisationPoint:
     """About what a flight is linearised.
 
     ``instrument`` gives the columns their scales; ``p`` is the parameter vector of the model's chain, SI; ``instants`` are those of
@@ -227,7 +227,7 @@ CACHED = 4096
 """Samples at which a generated module is evaluated at a time: enough for what a call costs besides, few enough for the cache."""
 
 
-def linearise(at: Point, o: Observation, residual: Array | None = None) -> Array:
+def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = None) -> Array:
     """Base columns, candidates (if wanted), each times its parameter's scale, and residual: (n + 1, m, N), V.
 
     ``residual`` (m, N): that of a thinned observation, where it is known already.
@@ -278,19 +278,19 @@ def _put_derivatives(
                 columns[n, series, some] += scale * slopes[of]
 
 
-def _voltages(at: Point, o: Observation, r: Record, p: Array) -> Array:
+def _voltages(at: LinearisationPoint, o: Observation, r: Record, p: Array) -> Array:
     """Those of the output's accelerometers, (members, N), V."""
     x = r.inputs(at.model.chain)
     return at.model.evaluators("chain").voltages(r.time, x, p, r.phi, o.output.members)
 
 
-def thin_residual(at: Point, thin: Thin) -> Array:
+def thin_residual(at: LinearisationPoint, thin: Thin) -> Array:
     """Residual (m, n), V, of a thinned record: that of the whole one, thinned, for the outputs are a million times the noise."""
     parts = [thin.part(some) for some in stretches(thin.rows.stop - thin.rows.start, PART)]
     return np.concatenate([x.kept(residual_of(at, x.source(at.channels))) for x in parts], axis=1)
 
 
-def residual_of(at: Point, o: Observation) -> Array:
+def residual_of(at: LinearisationPoint, o: Observation) -> Array:
     """Residual (m, N), V, at a point; between its neighbours where a sample is not valid."""
     r, p = about(at.model, o.record, at.p)
     left = o.data - observed(o, _voltages(at, o, r, p), None)

@@ -118,7 +118,7 @@ ROUNDS = 6
 
 
 @dataclass(frozen=True)
-class Left:
+class ProjectedResidual:
     """What columns leave of the last one.
 
     ``rest`` (rows,) is at the valid samples; ``rank`` the degrees of freedom of the columns; ``kept`` the share of white noise that
@@ -170,7 +170,7 @@ def fit_columns(
     rate: float | None,
     band: tuple[float, float] | None,
     through: Callable[[Array], Array] = lambda columns: columns,
-) -> Left:
+) -> ProjectedResidual:
     """What columns leave of the last of flat (n + 1, rows), with lines and jumps in it fitted beside them.
 
     No line is looked for in ``band``; ``through`` does to columns (k, rows) what was done to ``flat``. Without ``rate`` neither
@@ -184,7 +184,7 @@ def fit_columns(
         return replace(left, columns=np.empty(0), directions=np.empty(0))
     time = np.flatnonzero(valid) / rate
 
-    def beside(found: list[Disturbance]) -> Left:
+    def beside(found: list[Disturbance]) -> ProjectedResidual:
         wide = np.vstack([*(through(d.columns(time)) for d in found), flat])
         return _fitted(wide, flat, valid, rate, found)
 
@@ -204,7 +204,7 @@ def fit_columns(
     return left
 
 
-def _and(left: Left, column: Array, valid: NDArray[np.bool_]) -> Left:
+def _and(left: ProjectedResidual, column: Array, valid: NDArray[np.bool_]) -> ProjectedResidual:
     """What is left once one more column (rows,) is fitted: what is new in it takes its share of residual and noise."""
     new = column - (left.directions @ (left.directions.T @ (left.columns @ column))) @ left.columns
     new /= np.linalg.norm(new)
@@ -222,10 +222,10 @@ def place_valid(rest: Array, valid: NDArray[np.bool_]) -> Array:
 
 def _fitted(
     wide: Array, flat: Array, valid: NDArray[np.bool_], rate: float | None, found: list[Disturbance]
-) -> Left:
+) -> ProjectedResidual:
     fit = _least_squares(wide)
     ends = np.cumsum([0, *(len(d.columns(np.zeros(1))) for d in found)])
-    return Left(
+    return ProjectedResidual(
         rest=np.asarray(flat[-1] - fit.solution @ wide[:-1]),
         rank=fit.rank,
         kept=_kept(wide[:-1], fit.directions, valid) if rate else np.empty(0),
@@ -246,7 +246,7 @@ INSTANTS = 96
 """Instants among which it is sought, and again about the best of them, to the sample."""
 
 
-def _jump(left: Left, valid: NDArray[np.bool_], rate: float) -> Disturbance | None:
+def _jump(left: ProjectedResidual, valid: NDArray[np.bool_], rate: float) -> Disturbance | None:
     """The jump that would explain most of what is left, columns fitted beside it anew; ``None`` if white noise would do."""
     n = len(left.rest)
     low, high = 0, n
@@ -273,7 +273,11 @@ def _jump(left: Left, valid: NDArray[np.bool_], rate: float) -> Disturbance | No
 
 
 def _told(
-    before: Left, after: Left, valid: NDArray[np.bool_], rate: float, band: tuple[float, float] | None
+    before: ProjectedResidual,
+    after: ProjectedResidual,
+    valid: NDArray[np.bool_],
+    rate: float,
+    band: tuple[float, float] | None,
 ) -> bool:
     """Whether what was fitted last stands out of the noise that is left without it: red noise looks like jumps, too."""
     model = estimate([place_valid(after.rest, valid)], rate, band, [after.kept])

@@ -17,7 +17,7 @@ from scipy import ndimage
 from ragg_runtime.base.threads import stretches
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.observation import Observation, Segment, Thin, bridge_gaps, segments, spread
-from ragg_runtime.estimation.regressors import Point, linearise, residual_of
+from ragg_runtime.estimation.regressors import LinearisationPoint, linearise, residual_of
 from ragg_runtime.estimation.residual import disturbances
 from ragg_runtime.estimation.whitening import heard, longer
 from ragg_runtime.instrument.instrument import Instrument
@@ -133,7 +133,7 @@ BLOCK, TOGETHER = 1 << 12, 32
 
 def thinned(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
     """Observations as thin as their columns allow about the sheet, those of one flight alike; short ones as they are."""
-    at = Point(model, instrument, vector(model, instrument), with_candidates=True)
+    at = LinearisationPoint(model, instrument, vector(model, instrument), with_candidates=True)
     most = [_most(at, o) for o in observations]
     found = []
     for o in observations:
@@ -142,7 +142,7 @@ def thinned(model: Model, instrument: Instrument, observations: Sequence[Observa
     return found
 
 
-def _most(at: Point, o: Observation) -> int:
+def _most(at: LinearisationPoint, o: Observation) -> int:
     """One in how many of its samples is enough."""
     least = max(LEAST_RATE, 2 * (4 * o.record.spin_frequency + ABOVE) / PASSED)
     choices = [k for k in EVERY if o.record.rate >= k * least]
@@ -186,7 +186,7 @@ def beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> fl
     """Mean square, V^2 of G_out, of what thinning has taken of an observation's residual about parameters p, SI."""
     if o.thin is None:
         return 0.0
-    at = Point(model, instrument, p, with_candidates=False)
+    at = LinearisationPoint(model, instrument, p, with_candidates=False)
     whole, taps = o.thin.whole, o.thin.taps
 
     def taken(s: Segment) -> Array:
@@ -201,7 +201,7 @@ def beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> fl
     return max(0.0, float(square) / max(float(count), 1.0))
 
 
-def _alike(at: Point, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
+def _alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
     """Whether along the thinned motion the same columns are made, of pieces of a flight, as the ``whole`` ones are, thinned."""
     square = off = np.zeros(1)
     for thin, columns in zip(pieces, whole, strict=True):
@@ -218,7 +218,7 @@ def _alike(at: Point, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
     return bool(np.all(off <= most**2 * square))
 
 
-def _has_line(at: Point, thin: Thin) -> bool:
+def _has_line(at: LinearisationPoint, thin: Thin) -> bool:
     """Whether what the low-pass takes of a piece's residual has a line, which must be told."""
     r, half, e = thin.whole.record, len(thin.taps) // 2, residual_of(at, thin.whole)
     fast = e[:, half:-half] - convolved(e, thin.taps)

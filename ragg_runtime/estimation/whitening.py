@@ -25,7 +25,7 @@ from ragg_runtime.estimation.observation import (
     segments,
     spread,
 )
-from ragg_runtime.estimation.regressors import Point, linearise, thin_residual
+from ragg_runtime.estimation.regressors import LinearisationPoint, linearise, thin_residual
 from ragg_runtime.estimation.unknown_gradient import Window
 from ragg_runtime.model.record import Record
 
@@ -115,7 +115,7 @@ def take_excerpt(o: Observation) -> Observation:
 
 
 def pass_over(
-    at: Point,
+    at: LinearisationPoint,
     o: Observation,
     noise: NoiseModel,
     work: Callable[[Piece], R],
@@ -220,7 +220,7 @@ class PreparedFlight:
 
     observation: Observation
     noise: NoiseModel
-    at: Point
+    at: LinearisationPoint
     residual: Array | None = field(default=None, repr=False)
     pieces: tuple[Piece, ...] | None = field(default=None, repr=False)
 
@@ -277,7 +277,7 @@ class PreparedFlight:
 
 
 def prepare_flight(
-    o: Observation, noise: NoiseModel, at: Point, residual: Array | None = None
+    o: Observation, noise: NoiseModel, at: LinearisationPoint, residual: Array | None = None
 ) -> PreparedFlight:
     """A flight about a point; ``residual`` is known of a thinned flight that was prepared about the same parameters."""
     if residual is None and o.thin is not None:

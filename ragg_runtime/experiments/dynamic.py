@@ -25,7 +25,7 @@ from ragg_runtime.experiments.runs import (
 )
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS
-from ragg_runtime.reference import Motion, Simulation, Sinusoids, simulate
+from ragg_runtime.reference import MotionSignals, Simulation, Sinusoids, simulate
 from ragg_runtime.reference.gravity import PointMass
 from ragg_runtime.reference.instruments import table_v
 
@@ -143,4 +143,4 @@ def run_regular(
     )
     duration = float(np.rint(turns / known.spin_frequency))
     how = {"rotations": "first-order", "auxiliaries": {}, **how}
-    return simulate(known, Motion((a_x, a_y, a_z), (w_x, w_y, w_z)), duration, rate, **how)
+    return simulate(known, MotionSignals((a_x, a_y, a_z), (w_x, w_y, w_z)), duration, rate, **how)

@@ -26,7 +26,7 @@ from ragg_runtime.experiments.runs import (
     respond,
 )
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.reference import Motion, Simulation, simulate
+from ragg_runtime.reference import MotionSignals, Simulation, simulate
 from ragg_runtime.reference.instruments import table_v
 
 Array = NDArray[np.float64]
@@ -239,7 +239,7 @@ def draw_motion(
     duration: float,
     rate: float,
     derivative: Derivative = "central",
-) -> Motion:
+) -> MotionSignals:
     """A row of Table VII. The horizontal accelerations have 15 percent of the vertical one's mean and standard deviation."""
     a_mean, a_std, omega_mean, omega_std = paper.TABLE_VII[experiment - 1]
     size, milli_g = round(duration * rate), 1e-3 * table_v().g0
@@ -253,7 +253,7 @@ def draw_motion(
     a_z = draw(a_mean, a_std, milli_g)
     a_x, a_y = (draw(paper.HORIZONTAL * a_mean, paper.HORIZONTAL * a_std, milli_g) for _ in range(2))
     w_x, w_y, w_z = (draw(omega_mean, omega_std, paper.DEGREE_PER_HOUR) for _ in range(3))
-    return Motion((a_x, a_y, a_z), (w_x, w_y, w_z))
+    return MotionSignals((a_x, a_y, a_z), (w_x, w_y, w_z))
 
 
 def run_turbulent(

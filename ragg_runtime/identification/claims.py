@@ -22,7 +22,7 @@ from scipy.special import fdtri
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, Fitted
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf, log_sf_f
 from ragg_runtime.identification.likelihood_ratio import TESTABLE, log_bayes
-from ragg_runtime.identification.omnibus import Found, Omnibus, Remainder
+from ragg_runtime.identification.omnibus import Omnibus, Remainder, ResidualTerm
 from ragg_runtime.identification.parameters import physical_columns
 
 Array = NDArray[np.float64]
@@ -234,7 +234,7 @@ def best_single(bases: Sequence[Remainder]) -> float:
     return max(sum(max([0.0, *(t.z**2 for t in _singles(s))]) for s in b.searches) for b in bases)
 
 
-def _singles(s: Omnibus) -> list[Found]:
+def _singles(s: Omnibus) -> list[ResidualTerm]:
     return [t for t in (*s.steady[:1], *s.varying) if t.rank == 1]
 
 
@@ -251,7 +251,7 @@ def spread_of(left: Remainder) -> float:
     return max([1.0, *(s.spread for s in left.searches)]) if left.significant else 1.0
 
 
-def strongest(left: Remainder) -> Found | None:
+def strongest(left: Remainder) -> ResidualTerm | None:
     """The generic term that stands out most of what is left."""
     return max((t for s in left.searches for t in s.terms), key=lambda t: abs(t.z), default=None)
 

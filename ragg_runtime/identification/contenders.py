@@ -61,14 +61,14 @@ def derived(
 
 
 @dataclass(frozen=True)
-class Left:
+class ContenderFit:
     """What effects in the model leave: chi-square, with what the parameters cost, and whether the fit came to an optimum."""
 
     chi2: float
     arrived: bool
 
 
-def left(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: Instrument) -> Left:
+def left(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: Instrument) -> ContenderFit:
     """What a nonlinear fit leaves with effects in the model.
 
     Every parameter that only the sheet knew before, and the record does now, costs 2 (AIC).
@@ -82,7 +82,7 @@ def left(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: Instrument
     # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
     # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
     tails = float(np.sum(np.log1p(own**2) - own**2))
-    return Left(
+    return ContenderFit(
         chi2=c.chi2 + left_out + 2.0 * known + tails + room_taken(instrument, c),
         arrived=c.converged,
     )
@@ -97,8 +97,8 @@ class Contest:
 
     f: Fitted
     entered: Callable[[str], tuple[Model, Instrument]]
-    _of_all: dict[str, Left] = field(default_factory=dict)
-    _of_some: dict[str, Left] = field(default_factory=dict)
+    _of_all: dict[str, ContenderFit] = field(default_factory=dict)
+    _of_some: dict[str, ContenderFit] = field(default_factory=dict)
 
     @property
     def arrived(self) -> bool:
@@ -120,7 +120,7 @@ class Contest:
         near = {e: self._fitted(e, self.f, self._of_all).chi2 for e in ids if rough[e] < least + APART}
         return {e: min(near.values()) + (x - least) / share for e, x in rough.items()} | near
 
-    def _fitted(self, e: str, f: Fitted, fits: dict[str, Left]) -> Left:
+    def _fitted(self, e: str, f: Fitted, fits: dict[str, ContenderFit]) -> ContenderFit:
         if e not in fits:
             fits[e] = left(f, f.calibration.noise, *self.entered(e))
         return fits[e]

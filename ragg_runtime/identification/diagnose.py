@@ -176,7 +176,7 @@ def _beside_rest(r: Ranked, f: Fitted, every: Sequence[Column], robust: Robust, 
 
 def _followed(
     target: Fitted, instants: Sequence[tuple[str, float | None]], found: Sequence[str]
-) -> sequential.Evidence | None:
+) -> sequential.SequentialTest | None:
     """From when on the model no longer holds; a step that is found is such an instant itself."""
     if target.observations[0].recorded.demodulated:
         return None  # neighbouring samples of a demodulated channel are not independent
@@ -184,7 +184,7 @@ def _followed(
     for effect, instant in instants:
         if effect in found and instant is not None:
             name = target.observations[0].flight_name
-            change = sequential.Change(flight=name, until=instant, log_evidence=followed.limit)
+            change = sequential.ChangePoint(flight=name, until=instant, log_evidence=followed.limit)
             return replace(followed, change=change)
     return followed
 

@@ -16,7 +16,7 @@ from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector
 from ragg_runtime.identification import selection
 from ragg_runtime.identification.dictionary import Term
-from ragg_runtime.identification.omnibus import Found, Remainder
+from ragg_runtime.identification.omnibus import Remainder, ResidualTerm
 from ragg_runtime.identification.strong import Stage, Taken
 
 SLIP = 6.6
@@ -54,7 +54,7 @@ class LineRival:
     def within(self, rem: Remainder) -> Remainder:
         """A remainder in which this line is what is left."""
         chi2 = self.line.chi2
-        found = Found(
+        found = ResidualTerm(
             term=Term(f"line {self.line.frequency:.5g} Hz", ()),
             coefficient=self.line.amplitude,
             std=self.line.amplitude / float(np.sqrt(max(chi2, 1.0))),

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.least_squares import orthonormal, triangle
-from ragg_runtime.estimation.regressors import Point, linearise
+from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.identification.selection import Field
 from ragg_runtime.io.record import is_disc_angle
 
@@ -228,7 +228,7 @@ class Alternatives:
         return sorted({*self.places[self.f.n_base :], *signals})
 
     @cached_property
-    def at(self) -> Point:
+    def at(self) -> LinearisationPoint:
         """About what motions are linearised: of the candidates no columns but those that are needed."""
         at, n = self.f.prepared[0].at, self.f.n_base
         known = range(len(at.candidates)) if at.only is None else at.only
@@ -256,7 +256,7 @@ class Alternatives:
         ]
 
 
-def whitened_motion(f: Fitted, at: Point, motion: Sequence[Sinusoid], simulated: float) -> Array:
+def whitened_motion(f: Fitted, at: LinearisationPoint, motion: Sequence[Sinusoid], simulated: float) -> Array:
     """(columns, samples): the columns at a point of so many seconds of a motion, whitened with the noise of the first flight.
 
     Where that flight's gradient was not recorded it will not be known in the motion either, and is projected out.

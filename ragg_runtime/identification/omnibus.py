@@ -53,7 +53,7 @@ SHORTLIST = 400
 
 
 @dataclass(frozen=True)
-class Found:
+class ResidualTerm:
     """A generic term in a residual.
 
     ``kind`` is ``steady``, ``varying`` (``coefficient`` is then the root mean square of its values in blocks of time) or ``line``
@@ -111,11 +111,11 @@ class Omnibus:
 
     log_p: float
     tried: int
-    terms: tuple[Found, ...]
+    terms: tuple[ResidualTerm, ...]
     chi2: float
     square: float
-    steady: tuple[Found, ...] = ()
-    varying: tuple[Found, ...] = ()
+    steady: tuple[ResidualTerm, ...] = ()
+    varying: tuple[ResidualTerm, ...] = ()
     spread: float = 1.0
     shift: Array | None = None
 
@@ -281,7 +281,7 @@ def choose(s: Scores) -> Omnibus:
     return replace(steady, terms=found, chi2=max(f.chi2 for f in found))
 
 
-def _varying(s: Scores) -> tuple[float, Found] | None:
+def _varying(s: Scores) -> tuple[float, ResidualTerm] | None:
     """The term that varies most; one that the model has, with one coefficient for the whole flight, may vary as well as any other."""
     v = s.sums.blocks.best(s.sums.norm2 > 0.0)
     if v is None:
@@ -290,13 +290,13 @@ def _varying(s: Scores) -> tuple[float, Found] | None:
     size = s.dictionary.size(term)
     mean_square = v.coefficient**2 * float(s.sums.raw[1, v.place]) / max(s.sums.samples, 1)
     z = float(np.sqrt(v.chi2))
-    found = Found(
+    found = ResidualTerm(
         term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how, rank=v.rank
     )
     return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
 
 
-def _line(s: Scores) -> tuple[float, Found] | None:
+def _line(s: Scores) -> tuple[float, ResidualTerm] | None:
     """The strongest line of what is left, if it is none beside those that were taken out (of one that wanders something stays)."""
     if s.prepared.observation.recorded.demodulated:
         return None  # their noise is only white within the demodulator's band
@@ -310,7 +310,7 @@ def _line(s: Scores) -> tuple[float, Found] | None:
     chi2, size = line.share * s.sums.square, float(np.sqrt(2 * mean_square))
     z = float(np.sqrt(chi2))
     term = Term(f"line {line.frequency:.5g} Hz", ())
-    found = Found(term, size, size / max(z, 1.0), z, chi2, mean_square, "line", rank=2)
+    found = ResidualTerm(term, size, size / max(z, 1.0), z, chi2, mean_square, "line", rank=2)
     return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
 
 
@@ -340,7 +340,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     score, left = z[places].copy(), (np.abs(np.diag(G) - 1.0) < APART).astype(np.float64)
     left[int(np.argmax(np.abs(score) / sober))] = 1.0
     directions: list[Array] = []  # components of every term along each direction taken
-    taken: list[Found] = []
+    taken: list[ResidualTerm] = []
     order: list[int] = []
     chi2 = 0.0
     while len(taken) < most:
@@ -364,7 +364,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         spread = square - mean**2 if term.harmonic == "const" else square
         size2 = (amount * std * s.dictionary.size(term)) ** 2 * float(spread)
         taken.append(
-            Found(
+            ResidualTerm(
                 term=term,
                 coefficient=amount * std,
                 std=std,

@@ -12,7 +12,7 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.regressors import Column, spelt
 from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.model.evaluate import named
-from ragg_runtime.model.model import EffectParameter, Model
+from ragg_runtime.model.model import DerivedParameter, Model
 
 Array = NDArray[np.float64]
 
@@ -178,7 +178,7 @@ def calibrated(f: Fitted, effect: str) -> tuple[tuple[ParameterValue, ...], tupl
     )
 
 
-def physical_columns(f: Fitted) -> list[tuple[int, Column, EffectParameter]]:
+def physical_columns(f: Fitted) -> list[tuple[int, Column, DerivedParameter]]:
     """The fitted columns of effects whose parameter has one physical size, each with its place and that parameter."""
     sizes = {f"{e.id}.{q.name}": q for e in f.model.effects for q in e.parameters if q.physical is not None}
     return [(n, c, sizes[c.name]) for n, c in enumerate(f.calibration.columns) if c.name in sizes]

@@ -81,7 +81,7 @@ class Sets:
 
 
 @dataclass(frozen=True)
-class _Block:
+class _Subspace:
     """One way in which an effect may be present: orthonormal directions (rows, k), what y has along them, log weight."""
 
     effect: str
@@ -126,7 +126,7 @@ def _merged(holds: NDArray[np.bool_], logs: Array) -> tuple[NDArray[np.bool_], A
     return holds[order[new]], np.logaddexp.reduceat(logs[order], np.flatnonzero(new))
 
 
-def _blocks(f: Field, effect: str, norms: Array, seen: NDArray[np.bool_]) -> list[_Block]:
+def _blocks(f: Field, effect: str, norms: Array, seen: NDArray[np.bool_]) -> list[_Subspace]:
     """The ways in which an effect may be present; of columns (of these norms) those that the record has ``seen``."""
     made = []
     for places, count in sub_blocks(f.candidates[effect]):
@@ -139,20 +139,20 @@ def _blocks(f: Field, effect: str, norms: Array, seen: NDArray[np.bool_]) -> lis
             U, s, _ = np.linalg.svd(f.P[:, usable], full_matrices=False)
             Q = U[:, s > s[0] * 1e-7]
         weight = -float(np.log(count)) - f.penalty.get(effect, 0.0)
-        made.append(_Block(effect=effect, Q=Q, along=Q.T @ f.P[:, -1], weight=weight))
+        made.append(_Subspace(effect=effect, Q=Q, along=Q.T @ f.P[:, -1], weight=weight))
     return made
 
 
-def _best(blocks: Sequence[_Block], alone: Array) -> list[_Block]:
+def _best(blocks: Sequence[_Subspace], alone: Array) -> list[_Subspace]:
     """The most probable way of each effect, by which it stands in larger sets (its weight is paid there, too)."""
-    chosen: dict[str, tuple[float, _Block]] = {}
+    chosen: dict[str, tuple[float, _Subspace]] = {}
     for b, value in zip(blocks, alone, strict=True):
         if b.effect not in chosen or value > chosen[b.effect][0]:
             chosen[b.effect] = (float(value), b)
     return [b for _, b in chosen.values()]
 
 
-def _evidence(blocks: Sequence[_Block], sets: NDArray[np.intp]) -> Array:
+def _evidence(blocks: Sequence[_Subspace], sets: NDArray[np.intp]) -> Array:
     """log B (n,) of sets (n, size) of blocks against the empty set, g averaged and the blocks' weights in."""
     if not len(sets):
         return np.empty(0)

@@ -16,7 +16,7 @@ from ragg_runtime.identification.parameters import ParameterValue, parameter_val
 from ragg_runtime.identification.probability import Probabilities
 from ragg_runtime.identification.selection import Choice, Field
 from ragg_runtime.identification.strong import Taken
-from ragg_runtime.model.model import Effect
+from ragg_runtime.model.model import DerivedEffect
 
 
 @dataclass(frozen=True)
@@ -213,7 +213,7 @@ WEAK = 0.5
 """Share of a signature that the calibration leaves of one that is too weak, and not absorbed."""
 
 
-def _absorbed(f: Fitted, field: Field, e: Effect) -> str:
+def _absorbed(f: Fitted, field: Field, e: DerivedEffect) -> str:
     """In words: which parameters of the model absorb an effect, or that it is too weak to be seen."""
     columns = [n for n, _ in field.candidates[e.id]]
     n = f.n_base

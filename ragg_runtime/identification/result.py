@@ -17,9 +17,9 @@ from ragg_runtime.identification.comparison import Explained
 from ragg_runtime.identification.features import channel_unit
 from ragg_runtime.identification.line_rival import Steady
 from ragg_runtime.identification.next_motion import Proposal
-from ragg_runtime.identification.omnibus import Found, Remainder, terms_json
+from ragg_runtime.identification.omnibus import Remainder, ResidualTerm, terms_json
 from ragg_runtime.identification.ranking import Detectable, NotTestable, Ranked
-from ragg_runtime.identification.sequential import Change, Evidence
+from ragg_runtime.identification.sequential import ChangePoint, SequentialTest
 from ragg_runtime.wording import describe
 from ragg_runtime.wording.sections import render_notebook
 
@@ -56,7 +56,7 @@ class Diagnosis:
     reasons: tuple[Reason, ...] = ()
     off_sheet: tuple[OffSheet, ...] = ()
     credible_set: tuple[tuple[str, ...], ...] = ((),)
-    holds: Evidence | None = None
+    holds: SequentialTest | None = None
     explained: Explained | None = None
     groups: tuple[Group, ...] = ()
     disagree: tuple[Disagreement, ...] = ()
@@ -86,7 +86,7 @@ class Diagnosis:
         return self.verdict in ("unexplained", "partly-explained")
 
     @property
-    def change(self) -> Change | None:
+    def change(self) -> ChangePoint | None:
         """Where the model ceased to hold, if it held in the beginning."""
         return None if self.holds is None else self.holds.change
 
@@ -125,7 +125,7 @@ class Diagnosis:
         return [] if found is None else as_effect.columns(found[0].term)
 
     @cached_property
-    def _suggested(self) -> tuple[Found, str] | None:
+    def _suggested(self) -> tuple[ResidualTerm, str] | None:
         steady = [t for s in self.remainder.searches for t in s.terms if t.kind == "steady"]
         for t in sorted(steady, key=lambda t: -abs(t.z)):
             units = [u for c in t.term.channels if (u := channel_unit(c)) != "1"]

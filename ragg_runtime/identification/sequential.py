@@ -33,7 +33,7 @@ KNOWN = 200
 
 
 @dataclass(frozen=True)
-class Change:
+class ChangePoint:
     """Where the model ceased to hold: ``until`` the end of the last block of time in which it held, s of the flight's ``time``;
     ``log_evidence`` is the largest ln M.
     """
@@ -44,21 +44,21 @@ class Change:
 
 
 @dataclass(frozen=True)
-class Evidence:
+class SequentialTest:
     """ln M (blocks,) at the ends of the blocks of time, of flights in their order; ``change`` where it passed the limit."""
 
     flight: tuple[str, ...]
     time: Array
     log_m: Array
     limit: float
-    change: Change | None
+    change: ChangePoint | None
 
 
-def evidence(f: Fitted) -> Evidence:
+def evidence(f: Fitted) -> SequentialTest:
     """Follow the model through its flights."""
     names, times, path = [], [], []
     log_m, since = 0.0, 0
-    found: Change | None = None
+    found: ChangePoint | None = None
     starts: list[tuple[str, float]] = []
     blocks = list(_blocks(f))
     limit = float(np.log(max(1, len(blocks)) / false_alarms.CHANGE))
@@ -72,8 +72,8 @@ def evidence(f: Fitted) -> Evidence:
         path.append(log_m)
         if log_m > limit and since and (found is None or log_m > found.log_evidence):
             place = starts[since] if found is None else (found.flight, found.until)
-            found = Change(flight=place[0], until=place[1], log_evidence=log_m)
-    return Evidence(
+            found = ChangePoint(flight=place[0], until=place[1], log_evidence=log_m)
+    return SequentialTest(
         flight=tuple(names), time=np.array(times), log_m=np.array(path), limit=limit, change=found
     )
 
@@ -92,7 +92,7 @@ def log_e(*parts: Array) -> float:
 
 
 @dataclass(frozen=True)
-class _Block:
+class _TimeBlock:
     """Innovations of a block of time, s: along the base columns, and along candidates beyond them."""
 
     flight: str
@@ -102,7 +102,7 @@ class _Block:
     further: Array
 
 
-def _blocks(f: Fitted) -> Iterator[_Block]:
+def _blocks(f: Fitted) -> Iterator[_TimeBlock]:
     n = f.n_base
     nothing = np.zeros((n + 1, n + 1))
     known = with_prior(nothing, range(n), f.to_nominal / WIDE)
@@ -119,7 +119,7 @@ def _blocks(f: Fitted) -> Iterator[_Block]:
             z = _innovations(known, own)
             known = triangle(np.vstack([known, own]).T)
             further = T[n:-1, -1][np.diag(T)[n:-1] != 0.0] / level
-            yield _Block(
+            yield _TimeBlock(
                 flight=x.observation.name,
                 start=float(r.time[first]),
                 end=float(r.time[last - 1]),

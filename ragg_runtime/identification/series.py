@@ -35,7 +35,7 @@ DRAWN = CUTOFF + WIDTH / 2
 
 
 @dataclass(frozen=True)
-class Envelope:
+class SeriesEnvelope:
     """A series in ``POINTS`` stretches: middle (s), minimum, maximum and rms of the valid samples (NaN: none)."""
 
     time: Array
@@ -44,7 +44,7 @@ class Envelope:
     rms: Array
 
 
-def envelope(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POINTS) -> Envelope:
+def envelope(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POINTS) -> SeriesEnvelope:
     """Decimate (N,) samples to at most ``points`` columns of ``LEAST`` samples or more, without losing an extreme."""
     edges = np.unique(np.linspace(0, len(x), min(points, max(1, len(x) // LEAST)) + 1).astype(np.intp))
     starts = edges[:-1]
@@ -54,7 +54,7 @@ def envelope(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POIN
     high = np.maximum.reduceat(np.where(valid, x, -np.inf), starts)
     rms = np.sqrt(np.add.reduceat(np.where(valid, x, 0.0) ** 2, starts) / np.maximum(count, 1.0))
     middle = 0.5 * (time[starts] + time[edges[1:] - 1])
-    return Envelope(middle, *(np.where(empty, np.nan, v) for v in (low, high, rms)))
+    return SeriesEnvelope(middle, *(np.where(empty, np.nan, v) for v in (low, high, rms)))
 
 
 def measured(w: PreparedFlight) -> Array:
@@ -65,14 +65,14 @@ def measured(w: PreparedFlight) -> Array:
 
 
 @dataclass(frozen=True)
-class Spectrum:
+class AmplitudeSpectrum:
     """One-sided amplitude density over frequency, Hz and unit/sqrt(Hz)."""
 
     frequency: Array
     density: Array
 
 
-def spectrum(x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260) -> Spectrum | None:
+def spectrum(x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260) -> AmplitudeSpectrum | None:
     """Welch spectrum over the valid stretches of 32 samples and more, averaged to ``points`` steps of log frequency, or ``None``."""
     from scipy import signal  # half a second to import, which a command that draws nothing need not wait for
 
@@ -97,12 +97,12 @@ def within_band(x: Array, rate: float, low: float, high: float) -> Array:
     return np.asarray(np.fft.irfft(np.where((f >= low) & (f <= high), np.fft.rfft(x), 0.0), len(x)))
 
 
-def _binned(f: Array, psd: Array, points: int) -> Spectrum:
+def _binned(f: Array, psd: Array, points: int) -> AmplitudeSpectrum:
     edges = np.geomspace(f[0] * 0.999, f[-1] * 1.001, points + 1)
     which = np.digitize(f, edges)
     bins = np.unique(which)
     mean = np.array([[np.mean(f[which == k]), np.mean(psd[which == k])] for k in bins])
-    return Spectrum(mean[:, 0], np.sqrt(mean[:, 1]))
+    return AmplitudeSpectrum(mean[:, 0], np.sqrt(mean[:, 1]))
 
 
 def noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Array:

@@ -21,7 +21,7 @@ LOWEST_BIN = 4
 
 
 @dataclass(frozen=True)
-class Line:
+class SpectralPeak:
     """The bin of the spectrum that stands out most: its frequency, Hz, and the share of the power that is in it."""
 
     log_p: float
@@ -53,7 +53,7 @@ class Periodogram:
             self.sum += np.abs(np.fft.rfft(grid, self.length)) ** 2 / np.sum(valid)
             self.count += 1
 
-    def best(self) -> Line | None:
+    def best(self) -> SpectralPeak | None:
         """The strongest line."""
         f = np.arange(len(self.sum)) * self.rate / self.length
         free = (np.arange(len(f)) >= LOWEST_BIN) & (np.arange(len(f)) < len(f) - 1)
@@ -70,4 +70,4 @@ class Periodogram:
         freedom = 2 * self.count
         log_p = log_sf_f(float(ratio[k]), freedom, freedom * float(weight[k])) + float(np.log(np.sum(free)))
         share = 2.0 * (P[k] - level[k]) / float(self.length)
-        return Line(min(0.0, log_p), float(f[k]), float(np.clip(share, 0.0, 1.0)))
+        return SpectralPeak(min(0.0, log_p), float(f[k]), float(np.clip(share, 0.0, 1.0)))

@@ -61,7 +61,7 @@ class Disc:
 
 
 @dataclass(frozen=True)
-class Place:
+class AccelerometerPosition:
     """Where an accelerometer sits, and how it counts.
 
     ``disc``, ``output``: counted from 0. ``angle``: on the disc, rad, in the sense of the turn. ``radius``, ``height``:
@@ -137,7 +137,7 @@ class Layout:
     """All discs and accelerometers of an instrument, in the order of model.toml."""
 
     discs: tuple[Disc, ...]
-    places: tuple[Place, ...]
+    places: tuple[AccelerometerPosition, ...]
     output_names: tuple[str, ...] = ("G_out",)
 
     @cached_property
@@ -220,7 +220,7 @@ def column_endings(outputs: Sequence[str]) -> tuple[str, ...]:
 
 
 _FOUR = tuple(
-    Place(name=f"A{k}", disc=0, angle=quarters * QUARTER, radius=1.0, sign=sign)
+    AccelerometerPosition(name=f"A{k}", disc=0, angle=quarters * QUARTER, radius=1.0, sign=sign)
     for k, quarters, sign in ((1, 0, 1), (2, 2, 1), (3, 1, -1), (4, 3, -1))
 )
 """The paper's places (Section II.A) and signs (Eq. 15); the one definition of them at run time."""
@@ -228,7 +228,9 @@ _FOUR = tuple(
 
 def paper(radius: float, spin_frequency: float) -> Layout:
     """The paper's instrument: A1 ... A4 at 0, 180, 90 and 270 degrees, G_out = V_1 + V_2 - V_3 - V_4."""
-    places = tuple(Place(name=p.name, disc=0, angle=p.angle, radius=radius, sign=p.sign) for p in _FOUR)
+    places = tuple(
+        AccelerometerPosition(name=p.name, disc=0, angle=p.angle, radius=radius, sign=p.sign) for p in _FOUR
+    )
     return Layout(discs=(Disc(name="", spin_frequency=spin_frequency),), places=places)
 
 

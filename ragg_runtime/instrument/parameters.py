@@ -15,7 +15,7 @@ Vector = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Parameter:
+class AccelerometerParameter:
     """A parameter of an accelerometer; 0 where model.toml leaves it out, unless ``required``.
 
     ``plausible``: a usual error beside the test sheet, in ``display_unit``; if ``relative``, a fraction of the nominal
@@ -38,9 +38,9 @@ class Parameter:
         return np.full_like(nominal, units(g0).to_si(self.plausible, self.display_unit, self.si_unit))
 
 
-def _second_order(index: int, product: str) -> Parameter:
+def _second_order(index: int, product: str) -> AccelerometerParameter:
     text = f"second-order coefficient of {product}"
-    return Parameter(
+    return AccelerometerParameter(
         name=f"K{index}",
         symbol=f"K_{index}",
         si_unit="1/(m/s^2)",
@@ -50,32 +50,36 @@ def _second_order(index: int, product: str) -> Parameter:
     )
 
 
-def _angle(name: str, symbol: str, text: str) -> Parameter:
-    return Parameter(
+def _angle(name: str, symbol: str, text: str) -> AccelerometerParameter:
+    return AccelerometerParameter(
         name=name, symbol=symbol, si_unit="rad", display_unit="arcsec", description=text, plausible=100.0
     )
 
 
-PARAMETERS: tuple[Parameter, ...] = (
-    Parameter("dR", "dR", "m", "um", "radial distance error", 50.0),
+PARAMETERS: tuple[AccelerometerParameter, ...] = (
+    AccelerometerParameter("dR", "dR", "m", "um", "radial distance error", 50.0),
     _angle("beta_x", r"\beta_x", "altitude angle of the mounting position"),
     _angle("beta_z", r"\beta_z", "initial phase angle of the mounting position"),
     _angle("vartheta_x", r"\vartheta_x", "misalignment about the tangential axis"),
     _angle("vartheta_y", r"\vartheta_y", "misalignment about the radial axis"),
     _angle("vartheta_z", r"\vartheta_z", "misalignment about the axial axis"),
-    Parameter("K0", "K_0", "m/s^2", "ug", "null bias", 50.0),
-    Parameter("K1", "K_1", "A/(m/s^2)", "mA/g", "linear scale factor", 1e-3, relative=True, required=True),
+    AccelerometerParameter("K0", "K_0", "m/s^2", "ug", "null bias", 50.0),
+    AccelerometerParameter(
+        "K1", "K_1", "A/(m/s^2)", "mA/g", "linear scale factor", 1e-3, relative=True, required=True
+    ),
     _second_order(2, "f_i^2"),
     _second_order(4, "f_i f_p"),
     _second_order(5, "f_o^2"),
     _second_order(6, "f_i f_o"),
     _second_order(7, "f_p^2"),
     _second_order(8, "f_o f_p"),
-    Parameter("k_VI", "k_{V/I}", "V/A", "ohm", "current-to-voltage gain", 1e-3, relative=True, required=True),
+    AccelerometerParameter(
+        "k_VI", "k_{V/I}", "V/A", "ohm", "current-to-voltage gain", 1e-3, relative=True, required=True
+    ),
 )
 """The accelerometer's parameters, in the order in which every parameter vector holds them."""
 
-PARAMETER: Mapping[str, Parameter] = MappingProxyType({p.name: p for p in PARAMETERS})
+PARAMETER: Mapping[str, AccelerometerParameter] = MappingProxyType({p.name: p for p in PARAMETERS})
 """The same by name."""
 
 DISC_UNITS: Mapping[str, str] = MappingProxyType({"radius": "m", "spin_frequency": "Hz", "g0": "m/s^2"})

@@ -23,9 +23,9 @@ from ragg_runtime.instrument.layout import (
     TANGENTIAL,
     X_AXIS,
     Z_AXIS,
+    AccelerometerPosition,
     Disc,
     Layout,
-    Place,
     Vector3,
     paper,
     perpendicular,
@@ -225,7 +225,7 @@ _EXAMPLE = '[[disc.accelerometer]]\\nname = "A1"\\nangle = "0 deg"\\nsign = 1\\n
 def read_layout(tables: Sequence[Any], path: Path | None) -> Layout:
     """The layout that ``[[disc]]`` tables describe; UserError names what is wrong."""
     discs: list[Disc] = []
-    places: list[Place] = []
+    places: list[AccelerometerPosition] = []
     outputs: dict[str, int] = {}
     for number, table in enumerate(tables, 1):
         check_table(table, "disc", path, "[[disc]]")
@@ -262,7 +262,9 @@ def _a_disc(table: Mapping[str, Any], where: str, *, single: bool) -> Disc:
     )
 
 
-def _place(entry: Any, where: str, disc: int, radius: float | None, outputs: dict[str, int]) -> Place:
+def _place(
+    entry: Any, where: str, disc: int, radius: float | None, outputs: dict[str, int]
+) -> AccelerometerPosition:
     check_keys(check_table(entry, "an accelerometer", where, _EXAMPLE), PLACE_KEYS, where)
     output = _text(entry, "output", where, None)
     sign = entry.get("sign")
@@ -273,7 +275,7 @@ def _place(entry: Any, where: str, disc: int, radius: float | None, outputs: dic
         raise UserError("radius is missing", where=where, expected='radius = "0.1 m", here or in [[disc]]')
     if own < 0.0:
         raise UserError("radius is out of range", where=where, found=f"{own} m", expected="not negative")
-    return Place(
+    return AccelerometerPosition(
         name=_text(entry, "name", where, None),
         disc=disc,
         angle=_number(entry, "angle", "rad", where),

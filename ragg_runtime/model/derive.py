@@ -35,8 +35,8 @@ from ragg_runtime.model.model import Model, from_files, packaged
 
 if TYPE_CHECKING:
     from derive.effect import Effect as SymbolicEffect
-    from derive.layout import Layout as SymbolicLayout
-    from derive.pipeline import Form as SymbolicForm
+    from derive.layout import SymbolicLayout
+    from derive.pipeline import SymbolicForm
 
 
 @dataclass(frozen=True)
@@ -147,7 +147,7 @@ def _has_files(instrument: Instrument) -> bool:
 
 
 def _symbolic(form: Form, layout: Layout) -> SymbolicForm:
-    from derive.pipeline import Form as SymbolicForm
+    from derive.pipeline import SymbolicForm
     from derive.stages import Order
 
     order = Order(
@@ -201,12 +201,11 @@ def derived(
 def _placed(layout: Layout) -> SymbolicLayout:
     """The layout as the derivation takes it."""
     from derive.layout import PAPER as QUARTERS
-    from derive.layout import Layout as SymbolicLayout
-    from derive.layout import Output, rest_of_angles
+    from derive.layout import SymbolicLayout, SymbolicOutput, rest_of_angles
 
     if layout.like_paper:
         return QUARTERS
-    outputs = tuple(Output(o.name, o.members, o.signs) for o in layout.outputs)
+    outputs = tuple(SymbolicOutput(o.name, o.members, o.signs) for o in layout.outputs)
     constants = layouts.constants(layout)
     return SymbolicLayout(
         names=layout.names,

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.model.evaluator import find_places
-from ragg_runtime.model.model import EffectParameter, Model
+from ragg_runtime.model.model import DerivedParameter, Model
 from ragg_runtime.model.record import Record
 from ragg_runtime.model.resonance import list_resonances, with_responses
 
@@ -53,7 +53,7 @@ def _at_neutral(model: Model, p: Array) -> Array:
     return rest
 
 
-def late(model: Model) -> Iterator[tuple[int, EffectParameter]]:
+def late(model: Model) -> Iterator[tuple[int, DerivedParameter]]:
     """Parameters of a model that make motion late, each with its place in the parameter vector."""
     found = [q for e in model.effects for q in e.parameters if q.late]
     places = find_places(model.chain) if found else {}

@@ -38,7 +38,7 @@ class Recogniser(Protocol):
 
 
 @dataclass(frozen=True)
-class EffectParameter:
+class DerivedParameter:
     """A parameter of an effect; ``unit`` is for display, ``symbol`` its name in the parameter vector.
 
     ``physical`` is the one value, beside the neutral one, that nature knows (``None``: any). ``plausible`` is of a
@@ -70,7 +70,7 @@ class EffectParameter:
 
 
 @dataclass(frozen=True)
-class Effect:
+class DerivedEffect:
     """What the runtime knows of a physical effect, from the manifest of the derivation.
 
     ``common_of``, ``told_from``: parameters of the accelerometers that the sheet knows; ``turning``: it is one only where the disc
@@ -87,7 +87,7 @@ class Effect:
     limits: str
     channels: tuple[str, ...]
     kind: str
-    parameters: tuple[EffectParameter, ...]
+    parameters: tuple[DerivedParameter, ...]
     either: bool = False
     common_of: str | None = None
     told_from: tuple[str, ...] = ()
@@ -103,7 +103,7 @@ class Effect:
 
 
 def missing_channels(e: Any, recorded: Container[str]) -> tuple[str, ...]:
-    """As :meth:`Effect.missing`, of an effect of the derivation, too: it has ``channels`` and ``either``."""
+    """As :meth:`DerivedEffect.missing`, of an effect of the derivation, too: it has ``channels`` and ``either``."""
     missing = tuple(c for c in e.channels if c not in recorded)
     return () if e.either and len(missing) < len(e.channels) else missing
 
@@ -121,8 +121,8 @@ class Model:
     chain is. ``own_recognisers``: of a model directory's effects, by id. ``lasting``: it comes with the program.
     """
 
-    effects: tuple[Effect, ...]
-    candidates: tuple[Effect, ...]
+    effects: tuple[DerivedEffect, ...]
+    candidates: tuple[DerivedEffect, ...]
     chain: ChainModule
     signatures: ChainModule
     digest: str
@@ -161,7 +161,7 @@ class Model:
         """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
         return compile_or_interpret(self.chain, self.layout, self.sources, backend, self.folded)
 
-    def effect(self, identifier: str) -> Effect | None:
+    def effect(self, identifier: str) -> DerivedEffect | None:
         """The effect of this id, in the model or not; ``None`` if unknown."""
         return next((e for e in (*self.effects, *self.candidates) if e.id == identifier), None)
 
@@ -223,9 +223,9 @@ def _model(manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleTyp
     )
 
 
-def _effect(entry: Mapping[str, Any]) -> Effect:
+def _effect(entry: Mapping[str, Any]) -> DerivedEffect:
     parameters = tuple(
-        EffectParameter(**{**q, "late": tuple(q.get("late", ()))}) for q in entry["parameters"]
+        DerivedParameter(**{**q, "late": tuple(q.get("late", ()))}) for q in entry["parameters"]
     )
     several = {k: tuple(entry.get(k, ())) for k in ("channels", "told_from", "contains")}
-    return Effect(**{**entry, **several, "parameters": parameters})
+    return DerivedEffect(**{**entry, **several, "parameters": parameters})

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Recorded:
+class RecordedSeries:
     """What of an output a flight holds, as m series over N samples.
 
     ``kind``: the voltage of every accelerometer, each a series (m = 4 in the paper's instrument); the output, their sum with signs
@@ -84,14 +84,14 @@ class Recorded:
 
 
 FORMS = (
-    Recorded("voltages", "V_1 … V_4"),
-    Recorded("G_out", "G_out"),
-    Recorded("channels", "inline and cross, remodulated"),
+    RecordedSeries("voltages", "V_1 … V_4"),
+    RecordedSeries("G_out", "G_out"),
+    RecordedSeries("channels", "inline and cross, remodulated"),
 )
 """The most telling first."""
 
 
-def recorded(flight: Flight, layout: Layout, place: int) -> Recorded | None:
+def recorded(flight: Flight, layout: Layout, place: int) -> RecordedSeries | None:
     """What of an output a flight holds, the most telling; ``None``: nothing."""
     o = layout.outputs[place]
     return next((form for form in FORMS if form.columns(layout, o, flight.outputs) is not None), None)

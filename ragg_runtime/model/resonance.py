@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
 from ragg_runtime.model.evaluator import find_places
-from ragg_runtime.model.model import Effect, Model
+from ragg_runtime.model.model import DerivedEffect, Model
 from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]
@@ -27,7 +27,7 @@ LEAST = 1e-2
 """Least frequency, Hz, and Q: a fit may try others on its way."""
 
 
-def list_resonances(model: Model, p: Array) -> Iterator[tuple[Effect, float, float]]:
+def list_resonances(model: Model, p: Array) -> Iterator[tuple[DerivedEffect, float, float]]:
     """The effects of a model that act through a resonance, with its frequency, Hz, and Q by the parameters p (size,), SI."""
     for e in (e for e in model.effects if e.resonance is not None):
         places = find_places(model.chain)
@@ -35,7 +35,7 @@ def list_resonances(model: Model, p: Array) -> Iterator[tuple[Effect, float, flo
         yield e, max(f_0, LEAST), max(Q, LEAST)
 
 
-def neutral_values(effects: Iterable[Effect]) -> Iterator[tuple[Effect, float, float]]:
+def neutral_values(effects: Iterable[DerivedEffect]) -> Iterator[tuple[DerivedEffect, float, float]]:
     """The same of effects that are not in the model: where a search begins."""
     for e in effects:
         if e.resonance is not None:
@@ -49,7 +49,7 @@ def memory(f_0: float, Q: float) -> float:
 
 
 def with_responses(
-    r: Record, effects: Iterable[tuple[Effect, float, float]], wanted: Container[str]
+    r: Record, effects: Iterable[tuple[DerivedEffect, float, float]], wanted: Container[str]
 ) -> Record:
     """The record with the ``wanted`` series that these effects take through their resonances."""
     wide = dict(r.wide)

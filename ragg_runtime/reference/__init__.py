@@ -9,7 +9,7 @@ from __future__ import annotations
 from ragg_runtime.reference.angle import disc_angle, turns
 from ragg_runtime.reference.effects import CATALOGUE, EffectValues
 from ragg_runtime.reference.motion import (
-    Motion,
+    MotionSignals,
     MotionState,
     RecordedSignal,
     Sinusoids,
@@ -21,7 +21,7 @@ from ragg_runtime.reference.simulate import Simulation, instants, simulate
 __all__ = [
     "CATALOGUE",
     "EffectValues",
-    "Motion",
+    "MotionSignals",
     "MotionState",
     "RecordedSignal",
     "Simulation",

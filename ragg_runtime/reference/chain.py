@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ragg_runtime.reference.effects import Injected, force, geometry, transducer
 from ragg_runtime.reference.geometry import Mount, mount, standing
 from ragg_runtime.reference.gravity import Gravity
-from ragg_runtime.reference.motion import Motion, MotionState
+from ragg_runtime.reference.motion import MotionSignals, MotionState
 from ragg_runtime.reference.rotation import Rotations, frame_rotation
 from ragg_runtime.reference.taylor import Taylor, carried, spun
 from ragg_runtime.reference.turning import Turning
@@ -62,7 +62,7 @@ class Chain:
     """
 
     instrument: Instrument
-    motion: Motion
+    motion: MotionSignals
     gravity: Gravity | None
     rotations: Rotations
     effects: Injected

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.instrument.layout import TANGENTIAL, Disc, Place
+from ragg_runtime.instrument.layout import TANGENTIAL, AccelerometerPosition, Disc
 from ragg_runtime.reference.rotation import Rotations, X, Y, Z, about, least_rotation
 
 Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ class Mount:
     lift: Array
 
 
-def mount(place: Place, beta_x: float, beta_z: float, rotations: Rotations) -> Mount:
+def mount(place: AccelerometerPosition, beta_x: float, beta_z: float, rotations: Rotations) -> Mount:
     """An accelerometer with altitude beta_x and initial phase angle beta_z (rad).
 
     The arm is y turned by -beta_x about x, the triad by +beta_x (the senses of the printed Eq. 19); both then turn by

@@ -155,7 +155,7 @@ class MotionState:
 
 
 @dataclass(frozen=True)
-class Motion:
+class MotionSignals:
     """Specific force of the disc centre (f_cmm) and angular rate of the measurement frame, by axis."""
 
     a: tuple[Signal, Signal, Signal]
@@ -171,16 +171,16 @@ class Motion:
         )
 
 
-def still(a: Sequence[float] = (0.0, 0.0, 0.0), omega: Sequence[float] = (0.0, 0.0, 0.0)) -> Motion:
+def still(a: Sequence[float] = (0.0, 0.0, 0.0), omega: Sequence[float] = (0.0, 0.0, 0.0)) -> MotionSignals:
     """Constant specific force (m/s^2) and angular rate (rad/s)."""
     ax, ay, az = (Sinusoids(float(v)) for v in a)
     wx, wy, wz = (Sinusoids(float(v)) for v in omega)
-    return Motion((ax, ay, az), (wx, wy, wz))
+    return MotionSignals((ax, ay, az), (wx, wy, wz))
 
 
-def recorded_motion(time: ArrayLike, a: ArrayLike, omega: ArrayLike) -> Motion:
+def recorded_motion(time: ArrayLike, a: ArrayLike, omega: ArrayLike) -> MotionSignals:
     """Motion through a record: time (M,) s, a (3, M) m/s^2, omega (3, M) rad/s."""
     t = np.asarray(time, dtype=np.float64)
     ax, ay, az = (RecordedSignal(t, v) for v in np.asarray(a, dtype=np.float64))
     wx, wy, wz = (RecordedSignal(t, v) for v in np.asarray(omega, dtype=np.float64))
-    return Motion((ax, ay, az), (wx, wy, wz))
+    return MotionSignals((ax, ay, az), (wx, wy, wz))

@@ -16,7 +16,7 @@ from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.gravity import Gradient, Gravity
 from ragg_runtime.reference.instruments import perturbed, table_v, trimmed
-from ragg_runtime.reference.motion import Motion, Signal, Sinusoids
+from ragg_runtime.reference.motion import MotionSignals, Signal, Sinusoids
 from ragg_runtime.reference.rotation import Rotations
 from ragg_runtime.reference.simulate import Simulation, simulate
 from ragg_runtime.reference.turbulence import SHAPES, turbulence
@@ -49,7 +49,7 @@ class Scenario:
 
     sheet: Instrument
     instrument: Instrument
-    motion: Motion
+    motion: MotionSignals
     gravity: Gravity
     noise: Noise | None
     auxiliaries: Mapping[str, Auxiliary]
@@ -83,7 +83,7 @@ def draw_motion(
     bursts: float | None = None,
     turbulence_scale: float = 1.0,
     linear: Sequence[tuple[float, float]] = LINEAR,
-) -> Motion:
+) -> MotionSignals:
     """Turbulent motion of a stabilised platform for ``duration`` seconds: ``linear`` accelerations, 150 about 100 deg/h.
 
     ``shape``, ``bursts`` as in ``turbulence``; ``None`` draws one for each component. ``turbulence_scale``: factor on
@@ -103,7 +103,7 @@ def draw_motion(
 
     a_x, a_y, a_z = (component(mean, rms, _MILLI_G) for mean, rms in linear)
     omega_x, omega_y, omega_z = (component(*ANGULAR, _DEG_PER_HOUR) for _ in range(3))
-    return Motion((a_x, a_y, a_z), (omega_x, omega_y, omega_z))
+    return MotionSignals((a_x, a_y, a_z), (omega_x, omega_y, omega_z))
 
 
 def draw_gradient(rng: np.random.Generator, rms: float = 0.0, terms: int = 6) -> Gradient:

@@ -21,7 +21,7 @@ from ragg_runtime.reference.effects.resonance import swallowed
 from ragg_runtime.reference.effects.sensing import record_motion
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
 from ragg_runtime.reference.gravity import COMPONENTS, Gravity
-from ragg_runtime.reference.motion import Motion
+from ragg_runtime.reference.motion import MotionSignals
 from ragg_runtime.reference.rotation import Rotations
 from ragg_runtime.reference.turning import Turning
 
@@ -105,7 +105,7 @@ def instants(duration: float, rate: float, start: float = 0.0) -> Array:
 
 def simulate(
     instrument: Instrument,
-    motion: Motion,
+    motion: MotionSignals,
     duration: float,
     rate: float,
     *,

@@ -16,7 +16,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.evaluator import ChainModule
 from ragg_runtime.model.record import SPIN, differentiated, disc_angle, kernel, record, spin, start_of
-from ragg_runtime.model.recorded import Recorded, recorded
+from ragg_runtime.model.recorded import RecordedSeries, recorded
 from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ class Rows:
         (n,) rows whose output is there; ``None``: all.
     """
 
-    recorded: Recorded
+    recorded: RecordedSeries
     data: Array
     time: Array
     phi: Array
@@ -105,7 +105,7 @@ class Sampler:
 
     flight: Flight
     instrument: Instrument
-    recorded: Recorded
+    recorded: RecordedSeries
     usable: Mask
     derived: Mapping[str, Array]
     taps: Array

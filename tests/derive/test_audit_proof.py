@@ -29,7 +29,7 @@ def test_derivation_equals_direct_evaluation_exactly(seed):
             assert proof.current(derived_transducer(), p, j) == direct.current(p, j, p.a)
 
 
-def exchanged(p: direct.Point, order: tuple[int, ...]) -> direct.Point:
+def exchanged(p: direct.NumericPoint, order: tuple[int, ...]) -> direct.NumericPoint:
     return replace(p, accelerometers={n: tuple(v[j] for j in order) for n, v in p.accelerometers.items()})
 
 
@@ -46,7 +46,7 @@ def test_a_quarter_turn_exchanges_the_pairs_and_the_sign():
         assert direct.output(turned) == -direct.output(p)
 
 
-def perfect(p: direct.Point) -> direct.Point:
+def perfect(p: direct.NumericPoint) -> direct.NumericPoint:
     keep = {"k1": Fraction(3), "R": Fraction(1, 10)}
     return replace(p, accelerometers={n: (keep.get(n, Fraction(0)),) * 4 for n in p.accelerometers})
 

@@ -24,7 +24,7 @@ from derive.tape import settled
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.units import units
-from ragg_runtime.reference import CATALOGUE, Motion, Sinusoids, disc_angle, simulate
+from ragg_runtime.reference import CATALOGUE, MotionSignals, Sinusoids, disc_angle, simulate
 from ragg_runtime.reference.geometry import mount
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import table_v
@@ -83,7 +83,7 @@ INSTRUMENT = _instrument()
 _RNG = np.random.default_rng(21)
 _A = tuple(_signal(_RNG, m, 0.3) for m in (0.15, -0.2, 1.0))
 _OMEGA = tuple(_signal(_RNG, m, 0.02) for m in (0.01, -0.02, 0.015))
-MOTION_TRUE = Motion(_A, _OMEGA)
+MOTION_TRUE = MotionSignals(_A, _OMEGA)
 GRAVITY = Gradient(np.array([300.0, 120.0, 50.0, 200.0, -80.0, -500.0]) * 1e-9)
 REFERENCE_VALUE = {"temperature": 293.15, "pressure": 101325.0}
 TEMPERATURE = _signal(_RNG, 294.0, 0.5)

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from derive.expression import from_expression
-from derive.layout import PAPER, Output
+from derive.layout import PAPER, SymbolicOutput
 from derive.names import EXPECTED, channel_in_code, channel_of, id_in_code, is_name, parameter_in_code
-from derive.pipeline import Form, derive_model, derive_plain
+from derive.pipeline import SymbolicForm, derive_model, derive_plain
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import read_flight
@@ -102,9 +102,9 @@ def test_emitters_let_no_name_out_of_a_comment(text: str) -> None:
         shape = replace(
             PAPER,
             names=(name, "b", "c", "d"),
-            outputs=(Output(name, (0, 1), (1, 1)), Output("G", (2, 3), (1, -1))),
+            outputs=(SymbolicOutput(name, (0, 1), (1, 1)), SymbolicOutput("G", (2, 3), (1, -1))),
         )
-        form = Form(layout=replace(shape, own=True))
+        form = SymbolicForm(layout=replace(shape, own=True))
         made = from_expression("mine", "transducer", "K*f_i", {"K": {"unit": "ug"}})
         q = replace(made.parameters[0], meaning=name, latex=name)
         effect = replace(made, title=name, physics=name, source=name, equation=name, parameters=(q,))

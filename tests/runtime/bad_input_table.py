@@ -35,7 +35,7 @@ COMPARE = ("compare", "model", "flight.csv")
 
 
 @dataclass(frozen=True)
-class Row:
+class MessageCase:
     """One bad input: ``make`` puts it into the current folder, where a good ``model`` directory stands already;
     ``says`` is what the message has to contain; ``status`` 2: refused, 0: handled, and the result says so.
     Unless it is ``of_time`` no mistake of time is looked for, which takes most of the search."""
@@ -185,47 +185,53 @@ _SPIN, _EFFECTS = r"^spin_frequency = .*$", r"^effects = .*$"
 _LIKELY = "likely mistake"
 
 TABLE = {
-    "an unknown effect": Row(toml(_EFFECTS, 'effects = ["thermal-scal"]'), ("did you mean", "thermal-scale")),
-    "an effect whose channel the flight lacks": Row(
+    "an unknown effect": MessageCase(
+        toml(_EFFECTS, 'effects = ["thermal-scal"]'), ("did you mean", "thermal-scale")
+    ),
+    "an effect whose channel the flight lacks": MessageCase(
         both(
             toml(_EFFECTS, 'effects = ["thermal-scale"]'),
             flown(lambda x: without(x, "temperature")),
         ),
         ("thermal-scale", "temperature", "flight.csv", "ragg remove"),
     ),
-    "a pipe": Row(lambda: os.mkfifo("p.csv"), ("p.csv", "regular file"), ("compare", "model", "p.csv")),
-    "jittering stamps": Row(
+    "a pipe": MessageCase(
+        lambda: os.mkfifo("p.csv"), ("p.csv", "regular file"), ("compare", "model", "p.csv")
+    ),
+    "jittering stamps": MessageCase(
         flown(timed(jittered(0.1)), hidden=True, derived=True), ("jitters", "sampled evenly"), status=0
     ),
-    "cut out, its time set to zero": Row(
+    "cut out, its time set to zero": MessageCase(
         flown(lambda x: timed(lambda t: t - t[0])(kept(lambda k: k[37:])(x))),
         (_LIKELY, "cut out", "spin_angle"),
         of_time=True,
     ),
-    "an output that does not change": Row(
+    "an output that does not change": MessageCase(
         flown(outputs(lambda v: np.full_like(v, 1.5))), ("'G_out'", "does not change", "disconnected")
     ),
-    "a motion column that does not change": Row(
+    "a motion column that does not change": MessageCase(
         flown(channels(lambda c: {"omega_z": np.full_like(c["omega_z"], 5e-4)})),
         ("omega_z does not change", "stuck sensor"),
         status=0,
     ),
-    "g, called m/s^2": Row(flown(scaled("a", 1 / G0)), (_LIKELY, "a_x, a_y, a_z are in g, not in m/s^2")),
-    "V_2 and V_3 exchanged": Row(
+    "g, called m/s^2": MessageCase(
+        flown(scaled("a", 1 / G0)), (_LIKELY, "a_x, a_y, a_z are in g, not in m/s^2")
+    ),
+    "V_2 and V_3 exchanged": MessageCase(
         flown(voltages_ordered("V_1", "V_3", "V_2", "V_4"), voltages=True),
         (_LIKELY, "V_2 and V_3 are exchanged"),
     ),
-    "spin rate 1 % too high": Row(
+    "spin rate 1 % too high": MessageCase(
         both(flown(same), toml(_SPIN, 'spin_frequency = "0.2525 Hz"')),
         (_LIKELY, "the spin rate is 0.25 Hz"),
         of_time=True,
     ),
-    "the second of two flights": Row(
+    "the second of two flights": MessageCase(
         both(flown(same), flown(outputs(lambda v: -v), "second.csv")),
         ("second.csv", _LIKELY, "the sign of G_out is reversed", "-1"),
         ("diagnose", "model", "flight.csv", "second.csv"),
     ),
-    "an unknown effect on the command line": Row(
+    "an unknown effect on the command line": MessageCase(
         flown(same), ("lagg", "did you mean"), ("add", "model", "lagg", "flight.csv")
     ),
 }
@@ -258,7 +264,7 @@ def inside(place: Path) -> Iterator[None]:
         yield
 
 
-def ran(row: Row, place: Path) -> Ran:
+def ran(row: MessageCase, place: Path) -> Ran:
     """Make the input in an empty folder and run the command in this process."""
     stage(place)
     with (

@@ -11,7 +11,7 @@ import pytest
 from bad_input_table import (
     COMPARE,
     TABLE,
-    Row,
+    MessageCase,
     blank,
     flown,
     inside,
@@ -51,7 +51,7 @@ NOTE = "samples are spikes"
 
 
 def test_the_notes_are_everywhere(tmp_path: Path) -> None:
-    row = Row(
+    row = MessageCase(
         flown(outputs(struck), hidden=True),
         (NOTE,),
         (*COMPARE, "--json", "x.json", "--report", "x.html"),

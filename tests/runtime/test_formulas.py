@@ -57,7 +57,7 @@ def test_evidence_and_e_value_are_those_of_the_page() -> None:
     """ln B_S(g) for one effect against the code's, and an e-value from its formula."""
     g = likelihood_ratio.STRENGTHS
     assert (g[0], g[-1]) == (1.0, 1e8)
-    block = probability._Block(effect="e", Q=np.eye(3)[:, :2], along=np.array([3.0, -1.0]), weight=0.0)
+    block = probability._Subspace(effect="e", Q=np.eye(3)[:, :2], along=np.array([3.0, -1.0]), weight=0.0)
     log_b = 10.0 / 2 * g / (1 + g) - 2 / 2 * np.log(1 + g)
     assert np.allclose(
         probability._evidence([block], np.array([[0]])), np.log(np.mean(np.exp(log_b))), atol=1e-6

@@ -15,7 +15,7 @@ from derive.effects import catalogue
 from derive.pipeline import derive_model
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import observation
-from ragg_runtime.estimation.regressors import Point, linearise
+from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.model.compile import BuildError, build, find_compiler, load
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.evaluator import Evaluator, NativeWarning, _warn_once
@@ -97,7 +97,7 @@ def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch
             monkeypatch.setenv("RAGG_NATIVE", "off")
         model = replace(packaged())  # evaluators of its own
         o = observation.observe(flight, s.sheet)
-        at = Point(model, s.sheet, vector(model, s.sheet), with_candidates=True)
+        at = LinearisationPoint(model, s.sheet, vector(model, s.sheet), with_candidates=True)
         columns = linearise(at, o)
         assert {model.evaluators(n).backend for n in ("chain", "signatures")} == {"numpy" if off else "c"}
         found.append(columns)

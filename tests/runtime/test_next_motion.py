@@ -15,14 +15,14 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.estimation.fitted import Fitted, about, fit
 from ragg_runtime.estimation.observation import Observation, observations_of
-from ragg_runtime.estimation.regressors import Point, grouped, residual_of
+from ragg_runtime.estimation.regressors import LinearisationPoint, grouped, residual_of
 from ragg_runtime.identification import motion_design, next_motion, selection
 from ragg_runtime.identification.selection import Field, field_of
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model.model import packaged
 from ragg_runtime.next_flight import next_flight, write_motion
 from ragg_runtime.reference.effects import EffectValues
-from ragg_runtime.reference.motion import Motion, Sinusoids
+from ragg_runtime.reference.motion import MotionSignals, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.simulate import simulated
 
@@ -51,10 +51,10 @@ def flown(
                 float(np.mean(signal.value(t))), [x[2] for x in own], [x[1] for x in own], [x[3] for x in own]
             )
     x, y, z, wx, wy, wz = (parts[n] for n in next_motion.AXES)
-    other = replace(s, motion=Motion((x, y, z), (wx, wy, wz)), seed=s.seed + 100_000)
+    other = replace(s, motion=MotionSignals((x, y, z), (wx, wy, wz)), seed=s.seed + 100_000)
     runs = [(w.simulate(effects), w.simulate()) for w in (s, other)]
     both = fitted(s, *(a.flight() for a, _ in runs))
-    at = Point(both.model, both.instrument, both.calibration.p, False)
+    at = LinearisationPoint(both.model, both.instrument, both.calibration.p, False)
     clean: list[Observation] = []
     for k, (with_it, without) in enumerate(runs):
         a, b = (

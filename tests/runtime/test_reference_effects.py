@@ -10,7 +10,7 @@ import pytest
 import sympy as sp
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.reference import CATALOGUE, Motion, Simulation, Sinusoids, simulate, still
+from ragg_runtime.reference import CATALOGUE, MotionSignals, Simulation, Sinusoids, simulate, still
 from ragg_runtime.reference.effects import resolve
 from ragg_runtime.reference.effects.force import fourth_order_tensor, third_order_tensor, vibration
 from ragg_runtime.reference.gravity import Gradient, PointMass
@@ -36,7 +36,7 @@ AUXILIARIES = {
 }
 
 
-def shaken() -> Motion:
+def shaken() -> MotionSignals:
     rng = np.random.default_rng(8)
     t = np.arange(-32, 32 * RATE) / RATE
     smooth = np.cumsum(np.cumsum(rng.standard_normal((6, t.size)), axis=1), axis=1)
@@ -55,7 +55,7 @@ def run(effects=None, instrument=None, motion=SHAKEN, duration=20.0, **options) 
     return simulate(instrument, motion, duration, RATE, effects=effects, **options)
 
 
-def force(effects, motion: Motion, instrument=None, **options) -> np.ndarray:
+def force(effects, motion: MotionSignals, instrument=None, **options) -> np.ndarray:
     """Bracket of Eq. 52 of the four accelerometers in m/s^2, (4, N), effects minus none."""
     instrument = perfect() if instrument is None else instrument
     options = {"gravity": None, "duration": 0.25} | options
@@ -179,7 +179,7 @@ def test_noise_does_not_change_with_the_effects() -> None:
 def test_lag_is_the_exact_first_order_filter(tau: float) -> None:
     # A horizontal force at 2.2 Hz is seen by A1 at 1.95 and 2.45 Hz: filter each line exactly.
     amplitude, f = 2.0, 2.2
-    motion = Motion((Sinusoids(0.3, [amplitude], [f], [0.4]), Sinusoids(), Sinusoids()), still().omega)
+    motion = MotionSignals((Sinusoids(0.3, [amplitude], [f], [0.4]), Sinusoids(), Sinusoids()), still().omega)
     flight = run({"lag": {"tau": [tau, 0, 0, tau]}}, perfect(), motion, 60.0, gravity=None, start=1000.0)
     t = flight.time
     # -(0.3 + A sin(wt + 0.4)) sin(Wt), as complex lines.
@@ -229,7 +229,7 @@ def test_spin_rate_jitter_has_its_statistics() -> None:
 
 
 def test_recorded_acceleration_stays_the_derivative_of_the_recorded_rate() -> None:
-    motion = Motion(still().a, tuple(Sinusoids(1e-3, [1e-3], [f], [0.3]) for f in (0.1, 0.15, 0.2)))
+    motion = MotionSignals(still().a, tuple(Sinusoids(1e-3, [1e-3], [f], [0.3]) for f in (0.1, 0.15, 0.2)))
     effects = {
         "time-offset": {"delta_t": 0.013},
         "imu-misalignment": {"e_x": 0.02, "e_z": 0.05},

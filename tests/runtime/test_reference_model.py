@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.layout import PAPER
-from ragg_runtime.reference import Motion, Simulation, Sinusoids, disc_angle, simulate, still
+from ragg_runtime.reference import MotionSignals, Simulation, Sinusoids, disc_angle, simulate, still
 from ragg_runtime.reference.geometry import mount
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import perfect, table_v, trimmed
@@ -18,7 +18,7 @@ ARCSEC = np.pi / 180 / 3600
 GAMMA = np.array([300, 120, 50, 200, -80, -500]) * 1e-9
 ANGLES = ("beta_x", "beta_z", "vartheta_x", "vartheta_y", "vartheta_z")
 
-SHAKEN = Motion(
+SHAKEN = MotionSignals(
     a=(
         Sinusoids(0.15, [0.1, 0.05], [0.25, 0.61], [0.0, 1.0]),
         Sinusoids(0.15, [0.08, 0.03], [0.25, 0.43], [0.5, 2.0]),
@@ -78,7 +78,7 @@ def test_rigid_rotation_against_positions_differentiated_in_an_inertial_frame() 
     omega = rate(t0)
     omegadot = sum(w * rate(t0 + k * h) for k, w in zip(range(-2, 3), slope, strict=True))
     # A motion with these values at its first sample; the instrument stands at phi = 0 there.
-    motion = Motion(
+    motion = MotionSignals(
         still().a,
         tuple(
             Sinusoids(w, [d / (2 * np.pi * 0.01)], [0.01], [0.0])
@@ -167,7 +167,7 @@ def test_altitude_dips_the_triad_and_lifts_the_position() -> None:
     V = run(instrument, still(a=(1.0, 0.0, 0.0)), 0.1).voltages[0, 0] / (1e9 * 1e-2 / 9.8)
     assert pytest.approx(1e-2 * 1e-3, rel=1e-9) == V
     # f_y (tangential at phi = 0) of omegadot x r with r_z = R beta_x is omegadot_z r_x - omegadot_x r_z.
-    rolling = Motion(still().a, (Sinusoids(0.0, [1.0], [0.1], [0.0]), Sinusoids(), Sinusoids()))
+    rolling = MotionSignals(still().a, (Sinusoids(0.0, [1.0], [0.1], [0.0]), Sinusoids(), Sinusoids()))
     V = run(perfect().replace(beta_x=[1e-3, 0, 0, 0]), rolling, 0.1).voltages[0, 0] / (1e9 * 1e-2 / 9.8)
     assert pytest.approx(-2 * np.pi * 0.1 * 0.1 * 1e-3, rel=1e-9) == V
 

@@ -11,9 +11,9 @@ from ragg_runtime.estimation import calibration, fitted, noise_estimate, observa
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, beginnings, segments, spread
-from ragg_runtime.estimation.regressors import Point
+from ragg_runtime.estimation.regressors import LinearisationPoint
 from ragg_runtime.identification import comparison, contenders, omnibus, selection
-from ragg_runtime.identification.contenders import Left
+from ragg_runtime.identification.contenders import ContenderFit
 from ragg_runtime.identification.selection import field_of
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model
@@ -135,7 +135,9 @@ def test_a_long_flight_with_gaps_everywhere_has_no_means(
     for valid, there in ((every, False), (third, True), (np.ones_like(third), True)):
         x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
         o = observation.observe(x, s.sheet)
-        at = Point(model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=True)
+        at = LinearisationPoint(
+            model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=True
+        )
         found = noise_estimate.averages(at, o, NoiseModel.white(o.record.rate, len(o.series)))
         assert (found is not None) == there
         if found is not None:
@@ -152,7 +154,7 @@ def test_contenders_of_a_long_flight_are_told_apart_on_an_excerpt(
     monkeypatch.setattr(whitening, "EXCERPT", 3)
     fitted_to: list[int] = []
 
-    def left(f: Fitted, *given: Any) -> Left:
+    def left(f: Fitted, *given: Any) -> ContenderFit:
         fitted_to.append(int(np.sum(f.observations[0].record.valid)))
         return original(f, *given)
 

@@ -8,7 +8,7 @@ from scipy.integrate import trapezoid
 
 from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.identification.sequential import Evidence, evidence, log_e
+from ragg_runtime.identification.sequential import SequentialTest, evidence, log_e
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
 
@@ -21,7 +21,7 @@ def test_an_e_value_has_mean_one_under_the_null() -> None:
     assert 2 * trapezoid(density, z) == pytest.approx(1.0, abs=1e-3)
 
 
-def followed(*hidden: dict[str, dict[str, list[float]]]) -> Evidence:
+def followed(*hidden: dict[str, dict[str, list[float]]]) -> SequentialTest:
     s = scenario(3, duration=480.0)
     flights = [s.simulate(h).flight(f"leg {n}") for n, h in enumerate(hidden)]
     return evidence(fitted.fit(model.packaged(), s.sheet, observations_of(flights, s.sheet)))

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import fitted, observation, thinning
 from ragg_runtime.estimation.observation import Observation
-from ragg_runtime.estimation.regressors import Point, linearise
+from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.identification import diagnose as diagnosis
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import Instrument
@@ -80,7 +80,7 @@ def test_the_residual_is_that_of_the_whole_record_thinned(
     s, _ = flown
     m = model.packaged()
     p = vector(m, s.sheet)
-    at = Point(m, s.sheet, p, with_candidates=False)
+    at = LinearisationPoint(m, s.sheet, p, with_candidates=False)
     found = linearise(at, thin)[-1, 0]
     assert thin.thin is not None
     full = whole.data[0] - output(m.chain, whole.record, p, whole.output)
@@ -183,7 +183,9 @@ def test_spikes_cost_a_sample_and_a_gap_what_is_beside_it(flown: tuple[Scenario,
     missing = np.flatnonzero(~o.record.valid)
     gap = (o.record.time[missing] > 199.5) & (o.record.time[missing] < 203.5)
     assert 3.0 * RATE / EVERY <= np.sum(gap) <= 3.8 * RATE / EVERY and np.sum(~gap) <= 2
-    at = Point(model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=False)
+    at = LinearisationPoint(
+        model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=False
+    )
     found = linearise(at, o)[-1, 0]
     expected = linearise(at, thinned(s.sheet, flight))[-1, 0]
     used = o.record.valid

@@ -7,7 +7,7 @@ import numpy as np
 from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe
-from ragg_runtime.estimation.regressors import Point, linearise
+from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.estimation.unknown_gradient import windows, without
 from ragg_runtime.identification import selection
 from ragg_runtime.identification.ranking import list_not_testable
@@ -22,7 +22,7 @@ def test_an_unknown_gradient_is_taken_out_of_each_voltage_by_its_scale_factor() 
     o = observe(flight, s.sheet)
     model = load.packaged()
     true = s.sheet.replace(**s.instrument.accelerometers)
-    e = linearise(Point(model, s.sheet, vector(model, true), with_candidates=False), o)[-1:]
+    e = linearise(LinearisationPoint(model, s.sheet, vector(model, true), with_candidates=False), o)[-1:]
     n = len(o.record.time)
     left = without(e, windows(o, slice(0, n), NoiseModel.white(o.record.rate, 4)), o.record.valid)
     assert np.std(e) > 1e-3

@@ -12,7 +12,7 @@ from derive.emit.printers import to_c
 from derive.emit.render import environment
 from derive.folded import Folded
 from derive.ir import ChainProgram, Harmonic
-from derive.propagation import Term
+from derive.propagation import MonomialTerm
 from derive.tape import Program
 
 
@@ -69,7 +69,7 @@ def chain(m: ChainProgram, *, packaged: bool) -> dict[str, str]:
     return _both("chain", m.name, m=m, whole=m.name == "signatures")
 
 
-def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, ...]]) -> dict[str, str]:
+def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[MonomialTerm, ...]]) -> dict[str, str]:
     return {}
 
 

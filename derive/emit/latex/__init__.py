@@ -10,7 +10,7 @@ from derive.emit.printers import to_latex
 from derive.emit.render import environment
 from derive.folded import Folded
 from derive.ir import AmplitudeTerm, ChainProgram, Coefficient, Harmonic
-from derive.propagation import Term, monomial
+from derive.propagation import MonomialTerm, monomial
 from derive.symbols import symbol
 
 
@@ -26,7 +26,7 @@ def chain(m: ChainProgram, *, packaged: bool) -> dict[str, str]:
     return {}
 
 
-def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, ...]]) -> dict[str, str]:
+def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[MonomialTerm, ...]]) -> dict[str, str]:
     """Eq. 5b and Eq. 30."""
     terms = []
     for name, row in ideal.items():

@@ -10,7 +10,7 @@ from derive.emit.printers import to_numpy
 from derive.emit.render import environment
 from derive.folded import Folded
 from derive.ir import AmplitudeTerm, ChainProgram, Harmonic
-from derive.propagation import Term
+from derive.propagation import MonomialTerm
 
 BLOCK = 4096
 """Samples that are evaluated together: large enough to make NumPy's calls cheap, small enough for the second cache."""
@@ -28,7 +28,7 @@ def chain(m: ChainProgram, *, packaged: bool) -> dict[str, str]:
     return {f"{m.name}.py": _render("chain.py.j2", m=m)}
 
 
-def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, ...]]) -> dict[str, str]:
+def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[MonomialTerm, ...]]) -> dict[str, str]:
     return {}
 
 

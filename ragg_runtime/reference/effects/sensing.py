@@ -9,14 +9,14 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected, Values
 from ragg_runtime.reference.effects.resonance import recoil
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE, averaging
-from ragg_runtime.reference.motion import Motion, MotionState
+from ragg_runtime.reference.motion import MotionSignals, MotionState
 from ragg_runtime.reference.rotation import by_vector
 
 Array = NDArray[np.float64]
 
 
 def record_motion(
-    motion: Motion, time: Array, effects: Injected, temperature: Array | float = REFERENCE_TEMPERATURE
+    motion: MotionSignals, time: Array, effects: Injected, temperature: Array | float = REFERENCE_TEMPERATURE
 ) -> MotionState:
     """What the motion sensor, at a temperature in K, reports at (N,) s: lever arm, misalignment, scale, lean, stray and delay, in
     that order.
