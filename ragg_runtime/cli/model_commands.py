@@ -258,6 +258,9 @@ def map_command(flight: Path, output: str | None) -> None:
             )
         write_text(Path(output), made.text)
         click.echo(printable(f"{output}: written; check it, then use it: --map {output}"), err=True)
+    guesses = [name for name, rating in made.sure.items() if rating == "guess"]
+    if guesses:
+        click.echo(f"guessed from units or unusual names: {', '.join(guesses)}", err=True)
     for note in made.notes:
         click.echo(one_line(f"note: {note}"), err=True)
     if made.questions:

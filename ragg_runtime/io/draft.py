@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -222,7 +223,36 @@ def _take_roles(columns: Sequence[DataColumn]) -> dict[str, tuple[DataColumn, Ro
     taken: dict[str, tuple[DataColumn, Role]] = {}
     for c, role in sorted(candidates, key=lambda x: x[1].rank):
         taken.setdefault(role.name, (c, role))
+    taken |= _take_by_unit([c for c in columns if c.is_number and role_of(c.name) is None], taken)
+    candidates += taken.values()
     return {n: taken[n] for n in dict.fromkeys([*SI_UNITS, *(r.name for _, r in candidates)]) if n in taken}
+
+
+def _take_by_unit(
+    columns: Sequence[DataColumn], taken: Mapping[str, Any]
+) -> dict[str, tuple[DataColumn, Role]]:
+    """Channels that no usual name gives, in any language: the only columns with such a unit, with axes at their ends."""
+    found: dict[str, tuple[DataColumn, Role]] = {}
+    for names in (SPECIFIC_FORCE, ANGULAR_RATE):
+        alike = _of_unit(columns, SI_UNITS[names[0]])
+        by_stem: dict[str, dict[str, DataColumn]] = {}
+        for c in alike:
+            by_stem.setdefault(c.name[:-1], {})[c.name[-1].lower()] = c
+        triads = [t for t in by_stem.values() if set(t) == set("xyz")]
+        if len(triads) == 1 and not taken.keys() & {*names}:
+            for n in names:
+                found[n] = triads[0][n[-1]], Role(n, "", "guess", why="by its unit and axis")
+    for name in ("G_out", "pressure"):
+        alike = _of_unit(columns, SI_UNITS[name])
+        beside = OUTPUTS if name == "G_out" else (name,)
+        if len(alike) == 1 and not any(n.startswith(beside) for n in taken):
+            found[name] = alike[0], Role(name, "", "guess", why="the only column with such a unit")
+    return found
+
+
+def _of_unit(columns: Sequence[DataColumn], si_unit: str) -> list[DataColumn]:
+    """The columns in a unit of this dimension."""
+    return [c for c in columns if c.unit and is_unit(c.unit) and units(9.8).fits(c.unit, si_unit)]
 
 
 def _draft_channel(

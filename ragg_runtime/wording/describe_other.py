@@ -356,8 +356,7 @@ def _record_sections(r: Json) -> list[Section]:
         )
     text += [f"note: {n!s}" for n in r["notes"]]
     if r["refused"]:
-        why = "; ".join(line.strip() for line in str(r["refused"]).splitlines())
-        text.append(f"This record cannot be used as it is: {why}.")
+        text += ["This record cannot be used as it is:", *str(r["refused"]).splitlines()]
     columns: Columns = {
         "column": lambda c: str(c["name"]),
         "unit": lambda c: numbers.unit(c["unit"]) or "1",
