@@ -44,6 +44,9 @@ else:
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of stdout; where JSON is asked for there, it is all that is written there."""
 
+SHOW_NOTES = ("compare", "diagnose")
+"""Commands that show the notes on the flights; the others, which come after, count them."""
+
 OF_A_MODEL = ("model.toml", "history.json", "calibration.json", "mapping.toml", "generated")
 """A model directory's own files, and the folder with the derived code."""
 
@@ -248,7 +251,7 @@ def conclude(
 
 
 def notes_of(flights: Sequence[Flight]) -> list[Section]:
-    """What the reader did to flights, every note once, with the flights that it is about."""
+    """What the reader did to flights, every note once, with the flights that it is about; only their number after the first commands."""
     about: dict[str, list[str]] = {}
     for x in flights:
         for note in x.notes:
@@ -257,7 +260,12 @@ def notes_of(flights: Sequence[Flight]) -> list[Section]:
     for note, names in about.items():
         which = f"{len(names)} flights: " if len(names) > 3 else f"{', '.join(names)}: "
         lines.append(f"note: {which if len(flights) > 1 else ''}{note}")
-    return [Section(sentences=tuple(lines))] if lines else []
+    if not lines:
+        return []
+    if click.get_current_context().info_name in SHOW_NOTES:
+        return [Section(sentences=tuple(lines))]
+    summary = f"{len(lines)} note{'s' * (len(lines) > 1)} on the flights"
+    return [Section("Notes", tuple(lines), detail=True, summary=summary)]
 
 
 def command_line() -> str:

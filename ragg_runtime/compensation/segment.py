@@ -295,7 +295,7 @@ class ChannelSegment:
             weights = replace(d, taps=np.abs(d.taps) / np.sum(np.abs(d.taps)))
             share = weights.low_passed(missing.astype(np.complex128)).real
             bits[share > HOLES] |= Quality.GAP
-            bits[(share > FELT) & (share <= HOLES)] |= Quality.BRIDGED
+            bits[(share > FELT) & (share <= HOLES) & (bits & NO_VALUE == 0)] |= Quality.BRIDGED
 
 
 def compensate_segment(c: OutputChannel, rows: slice, *, holes: bool) -> Compensated:
