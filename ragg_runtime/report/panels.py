@@ -192,7 +192,7 @@ def list_error_steps(steps: Sequence[Mapping[str, Any]], now: float | None = Non
 
     def begin(value: float | None, held: float | None) -> None:
         if value is not None and not (bars and abs(value - bars[-1].value) <= 0.02 * value):
-            label = made or ("other flights" if bars else "at first")
+            label = made or ("other flights" if bars else "before")
             bars.append(Bar(label, value, strong=bool(made), dots=(np.nan if held is None else held,)))
 
     for s in steps:

@@ -158,9 +158,11 @@ def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...
         f"{v.determined} of {v.total} directions of the calibrated parameters are determined by this record"
     )
     text = [f"{known}; the others stay at their test-sheet values."]
-    for pattern in dict.fromkeys(d.pattern for d in v.unseen):
-        symbols = ", ".join(d.symbol for d in v.unseen if d.pattern == pattern)
-        text.append(f"Not observable: {f'{pattern} of ' if pattern else ''}{symbols}.")
+    unseen: dict[str, list[str]] = {}
+    for d in v.unseen:
+        unseen.setdefault(f"{d.pattern} of " if d.pattern else "", []).append(d.symbol)
+    if unseen:
+        text.append(f"Not observable: {'; '.join(p + ', '.join(x) for p, x in unseen.items())}.")
     for group, seen in v.groups:
         members, sums = numbers.listed([*map(str, group)]), numbers.listed([*seen])
         verb = "is" if len(seen) == 1 else "are"

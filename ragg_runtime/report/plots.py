@@ -40,6 +40,9 @@ NAMES = {colour: name for name, colour in COLOURS.items()}
 WIDTH, NARROW = 9.6, 4.6
 """Widths of a figure, inches, on a page and on a narrow one: on either a point is a little more than a pixel."""
 
+MARKS_APART = 1.8
+"""Ratio of frequencies whose names do not touch on a narrow page."""
+
 HALO = {"facecolor": COLOURS["paper"], "edgecolor": "none", "pad": 0.6}
 """Behind a value that may lie on a line."""
 
@@ -105,11 +108,14 @@ def _draw_curves(plot: Curves, width: float) -> str:
             if axes.signed:
                 ax.axhline(-axes.level, **noise)
         _set_limits(ax, axes)
+        named = 0.0
         for x, text in axes.marks:
-            ax.axvline(x, color=COLOURS["quiet"], linewidth=0.6, linestyle=":", zorder=0.5)
+            ax.axvline(x, color=COLOURS["quiet"], linewidth=0.9, linestyle=(0, (1.5, 3.5)), zorder=0.5)
             at = blended_transform_factory(ax.transData, ax.transAxes)
             away: dict[str, Any] = {"xytext": (3, -2), "textcoords": "offset points", "va": "top"}
-            ax.annotate(text, (x, 1.0), xycoords=at, fontsize=9, color=COLOURS["quiet"], **away)
+            if width == WIDTH or x >= MARKS_APART * named:
+                ax.annotate(text, (x, 1.0), xycoords=at, fontsize=9, color=COLOURS["quiet"], **away)
+                named = x
         if axes.frame is not None:
             ax.axvspan(*axes.frame, facecolor="none", edgecolor=COLOURS["noise"], linewidth=0.9)
         ax.set_ylabel(axes.y_label)

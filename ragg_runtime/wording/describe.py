@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -50,6 +51,8 @@ def label_parameter(p: Json) -> str:
     if of:
         return f"{of} of {numbers.parameter(name)}"
     which = "" if j is None else f" of {p.get('accelerometer_name') or f'A{j}'}"
+    if single := re.fullmatch(r"(.*)\[(\d+)\]", name):  # of a combination of one
+        name, which = single[1], f" of A{single[2]}"
     return f"{numbers.parameter(name)}{which}"
 
 
@@ -109,8 +112,9 @@ def say_plainly(*sentences: str) -> Sections:
 
 
 def label_term(t: Json) -> str:
-    """``cos 2Ωt × ω_z``."""
-    return f"{numbers.harmonic(str(t['harmonic']))} × {numbers.product(str(t['term']))}"
+    """``cos 2Ωt × ω_z``; ``cos 2Ωt`` of a harmonic without motion."""
+    harmonic, motion = numbers.harmonic(str(t["harmonic"])), numbers.product(str(t["term"]))
+    return harmonic if motion == "1" else f"{harmonic} × {motion}"
 
 
 def tabulate_terms(terms: Sequence[Json]) -> Table:
@@ -458,7 +462,10 @@ def _untestable(d: Json) -> Sections:
     silent = tuple((str(n["effect"]), str(n["why"])) for n in d["not_testable"])
     sizes: dict[str, list[str]] = {}
     for s in d["detectable"]:
-        sizes.setdefault(s["effect"], []).append(str(s["three_sigma"]))
+        name, _, size = str(s["three_sigma"]).partition(" = ")
+        value, _, unit = size.partition(" ")
+        shown = numbers.with_unit(number(float(value), 2), unit)
+        sizes.setdefault(s["effect"], []).append(f"{numbers.parameter(name)} = {shown}")
     found = []
     if silent:
         count = f"{counted(len(silent), 'effect')} of the catalogue cannot be tested on this record"
