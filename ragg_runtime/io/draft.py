@@ -24,6 +24,7 @@ from ragg_runtime.io.instants import are_packed, find_order, find_parts
 from ragg_runtime.io.mapping import UNKNOWN
 from ragg_runtime.io.record import ANGULAR_RATE, DEMODULATED, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.recording import find_spoiled, parse_numbers
+from ragg_runtime.io.roles import Role, find_roles, find_unit
 from ragg_runtime.io.tables import DataColumn, DataTable, is_unit, split_lines
 
 OUTPUTS = ("G_out", "V_", "inline")
@@ -31,8 +32,9 @@ OUTPUTS = ("G_out", "V_", "inline")
 
 _LOOKED_AT = 20_000  # rows of a sample
 _FEW = 5  # different cells that are no numbers, in a column of numbers
-_RANKS = ("certain", "likely", "guess")
 _TIMES = ("time", "line", "week", "second_of_week", "date", "clock")
+
+Roles = Mapping[str, tuple[Role, ...]]
 
 
 @dataclass(frozen=True)
@@ -52,10 +54,11 @@ def draft_mapping(path: Path) -> Draft:
     tables, table = _pick(read_tables(path), path)
     table, odd = _read_numbers(table)
     questions: list[str] = []
-    line = next((n for n in table.names if ROLES["line"].fits(n)), None) if len(tables) == 1 else None
-    time, used = _draft_time(table, odd, questions)
+    roles = find_roles(table.names)
+    line = next((n for n in table.names if _has(roles[n], "line")), None) if len(tables) == 1 else None
+    time, used = _draft_time(table, roles, odd, questions)
     rest = [c for c in table.columns if c.name not in (line, *used)]
-    taken = _take_roles(rest)
+    taken = _take_roles(rest, roles)
     unused = [c for c in rest if c.name not in {c.name for c, _ in taken.values()}]
     texts = [f"{c.name}: no numbers ({_example(c)}), not used" for c in unused if not c.is_number]
     lacking = [n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE) if n not in taken]
@@ -95,7 +98,7 @@ def _pick(tables: Sequence[DataTable], path: Path) -> tuple[list[DataTable], Dat
     tables = [t for t in tables if t.columns]
     if not tables:
         raise UserError("the file holds no table", where=path, expected="vectors of numbers of one length")
-    best = max(tables, key=lambda t: (len({r.name for n in t.names if (r := role_of(n))}), len(t)))
+    best = max(tables, key=lambda t: (len({r[0].name for r in find_roles(t.names).values() if r}), len(t)))
     alike = [t for t in tables if {*t.names} == {*best.names}]
     return alike, replace(alike[0], part=best.part if len(alike) < len(tables) else "")
 
@@ -135,11 +138,15 @@ def _draft_file(table: DataTable, tables: Sequence[DataTable], name: str | None)
 # --- time ----------------------------------------------------------------------------------------------
 
 
+def _has(roles: Sequence[Role], *names: str) -> bool:
+    return any(r.name in names for r in roles)
+
+
 def _draft_time(
-    table: DataTable, odd: Mapping[str, Sequence[str]], questions: list[str]
+    table: DataTable, roles: Roles, odd: Mapping[str, Sequence[str]], questions: list[str]
 ) -> tuple[list[str], tuple[str, ...]]:
     """The lines of [time], and the names of its columns."""
-    if (found := _find_instants(table)) is not None:
+    if (found := _find_instants(table, roles)) is not None:
         names, form, sure = found
         asked = ""
         if form == UNKNOWN:
@@ -149,28 +156,28 @@ def _draft_time(
         column = shown if len(names) == 1 else f"[{shown}]"
         return [f"column = {column}  # {sure}", f'format = "{form}"' + f"  # {asked}" * bool(asked)], names
     numbers = [c for c in table.columns if c.is_number]
-    fits = [c for c in numbers if (r := role_of(c.name)) and r.name in ("time", "second_of_week")]
+    fits = [c for c in numbers if _has(roles[c.name], "time", "second_of_week")]
     if not fits:  # an index without a name, unless it counts the rows
         fits = [c for c in numbers if c.name == table.index and np.any(c.values % 1 != 0)]
     if not fits:
         questions.append("[time] column: which column is time?")
         remark = "no column has a usual name for time"
         return [f'column = "{UNKNOWN}"  # {remark}', f'unit = "{UNKNOWN}"'], ()
-    c = min(fits, key=lambda c: (c.name != "time", not c.unit))
+    c = min(fits, key=lambda c: (c.name != "time", np.mean(np.diff(c.values) > 0) < 0.5, not c.unit))
     unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", questions, "[time]")
     lines = [f'column = "{_quoted(c.name)}"  # {"certain" if c.name == "time" else "likely"}']
     return [*lines, f'unit = "{unit}"' + f"  # {remark}" * bool(remark), *_draft_null(c, odd)], (c.name,)
 
 
-def _find_instants(table: DataTable) -> tuple[tuple[str, ...], str, str] | None:
+def _find_instants(table: DataTable, roles: Roles) -> tuple[tuple[str, ...], str, str] | None:
     """Columns that hold instants as such, their format (``?``: one of two), and how sure that is."""
     if any(c.name == "time" and c.is_number and c.unit and not are_packed(c.values) for c in table.columns):
         return None
-    by_role = {r: c for c in reversed(table.columns) for r in _TIMES[2:] if ROLES[r].fits(c.name)}
+    by_role = {r: c for c in reversed(table.columns) for r in _TIMES[2:] if _has(roles[c.name], r)}
     if "week" in by_role and "second_of_week" in by_role:
         return (by_role["week"].name, by_role["second_of_week"].name), "gps", "likely: GPS week and seconds"
     texts = [c for c in table.columns if not c.is_number or are_packed(c.values)]
-    texts.sort(key=lambda c: not ROLES["time"].fits(c.name))
+    texts.sort(key=lambda c: not _has(roles[c.name], "time"))
     date, clock = by_role.get("date"), by_role.get("clock")
     pair = None
     if date is not None and clock is not None and date is not clock:
@@ -217,15 +224,15 @@ def _example(c: DataColumn) -> str:
 # --- channels ------------------------------------------------------------------------------------------
 
 
-def _take_roles(columns: Sequence[DataColumn]) -> dict[str, tuple[DataColumn, Role]]:
+def _take_roles(columns: Sequence[DataColumn], roles: Roles) -> dict[str, tuple[DataColumn, Role]]:
     """Channel -> its column: the surest name wins, then the order of the file."""
-    candidates = [(c, r) for c in columns if c.is_number and (r := role_of(c.name)) and r.name not in _TIMES]
+    numbers = [c for c in columns if c.is_number]
+    found = [(c, r) for c in numbers for r in roles[c.name][:1] if not _has(roles[c.name], *_TIMES)]
     taken: dict[str, tuple[DataColumn, Role]] = {}
-    for c, role in sorted(candidates, key=lambda x: x[1].rank):
+    for c, role in sorted(found, key=lambda x: x[1].rank):
         taken.setdefault(role.name, (c, role))
-    taken |= _take_by_unit([c for c in columns if c.is_number and role_of(c.name) is None], taken)
-    candidates += taken.values()
-    return {n: taken[n] for n in dict.fromkeys([*SI_UNITS, *(r.name for _, r in candidates)]) if n in taken}
+    taken |= _take_by_unit([c for c in numbers if not roles[c.name]], taken)
+    return {n: taken[n] for n in dict.fromkeys([*SI_UNITS, *taken]) if n in taken}
 
 
 def _take_by_unit(
@@ -241,12 +248,12 @@ def _take_by_unit(
         triads = [t for t in by_stem.values() if set(t) == set("xyz")]
         if len(triads) == 1 and not taken.keys() & {*names}:
             for n in names:
-                found[n] = triads[0][n[-1]], Role(n, "", "guess", why="by its unit and axis")
+                found[n] = triads[0][n[-1]], Role(n, "guess", why="by its unit and axis")
     for name in ("G_out", "pressure"):
         alike = _of_unit(columns, SI_UNITS[name])
         beside = OUTPUTS if name == "G_out" else (name,)
         if len(alike) == 1 and not any(n.startswith(beside) for n in taken):
-            found[name] = alike[0], Role(name, "", "guess", why="the only column with such a unit")
+            found[name] = alike[0], Role(name, "guess", why="the only column with such a unit")
     return found
 
 
@@ -277,9 +284,9 @@ def _find_unit(c: DataColumn, name: str, questions: list[str], where: str) -> tu
     si = SI_UNITS.get(name) or (SI_UNITS.get(stem) if stem in DEMODULATED else None)
     if c.unit and is_unit(c.unit) and (si is None or units(9.8).fits(c.unit, si)):
         return _quoted(c.unit), ""
-    ending = _bare(c.name).rpartition("_")[2]
-    if not c.unit and si is not None and is_unit(ending) and units(9.8).fits(ending, si):
-        return ending, "likely: from the end of its name"
+    named = find_unit(c.name)
+    if not c.unit and named and si is not None and units(9.8).fits(named, si):
+        return named, "likely: from its name"
     said = f"the file has {c.unit!r}, a wrong unit for it" if c.unit else "the file gives none"
     questions.append(f"{where}: unit of {c.name!r} ({said})")
     return UNKNOWN, _quoted(said)
@@ -299,99 +306,3 @@ def _quoted(text: str) -> str:
     """Text inside a TOML string or comment: no quotes, no lines, nothing that cannot be printed."""
     text = text.replace("\\", "\\\\").replace('"', '\\"')
     return "".join(c if c.isprintable() else f"\\u{min(ord(c), 0xFFFF):04x}" for c in text)
-
-
-# --- what columns may be -------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Role:
-    """A channel that a column may be.
-
-    ``pattern`` must match the column's whole name, in small letters, divided by ``_``. ``sure``: ``likely`` or
-    ``guess``. ``scale``: between column and channel, where the name tells it.
-    """
-
-    name: str
-    pattern: str
-    sure: str = "likely"
-    scale: float = 1.0
-    why: str = ""
-
-    def fits(self, column: str) -> bool:
-        words = re.sub(r"([a-z])([A-Z][a-z])", r"\1_\2", column)
-        folded = re.sub(r"[\W_]+", "_", words).strip("_")
-        return column == self.name or re.fullmatch(self.pattern, folded, re.IGNORECASE) is not None
-
-    @property
-    def rank(self) -> int:
-        return _RANKS.index(self.sure)
-
-
-_HALF = "an inline output is usually (Gamma_xx - Gamma_yy)/2; ragg's inline is twice that"
-_AXES = [(axis, n, "pqr"[n - 1]) for n, axis in enumerate("xyz", 1)]
-_DISCS = "1234ABC"
-_PAIRS = ("xx", "xy", "xz", "yy", "yz", "zz")
-_PLAIN = (
-    ("time", r"t|time|(gps|utc|unix|imu|rec)_?(time|sec(onds?)?)|time_?(s|sec|gps|utc|1980|day)|sec(onds?)?|f_?time|fid(ucial)?"),
-    ("time", r"x_?value|(time_?)?stamp|elapsed(_?time)?|zeit|m?jd|julian_?da(y|te)"),
-    ("line", r"line|line_?(no|num|number|id|index)|(flight_?)?line"),
-    ("week", r"(gps_?)?w(ee)?k(_?no|_?number)?"),
-    ("second_of_week", r"(gps_?)?(sow|tow|sec(onds?)?_?(of|in)_?week|week_?sec(onds?)?|seconds_of_gps_week)|gps_?seconds?"),
-    ("date", r"date|y{2,4}m{2}d{2}|utc_?date|gps_?date|datum"),
-    ("clock", r"hhmmss(_?s+)?|utc|clock|time|time_?of_?day|utc_?time|gps_?time|uhrzeit"),
-    ("G_out", r"[guv]_?out|(out(put)?|sum)(_?(volt(age)?|sum))?|ggi(_?(out|sum))?"),
-    ("cross", r"cross(_?raw)?"),
-    ("spin_angle", r"spin_?(angle|phase)|encoder(_?angle)?|disc_?angle"),
-    ("temperature", r"temp(erature)?(_?[a-z0-9]+)?"),
-    ("pressure", r"(air_?|baro_?)?press(ure)?|baro"),
-    ("roll", r"roll"),
-    ("pitch", r"pitch"),
-    ("yaw", r"yaw"),
-)  # fmt: skip
-"""Channel and the usual names of a column of it."""
-
-_ACC, _GYRO = (
-    r"(linear_?)?accel(eration|erometers?)?|acc",
-    r"gyro?(scopes?)?|(ang(ular)?_?)?(rate|vel(ocity)?)",
-)
-_NUMBERED, _PQR = "a number in the place of an axis", "roll, pitch and yaw rate?"
-_ALL = (
-    *(Role(name, pattern) for name, pattern in _PLAIN),
-    *(Role(f"a_{x}", rf"(a|{_ACC}|f|sf|specific_force)_?{x}|{x}_?({_ACC})") for x, _, _ in _AXES),
-    *(Role(f"omega_{x}", rf"(w|omega|{_GYRO})_?{x}|{x}_?({_GYRO})") for x, _, _ in _AXES),
-    *(Role(f"omegadot_{x}", rf"(omega_?dot|alpha|ang(ular)?_?acc(el(eration)?)?)_?{x}") for x, _, _ in _AXES),
-    *(Role(f"B_{x}", rf"(b|mag|field)_?{x}", "guess") for x, _, _ in _AXES),
-    *(Role(f"a_{x}", rf"(a|{_ACC})_?{n}", "guess", why=_NUMBERED) for x, n, _ in _AXES),
-    *(Role(f"omega_{x}", rf"(w|omega|gyro?|rate)_?{n}|{p}", "guess", why=_PQR) for x, n, p in _AXES),
-    *(Role(f"omega_{x}", rf"g_?{x}", "guess", why="a gyroscope?") for x, _, _ in _AXES),
-    *(Role(f"Gamma_{x}", rf"(gamma|gradient|gg)_?({x}|{x[::-1]})") for x in _PAIRS),
-    *(Role(f"Gamma_{x}", rf"[tg]_?({x}|{x[::-1]})", "guess", why="known beforehand?") for x in _PAIRS),
-    Role("inline", r"in_?line(_?raw)?", scale=2.0, why=_HALF),
-    *(Role(f"V_{k}", rf"v_?{k}|volt(age)?_?{k}|acc(el)?_?{k}_?v(olt(age)?)?") for k in range(1, 5)),
-    *(Role(f"inline_{d}", rf"(ggi_?)?in_?line_?{d}(_?raw)?", scale=2.0, why=_HALF) for d in _DISCS),
-    *(Role(f"cross_{d}", rf"(ggi_?)?cross_?{d}(_?raw)?") for d in _DISCS),
-    *(Role(f"inline_{d}", rf"{d}_?uv(_\w+)?", scale=2.0, why=_HALF) for d in "AB"),
-    *(Role(f"cross_{d}", rf"{d}_?ne(_\w+)?") for d in "AB"),
-)
-
-ROLES: Mapping[str, Role] = MappingProxyType({r.name: r for r in reversed(_ALL)})
-"""The first role of every channel, by name."""
-
-
-def role_of(column: str) -> Role | None:
-    """What a column of this name may be, with a unit at its end or without; its own name is certain."""
-    own = next((r for r in _ALL if r.name == column), None)
-    if own is not None and column != "line":
-        return Role(own.name, own.pattern, "certain")
-    parts = re.split(r"[/.]", column.replace("'", ""))
-    inner = ["_".join(parts[k:]) for k in range(len(parts))]
-    for name in dict.fromkeys((column, *inner, *(n.rpartition("_")[0] for n in inner))):
-        if found := [r for r in _ALL if r.fits(name)]:
-            return min(found, key=lambda r: r.rank)
-    return None
-
-
-def _bare(column: str) -> str:
-    """The name of a column without the groups that it is in: ``a_x`` of ``/'Untitled'/'a_x'``; ``a_x_g`` of ``a_x.g``."""
-    return column.rpartition("/")[2].strip("'\"").replace(".", "_")

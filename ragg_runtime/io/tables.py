@@ -119,6 +119,8 @@ class DataTable:
 def read_heading(text: str) -> tuple[str, str]:
     """Name and unit of ``name [unit]``, or of another way in which what should be the unit is one (see above)."""
     text = " ".join(text.split())
+    if text.startswith("/'"):  # LabVIEW: /'group'/'name (unit)'
+        text = re.sub(r"([\[(][^\[\]()]+[\])])'$", r"'\1", text)
     if (alone := _ALONE.fullmatch(text)) and is_unit(alone[1]):
         return "", alone[1]
     match = _HEADING.fullmatch(text)
@@ -129,6 +131,16 @@ def read_heading(text: str) -> tuple[str, str]:
         if is_unit(unit) or match["other"] in SI_UNITS:
             return one_line(match["other"]), unit
     return one_line(text), ""
+
+
+def read_headings(texts: Sequence[str]) -> list[tuple[str, str]]:
+    """Names and units of a header; of ``gyro[0]``, ``gyro[1]``, ``gyro[2]`` the numbers belong to the names."""
+    found = [read_heading(t) for t in texts]
+    numbered = Counter(name for name, unit in found if unit.isdigit())
+    return [
+        (one_line(text.strip()), "") if unit.isdigit() and numbered[name] > 1 else (name, unit)
+        for text, (name, unit) in zip(texts, found, strict=True)
+    ]
 
 
 def read_units(cells: Sequence[str]) -> list[str] | None:

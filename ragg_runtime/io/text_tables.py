@@ -34,6 +34,7 @@ from ragg_runtime.io.tables import (
     DataColumn,
     DataTable,
     read_heading,
+    read_headings,
     read_units,
     require_memory,
     write_cell,
@@ -120,7 +121,7 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
     names = parts[-1]
     if len(parts) > 1 and sum(map(bool, parts[-2])) > 1 and _needs_a_row_above(names):
         names = _join_rows(parts[-2], names)
-    headings = [h if (h := read_heading(n))[0] else (n.strip(), "") for n in names]
+    headings = [h if h[0] else (n.strip(), "") for n, h in zip(names, read_headings(names), strict=True)]
     share = sum(data[first:]) / max(1, len(data) - first)
     return Header(
         names=tuple(n for n, _ in headings),

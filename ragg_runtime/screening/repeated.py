@@ -226,10 +226,13 @@ def _flag(names: Sequence[str], r: _Repeated, flight: Flight) -> Flag:
         edges = np.flatnonzero(np.diff(at) > 1)
         begins, ends = at[np.r_[0, edges + 1]], at[np.r_[edges, len(at) - 1]]
         some = ", ".join(
-            f"{b - a + 1} from {flight.time[a]:.5g} s" for a, b in zip(begins[:3], ends[:3], strict=True)
+            f"{b - a + 1} equal samples from {flight.time[a]:.5g} s"
+            for a, b in zip(begins[:3], ends[:3], strict=True)
         )
         more = f" and {len(begins) - 3} times more" if len(begins) > 3 else ""
-        what = f"{', '.join(names)}: the value is stuck for {some}{more}, unlike noise; {len(at)} samples not used"
+        what = (
+            f"{', '.join(names)}: the value is stuck: {some}{more}, unlike noise; {len(at)} samples not used"
+        )
     return Flag(tuple(names), what, open=lost)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -207,6 +208,49 @@ def test_names_in_another_language_are_recognised_by_unit_and_axis(tmp_path: Pat
         path.read_text().replace("Summe [mV]", "Summe [mV];Strom [V]").replace("7,5\n", "7,5;1\n")
     )
     assert "G_out" not in draft_mapping(path).sure
+
+
+LOGGERS = (
+    (
+        "timestamp,gyro_rad[0],gyro_rad[1],gyro_rad[2],accelerometer_m_s2[0],accelerometer_m_s2[1],accelerometer_m_s2[2],G_out [V]",
+        "w0 w1 w2 a0 a1 a2 G",
+    ),
+    ("TimeUS,GyrX,GyrY,GyrZ,AccX,AccY,AccZ,T,out", "w0 w1 w2 a0 a1 a2 - G"),
+    ("GPS Seconds,Z Accel,-(Y Accel),X Accel,Z Gyro,-(Y Gyro),X Gyro,Vout", "a2 a1 a0 w2 w1 w0 G"),
+    ("SampleTimeFine,Acc_X,Acc_Y,Acc_Z,FreeAcc_X,Gyr_X,Gyr_Y,Gyr_Z,volts (V)", "a0 a1 a2 - w0 w1 w2 G"),
+    (
+        "t,acc_north_mps2,acc_east_mps2,acc_down_mps2,gyr_e_dps,gyr_n_dps,gyr_u_dps,g_out_V",
+        "a0 a1 a2 w0 w1 w2 G",
+    ),
+    ("t,acc_fwd,acc_left,acc_up,Roll Rate,Pitch Rate,Yaw Rate,GGI output", "a0 a1 a2 w0 w1 w2 G"),
+    (
+        "%time,field.angular_velocity.x,field.angular_velocity.y,field.angular_velocity.z,field.angular_velocity_covariance_x,"
+        "field.linear_acceleration.x,field.linear_acceleration.y,field.linear_acceleration.z,G_out",
+        "w0 w1 w2 - a0 a1 a2 G",
+    ),
+    (
+        "/'D'/'Time' [s],/'D'/'Accel X (g)',/'D'/'Accel Y (g)',/'D'/'Accel Z (g)',/'D'/'p',/'D'/'q',/'D'/'r',/'D'/'Output (V)'",
+        "a0 a1 a2 w0 w1 w2 G",
+    ),
+)
+"""Headers of flight controllers, inertial sensors and data loggers, and the channels that the columns after time are."""
+
+
+@pytest.mark.parametrize(("header", "wanted"), LOGGERS, ids=range(len(LOGGERS)))
+def test_names_of_loggers_are_known(tmp_path: Path, header: str, wanted: str) -> None:
+    _, *names = header.split(",")
+    rows = "".join(f"{k / 16}" + f",{k % 7}.5" * len(names) + "\n" for k in range(20))
+    (tmp_path / "x.csv").write_text(f"{header}\n{rows}")
+    d = draft_mapping(tmp_path / "x.csv")
+    made, long = tomllib.loads(d.text), {"a": "a", "w": "omega"}
+    expected = {
+        "G_out" if w == "G" else f"{long[w[0]]}_{'xyz'[int(w[1])]}": name
+        for name, w in zip(names, wanted.split(), strict=True)
+        if w != "-"
+    }
+    assert {*made["columns"]} == {*expected} and made["time"]["column"] != "?", d.text
+    assert all(expected[n].startswith(x["column"].rstrip("'")) for n, x in made["columns"].items()), d.text
+    assert ("-(Y" in header) == ("scale = -1" in d.text)
 
 
 def test_kept_with_the_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

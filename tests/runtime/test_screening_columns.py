@@ -115,7 +115,7 @@ def test_what_stands_still_is_left_out(name: str, x: np.ndarray) -> None:
     left_out = ~found.valid if name == "a_x" else np.isnan(found.outputs["G_out"])
     expected = {*range(1000, 1032), *range(5000, 5006)}
     assert set(np.flatnonzero(left_out)) == expected
-    assert "is stuck for 32 from 62.5 s, 6 from 312.5 s" in found.notes[0]
+    assert "is stuck: 32 equal samples from 62.5 s, 6 equal samples from 312.5 s" in found.notes[0]
 
 
 @pytest.mark.parametrize(
