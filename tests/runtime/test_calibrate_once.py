@@ -81,6 +81,7 @@ def test_a_sheet_of_another_certainty_changes_the_scales_alone(kept: tuple[Any, 
     assert std[0] == pytest.approx(std[1], rel=1e-9)
 
 
+@pytest.mark.usefixtures("no_figures")
 def test_on_another_flight_of_the_same_instrument_it_holds(kept: tuple[Any, ...], tmp_path: Path) -> None:
     model, _, two, _ = kept
     result, report = tmp_path / "f.json", tmp_path / "f.html"

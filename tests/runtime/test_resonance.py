@@ -28,7 +28,6 @@ def hidden(effect: str, f_0: float, Q: float, share: float) -> EffectValues:
 @pytest.mark.parametrize(
     ("effect", "f_0", "Q", "share"),
     [
-        ("mount-resonance", 3.0, 15.0, 1.0),
         ("mount-resonance", 1.3, 4.0, 1.0),
         ("accelerometer-resonance", 3.0, 15.0, 1e-5),
         ("accelerometer-resonance", 1.5, 6.0, 3e-7),

@@ -19,6 +19,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.reference.scenario import Scenario, scenario
+from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
 G0 = 9.8
@@ -26,7 +27,7 @@ G0 = 9.8
 
 @pytest.fixture(scope="module")
 def flown() -> tuple[Scenario, Flight]:
-    s = scenario(61, duration=600.0)
+    s = scenario(61, duration=600.0, rate=RATE)
     return s, s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
 
 
@@ -47,12 +48,12 @@ def test_the_division_leaves_no_trace(
     """The same noise, calibration and evidence, from one segment and from many, to rounding; with a gap."""
     s, flight = flown
     valid = np.ones(len(flight.time), dtype=bool)
-    valid[4000:4130] = False
+    valid[2000:2065] = False
     flight = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
     o = observation.observe(flight, s.sheet)
     noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
     whole = fitted.fit(model.packaged(), s.sheet, [o], noise)
-    monkeypatch.setattr(whitening, "ROWS", 1700)
+    monkeypatch.setattr(whitening, "ROWS", 850)
     monkeypatch.setattr(whitening, "EXCERPT", 1000)
     assert len(whitening.flight_segments(o)) > 5
     parts = fitted.fit(model.packaged(), s.sheet, [o], noise)
@@ -104,7 +105,7 @@ def test_an_excerpt_tells_of_its_samples_what_the_whole_pass_tells(
     s, flight = flown
     o = observation.observe(flight, s.sheet)
     noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
-    monkeypatch.setattr(whitening, "ROWS", 1700)
+    monkeypatch.setattr(whitening, "ROWS", 850)
     monkeypatch.setattr(whitening, "EXCERPT", 3)
     some = whitening.take_excerpt(o)
     heard = whitening.heard(some)
@@ -128,10 +129,10 @@ def test_a_long_flight_with_gaps_everywhere_has_no_means(
 ) -> None:
     """One output sample of three, or a third of the flight: the density is that of the segments, or of the means that are left."""
     s, flight = flown
-    monkeypatch.setattr(whitening, "ROWS", 1700)
-    monkeypatch.setattr(noise_estimate, "MEANS", 2400)
+    monkeypatch.setattr(whitening, "ROWS", 850)
+    monkeypatch.setattr(noise_estimate, "MEANS", 1200)
     every, third = np.zeros((2, len(flight.time)), dtype=bool)
-    every[::3] = third[3000:6200] = True
+    every[::3] = third[1500:3100] = True
     for valid, there in ((every, False), (third, True), (np.ones_like(third), True)):
         x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
         o = observation.observe(x, s.sheet)
@@ -150,7 +151,7 @@ def test_contenders_of_a_long_flight_are_told_apart_on_an_excerpt(
 ) -> None:
     """The right effect, and only those fitted to everything that the excerpt left in the contest."""
     s, flight = flown
-    monkeypatch.setattr(whitening, "ROWS", 1700)
+    monkeypatch.setattr(whitening, "ROWS", 850)
     monkeypatch.setattr(whitening, "EXCERPT", 3)
     fitted_to: list[int] = []
 
@@ -170,11 +171,11 @@ def test_noise_slower_than_a_segment_is_seen(monkeypatch: pytest.MonkeyPatch) ->
     """1/f noise of a flight of sixteen segments: its density came out three to twelve times too small below one over their
     length, and three of five effect-free flights had an effect or something left.
     """
-    s = scenario(73, duration=1700.0, red_corner=0.3)
+    s = scenario(73, duration=1700.0, rate=RATE, red_corner=0.3)
     flight = s.simulate().flight()
-    monkeypatch.setattr(whitening, "ROWS", 1700)
+    monkeypatch.setattr(whitening, "ROWS", 850)
     (x,) = fitted.fit(model.packaged(), s.sheet, [observation.observe(flight, s.sheet)]).prepared
-    f = np.geomspace(4.0 / 1700.0, 6.0, 40)
+    f = np.geomspace(4.0 / 1700.0, 3.0, 40)
     assert s.noise is not None
     slope = s.instrument.accelerometers["k_VI"] * s.instrument.accelerometers["K1"]
     true = s.noise.psd(f) * np.sum(slope**2)

@@ -196,20 +196,14 @@ def _crept(f: Array, t: Array, constant: float) -> Array:
 CASES: dict[str, tuple[Callable[[dict[str, Array]], Array], int, str]] = {
     "fourth power": (lambda w: 1e-7 * w["f_i"] ** 4, 0, "f_i*f_i*f_i*f_i"),
     "fourth power, A3": (lambda w: 3e-7 * w["f_i"] ** 4, 2, "f_o*f_o*f_o*f_o"),
-    "modulus": (lambda w: 1e-8 * np.abs(w["f_i"]), 1, "abs(f_i)"),
-    "temperature squared": (lambda w: 3e-7 * w["f_i"] * w["T"] ** 2, 0, "f_i*temperature*temperature"),
     "creep of 20 s": (lambda w: 1e-7 * _crept(w["f_p"] - w["f_p"][0], w["t"], 20.0), 0, "slow(a_z, 20 s)"),
 }
-
-LONG = {"temperature squared": (75, 600.0)}
-"""Seed and seconds of record where those of the others do not tell a case: the temperature has hardly turned by then."""
 
 
 @pytest.mark.parametrize("case", sorted(CASES.keys() - {"fourth power"}))
 def test_what_a_transducer_may_do_beyond_the_catalogue_is_unexplained_and_named(case: str) -> None:
     change, j, product = CASES[case]
-    seed, duration = LONG.get(case, (72, 400.0))
-    s = scenario(seed, duration=duration, rate=RATE)
+    s = scenario(72, duration=400.0, rate=RATE)
     d = diagnosed(s, _transducer(s.simulate({}), s, change, j))
     assert (d.verdict, d.found) == ("unexplained", ())
     term = max((t for x in d.remainder.searches for t in x.terms), key=lambda t: abs(t.z)).term

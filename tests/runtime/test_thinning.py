@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import fitted, observation, thinning
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
-from ragg_runtime.identification import diagnose as diagnosis
-from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.identification.diagnose import diagnose
+from ragg_runtime.identification.selection import field_of
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model
@@ -92,35 +92,24 @@ def test_the_residual_is_that_of_the_whole_record_thinned(
     np.testing.assert_allclose(np.concatenate(parts), found, atol=1e-10)
 
 
-def diagnosed(s: Scenario, flight: Flight, monkeypatch: pytest.MonkeyPatch, thinned: bool) -> Diagnosis:
-    with monkeypatch.context() as m:
-        if not thinned:
-            m.setattr(diagnosis, "thinned", lambda model, instrument, observations: observations)
-        return diagnosis.diagnose(model.packaged(), s.sheet, [flight])
-
-
 def test_the_diagnosis_is_that_of_the_whole_record(
-    flown: tuple[Scenario, Flight], monkeypatch: pytest.MonkeyPatch
+    flown: tuple[Scenario, Flight], whole: Observation
 ) -> None:
     s, flight = flown
-    a, b = (diagnosed(s, flight, monkeypatch, some) for some in (False, True))
-    assert len(b.fitted.observations[0].record.time) * EVERY < len(flight.time)
-    assert "thinned to 8.333 Hz" in dict(panels.describe_record(b.fitted))["samples"]
-    assert a.verdict == b.verdict == "missing-effect" and a.found == b.found == ("thermal-scale",)
-    assert b.noise_floor == pytest.approx(a.noise_floor, rel=5e-3)
-    for x, y in ((a.before, b.before), (a.after, b.after)):
-        assert y.rms_V == pytest.approx(x.rms_V, rel=1e-3)
-        assert y.rms_Eo == pytest.approx(x.rms_Eo, rel=1e-3)
-        assert y.inline_Eo == pytest.approx(x.inline_Eo, rel=0.03)
-    x, y = a.ranking[0], b.ranking[0]
-    assert y.chi2 == pytest.approx(x.chi2, rel=0.1)  # the density of the slow noise is known to some per cent
-    for u, v in zip(x.combinations, y.combinations, strict=True):
-        assert v.std == pytest.approx(u.std, rel=0.1)
-        assert abs(v.value - u.value) < 0.3 * u.std
-    truth = {"D34 dK1_dT": 2e-8}
-    for v in y.combinations:
-        if v.name in truth:
-            assert abs(abs(v.value) - truth[v.name]) < 4 * v.std
+    d = diagnose(model.packaged(), s.sheet, [flight])
+    assert len(d.fitted.observations[0].record.time) * EVERY < len(flight.time)
+    assert "thinned to 8.333 Hz" in dict(panels.describe_record(d.fitted))["samples"]
+    assert (d.verdict, d.found) == ("missing-effect", ("thermal-scale",))
+    (v,) = (q for q in d.ranking[0].combinations if q.name == "D34 dK1_dT")
+    assert abs(abs(v.value) - 2e-8) < 4 * v.std
+    f = fitted.fit(model.packaged(), s.sheet, [whole])
+    (before,) = f.score([np.zeros(f.size)])
+    assert d.noise_floor == pytest.approx(fitted.noise_floor(f), rel=5e-3)
+    assert d.before.rms_V == pytest.approx(before.whole.rms_V, rel=1e-3)
+    assert d.before.rms_Eo == pytest.approx(before.whole.rms_Eo, rel=1e-3)
+    assert d.before.inline_Eo == pytest.approx(before.whole.inline_Eo, rel=0.03)
+    chi2 = field_of(f, ["thermal-scale"]).tests()["thermal-scale"].chi2
+    assert d.ranking[0].chi2 == pytest.approx(chi2, rel=0.1)  # the slow noise is known to some per cent
 
 
 def test_what_thinning_takes_is_counted_as_noise(flown: tuple[Scenario, Flight], thin: Observation) -> None:

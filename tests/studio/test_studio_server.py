@@ -14,6 +14,7 @@ import pytest
 from serving import Served, brief, compared, new, served, settled
 
 from ragg_runtime import api
+from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.model.directory import load_model_dir
 
 
@@ -256,50 +257,49 @@ def test_a_stretch_is_left_out_and_taken_back(client: httpx.Client) -> None:
     assert settled(client)["banner"]["errors"]["calibrated"]["rms_Eo"] == before
 
 
-def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(tmp_path: Path) -> None:
-    model = tmp_path / "model"
-    new(model)
-    for name, start in (("a", 0), ("b", 4000)):
-        brief(tmp_path / f"{name}.parquet", start)
-    with served(model, tmp_path / "a.parquet", tmp_path / "b.parquet") as s, s.client() as c:
-        both = compared(c)
-        for what in ("fan:low", "fan:high"):
-            assert c.get("/api/series", params={"what": what, "points": 100}).status_code == 200
-        assert c.post("/api/do/validate", json={"flight": 0}).status_code == 202
-        state = compared(c)
-        assert [(f["name"], f["kept"]) for f in state["flights"]] == [("b", False), ("a", True)]
-        assert state["banner"]["errors"] != both["banner"]["errors"]
-        assert any(line.endswith("a.parquet --frozen") for line in state["commands"])
-        assert c.post("/api/do/validate", json={"flight": 0}).status_code == 400  # one is to be fitted
-        row = next(r for r in state["sheet"]["rows"] if r["name"] == "K1")
-        change = {"value": row["values"], "unit": row["unit"], "sigma": None, "fixed": True}
-        assert c.post("/api/do/edit", json={"values": {"K1": change}}).status_code == 202
-        state = settled(c, diagnosed=False)
-        assert "The calibration on b " in state["validation"][0]["sentences"][0]
-        residual = c.get("/api/series", params={"what": "residual", "flight": 1, "points": 20000}).content
-        assert struct.unpack_from("<4sI", residual)[1] == 1920
-    instrument = load_model_dir(model).instrument
+def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(
+    client: httpx.Client, folder: Path
+) -> None:
+    demo, second = folder / "demo-flight.parquet", folder / "b.parquet"
+    brief(second, 4000)
+    assert client.post("/api/do/open", json={"flights": [str(demo), str(second)]}).status_code == 202
+    both = compared(client)
+    for what in ("fan:low", "fan:high"):
+        assert client.get("/api/series", params={"what": what, "points": 100}).status_code == 200
+    assert client.post("/api/do/validate", json={"flight": 0}).status_code == 202
+    state = compared(client)
+    assert [(f["name"], f["kept"]) for f in state["flights"]] == [("b", False), ("demo-flight", True)]
+    assert state["banner"]["errors"] != both["banner"]["errors"]
+    assert any(line.endswith("demo-flight.parquet --frozen") for line in state["commands"])
+    assert client.post("/api/do/validate", json={"flight": 0}).status_code == 400  # one is to be fitted
+    row = next(r for r in state["sheet"]["rows"] if r["name"] == "K1")
+    change = {"value": row["values"], "unit": row["unit"], "sigma": None, "fixed": True}
+    assert client.post("/api/do/edit", json={"values": {"K1": change}}).status_code == 202
+    state = compared(client)
+    assert "The calibration on b " in state["validation"][0]["sentences"][0]
+    residual = client.get("/api/series", params={"what": "residual", "flight": 1, "points": 20000}).content
+    assert struct.unpack_from("<4sI", residual)[1] == 1920
+    instrument = load_model_dir(folder / "model").instrument
     assert instrument.fixed == {"K1"}
-    m = api.load(model)
-    fitted = api.compare(m, api.read_flights(m, [tmp_path / "a.parquet"])).fitted
-    assert "K1" not in {q.name for q in fitted.calibration.columns}
+    m = api.load(folder / "model")
+    assert "K1" not in {q.name for q, _ in list_base_columns(m.model, m.instrument)}
+    assert client.post("/api/do/undo", json={}).status_code == 202
+    compared(client)
+    assert client.post("/api/do/open", json={"flights": [str(demo)]}).status_code == 202
+    assert settled(client)["banner"]["verdict"] == "missing-effect"
 
 
-def test_a_directory_that_several_change_loses_nothing(tmp_path: Path) -> None:
+def test_a_directory_that_several_change_loses_nothing(
+    server: Served, client: httpx.Client, folder: Path
+) -> None:
     """Work that is cancelled, a shell beside two tabs, and in the end a server that is killed at work."""
-    model, flight = tmp_path / "model", tmp_path / "flight.parquet"
-    brief(flight)
-    new(model)
+    model = folder / "model"
 
     def effects() -> list[str]:
         return [e.id for e in load_model_dir(model).instrument.effects]
 
-    with (
-        served(model, flight) as s,
-        s.client() as one,
-        httpx.Client(base_url=s.origin, cookies=one.cookies, headers=one.headers, timeout=60) as two,
-    ):
-        settled(one)
+    one = client
+    with httpx.Client(base_url=server.origin, cookies=one.cookies, headers=one.headers, timeout=60) as two:
         one.post("/api/do/add", json={"effects": ["lag"]})
         one.post("/api/do/cancel", json={})
         state = settled(one)
@@ -333,9 +333,9 @@ def test_a_directory_that_several_change_loses_nothing(tmp_path: Path) -> None:
             for line in events.iter_lines():
                 if "deriving" in line:
                     break
-        s.process.kill()
-        s.process.wait(10)
+        server.process.kill()
+        server.process.wait(10)
     added = effects() != there
     assert effects() == ([*there, "thermal-scale"] if added else there)
     assert len(load_model_dir(model).history) == steps + added
-    assert [p.name for p in tmp_path.iterdir() if p.name.startswith(".")] == []
+    assert [p.name for p in folder.iterdir() if p.name.startswith(".")] == []
