@@ -19,8 +19,8 @@ from ragg_runtime.report import plots
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text("utf-8")
-SAMPLES = 4800
-"""Five minutes of the shipped flight are enough for all that README shows."""
+SAMPLES = 2880
+"""Three minutes of the shipped flight are enough for all that README shows."""
 
 
 def blocks(heading: str) -> list[str]:

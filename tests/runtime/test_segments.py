@@ -27,7 +27,7 @@ G0 = 9.8
 
 @pytest.fixture(scope="module")
 def flown() -> tuple[Scenario, Flight]:
-    s = scenario(61, duration=600.0, rate=RATE)
+    s = scenario(61, duration=600.0)
     return s, s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
 
 
@@ -48,12 +48,12 @@ def test_the_division_leaves_no_trace(
     """The same noise, calibration and evidence, from one segment and from many, to rounding; with a gap."""
     s, flight = flown
     valid = np.ones(len(flight.time), dtype=bool)
-    valid[2000:2065] = False
+    valid[4000:4130] = False
     flight = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
     o = observation.observe(flight, s.sheet)
     noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
     whole = fitted.fit(model.packaged(), s.sheet, [o], noise)
-    monkeypatch.setattr(whitening, "ROWS", 850)
+    monkeypatch.setattr(whitening, "ROWS", 1700)
     monkeypatch.setattr(whitening, "EXCERPT", 1000)
     assert len(whitening.flight_segments(o)) > 5
     parts = fitted.fit(model.packaged(), s.sheet, [o], noise)
@@ -105,7 +105,7 @@ def test_an_excerpt_tells_of_its_samples_what_the_whole_pass_tells(
     s, flight = flown
     o = observation.observe(flight, s.sheet)
     noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
-    monkeypatch.setattr(whitening, "ROWS", 850)
+    monkeypatch.setattr(whitening, "ROWS", 1700)
     monkeypatch.setattr(whitening, "EXCERPT", 3)
     some = whitening.take_excerpt(o)
     heard = whitening.heard(some)
@@ -129,10 +129,10 @@ def test_a_long_flight_with_gaps_everywhere_has_no_means(
 ) -> None:
     """One output sample of three, or a third of the flight: the density is that of the segments, or of the means that are left."""
     s, flight = flown
-    monkeypatch.setattr(whitening, "ROWS", 850)
-    monkeypatch.setattr(noise_estimate, "MEANS", 1200)
+    monkeypatch.setattr(whitening, "ROWS", 1700)
+    monkeypatch.setattr(noise_estimate, "MEANS", 2400)
     every, third = np.zeros((2, len(flight.time)), dtype=bool)
-    every[::3] = third[1500:3100] = True
+    every[::3] = third[3000:6200] = True
     for valid, there in ((every, False), (third, True), (np.ones_like(third), True)):
         x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
         o = observation.observe(x, s.sheet)
@@ -151,7 +151,7 @@ def test_contenders_of_a_long_flight_are_told_apart_on_an_excerpt(
 ) -> None:
     """The right effect, and only those fitted to everything that the excerpt left in the contest."""
     s, flight = flown
-    monkeypatch.setattr(whitening, "ROWS", 850)
+    monkeypatch.setattr(whitening, "ROWS", 1700)
     monkeypatch.setattr(whitening, "EXCERPT", 3)
     fitted_to: list[int] = []
 
