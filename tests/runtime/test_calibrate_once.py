@@ -132,9 +132,9 @@ def test_chi_square_is_one_a_direction_if_nothing_changed() -> None:
     """Over several pairs of flights of unchanged instruments the statistic has its mean."""
     total, directions, model = 0.0, 0, load.packaged()
     for seed in (1, 2):
-        s = scenario(seed, duration=300.0)
+        s = scenario(seed, duration=300.0, rate=RATE)
         saved = make_saved(calibrate(model, s.sheet, [s.simulate({}).flight()]), [], "now")
-        t = scenario(seed + 50, duration=300.0)
+        t = scenario(seed + 50, duration=300.0, rate=RATE)
         x = dataclasses.replace(s, motion=t.motion, seed=t.seed).simulate({}).flight()
         h = frozen.compare_frozen(model, s.sheet, [x], saved)
         total, directions = total + h.change.chi2, directions + len(h.change.z)

@@ -25,6 +25,7 @@ from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.simulate import simulated
+from tests.rate import RATE
 
 LAG = {"lag": {"tau": [2e-9, 0, 0, 0]}}
 PAIRS = [("lag", "time-offset"), ("lag", "arm-stretch")]
@@ -79,7 +80,7 @@ def flown(
 @pytest.fixture(scope="module")
 def weak() -> tuple[Scenario, Fitted, Field]:
     """A weak lag, which its alternatives imitate."""
-    s = scenario(52, duration=300.0)
+    s = scenario(52, duration=300.0, rate=RATE)
     f = fitted(s, s.simulate(LAG).flight())
     return s, f, field_of(f, selection.testable_effects(f))
 
@@ -113,7 +114,7 @@ def test_what_the_flight_does_not_determine_is_not_promised(weak: tuple[Scenario
         [("a_z", 0.5, 0.49, 0.0)], 600.0
     )
     assert p.then < 6.0
-    s = scenario(53, duration=300.0)
+    s = scenario(53, duration=300.0, rate=RATE)
     g = fitted(s, s.simulate({"cubic-input": {"K_iii": [4e-8, 0, 0, 0]}}).flight())
     # K_iii of one accelerometer and K_ooo of its neighbour weigh the same force: no motion separates them
     for q in next_motion.proposals(
@@ -151,8 +152,8 @@ def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None
 def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     """Through the commands, and in half the time that an even multisine of the same size takes."""
     m = api.new(tmp_path / "m")
-    write_flight(simulated(m.instrument, [], seed=3, duration=150.0), tmp_path / "x.csv")
-    names = ("m", "x.csv", "motion.csv", "y.csv", "sheet.md", "plan.json", "c.json")
+    write_flight(simulated(m.instrument, [], seed=3, duration=150.0, rate=RATE), tmp_path / "x.parquet")
+    names = ("m", "x.parquet", "motion.csv", "y.parquet", "sheet.md", "plan.json", "c.json")
     files = {n: str(tmp_path / n) for n in names}
     words = [
         "--for",
@@ -164,17 +165,17 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
         "--json",
         files["plan.json"],
     ]
-    main(["next-motion", files["m"], files["x.csv"], "-o", files["motion.csv"], *words])
+    main(["next-motion", files["m"], files["x.parquet"], "-o", files["motion.csv"], *words])
     plan = json.loads((tmp_path / "plan.json").read_text())
     assert plan["channels"]["planned"]["inline_Eo"] < 0.5 * plan["channels"]["now"]["inline_Eo"]
     assert f"| {plan['sinusoids'][0]['axis']} |" in (tmp_path / "sheet.md").read_text()
-    write_flight(simulated(m.instrument, [], seed=3, motion=files["motion.csv"]), tmp_path / "y.csv")
+    write_flight(simulated(m.instrument, [], seed=3, motion=files["motion.csv"]), tmp_path / "y.parquet")
     main(
         [
             "calibrate",
             files["m"],
-            files["x.csv"],
-            files["y.csv"],
+            files["x.parquet"],
+            files["y.parquet"],
             "--plan",
             files["plan.json"],
             "--json",
@@ -186,7 +187,7 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     assert np.allclose(ratios, 1.0, atol=0.05)
     assert all(q["reached"] for q in certificate)
     assert min(q["std_planned"] / q["std_before"] for q in certificate) < 0.7
-    f = fit(m.model, m.instrument, observations_of(api.read_flights(m, [files["x.csv"]]), m.instrument))
+    f = fit(m.model, m.instrument, observations_of(api.read_flights(m, [files["x.parquet"]]), m.instrument))
     made = motion_design.design_calibration(f, next_motion.LIMITS, duration=600.0, band=(0.0, 3.2))
     known = motion_design.Knowledge.of(f)
     tones = motion_design.tones_of(0.25, next_motion.LIMITS, (0.0, 3.2))

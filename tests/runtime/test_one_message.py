@@ -1,4 +1,4 @@
-"""What the system refuses, and what names hold, ends in one message; names that steer are written out."""
+"""What the system refuses, and what files hold, ends in one message."""
 
 from __future__ import annotations
 
@@ -14,8 +14,6 @@ from ragg_runtime import api
 from ragg_runtime.cli.main import main
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="such names and streams")
-FORGED = "f\nverdict: adequate\n\x1b2J\tx"
-WRITTEN_OUT = r"f\nverdict: adequate\n\x1b2J\tx"
 
 
 def run(*words: str | Path, shell: str = "", cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
@@ -39,14 +37,12 @@ def model(tmp_path: Path) -> Path:
     return api.new(tmp_path / "model").directory.path
 
 
-def test_streams_that_are_closed_or_full(model: Path) -> None:
-    before = {p: p.read_bytes() for p in model.iterdir() if p.is_file()}
-    for shell, status in (("2>&-", 0), ("0<&- 1>&- 2>&-", 2), ("1>/dev/full", 2)):
+def test_streams_that_are_closed(model: Path) -> None:
+    """Where stdout is full, or a model would change: test_outputs.py."""
+    for shell, status in (("2>&-", 0), ("0<&- 1>&- 2>&-", 2)):
         done = run("history", model, shell=shell)
         assert done.returncode == status, (shell, done.stderr)
         assert "Traceback" not in done.stderr
-    assert run("add", model, "lag", shell="0<&- 1>&- 2>&-").returncode == 2  # nobody would hear of it
-    assert {p: p.read_bytes() for p in model.iterdir() if p.is_file()} == before
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from ragg_runtime.model.record import record
 from ragg_runtime.model.resonance import neutral_values, with_responses
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.scenario import scenario
+from tests.rate import RATE
 
 
 def hidden(effect: str, f_0: float, Q: float, share: float) -> EffectValues:
@@ -54,7 +55,7 @@ def test_frequency_and_q_are_fitted_down_to_noise(effect: str, f_0: float, Q: fl
 
 
 def test_a_mount_that_resonates_is_named() -> None:
-    s = scenario(5, duration=150.0)
+    s = scenario(5, duration=150.0, rate=RATE)
     d = diagnosed(s, s.simulate(hidden("mount-resonance", 3.0, 15.0, 1.0)).flight())
     assert d.found == ("mount-resonance",)
 

@@ -107,12 +107,12 @@ def settled(client: httpx.Client, *, diagnosed: bool = True) -> dict[str, Any]:
     raise AssertionError("the server does not come to an end")
 
 
-def compared(client: httpx.Client) -> dict[str, Any]:
+def compared(client: httpx.Client, what: str = "banner") -> dict[str, Any]:
     """The state once the flights are compared; the tests of the effects, which take most of the time, are cancelled."""
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end:
         state: dict[str, Any] = client.get("/api/state").json()
-        if state["banner"] is not None or not state["status"]["job"]:
+        if state[what] or not state["status"]["job"]:
             client.post("/api/do/cancel", json={})
             return settled(client, diagnosed=False)
         time.sleep(0.1)

@@ -275,7 +275,7 @@ def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(
     row = next(r for r in state["sheet"]["rows"] if r["name"] == "K1")
     change = {"value": row["values"], "unit": row["unit"], "sigma": None, "fixed": True}
     assert client.post("/api/do/edit", json={"values": {"K1": change}}).status_code == 202
-    state = compared(client)
+    state = compared(client, "validation")
     assert "The calibration on b " in state["validation"][0]["sentences"][0]
     residual = client.get("/api/series", params={"what": "residual", "flight": 1, "points": 20000}).content
     assert struct.unpack_from("<4sI", residual)[1] == 1920
