@@ -224,7 +224,7 @@ def test_a_bent_converter_of_the_output_is_its_curve() -> None:
 
 def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
     """As a user would: the line into model.toml, derive, calibrate."""
-    s = scenario(72, duration=600.0, rate=RATE)
+    s = scenario(72, duration=600.0)
     flight = _transducer(s.simulate({}), s, CASES["fourth power"][0], 0)
     d = diagnosed(s, flight)
     line = d.expression()
