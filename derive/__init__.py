@@ -4,6 +4,6 @@
 
 import os
 
-# SymPy remembers a thousand results unless told otherwise before it is imported; a derivation asks for many times as many
+# SymPy caches a thousand results unless this is set before it is imported; a derivation needs many times as many
 # again, and takes a quarter less time when they are remembered.
 os.environ.setdefault("SYMPY_CACHE_SIZE", "200000")

@@ -61,7 +61,7 @@ def accelerometer(
     """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape.
 
     Of ``candidates`` among them only the first order in their parameters is kept where these are zero. From the end of
-    the stage ``sensing`` on, everything stands by the axes of the disc at rest.
+    the stage ``sensing`` on, everything is resolved along the axes of the disc at rest.
     """
     tape = Tape() if tape is None else tape
     let = tape.let
@@ -102,7 +102,7 @@ def _fitted(e: Effect) -> frozenset[sp.Symbol]:
 
 
 def _one_by_one(hooked: Hooked, c: Context) -> Iterator[tuple[Effect, Values]]:
-    """Effect after effect; the context knows whose hook is called."""
+    """Apply one effect after another; the context holds whose hook is called."""
     for e, p in hooked:
         c.enter(_fitted(e))
         yield e, p

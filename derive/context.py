@@ -39,8 +39,8 @@ class Context:
 
     ``motion``, ``geometry``, ``force`` and ``sensed`` are those of the stages already passed; a hook of
     the stage ``instrument`` sees the force of the unchanged instrument. ``spin`` is that of the true disc
-    angle, ``case`` the motion of what stands on the disc, ``standing`` the axes of a disc at rest that is not level, from
-    before the stage ``sensing`` on, ``turn_of_triad`` how its accelerometers stand (``None``: as the paper's). ``small``
+    angle, ``case`` the motion of what is mounted on the disc, ``standing`` the axes of a disc at rest that is not level, from
+    before the stage ``sensing`` on, ``turn_of_triad`` how its accelerometers are oriented (``None``: as the paper's). ``small``
     are parameters at zero of which only the first order counts, ``about`` what of a time derivative does.
     """
 
@@ -71,7 +71,7 @@ class Context:
         self.about = About(self.small - own, 0) if candidate else About(self.small)
 
     def in_disc_frame(self, v: sp.Matrix) -> sp.Matrix:
-        """A vector (3) or tensor (3 x 3) of the measurement frame by the axes in which motion and geometry stand.
+        """A vector (3) or tensor (3 x 3) of the measurement frame along the axes in which motion and geometry are resolved.
 
         These are those of the disc at rest, z along its axis; of a disc as the paper's they are the same.
         """

@@ -45,12 +45,12 @@ class EffectParameter:
     fitted
         False for what is set (or scanned), not calibrated by least squares.
     physical
-        The one value, beside the neutral one, that nature knows; it holds where no value is given (``None``: any).
+        The only physically possible value besides the neutral one, used where no value is given (``None``: any).
     like
-        Parameter of the accelerometers (``K1`` ...) that tells of what grade the sensors are: where a sheet gives it a sigma
+        Parameter of the accelerometers (``K1`` ...) that shows the grade of the sensors: where a sheet gives it a sigma
         larger than is plausible of a navigation instrument, what is plausible here is as many times larger.
     late
-        Quantities (``a``, ``omega``, ``omegadot``, or a component, ``a_x``) that stand in the record by its value, s, later
+        Quantities (``a``, ``omega``, ``omegadot``, or a component, ``a_x``) that are recorded later by its value, s,
         than they were true: a fit
         takes them from there, so that ``sensing`` has to describe only what is left of it.
     growing
@@ -114,7 +114,7 @@ class Effect:
     kind
         ``deterministic``; ``step`` (starts at an unknown instant, parameter ``t_step``); ``random`` (the
         parameter is the size of a random process; the hook gives the sensitivity to it); ``output``
-        (acts on the recorded output channel; no hook: its file says how it is recognised in the values).
+        (acts on the recorded output channel; no hook: its file defines how it is recognised in the values).
     sensing
         (motion, p, c) -> motion at the disc centre from the recorded one.
     disc_angle
@@ -133,7 +133,7 @@ class Effect:
         Parameter of the accelerometers of which it is what all have in common: the sheet's sigma holds each of them.
     told_from
         Parameters of the accelerometers that would do the same if the sheet was wrong about them: it is offered where the
-        record tells it from them, whatever the sheet says.
+        record separates it from them, whatever the prior.
     turning
         Whether it is one only where the disc turns: of one that stands still it is a constant that something else is, too.
     switches

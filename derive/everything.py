@@ -35,7 +35,7 @@ def difference(root: Path) -> str:
 
 
 def committed_with(root: Path) -> str:
-    """The version of SymPy that the code below ``root`` was derived with; that of this machine if none is told."""
+    """The version of SymPy that the code below ``root`` was derived with; that of this machine if none is recorded."""
     place = root / GENERATED / MANIFEST
     try:
         # a pipe would be waited for
@@ -46,7 +46,7 @@ def committed_with(root: Path) -> str:
 
 
 def about_versions(root: Path) -> str | None:
-    """What to know where SymPy is another than the one that the code below ``root`` was derived with."""
+    """A warning where SymPy is not the version that the code below ``root`` was derived with."""
     here, there = str(sympy.__version__), committed_with(root)
     if here == there:
         return None

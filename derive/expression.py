@@ -47,7 +47,7 @@ HIGHEST = 24
 _BITS = 512  # of a number that powers and products of numbers may yield: 1e154
 _LARGEST = 1e30
 _WORD = re.compile(r"(?<![\w.])[A-Za-z]\w*", re.ASCII)
-# Words of the grammar, which stand for themselves.
+# Words of the grammar.
 _TAKEN = frozenset({"time", "cos_phi", "sin_phi", *FORCES, *FUNCTIONS, *(c.name for c in MOTION), *RATES})
 
 
@@ -63,7 +63,7 @@ def from_expression(
     Parameters
     ----------
     stage
-        ``transducer``: ``add`` is specific force, in m/s^2 once names stand for SI values.
+        ``transducer``: ``add`` is specific force, in m/s^2 with names in SI.
     add
         Names: f_i, f_o, f_p (force along input, output, pendulous axis), the motion channels, their time
         derivatives (``d_a_x``, ``d2_a_x``), ``time``, ``cos_phi``, ``sin_phi``, any recorded channel, and the
@@ -196,7 +196,7 @@ def _tree(text: str, words: Collection[str]) -> ast.Expression:
 
 
 def _translate(node: ast.expr, name: Any, depth: int = 0, degree: int = 1) -> sp.Expr:
-    """The tree in SymPy; ``degree`` is the product of the exponents that ``node`` stands under."""
+    """The tree in SymPy; ``degree`` is the product of the exponents applied to ``node``."""
     if depth > DEEPEST:
         raise ExpressionError("nested too deeply")
 

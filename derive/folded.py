@@ -1,13 +1,13 @@
 """G_out folded, for evaluation: a polynomial in the twelve motion numbers as the turning disc sees them.
 
-Seen from the disc, an accelerometer stands still: with a and M resolved along the radial, the tangential and
+In the frame of the disc an accelerometer is at rest: with a and M resolved along the radial, the tangential and
 the axial direction, its output holds no disc angle at all (this is verified, not assumed). The four differ
 from the first by quarter turns, which only swap and change the signs of the numbers. So G_out is one
 polynomial in twelve numbers whose coefficients are sums over the accelerometers, and everything that the
 instrument's parameters contribute is folded into them beforehand.
 
 That holds for other places than quarter turns and for any order as well: an accelerometer's coefficients in the
-disc's own directions then come from a program that knows its place.
+disc's own directions then come from a program for its position.
 """
 
 from __future__ import annotations

@@ -252,7 +252,7 @@ def _operations(expressions: Iterable[sp.Expr]) -> int:
 
 
 def manifest_of_model(m: Harmonic | ChainProgram | Folded, *, counted: bool) -> Mapping[str, object]:
-    """What a user of the generated code has to know: inputs, parameters, outputs; ``counted``: its cost, a tenth of a derivation."""
+    """The manifest of the generated code: inputs, parameters, outputs; ``counted``: with its cost, which takes a tenth of a derivation."""
     outputs: dict[str, list[str]] = {}
     if isinstance(m, Harmonic):
         outputs = {"amplitudes": [name for name, _ in m.amplitudes]}
@@ -270,7 +270,7 @@ def manifest_of_model(m: Harmonic | ChainProgram | Folded, *, counted: bool) -> 
 
 
 def manifest_of_effect(e: Effect) -> Mapping[str, object]:
-    """What the runtime has to know of an effect."""
+    """What the runtime needs of an effect."""
     return {
         "id": e.id,
         "title": e.title,

@@ -1,6 +1,6 @@
 """Where the accelerometers of an instrument are: constants of each, and which of them make an output.
 
-The chain is derived for one generic accelerometer; what tells one from another are constants: the cosine and sine of
+The chain is derived for one generic accelerometer; accelerometers differ in constants: the cosine and sine of
 its angle on the disc, and, where a layout has them, its height, the turn of its triad and the axis of its disc.
 """
 
@@ -56,7 +56,7 @@ class SymbolicLayout:
         What the exact cosines and sines of the angles have beyond ``constants``: of places that balance each other
         the sum vanishes as it should, and a specific force of 1 g leaves nothing of their rounding.
     own
-        Whether each accelerometer has a radius and a spin frequency of its own, even where all stand as the paper's do: four
+        Whether each accelerometer has a radius and a spin frequency of its own, even where all are placed as the paper's: four
         quarter turns on a vertical disc have no other constants than the paper's once the axis is put in, and are another
         instrument.
     """

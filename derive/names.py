@@ -41,7 +41,7 @@ def channel_of(name: str) -> str:
 
 
 def _spelt(name: str) -> str:
-    """A name without hyphens that says which of its underscores were some."""
+    """A name without hyphens that marks which of its underscores were hyphens."""
     return name.replace("_", "_0").replace("-", "_1")
 
 

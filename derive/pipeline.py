@@ -45,7 +45,7 @@ FULL = "full"
 
 @dataclass(frozen=True)
 class SymbolicForm:
-    """What a model keeps: at which order, and whose rotation its accelerometers feel."""
+    """The form of a model: its order, and whose rotation its accelerometers sense."""
 
     order: Order = PAPER
     kinematics: Kinematics = "platform"
@@ -58,7 +58,7 @@ PAPERS = SymbolicForm()
 def derive_base() -> Files:
     """The packaged models: analytical and simplified (Python, C, LaTeX), chain, signatures, manifest.
 
-    In the folder ``full`` the model that feels the disc's own turning, at the paper's order: chain, folded form,
+    In the folder ``full`` the model that includes the disc's own rotation, at the paper's order: chain, folded form,
     signatures. In ``output_effects`` what recognises the effects of the recorder.
     """
     from derive.simplify import simplified
@@ -79,7 +79,7 @@ def derive_model(
 ) -> Files:
     """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file).
 
-    What stands in the folder :data:`FITS` is beside the model: the manifest does not name it.
+    The folder :data:`FITS` is not part of the model: the manifest does not list it.
     Effects of the recorder bring their recogniser, those of the catalogue apart: theirs come with the program.
     """
     below = recogniser.files(e for e in candidates if e not in catalogue())
@@ -188,7 +188,7 @@ def _complete(
 
 
 def _told(form: SymbolicForm) -> Mapping[str, object]:
-    """A form in the manifest; the paper's layout is not worth a word."""
+    """A form as the manifest lists it; the paper's layout is left out."""
     described = dataclasses.asdict(form)
     del described["layout"]["own"]  # it follows from the rest of model.toml
     if form.layout.is_paper:
@@ -197,7 +197,7 @@ def _told(form: SymbolicForm) -> Mapping[str, object]:
 
 
 def manifest_text(manifest: Mapping[str, object]) -> str:
-    """A manifest as it stands in the file."""
+    """A manifest as text."""
     return json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
 
 

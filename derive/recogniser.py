@@ -1,8 +1,8 @@
-"""What recognises an effect of the recorder: the part of its file that knows numbers alone.
+"""Recognition of an effect of the recorder: the part of its file that works on numbers.
 
 Such an effect has no stage, and nothing of it is derived. Its file defines ``present`` beside ``EFFECT`` (and ``CHANNELS``, the
 columns in which it is looked for, where these are not the outputs); that, and whatever ``present`` needs, goes to
-``generated/output_effects/`` as it stands there, without what imports the derivation. What it imports of another such effect
+``generated/output_effects/`` unchanged, without what imports the derivation. What it imports of another such effect
 (``from derive.effects import saturation``) it has from there, too.
 """
 

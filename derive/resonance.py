@@ -2,7 +2,7 @@
 
 A Taylor series in the period fails where the resonance is near what is recorded. So the record itself is passed through it, at the
 values to which a fit has come (``ragg_runtime.model.resonance``), with its derivatives by the two parameters: a hook has only to
-say where the response enters, and how it changes with what is left of them, which is their distance from the neutral values.
+define where the response enters, and how it changes with their distance from the neutral values.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ PARAMETERS = (
 
 
 def response(name: str, p: Values, c: Context, *, changes: bool = True) -> sp.Expr:
-    """The series of this name behind the resonance; without what its ``changes`` tell, where they are too small to matter."""
+    """The series of this name behind the resonance; without its ``changes`` where they are negligible."""
     whole = c.channel(name)
     if changes:
         whole += (p.f_0 - sp.Float(FREQUENCY)) * c.channel(f"{name}_by_f_0")

@@ -3,7 +3,7 @@
 Exact in the angles when asked; otherwise truncated by an explicit :class:`Order`. Nothing here is
 expanded: a stage takes the numbers of the stage before and gives its own.
 
-Axes and signs, said once. Measurement frame x, y, z (z along the spin axis). Accelerometer j sits at
+Axes and signs. Measurement frame x, y, z (z along the spin axis). Accelerometer j sits at
 disc angle psi; e_r = (cos psi, sin psi, 0), e_t = (-sin psi, cos psi, 0). Its nominal frame has x along
 e_t (sense of rotation) and y along e_r (outward, Section II.A.1), so that, being right-handed, its z
 points *down*, along -e_z: this is what the a_z terms of Eq. 19 require. The altitude angle beta_x lifts

@@ -149,8 +149,8 @@ _INPUTS = _OWN | {q.name for q in INSTRUMENT} | {"cos_phi", "sin_phi", "cos_j", 
 def local(column: str) -> str:
     """The name of a recorded channel in the derivation and in generated code.
 
-    A column may have any name, that of an intermediate value or of a word of C among them. Those that the
-    derivation does not know have a name space of their own: parameters of effects are ``<id>__<name>`` (see
+    A column may have any name, even that of an intermediate value or a keyword of C. Names that the
+    derivation does not define have a name space of their own: parameters of effects are ``<id>__<name>`` (see
     :mod:`derive.names`), and nothing else has two underscores but second names of intermediate values, ``V2__<name>``.
     """
     return column if column in _OWN else channel_in_code(column)

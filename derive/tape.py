@@ -50,7 +50,7 @@ def partials(e: sp.Expr) -> Mapping[sp.Symbol, sp.Expr]:
         elif isinstance(e, sp.Heaviside):
             pass  # flat but at the instant of the step itself
         elif isinstance(e, (sp.sign, sp.Abs)) and not e.args[0].is_extended_real:
-            # SymPy leaves these open where it cannot know that their argument, a quotient say, is a real number.
+            # SymPy does not evaluate these where it cannot infer that their argument, a quotient say, is real.
             if isinstance(e, sp.Abs):
                 descend(e.args[0], factor * sp.sign(e.args[0]))
         elif e.is_Pow and e.exp.is_Number:
@@ -69,7 +69,7 @@ def partials(e: sp.Expr) -> Mapping[sp.Symbol, sp.Expr]:
 
 
 def _product(factor: sp.Expr, others: tuple[sp.Expr, ...]) -> sp.Expr:
-    """A factor times what is left of a product, which is in order as it stands unless it is a number times a sum."""
+    """A factor times the rest of a product; nothing needs to be done unless it is a number times a sum."""
     if factor is sp.S.One and not others[0].is_Number:
         return sp.Mul._from_args(others, is_commutative=True)
     return sp.Mul(factor, *others)
@@ -124,7 +124,7 @@ ByInput = Callable[[sp.Symbol], sp.Expr]
 
 @dataclass
 class Tape:
-    """Records assignments; knows their partial and total time derivatives."""
+    """Records assignments, with their partial and total time derivatives."""
 
     assignments: list[tuple[sp.Symbol, sp.Expr]] = field(default_factory=list)
     _values: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
@@ -135,7 +135,7 @@ class Tape:
         """Name a value. Constants, symbols and their negatives are passed through.
 
         Naming the same value again by the same name gives the same symbol; another value gets another one, and
-        so does a name that stands for an input: names are made of the ids of effects, which may be anything.
+        so does the name of an input: names are made of the ids of effects, which may be anything.
         """
         value = sp.sympify(value, strict=True)
         if _is_plain(value):

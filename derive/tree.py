@@ -1,4 +1,4 @@
-"""Derived files on disk: write them, or say how what is there differs."""
+"""Derived files on disk: write them, or report differences."""
 
 from __future__ import annotations
 

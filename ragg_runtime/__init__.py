@@ -9,7 +9,7 @@ measurement frame
 A1, A2, A3, A4
     The accelerometers, at phi, phi + 180, phi + 90 and phi + 270 degrees, at distance ``R`` of the centre.
 specific force
-    What an accelerometer feels, acceleration less gravitation: f = a + omegadot x r + omega x (omega x r)
+    What an accelerometer measures, acceleration less gravitation: f = a + omegadot x r + omega x (omega x r)
     - Gamma r, with ``a`` that of the disc centre (the paper's f_cmm).
 gravity gradient
     ``Gamma_xx`` ... ``Gamma_zz``, s^-2; 1 Eo (eotvos) = 1e-9 s^-2.

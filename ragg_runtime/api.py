@@ -336,7 +336,7 @@ def add(
 
 def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting:
     """The effect as model.toml will list it, its values open but for a step's instant; UserError if it cannot be added."""
-    # a candidate of the model tells all that is asked here: the derivation, half a second to begin, is for others
+    # a candidate of the model has all that is needed here; importing the derivation takes half a second
     found = next((e for e in m.model.candidates if e.id == effect), None)
     offered = derive.offered(m.instrument, effect) if found is None else found
     present = m.instrument.effect(effect)
@@ -462,7 +462,7 @@ def survey(
 
 
 def of_survey(m: Loaded, s: Survey, command: str) -> tuple[dict[str, object], dict[str, Any]]:
-    """As :func:`origin`, of a survey made with ``m``, flights that could not be read among its files; and what its page says."""
+    """As :func:`origin`, of a survey made with ``m``, including the files that could not be read; and the same for its page."""
     from ragg_runtime.survey.journal import digest_file
 
     files = [(r["file"], r["sha256"] if "sha256" in r else digest_file(r["file"])) for r in s.records]

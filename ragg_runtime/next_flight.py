@@ -1,4 +1,4 @@
-"""Which flight next: the motion that tells apart what flights so far cannot, as a file that can be flown and simulated."""
+"""The next flight: the motion that separates alternatives that the flights so far cannot, as a file that can be flown and simulated."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class NextFlight:
-    """A multisine about the mean of the flights, and what it promises of each pair of rivals."""
+    """A multisine about the mean of the flights, and the predicted separation of each pair of alternatives."""
 
     sinusoids: tuple[Sinusoid, ...]
     mean: Mapping[str, float]
@@ -202,7 +202,7 @@ def calibration_flight(
     band: tuple[float, float] | None = None,
     criterion: Criterion = "A",
 ) -> CalibrationFlight:
-    """The multisine that calibrates the model best for motion such as that of the flights, beside which it will be fitted."""
+    """The multisine that calibrates the model best for motion such as that of the flights, with which it will be fitted jointly."""
     rate, band = _possible(m, flights, limits, rate, band)
     f = fit(m.model, m.instrument, observations_of(flights, m.instrument), candidates=False)
     plan = design_calibration(f, limits, duration=duration, band=band, criterion=criterion)

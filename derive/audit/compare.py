@@ -67,7 +67,7 @@ class Mistake:
 
 @dataclass(frozen=True)
 class EquationComparison:
-    """The outcome for one equation. ``missing`` are derived terms that no printed term stands for."""
+    """The outcome for one equation. ``missing`` are derived terms without a printed counterpart."""
 
     equation: Equation
     confirmed: int

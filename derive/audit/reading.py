@@ -21,7 +21,7 @@ _TOKEN = re.compile(r"\s*(\d+(?:\.\d+)?|\\[A-Za-z]+|\S)")
 
 
 class NotReadable(ValueError):
-    """The printed text leaves the grammar, or names a symbol that the equation does not know."""
+    """The printed text does not follow the grammar, or names a symbol that the equation does not have."""
 
 
 def ring_of(names: tuple[str, ...]) -> PolyRing:

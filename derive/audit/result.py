@@ -43,7 +43,7 @@ Amplitudes = Mapping[str, PolyElement]
 
 @dataclass(frozen=True)
 class Count:
-    """Printed atoms of one equation: how many come out, and derived terms that it lacks."""
+    """Printed atoms of one equation: how many are confirmed, and how many derived terms are missing."""
 
     number: str
     left: str
@@ -112,7 +112,7 @@ class Audit:
 
 @cache
 def audit() -> Audit:
-    """Audit Eq. 5b, 16, 18, 19 and 43-47 against the derivation as it stands."""
+    """Audit Eq. 5b, 16, 18, 19 and 43-47 against the current derivation."""
     collected, simple = collect(), simplified_model()
     full = {name: derived_amplitude(collected, name) for name in collected.amplitudes}
     analytical = {n: select(p, printed_order) for n, p in full.items()}

@@ -33,7 +33,7 @@ def of_module(module: ModuleType, text: str) -> Effect:
 
 
 def of_text(path: Path, text: str) -> Effect:
-    """The effect of a user's own Python file. It is executed: as it was handed over, not the file again nor byte code beside it."""
+    """The effect of a user's own Python file. The text is executed as given; neither the file nor its byte code is read again."""
     module = ModuleType(f"user_effect_{path.stem}")
     module.__file__ = str(path)
     try:

@@ -1,4 +1,4 @@
-"""A constant gradient of masses that stand still around the disc."""
+"""A constant gradient of masses at rest around the disc."""
 
 import sympy as sp
 

@@ -1,4 +1,4 @@
-"""The gyroscopes earlier or later than the accelerometers beside them."""
+"""Gyroscopes sampled earlier or later than the accelerometers of the motion sensor."""
 
 import sympy as sp
 

@@ -21,7 +21,7 @@ def component(p: Values, *axes: str) -> sp.Expr:
 
 
 def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:
-    # Gravity that grows with r is felt as specific force of the other sign.
+    # Gravity that grows with r is a specific force of the other sign.
     r = c.in_measurement_frame(r)
 
     @cache

@@ -8,7 +8,7 @@ from derive.stages import SensedForce
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
-    # a factor that all voltages have is one of their sum
+    # a factor common to all voltages is a factor of their sum
     reading = c.channel("G_out")
     return i / (1 + p.c_2 * reading + p.c_3 * reading**2)
 

@@ -48,7 +48,7 @@ class _Code(CodePrinter):
         return _decimal(e) or str(super()._print_Rational(e))
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
-        if item.is_Symbol:  # most are, and stand alone
+        if item.is_Symbol:  # most terms are alone
             return str(self._print(item))
         if item.is_Rational and item.is_positive and _decimal(item):
             return _decimal(item)

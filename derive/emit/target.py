@@ -1,4 +1,4 @@
-"""What a target of generation is: a folder beside this file, a package with these functions, found by its name."""
+"""A target of generation: a package beside this file with these functions, found by its name."""
 
 from __future__ import annotations
 

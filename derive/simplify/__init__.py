@@ -1,7 +1,7 @@
 """From the analytical to the simplified model: what an envelope of motion and instruments lets one neglect.
 
 Section II.B of the paper, computed. :func:`simplified` gives Eq. 42-47 for the paper's envelope, and the
-model that follows from the same rule for any other; :func:`certified_bound` says what the dropped part can
+model that follows from the same rule for any other; :func:`certified_bound` gives what the dropped part can
 amount to, with proof; :func:`critical_conditions` gives Tables I to III.
 """
 

@@ -46,7 +46,7 @@ class Envelope:
     allotted
         Error that one term may leave when it is dropped, Eo (Section II.B.1: 0.1 Eo).
     kinematics
-        Whose rotation the accelerometers feel; in ``full`` kinematics the spin is part of the motion.
+        Whose rotation the accelerometers sense; in ``full`` kinematics the spin is part of the motion.
     spin_acceleration
         Of the disc angle, rad/s^2; 0: the spin is steady.
 
@@ -127,7 +127,9 @@ class Envelope:
         """Bound of a motion channel (a_x, omegadot_z, Gamma_xy ...)."""
         if name == SPIN_RATE.name:
             turn = 2 * math.pi * self.spin_frequency
-            return Fraction(turn) * (1 + Fraction(1, 2**50))  # above the exact product, whatever was rounded
+            return Fraction(turn) * (
+                1 + Fraction(1, 2**50)
+            )  # never below the exact product, however it was rounded
         if name == SPIN_ACCELERATION.name:
             return Fraction(self.spin_acceleration)
         kind, _, axis = name.partition("_")

@@ -187,7 +187,7 @@ class AngularMotion:
 class Condition:
     """A kind of error term may be neglected while its motion stays below ``critical``.
 
-    That is the critical T_n in s^-2 with the ``angular`` motion that it stands for, or the critical
+    That is the critical T_n in s^-2 with the ``angular`` motion that it represents, or the critical
     acceleration in m/s^2 (``angular`` is ``None``). Infinite if the envelope has no such error.
     """
 

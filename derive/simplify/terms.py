@@ -83,7 +83,7 @@ def simplified(envelope: Envelope = PAPER_ENVELOPE, full: Collected | None = Non
 
 
 def dropped(model: Collected, full: Collected | None = None) -> Generic:
-    """Series of one accelerometer that ``model`` lacks, against the analytical model (or ``full``)."""
+    """Series of one accelerometer that the analytical (or ``full``) model has and ``model`` has not."""
     full = full or collect()
     difference: dict[tuple[int, str], dict[Powers, PolyElement]] = {}
     for key, terms in full.generic.items():

@@ -9,7 +9,7 @@ from typing import Any
 
 
 class UserError(Exception):
-    """Bad input or usage: what is wrong (no full stop), where, what was there, what may stand there, and what to do."""
+    """Bad input or usage: what is wrong (no full stop), where, what was found, what is expected, and the remedy."""
 
     def __init__(
         self,
@@ -37,7 +37,7 @@ class UserError(Exception):
         """The whole message, one fact per line."""
         head = self.what if self.where is None else f"{self.where}: {self.what}"
         facts = (("found", self.found), ("expected", self.expected), ("remedy", self.remedy))
-        # Further lines of a fact are set in: names in it could otherwise pass for facts of ours.
+        # Further lines of a fact are indented: names in it could otherwise pass for another fact.
         lines = (f"  {name}: {text}".replace("\n", "\n    ") for name, text in facts if text is not None)
         return "\n".join([head, *lines])
 
@@ -79,7 +79,7 @@ def at(*places: object) -> str:
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str | None:
-    """A remedy that names the nearest known word, or ``None`` if none is near."""
+    """A remedy that names the closest known name, or ``None``."""
     known = list(known)
     folded = {k.casefold(): k for k in reversed(known)}
     near = difflib.get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.6)
@@ -117,7 +117,7 @@ def check_choice(found: object, known: Sequence[object], where: str, what: str =
 
 
 def printable(text: str) -> str:
-    """``text`` without what would steer a terminal: names in files of strangers may hold anything."""
+    """``text`` without control sequences of terminals: names in files may hold anything."""
     return "".join(c if c.isprintable() or c in "\n\t" else c.encode("unicode_escape").decode() for c in text)
 
 

@@ -9,9 +9,9 @@ that share of them. By the union bound (Bonferroni) the tests that decide the ve
 
 which is 0.035. The rest of the promise is for the noise spectrum, which is estimated from the same record and not known: a
 few of its bins at low frequency carry the drifts. COMPANION enters only where there is an effect, and LEVEL, CHANGE, FROZEN and
-SURVEY are remarks beside the verdict: each is the level of its own statement.
+SURVEY are remarks next to the verdict: each is the level of its own statement.
 
-What stands in a record with no doubt (clipping, spikes, jumps, lines, wrong units) has no level here.
+What is certain in a record (clipping, spikes, jumps, lines, wrong units) has no level here.
 """
 
 from __future__ import annotations

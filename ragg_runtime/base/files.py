@@ -66,7 +66,7 @@ def _report_refusal(path: Path) -> Iterator[None]:
 
 
 def _find_mode(path: Path) -> int | None:
-    """What stands at a path, with its rights; ``None``: nothing."""
+    """The mode of what exists at a path; ``None``: nothing."""
     if not path.parent.exists():
         raise UserError("the folder does not exist", where=path.parent, remedy="make it first")
     mode = path.stat().st_mode if path.exists() else None
@@ -84,7 +84,7 @@ def _is_stream(path: Path, mode: int | None) -> bool:
 
 
 def require_room(path: Path, size: int) -> None:
-    """OSError where so many bytes do not fit beside ``path``, for libraries that do not survive a full disc (HDF5)."""
+    """OSError where so many bytes do not fit on the disc of ``path``, for libraries that do not survive a full disc (HDF5)."""
     if shutil.disk_usage(path.parent).free < size:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
     if hasattr(os, "posix_fallocate"):
@@ -93,7 +93,7 @@ def require_room(path: Path, size: int) -> None:
 
 
 def _descriptor(path: Path) -> int | None:
-    """The open file of this process that a name such as ``/dev/stdout`` or ``/dev/fd/63`` stands for."""
+    """The open file of this process that a name such as ``/dev/stdout`` or ``/dev/fd/63`` refers to."""
     named = {"/dev/stdout": 1, "/dev/stderr": 2}
     if str(path) in named:
         return named[str(path)]
@@ -182,7 +182,7 @@ _NO_LOCKS = (errno.EBADF, errno.ENOLCK, errno.ENOTSUP, errno.EOPNOTSUPP, errno.E
 
 @contextlib.contextmanager
 def locked(path: Path, patience: float) -> Iterator[None]:
-    """Hold the lock of a directory, or of a file, while this process lives; without one where the file system knows none.
+    """Hold the lock of a directory, or of a file, while this process lives; without one where the file system has none.
 
     Raises TimeoutError if another process holds it for longer than ``patience``, s.
     """

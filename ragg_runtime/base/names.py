@@ -12,7 +12,7 @@ _SHOWN = 80
 
 
 def read_name(found: object, where: str, example: str | None = None) -> str:
-    """``found``, which stands at ``where`` (file and key); UserError if it is no name."""
+    """``found``, from ``where`` (file and key); UserError if it is not a name."""
     if isinstance(found, str) and is_name(found):
         return found
     raise UserError(

@@ -1,7 +1,7 @@
-"""How far a long command is, with the time left: passes over flights tell (:func:`step`), a command listens
+"""How far a long command is, with the time left: passes over flights report (:func:`step`), a command listens
 (:func:`shown`).
 
-The unit is one sample in one pass with all columns, whitened; ``PASSES`` are known beforehand.
+The unit is one sample in one pass with all columns, whitened; ``PASSES`` are estimates.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def remark(text: str) -> None:
 
 @contextlib.contextmanager
 def listening(tell: Callable[[float], None]) -> Iterator[None]:
-    """Let ``tell`` hear of every step that is done meanwhile; what it raises ends the work."""
+    """Call ``tell`` at every step; what it raises ends the work."""
     token = _listener.set(tell)
     try:
         yield

@@ -71,7 +71,7 @@ _DERIVATIVE = re.compile(r"d(2?)_(.+)")
 
 
 def series(name: str, channels: Collection[str] = ()) -> Series:
-    """What a name says; ``channels`` are names that stand for themselves, whatever they look like."""
+    """The series of a name; ``channels`` are names of channels, whatever they look like."""
     return ChannelName(name) if name in channels else _parsed(name, frozenset(channels))
 
 
@@ -106,7 +106,7 @@ class HarmonicName:
 
 
 def harmonic(name: str) -> HarmonicName:
-    """What the name of a harmonic says: ``const``, ``cos 2``, ``sin 1``."""
+    """The harmonic of a name: ``const``, ``cos 2``, ``sin 1``."""
     if name == "const":
         return HarmonicName("cos", 0)
     function, multiple = name.split()

@@ -1,4 +1,4 @@
-"""Linear algebra on one thread, and series in stretches: BLAS splits its sums by threads, and the last digits follow."""
+"""Linear algebra on one thread, and series in segments: BLAS splits its sums by threads, which changes the last digits."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ R = TypeVar("R")
 
 
 def stretches(length: int, most: int) -> list[slice]:
-    """``length`` items in a row as neighbouring slices of at most so many."""
+    """Consecutive slices of at most so many of ``length`` items."""
     return [slice(k, min(k + most, length)) for k in range(0, length, most)]
 
 

@@ -60,7 +60,7 @@ def _run(*words: str) -> None:
 
 
 def _recovered(added: Mapping[str, Any]) -> list[str]:
-    """What was hidden beside what was found: of the combination of accelerometers that the record determines best."""
+    """What was hidden and what was found, of the combination of accelerometers that the record determines best."""
     effect, _, values = HIDDEN
     q = max(added["combinations"], key=describe.significance)
     true = sum(w * x for w, x in zip(q["weights"], values, strict=True))

@@ -1,6 +1,6 @@
 """The command line, ``ragg``.
 
-Results go to stdout, progress to stderr; the exit status is 0, 1 (a fault of ours) or 2 (bad input).
+Results go to stdout, progress to stderr; the exit status is 0, 1 (a fault of the program) or 2 (bad input).
 """
 
 from __future__ import annotations

@@ -108,7 +108,7 @@ _VERBOSE = click.Option(["-v", "--verbose"], is_flag=True, help="Show all detail
 
 @dataclass(frozen=True)
 class Wanted:
-    """What a command was asked to write beside its result on stdout."""
+    """What a command writes besides its result on stdout."""
 
     json_file: str | None = None
     report_file: str | None = None
@@ -166,7 +166,7 @@ def under_way(text: str) -> None:
 
 
 def load(model_dir: Path) -> Loaded:
-    """The model directory; what is odd about it is said on stderr."""
+    """The model directory; its notes go to stderr."""
     m = api.load(model_dir)
     for note in m.notes:
         click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
@@ -181,7 +181,7 @@ def read(m: Loaded, flights: Sequence[Path], mapping: Path | None) -> list[Fligh
 
 @contextlib.contextmanager
 def working(text: str, command: str, flights: Sequence[Flight]) -> Iterator[None]:
-    """Say on stderr what is done meanwhile, and how far it is."""
+    """Report on stderr what is being done, and how far it is."""
     under_way(text)
     with progress.shown(command, sum(map(len, flights))):
         yield
@@ -189,7 +189,7 @@ def working(text: str, command: str, flights: Sequence[Flight]) -> Iterator[None
 
 @dataclass(frozen=True)
 class Source:
-    """What a result was made from: model and flights, the model before the command changed it, notes beside theirs."""
+    """What a result was made from: model and flights, the model before the command changed it, further notes."""
 
     m: Loaded
     flights: Sequence[Flight] = ()
@@ -219,16 +219,16 @@ def conclude(
     page: Callable[[Origin], str] | None = None,
     title: str | None = None,
 ) -> None:
-    """Write the report and the JSON where they are asked for, and say the result on stdout.
+    """Write the report and the JSON where they are asked for, and the result to stdout.
 
     Parameters
     ----------
     result
         The JSON, without what ``source`` adds.
     sections
-        What is said of it. If JSON goes to stdout it is all that is written there.
+        The result for the terminal. If JSON goes to stdout, nothing else is written there.
     source
-        What it was made from; notes on its flights are said below.
+        What it was made from; notes on its flights follow the result.
     page
         Makes the report, which has this ``title``.
     """

@@ -1,4 +1,4 @@
-"""Calibrate once: the parameters, what the record determines of them, and what the test sheet alone says."""
+"""Calibrate once: the parameters, which of them the record determines, and which only the prior does."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Calibrated:
 
 
 def list_parameters(f: Fitted) -> list[dict[str, Any]]:
-    """Every fitted parameter, with what the test sheet says of it, as JSON has them."""
+    """Every fitted parameter with its prior, as in JSON."""
     c, values = f.calibration, find_values_in_scales(f)
     found = []
     for k, (q, column) in enumerate(
@@ -157,7 +157,7 @@ def find_ranges(flights: Sequence[Flight]) -> Mapping[str, tuple[float, float]]:
     return found
 
 
-# --- what a fit knows, in scales: units of the prior widths of its parameters
+# --- results of a fit in scales: units of the prior widths of its parameters
 
 
 def find_values_in_scales(f: Fitted) -> Array:
@@ -182,7 +182,7 @@ def list_base_triangles(f: Fitted, k: int) -> list[Array]:
 
 
 def fit_some(f: Fitted, triangles: Sequence[Array]) -> tuple[Array, Array]:
-    """What some R factors [base | residual] say with the sheet: the step (n,) from here, and a root (n, n) of its covariance."""
+    """The posterior of some R factors [base | residual] and the prior: the step (n,) from here, and a root (n, n) of its covariance."""
     whole = with_prior(join(triangles), range(f.n_base), f.to_nominal)
     R = whole[:-1, :-1]
     return Linear(R=R, y=whole[:-1, -1], rest=0.0).step, invert_root(R)

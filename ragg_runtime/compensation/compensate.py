@@ -282,11 +282,11 @@ def compensate_channel(c: OutputChannel) -> Compensated:
     )
 
 
-# --- what is said of them ------------------------------------------------------------------------------
+# --- descriptions ------------------------------------------------------------------------------
 
 
 def describe_channel(c: OutputChannel, x: Compensated) -> dict[str, Any]:
-    """What was done and how good it is, as JSON says it."""
+    """What was done and how good it is, for JSON."""
     o, d, names = c.observation, c.demodulator, ("inline_Eo", "cross_Eo")
     there = np.isfinite(x.gradient.real)
     rms = np.sqrt(np.mean(x.parameters[:, there] ** 2, axis=1)) if there.any() else np.full(2, np.nan)

@@ -2,7 +2,7 @@
 
 The blocks' R factors are the measurements of a square-root information filter, forward and backward (G. Bierman, Factorization
 Methods for Discrete Sequential Estimation, 1977; D. Fraser and J. Potter, IEEE Trans. Autom. Control 14, 1969). Which parameters
-walk, and how fast, is what the evidence of the forward filter says: kind by kind, the same share of the sheet's error an hour for
+walk, and how fast, is chosen by the evidence of the forward filter: kind by kind, the same share of the sheet's error an hour for
 all accelerometers (as GOCE: C. Siemes et al. 2012).
 """
 
@@ -91,7 +91,7 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
     f
         A fit of constant parameters to the flights, about which everything is linear.
     flights
-        The same flights, for their times: where their stamps are instants of one day they say how long lies between flights; else
+        The same flights, for their times: where their stamps are instants of one day these give the time between flights; else
         one flight follows the other at once.
 
     Returns
@@ -141,7 +141,7 @@ def _starts(flights: Sequence[Flight]) -> list[tuple[int, float]]:
 def _find_rates(
     prior: Array, measured: Sequence[Array], hours: Array, names: Sequence[str]
 ) -> dict[str, float]:
-    """The kinds of parameter that walk, and how fast: forward selection by the evidence, each choice fitted anew beside the next."""
+    """The kinds of parameter that walk, and how fast: forward selection by the evidence, with earlier choices fitted again at each step."""
 
     def evidence(rates: Mapping[str, float]) -> float:
         return _filter(prior, measured, hours, np.array([rates.get(n, 0.0) for n in names]))[1]

@@ -1,4 +1,4 @@
-"""A saved calibration compared with another flight: nothing is fitted, and a chi-square says whether it still holds."""
+"""A saved calibration compared with another flight: nothing is fitted, and a chi-square tests whether it still holds."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ class Held:
 
 
 def describe_saved(saved: Saved) -> dict[str, Any]:
-    """When, on what and how a saved calibration was made, as JSON says it."""
+    """When, on what and how a saved calibration was made, for JSON."""
     return {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
 
 
@@ -169,7 +169,7 @@ def compare_frozen(model: Model, instrument: Instrument, flights: Sequence[Fligh
 
 
 def measure_change(f: Fitted, saved: Saved) -> CalibrationChange:
-    """Test the step from frozen parameters to what flights say."""
+    """Test the step from frozen parameters to those fitted to flights."""
     n, root = f.n_base, invert_root(saved.information)
     T = join([t for k in range(len(f.observations)) for t in list_base_triangles(f, k)])
     U, s, _ = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
@@ -200,7 +200,7 @@ def retest_change(
 
 
 def warn_of_change(made: str, change: CalibrationChange) -> str:
-    """What is said of a compensation by a calibration, made at that instant, that does not hold."""
+    """The warning of a compensation by a calibration, made at that instant, that does not hold."""
     p = numbers.probability(change.log10_p)
     return (
         f"The calibration of {made} does NOT hold here: against parameters fitted to this record chi-square is "

@@ -177,7 +177,7 @@ class Online:
         self.R = _eliminate(whole)[: n + 2]
 
     def gradient(self) -> tuple[float, float, float, float]:
-        """inline, cross, and their standard deviations, Eo, whatever the parameters may be."""
+        """inline, cross, and their standard deviations, Eo, marginal over the parameters."""
         n = len(self.columns)
         inverse = np.linalg.inv(self.R[n:, n : n + 2])
         inline, cross = inverse @ self.R[n:, -1]
@@ -256,7 +256,7 @@ def follow(
 
 
 def _known_noise(name: str, saved: Saved | None) -> float:
-    """What a kept calibration left in the cross channel, Eo/sqrt(Hz); UserError if nothing says it."""
+    """The noise of a saved calibration in the cross channel, Eo/sqrt(Hz); UserError if it is unknown."""
     left = None if saved is None else saved.error.get("calibrated", {}).get("cross_Eo_per_rtHz")
     if not isinstance(left, float) or not left > 0.0:
         raise UserError(
@@ -273,7 +273,7 @@ def _known_noise(name: str, saved: Saved | None) -> float:
 def _follow_flight(
     model: Model, instrument: Instrument, x: Flight, saved: Saved | None, tuning: Tuning
 ) -> tuple[dict[str, NDArray[Any]], list[dict[str, Any]]]:
-    """The columns of a flight, and what the filter of each output says at its end; ``tuning.noise`` is a density."""
+    """The columns of a flight, and the state of each output's filter at its end; ``tuning.noise`` is a density."""
     endings = column_endings(instrument.layout.output_names)
     p, root = (vector(model, instrument), None) if saved is None else (saved.p, saved.information)
     columns: dict[str, NDArray[Any]] = {}

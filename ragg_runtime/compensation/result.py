@@ -24,7 +24,7 @@ QUALITY: Mapping[str, str] = MappingProxyType({str(q.name): text for q, text in 
 
 
 def without_gradients(flight: Flight) -> Flight:
-    """A flight without recorded gradients: nothing of them shall get into what is compensated."""
+    """A flight without recorded gradients, which must not enter what is compensated."""
     channels = {n: x for n, x in flight.channels.items() if n not in GRADIENT}
     return replace(flight, channels=channels) if len(channels) < len(flight.channels) else flight
 
@@ -41,7 +41,7 @@ class Compensation:
     def of(
         name: str, result: Mapping[str, Any], series: Sequence[Mapping[str, NDArray[Any]]]
     ) -> Compensation:
-        """The result as JSON says it, with what the bits of ``quality`` mean."""
+        """The result for JSON, with what the bits of ``quality`` mean."""
         meaning = {str(int(q)): f"{q.name}: {text}" for q, text in MEANING.items()}
         return Compensation(name, {**result, "quality": meaning}, tuple(series))
 

@@ -58,7 +58,7 @@ class Saved:
     error: Mapping[str, Any]
 
     def as_json(self) -> dict[str, Any]:
-        """The entry as it stands in the file."""
+        """The entry as in the file."""
         return {
             "time": self.time,
             "converged": self.converged,

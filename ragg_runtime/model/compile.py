@@ -42,7 +42,7 @@ PATIENCE = 60.0
 
 
 class BuildError(Exception):
-    """The C cannot be compiled or loaded; the message says why."""
+    """The C cannot be compiled or loaded; the message has the reason."""
 
 
 def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool = False) -> Path:

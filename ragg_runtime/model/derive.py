@@ -379,7 +379,7 @@ def own_effects() -> tuple[SymbolicEffect, ...]:
 
 
 def own_entries() -> tuple[Mapping[str, Any], ...]:
-    """What a catalogue says of them."""
+    """Their entries in a catalogue."""
     found = own_effects()
     if not found:
         return ()
@@ -445,5 +445,5 @@ def check(root: Path) -> str | None:
 
 
 def home() -> Path:
-    """Where the project stands: the root to write to unless another is named."""
+    """The root of the project, to write to unless another is named."""
     return Path(str(resources.files("derive"))).parent

@@ -63,7 +63,7 @@ class HistoryStep:
         return before != after and before == digest(calibration if self.action == "calibrate" else model)
 
     def as_json(self) -> dict[str, Any]:
-        """The entry as it stands in the file."""
+        """The entry as in the file."""
         return {
             "action": self.action,
             "effect": self.effect or None,
@@ -82,7 +82,7 @@ def history_text(steps: Sequence[HistoryStep]) -> str:
 
 
 def _error(found: Any) -> Mapping[str, Any] | None:
-    """An error object as it stands in the file; TypeError, ValueError or AttributeError if it is none."""
+    """An error object as in the file; TypeError, ValueError or AttributeError if it is none."""
     inner = found.get("calibrated", found) if found else {}
     told = inner.get("rms_Eo") if inner else None  # of a step
     float(0.0 if told is None else told)
@@ -291,7 +291,7 @@ def _write(place: Path, text: str, target: Path) -> None:
 
 
 def read_digest(generated: Path) -> str | None:
-    """For which model the files in generated/ were derived; ``None``: it does not say."""
+    """For which model the files in generated/ were derived; ``None``: unknown."""
     try:
         return (generated / DIGEST).read_text("utf-8")
     except (OSError, UnicodeError):

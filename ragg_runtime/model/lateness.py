@@ -1,4 +1,4 @@
-"""The record as a model with certain parameters takes it: motion from where it stands, and through resonances.
+"""The record as a model with certain parameters takes it: motion shifted in time, and through resonances.
 
 A Taylor series in a lateness fails at half a sample: so it is taken about the lateness that a fit has come to.
 """
@@ -23,7 +23,7 @@ the change, as well as derivatives are known (up to 42 % of the Nyquist frequenc
 
 
 def about(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
-    """The record with its motion moved, and what of the parameters p (size,), SI, is left for the series beside it.
+    """The record with its motion shifted, and the remaining parts of the parameters p (size,), SI, for the series of derivatives.
 
     Parameters of resonances are left at their neutral values, about which the chain has its series.
     """

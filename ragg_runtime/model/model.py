@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 
 
 class Recogniser(Protocol):
-    """A module that recognises an effect of the recorder. No chance is allowed for: what it says is certain.
+    """A module that recognises an effect of the recorder. Its result is certain: no level is spent on it.
 
     It is asked of the outputs, or of the columns that it names as ``CHANNELS``.
     """
@@ -41,7 +41,7 @@ class Recogniser(Protocol):
 class DerivedParameter:
     """A parameter of an effect; ``unit`` is for display, ``symbol`` its name in the parameter vector.
 
-    ``physical`` is the one value, beside the neutral one, that nature knows (``None``: any). ``plausible`` is of a
+    ``physical`` is the only possible value besides the neutral one (``None``: any). ``plausible`` is of a
     navigation instrument; of another it grows with the sigma that the sheet gives the accelerometers' parameter ``like``.
     ``late``, ``growing``: which quantities of the motion it makes late (:mod:`ragg_runtime.model.lateness`). ``shape``: it does
     nothing while the others are neutral.
@@ -71,9 +71,9 @@ class DerivedParameter:
 
 @dataclass(frozen=True)
 class DerivedEffect:
-    """What the runtime knows of a physical effect, from the manifest of the derivation.
+    """A physical effect, from the manifest of the derivation.
 
-    ``common_of``, ``told_from``: parameters of the accelerometers that the sheet knows; ``turning``: it is one only where the disc
+    ``common_of``, ``told_from``: parameters of the accelerometers that the sheet gives; ``turning``: it exists only where the disc
     turns (:mod:`ragg_runtime.identification.sheet`); ``switches``: where a voltage passes zero;
     ``resonance``: what it takes through one (:mod:`ragg_runtime.model.resonance`); ``searched``: whether a diagnosis looks for it;
     ``contains``: effects that are special cases.

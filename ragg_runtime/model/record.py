@@ -327,7 +327,7 @@ STANDING = 1e-3
 
 
 def phase(g: complex) -> float:
-    """rad, between -pi and pi; 0 of a real number, whatever its sign: that is the sign of the scale factor."""
+    """rad, between -pi and pi; 0 of any real number, whose sign is that of the scale factor."""
     return 0.0 if abs(g.imag) <= 1e-12 * abs(g) else float(np.angle(g))
 
 

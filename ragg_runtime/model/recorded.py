@@ -92,7 +92,7 @@ FORMS = (
 
 
 def recorded(flight: Flight, layout: Layout, place: int) -> RecordedSeries | None:
-    """What of an output a flight holds, the most telling; ``None``: nothing."""
+    """Which series of an output a flight has, the most informative; ``None``: none."""
     o = layout.outputs[place]
     return next((form for form in FORMS if form.columns(layout, o, flight.outputs) is not None), None)
 

@@ -33,6 +33,6 @@ def disc_angle(frequency: float, time: ArrayLike, shift: float = 0.0) -> NDArray
     """Angle 2 pi f (time - shift), (N,) rad, of the disc from A1's position on the x axis; ``time`` (N,) s,
     ``frequency`` Hz.
 
-    The ``shift``, s, stays apart, because nanoseconds are lost beside a time of thousands of seconds.
+    The ``shift``, s, is kept separate: added to thousands of seconds, nanoseconds would be lost.
     """
     return 2 * np.pi * (turns(frequency, time) - turns(frequency, shift))

@@ -78,7 +78,7 @@ class Chain:
 
     @cached_property
     def standing(self) -> tuple[Array | None, ...]:
-        """How each disc stands in the measurement frame."""
+        """How each disc is oriented in the measurement frame."""
         return tuple(standing(d) for d in self.instrument.layout.discs)
 
     def voltages(self, time: Array, angle_error: Array) -> Array:
@@ -261,7 +261,7 @@ class Chain:
         return away if away is None or axes is None else away.turned(axes)
 
     def _specific_force(self, j: int, r: Taylor, triad: Triad, instant: Instant, shake: Array) -> Triple:
-        """Eq. 49 at position r (3, N), or what a point moving like r feels, and Eq. 50: along the triad."""
+        """Eq. 49 at position r (3, N), or the specific force of a point moving like r, and Eq. 50: along the triad."""
         centre = self._centre(j, instant)
         r = _lifted(r, centre)
         m, here = instant.motion, r.value
@@ -271,7 +271,7 @@ class Chain:
         f = m.a + shake + of_platform
         if self.spin:
             f = f + self.spin * (carried(r, m.omega, m.omegadot) - of_platform)
-        if centre is not None and self.spin != 1:  # the path of the centre is felt in any kinematics
+        if centre is not None and self.spin != 1:  # the path of the centre counts in any kinematics
             resting = Taylor.constant(centre.value)
             moving, still = (carried(x, m.omega, m.omegadot) for x in (centre, resting))
             f = f + (1 - self.spin) * (moving - still)

@@ -39,7 +39,7 @@ _NOISE_STREAM, _ANGLE_STREAM, _AUXILIARY_STREAM = 1, 2, 3
 
 @dataclass(frozen=True)
 class Simulation:
-    """What was recorded, and what a real instrument never tells.
+    """The record, and the truth that a real instrument does not give.
 
     ``time`` (N,) s; ``channels``: name -> (N,) SI; ``voltages`` (n, N) V and ``outputs``: name -> (N,) V, as recorded,
     and free of accelerometer noise. ``instrument``, ``effects``: the true parameters and all that was injected, SI.
@@ -127,7 +127,7 @@ def simulate(
     ``instrument``, ``motion``: true, SI. ``duration``, ``start`` s, ``rate`` Hz. ``gravity``: ``None`` is none.
     ``noise``: of each accelerometer, independent. ``rotations``, ``misalignment``: ``first-order`` (Eq. 2),
     ``second-order`` (squares of mounting angles) or ``exact``. ``kinematics``: ``platform`` (Eq. 49) or ``full``
-    (accelerometers feel that they turn with the disc). ``effects``: ``{id: {parameter: value or one each, SI}}``.
+    (accelerometers sense that they turn with the disc). ``effects``: ``{id: {parameter: value or one each, SI}}``.
     ``auxiliaries``: channel -> function of time (N,) s; ``None``: plausible ones. ``turning``: disc -> how it turns,
     recorded by an encoder; others turn steadily.
     """
@@ -149,14 +149,14 @@ def simulate(
 
 
 def _world(given: Mapping[str, Auxiliary] | None, injected: Injected, seed: int) -> Mapping[str, Auxiliary]:
-    """The auxiliary channels, plausible ones where none are given; UserError if an effect lacks one."""
+    """The auxiliary channels, plausible ones where none are given; UserError if one that an effect needs is missing."""
     found = plausible(np.random.default_rng([seed, _AUXILIARY_STREAM])) if given is None else given
     _require_channels(injected, found)
     return found
 
 
 def _of_misalignment(rotations: Rotations) -> Literal["first-order", "exact"]:
-    """How misalignment angles turn where nothing else is said."""
+    """How misalignment angles rotate by default."""
     if rotations not in get_args(Rotations):
         raise UserError(
             "unknown kind of rotations", found=rotations, expected="first-order, second-order or exact"

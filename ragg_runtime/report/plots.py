@@ -61,9 +61,9 @@ def draw_both(plot: Plot) -> str:
     return draw_plot(plot) + narrow.replace("<svg ", '<svg class="narrow" ', 1)
 
 
-def draw_file(plot: Plot) -> str:
+def draw_file(plot: Plot, width: float = WIDTH) -> str:
     """The plot as an SVG document of its own, in light colours."""
-    text = draw_plot(plot)
+    text = draw_plot(plot, width)
     for name, colour in COLOURS.items():
         text = text.replace(f"var(--{name})", colour)
     own = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
@@ -100,6 +100,7 @@ def _draw_curves(plot: Curves, width: float) -> str:
     fig = _make_figure(width, plot.height * sum(shares) + 0.3)
     found = fig.subplots(len(plot.axes), 1, squeeze=False, height_ratios=shares)[:, 0]
     noise: dict[str, Any] = {"color": COLOURS["noise"], "linestyle": "--", "linewidth": 1.0, "zorder": 3}
+    named_before: list[str] = []
     for ax, axes in zip(found, plot.axes, strict=True):
         for curve in axes.curves:
             _draw_curve(ax, curve)
@@ -120,7 +121,10 @@ def _draw_curves(plot: Curves, width: float) -> str:
             ax.axvspan(*axes.frame, facecolor="none", edgecolor=COLOURS["noise"], linewidth=0.9)
         ax.set_ylabel(axes.y_label)
         ax.set_title(numbers.short(axes.title, 70), pad=6.0 if width == WIDTH else 20.0)  # above the legend
-        _add_legend(ax, 3)
+        labels = ax.get_legend_handles_labels()[1]
+        if labels != named_before:
+            _add_legend(ax, 3)
+        named_before = labels
     found[-1].set_xlabel(plot.x_label)
     return _write_svg(fig, plot.key, plot.caption)
 

@@ -16,7 +16,7 @@ from ragg_runtime.identification import comparison, heat, predict
 from ragg_runtime.identification import series as reported
 from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.report import parameters, whiteness
-from ragg_runtime.report.plots import draw_file
+from ragg_runtime.report.plots import NARROW, WIDTH, draw_file
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
 
@@ -44,6 +44,10 @@ LEAST = 0.9
 
 MODELS = 12
 """Models that are drawn from the posterior."""
+
+
+SMALL = 700
+"""Points of a panel below which its narrow form is drawn."""
 
 
 @dataclass(frozen=True)
@@ -417,4 +421,4 @@ def draw_panel(s: State, a: Asked) -> bytes:
             plot = whiteness.plot_against(v.f, v.n, v.residual, channel)
         case _:
             raise UserError("there is no such panel", found=repr(kind[:40]))
-    return draw_file(plot).encode()
+    return draw_file(plot, NARROW if a.points < SMALL else WIDTH).encode()

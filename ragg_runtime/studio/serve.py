@@ -47,6 +47,9 @@ HEADERS = {
     "cache-control": "no-store",
 }
 
+PICTURE = {"content-security-policy": "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"}
+"""For an SVG, whose styles are attributes; it can neither run code nor load anything."""
+
 
 def serve(
     model: Path | None, flights: Sequence[Path], port: int, say: Callable[[str], None], *, browser: bool
@@ -150,7 +153,8 @@ class Guard:
 def _add_headers(send: Send) -> Send:
     async def sent(message: Message) -> None:
         if message["type"] == "http.response.start":
-            own = {k.encode(): v.encode() for k, v in HEADERS.items()}
+            picture = (b"content-type", b"image/svg+xml") in message["headers"]
+            own = {k.encode(): v.encode() for k, v in (HEADERS | PICTURE if picture else HEADERS).items()}
             others = [(k, v) for k, v in message["headers"] if k.lower() not in own]
             message = {**message, "headers": [*others, *own.items()]}
         await send(message)

@@ -185,7 +185,7 @@ class Session:
                 try:
                     read = tuple(api.read_flights(self.state.model, flights))
                 except UserError:
-                    if any(is_foreign(p) for p in flights):
+                    if any(is_foreign(self.state.model, p) for p in flights):
                         return  # the page asks what the columns are
                     raise
                 places = tuple(

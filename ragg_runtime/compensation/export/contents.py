@@ -145,7 +145,7 @@ class Contents:
         return list(dict.fromkeys(o.angle_column for o in self.outputs()))
 
     def columns(self) -> list[str]:
-        """The columns of a flight that the model reads, beside ``time`` and the disc angles."""
+        """The columns of a flight that the model reads, besides ``time`` and the disc angles."""
         return list(dict.fromkeys(x["column"] for x in self.inputs() if x["column"] != DISC))
 
     def limits(self) -> list[str]:

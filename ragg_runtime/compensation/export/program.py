@@ -208,7 +208,7 @@ def _enum(**values: int) -> str:
 
 
 def _text(x: str) -> str:
-    """Inside a C string: names may be those of a stranger's file."""
+    """Inside a C string: names come from files and may hold anything."""
     return "".join(ch if ch.isascii() and ch.isprintable() and ch not in '"\\?' else "_" for ch in x)
 
 

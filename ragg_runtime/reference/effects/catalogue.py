@@ -24,7 +24,7 @@ EffectValues = Mapping[str, Mapping[str, ArrayLike]]
 class InjectedParameter:
     """One number of an effect (``per_accelerometer``: one each), absent at ``neutral``.
 
-    ``unit``: SI; m/s^2 is the unit of specific force, so 1/(m/s^2)^2 stands for the paper's g/g^3.
+    ``unit``: SI; m/s^2 is the unit of specific force, so 1/(m/s^2)^2 is the paper's g/g^3.
     """
 
     unit: str

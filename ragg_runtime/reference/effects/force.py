@@ -1,4 +1,4 @@
-"""Stage 3: attraction that the gradient channels do not tell, and vibration that nobody recorded."""
+"""Stage 3: attraction missing from the gradient channels, and unrecorded vibration."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def _yawed(carrier: Values, r: Array, yaw: Array) -> Array:
 
 
 def _carried(carrier: Values, r: Array, auxiliaries: Mapping[str, Array]) -> Array:
-    """Attraction (3, N) m/s^2 of carrier and fuel: at r as it stands in the carrier, less that of the level carrier without fuel."""
+    """Attraction (3, N) m/s^2 of carrier and fuel: at r in the carrier, less that of the level carrier without fuel."""
     attitude = [auxiliaries[n] for n in ("yaw", "pitch", "roll")]
     seen = np.array(r)
     for (a, b), angle in zip(_PLANES, attitude, strict=True):
@@ -132,7 +132,7 @@ def vibration(effects: Injected) -> tuple[tuple[Array, float], ...]:
 
 
 def louder(effects: Injected) -> tuple[tuple[Array, float], ...]:
-    """Instances of ``vibration-level`` at a level of 1 m/s^2, as those of :func:`vibration`."""
+    """Instances of ``vibration-level`` at a level of 1 m/s^2, like those of :func:`vibration`."""
     return _instances(effects, "vibration-level", "L")
 
 

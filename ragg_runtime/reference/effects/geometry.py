@@ -78,7 +78,7 @@ def wobble(effects: Injected) -> Array | None:
 
 
 def spin_share(kinematics: Kinematics, effects: Injected) -> float:
-    """How much of the disc's own turning the accelerometers feel: all of it in full kinematics."""
+    """Share of the disc's own rotation that the accelerometers sense: all of it in full kinematics."""
     if kinematics not in ("platform", "full"):
         raise UserError("unknown kinematics", found=kinematics, expected="platform or full")
     given = effects.get("disc-spin")
@@ -91,7 +91,7 @@ def spin_share(kinematics: Kinematics, effects: Injected) -> float:
 
 
 def arm_error(effects: Injected) -> float:
-    """What every arm is longer than its sheet says, m."""
+    """How much every arm is longer than on the test sheet, m."""
     longer = effects.get("arm-length")
     return 0.0 if longer is None else float(longer["delta_R"])
 

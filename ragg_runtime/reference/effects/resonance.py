@@ -31,7 +31,7 @@ def oscillator(values: Values) -> tuple[float, float]:
 
 
 def recoil(values: Values, x: Signal, time: Array, delay: float = 0.0) -> tuple[Array, Array]:
-    """What the sensor beside a mount feels of a quantity of the disc beyond it, (N,), and its rate.
+    """A quantity (N,) of the disc behind a mount as the sensor on the other side measures it, and its rate.
 
     The disc's x is that of the sensor, x_s, and a share of what the resonance adds; solved for x_s it is
     x_s - x = share b s^2 / (1 + d s + (1 - share) b s^2) x.

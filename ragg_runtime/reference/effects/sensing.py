@@ -92,7 +92,9 @@ def record_motion(
             raise UserError(
                 "the range of imu-saturation must be positive", found=f"{a_max:g} m/s^2, {omega_max:g} rad/s"
             )
-        omegadot = np.where(np.abs(omega) > omega_max, 0.0, omegadot)  # a gyroscope at its end stands still
+        omegadot = np.where(
+            np.abs(omega) > omega_max, 0.0, omegadot
+        )  # a gyroscope at the end of its range is constant
         a, omega = np.clip(a, -a_max, a_max), np.clip(omega, -omega_max, omega_max)
     return MotionState(a, omega, omegadot)
 

@@ -2,7 +2,7 @@
 
 MOTION.csv has a header, one `name [unit]` per column, in the SI units of model.json. Gradients that are not there are zero;
 omegadot, where it is not there, is derived from omega; without an encoder's column (spin_angle) the angle of a disc is
-2 pi spin_frequency t, from t = 0 or from the first row, as model.json's "angle_origin" says.
+2 pi spin_frequency t, from t = 0 or from the first row, by "angle_origin" of model.json.
 """
 
 import itertools
@@ -107,7 +107,7 @@ def spin(angle, order, t):
 
 
 def best_degree(x, half):
-    """The degree with the least expected error of the second derivative: ragg_runtime/signals/derivative.py says why."""
+    """The degree with the least expected error of the second derivative: see ragg_runtime/signals/derivative.py."""
     degrees = [d for d in SPIN["degrees"] if d < 2 * half]
     if len(x) < 2 * (2 * half + 1) or len(degrees) < 2:
         return SPIN["degrees"][0]

@@ -42,10 +42,11 @@ export function sectionNode(s) {
 
 /** A panel of the reports as a picture, with a link to its file. */
 export function pictureNode(what, values) {
-  const source = `/api/panel?${new URLSearchParams({ what, ...values })}`;
+  const panel = (points) => `/api/panel?${new URLSearchParams({ what, ...values, points })}`;
+  const source = panel(1000);
   const note = h("p.note", { hidden: true });
   const image = h("img.picture", { src: source, alt: what, onerror: () => fetch(source).then((r) => r.json()).then((e) => { image.hidden = true; note.hidden = false; note.textContent = e.error.what; }) });
-  return h("div", {}, image, note);
+  return h("div", {}, h("picture", {}, h("source", { media: "(max-width: 600px)", srcset: panel(500) }), image), note);
 }
 
 const SVG = "http://www.w3.org/2000/svg";

@@ -91,7 +91,7 @@ export function unexplainedPane(box) {
            h("ul.terms", {}, u.terms.map((t) => h("li", {}, h("button", { type: "button", class: "term", onclick: () => look({ term: t.id, low: null, high: null }) }, t.label), h("small", {}, ` ${t.z} σ`)))),
            u.expression ? h("button", { type: "button", onclick: () => form.put(u.expression) }, "Write the strongest as an expression") : null,
            u.needs.length ? h("p.note", {}, `The flight must have: ${u.needs.join("; ")}`) : null]
-        : h("p.note", {}, u ? "No further effect needed." : ""),
+        : h("p.note", {}, u ? "No term beyond the effects of the catalogue is significant." : ""),
     );
     const t = state && state.trial;
     fill(

@@ -65,7 +65,7 @@ export function sheetView(main) {
             h("td", {}, h("input", { type: "checkbox", checked: row.fixed, "aria-label": `${row.name} is not fitted`, onchange: (e) => edit(row, e.target, (now) => (now.fixed = e.target.checked)) })),
             h("td.n.quiet", {}, number(row.plausible[0], 3))))))),
         h("div.row", {}, save, revert)),
-      h("section.card", {}, h("h2", {}, "Discs"), h("p.note", {}, "As [[disc]] of model.toml says; edit them there."), tableNode(discs)),
+      h("section.card", {}, h("h2", {}, "Discs"), h("p.note", {}, "From model.toml; edit them there."), tableNode(discs)),
     );
 
   const sigmas = (text, count) => {
