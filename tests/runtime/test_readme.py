@@ -15,6 +15,7 @@ import pyarrow.parquet as pq
 import pytest
 from commands import ragg
 
+from ragg_runtime.identification import next_motion
 from ragg_runtime.report import plots
 
 ROOT = Path(__file__).parents[2]
@@ -44,6 +45,7 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(place)
         patch.setattr(plots, "draw_both", lambda _: "<svg></svg>")  # test_report.py has figures
+        patch.setattr(next_motion, "proposals", lambda *_: ())  # and test_next_motion.py these
         yield place
 
 
