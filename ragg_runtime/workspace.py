@@ -154,7 +154,7 @@ def change(m: Loaded, text: str, action: str, effect: str = "") -> Loaded:
 
 
 def now() -> str:
-    """The instant as it stands in a history."""
+    """The instant as written in a history."""
     return datetime.now(UTC).isoformat(timespec="seconds")
 
 
@@ -208,7 +208,7 @@ def read_flights(
 
 
 def read_for_compensation(m: Loaded, paths: Flights, mapping: Path | str | None = None) -> list[Flight]:
-    """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
+    """Read and examine flights without their gradients: they must not enter what is compensated."""
     return read_flights(m, paths, mapping, leave=frozenset(GRADIENT))
 
 

@@ -1,4 +1,4 @@
-"""Fit a model's parameters to flights, each with a prior about the test sheet's value, as wide as the sheet or the record says."""
+"""Fit a model's parameters to flights, each with a prior about the test sheet's value, as wide as the sheet or the record gives."""
 
 from __future__ import annotations
 
@@ -387,10 +387,10 @@ is (linearised), not even a curved valley takes most."""
 
 
 def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
-    """The instrument with a sheet as sure of each kind of parameter as the record says it is, if that is less than it says.
+    """The instrument with each kind of parameter's prior as wide as the record requires, if that is wider than on the sheet.
 
     The widths are those of greatest evidence (empirical Bayes; MacKay, Neural Computation 4, 1992): the squared distances over the
-    number of parameters that the record tells. ``None`` if nothing changes, or if no width brings what is left down to noise.
+    number of parameters that the record determines. ``None`` if nothing changes, or if no width brings the residual down to noise.
     """
     if c.unheld > max(QUIET, HELD * c.excess):
         return None
@@ -402,15 +402,15 @@ def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument 
 
 
 def as_said(instrument: Instrument) -> Instrument:
-    """The instrument with a sheet as sure as it says: its parameters' widths are given back."""
+    """The instrument with the priors of its sheet again."""
     return replace(instrument, widths=MappingProxyType({}))
 
 
 def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, float]:
-    """How many times less sure than it says the sheet is of each parameter, at least 1.
+    """How many times each prior is wider than on the sheet, at least 1.
 
     Those of one unit are a kind; all with a sigma on the sheet are another one, doubted only where nothing speaks for an effect. Each
-    parameter of an effect is one: how large a fault may be is not known beforehand.
+    parameter of an effect is one: the size of a fault is not known in advance.
     """
     kinds = {q.name: STATED if q.name in instrument.sigmas else q.si_unit for q in PARAMETERS}
     kinds |= {q.name: q.name for q in c.columns if q.effect is not None}
@@ -428,6 +428,6 @@ def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, f
 
 
 def room_taken(instrument: Instrument, c: Calibration) -> float:
-    """What wider priors cost, in chi-square: the logarithm of the volume that they add to, of every parameter that the record tells."""
+    """The chi-square price of wider priors: the logarithm of the volume that they add, over the parameters that the record determines."""
     width = np.array([instrument.widths.get(q.name, 1.0) for q in c.columns])
     return float(2.0 * np.log(width) @ np.maximum(0.0, 1.0 - np.diag(c.covariance)))

@@ -73,7 +73,7 @@ class Fitted:
 
     @property
     def sheet(self) -> Array:
-        """(P,): the parameters as model.toml says."""
+        """(P,): the parameters as in model.toml."""
         return vector(self.model, self.instrument)
 
     @property
@@ -136,7 +136,7 @@ class Fitted:
         return prior(range(self.n_base), self.size + 1, self.to_nominal)
 
     def freed(self, name: str, extra: Sequence[int]) -> Array:
-        """Triangle [base | candidates ``extra`` | residual] as if the sheet did not know one parameter of the accelerometers."""
+        """Triangle [base | candidates ``extra`` | residual] without the prior of one parameter of the accelerometers."""
         picked = [*range(self.n_base), *(self.n_base + k for k in extra), -1]
         sheet = self._prior[:, picked]
         of_it = [k for k, c in enumerate(self.calibration.columns) if c.effect is None and c.name == name]
@@ -241,7 +241,7 @@ def calibrated(
     start: Array | None = None,
     unweighted: bool = False,
 ) -> tuple[Instrument, Calibration]:
-    """The parameters, and the instrument with a sheet as sure as the record says it is (``off_sheet.widened``), if that brings what
+    """The parameters, and the instrument with priors as wide as the record requires (``off_sheet.widened``), if that brings what
     is left down to noise.
     """
     c = calibration.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
@@ -314,7 +314,7 @@ def about(
 
 def with_held(f: Fitted, *, candidates: bool = False) -> Fitted:
     """The evidence about the same values with the coefficients that were held among the columns: what is reported are combinations
-    that the record tells of all.
+    that the record determines of all.
     """
     if not f.instrument.held:
         return f

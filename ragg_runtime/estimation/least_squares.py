@@ -1,4 +1,4 @@
-"""Least squares on R factors: QR of columns in stretches, joined flights, priors; nonlinear by a trust region."""
+"""Least squares on R factors: QR of columns in segments, joined flights, priors; nonlinear by a trust region."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def below(T: Array, first: int, picked: Sequence[int]) -> Array:
 
 
 def of_some(root: Array, own: Sequence[int]) -> Array:
-    """(n, n): what a root (all, all) of an information knows of some parameters, whatever the others are."""
+    """(n, n): a root of the information about some parameters, marginal over the others, from one (all, all) about all."""
     others = [k for k in range(len(root)) if k not in set(own)]
     if not others:
         return root

@@ -30,7 +30,7 @@ MOTION = frozenset((*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION, *GRAD
 
 @dataclass(frozen=True)
 class SpectralLine:
-    """A sinusoid in one of the whitened series: Hz, and its amplitude, V; 0 where that is counted with another one beside it."""
+    """A sinusoid in one of the whitened series: Hz, and its amplitude, V; 0 where that is counted with another one next to it."""
 
     output: int
     frequency: float
@@ -52,9 +52,9 @@ class NoiseModel:
     spectra, filters
         Of every whitened series; taps of the filters, 1/V.
     level
-        How loud the noise is from sample to sample.
+        The noise level from sample to sample.
     lines
-        Those that are neither of the motion nor beside a multiple of the spin rate; what they span is taken out of data and columns.
+        Those that are neither of the motion nor next to a multiple of the spin rate; they are projected out of data and columns.
     combinations
         (m, m), orthonormal rows: the whitened series are these combinations of the observed ones; ``None``: they are these themselves.
     disturbed
@@ -122,7 +122,7 @@ class NoiseModel:
         return float(np.mean(np.square(np.broadcast_to(self.level_of(r.quantity), r.valid.shape)[r.valid])))
 
     def level_of(self, quantity: Callable[[str], Array]) -> Array | float:
-        """(N,), or one number if it is even: how loud it is where quantities, by name, are (N,)."""
+        """(N,), or one number if it is constant: the level where quantities, by name, are (N,)."""
         return self.level.of(quantity)
 
     def weights(self, w: Array) -> Array:

@@ -182,7 +182,7 @@ def _lines(parts: Sequence[_Part], o: Observation) -> tuple[SpectralLine, ...]:
                 turns = int(np.rint(f / spin))
                 if 1 <= turns <= TURNS and abs(f - turns * spin) < width:
                     continue
-                # several beside each other are one that wanders
+                # several next to each other are one that wanders
                 own = np.sum(x.shapes[np.abs(lines - f) < width], axis=0)
                 found.append(SpectralLine(m, float(f), 0.0 if near else float(np.sqrt(2 * np.mean(own**2)))))
     return () if found and any(_has_lines(o, p) for p in parts) else tuple(found)
@@ -252,7 +252,7 @@ def _parts(
 
     def kept(x: ProjectedResidual, loud: Array) -> ProjectedResidual:
         x = replace(x, rest=x.rest * loud, shapes=x.shapes * loud)
-        # of several segments only the means know what is slow
+        # of several segments only the means show what is slow
         return x if len(chosen) == 1 else replace(x, columns=np.empty(0), directions=np.empty(0))
 
     def part(piece: Piece) -> _Part:
@@ -323,7 +323,7 @@ def _disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:
 
 
 def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
-    """How loud the noise is from sample to sample."""
+    """Estimate the noise level from sample to sample."""
     names = level_quantities(o.record)
     white: list[Array] = []
     quantities: dict[str, list[Array]] = {n: [] for n in names}

@@ -1,7 +1,7 @@
-"""How loud a noise is from sample to sample: it may change in time, with the motion, or with the disc's angle.
+"""The level of the noise from sample to sample: it may change in time, with the motion, or with the disc's angle.
 
-White noise of a level that is taken for constant where it changes deceives every test: loud intervals weigh too much, and a
-term that is large where the noise is loud looks significant. A noise whose level follows what is known is made white of
+A level that is taken as constant where it changes biases every test: noisy intervals weigh too much, and a
+term that is large where the noise is large looks significant. A noise whose level follows what is known is made white of
 unit variance by one factor per sample after its filter (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965).
 Whether the level follows something is asked by the studentised test of R. Koenker (J. Econometrics 17, 1981): the squares
 against groups of samples, with their own fourth moment, so that heavy tails are no evidence.
@@ -96,7 +96,7 @@ def shapes(quantity: Callable[[str], Array], names: Iterable[str], level: Level)
     """What a noise of known weights may still vary with: shapes (k, N) of the variance of whitened samples.
 
     An amplifier's noise is a floor, a part in proportion to what it amplifies, and their products: variances grow with the sizes
-    of forces and rates and with their squares, and with auxiliary channels. A random effect is one only if it explains more.
+    of forces and rates and with their squares, and with auxiliary channels. A random effect is claimed only if it explains more.
     """
     found = [np.ones_like(quantity("time"))]
     for n in dict.fromkeys(names):
@@ -168,7 +168,7 @@ def _is_rival(u: Array, variance: Array, quantities: Mapping[str, Array], asked:
 class _Follows:
     """Whether the level follows a quantity: logarithm of the p-value that it does not, how it does, and what that gains in description.
 
-    ``gain``: of log likelihood less BIC's charge, with the squares' own fourth moment.
+    ``gain``: of log likelihood less BIC's penalty, with the squares' own fourth moment.
     """
 
     log_p: float = 0.0

@@ -94,7 +94,7 @@ def observations_of(flights: Sequence[Flight], instrument: Instrument) -> list[O
 
 
 def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observation:
-    """The most telling form of an output of a flight: its voltages if recorded, else G_out, else the channels."""
+    """The most informative form of an output of a flight: its voltages if recorded, else G_out, else the channels."""
     layout = instrument.layout
     o = layout.outputs[place]
     r = record(flight, instrument, place)
@@ -232,7 +232,7 @@ def bridge_gaps(x: Array, valid: NDArray[np.bool_]) -> Array:
 
 
 def _at_top(values: Array, valid: NDArray[np.bool_]) -> bool:
-    """Whether so many samples stand at one extreme value that a range may have been reached."""
+    """Whether so many samples are at one extreme value that a range may have been reached."""
     parts = [slice(k, k + ROWS) for k in range(0, len(values), ROWS)]
     tops = [float(np.nanmax(_sizes(values[some], valid[some]), initial=0.0)) for some in parts]
     near = max(tops, default=0.0) * (1 - 1e-9)
@@ -256,7 +256,7 @@ def _spacing(there: NDArray[np.bool_]) -> int:
 
 
 def telling(r: Record) -> float:
-    """How many times more a sample of the channels tells than one of a record at the full rate."""
+    """How many times more informative a sample of the channels is than one of a record at the full rate."""
     from scipy import signal  # slow to import, and only records of channels need it
 
     taps, n = r.low_pass.taps, len(r.time)

@@ -55,7 +55,7 @@ class Column:
 
 
 def spelt(accelerometer: int | None, name: str) -> dict[str, str]:
-    """What JSON says beside an accelerometer's number: its name on the sheet, where that is not A and the number."""
+    """For JSON, next to an accelerometer's number: its name on the sheet, where that is not A and the number."""
     return {} if name in ("", f"A{accelerometer}") else {"accelerometer_name": name}
 
 

@@ -1,4 +1,4 @@
-"""What regressors leave of a record's output, with the lines and jumps in it fitted beside them, and how much of the noise they took."""
+"""The residual of a record's output after regressors, lines and jumps are fitted jointly, and the share of the noise that they absorb."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ MOST_DISTURBANCES = 8
 
 @dataclass(frozen=True)
 class Disturbance:
-    """A line, Hz, or a jump, s since the first sample of the stretch; ``size``: its amplitude over the noise's rms."""
+    """A line, Hz, or a jump, s since the first sample of the segment; ``size``: its amplitude over the noise's rms."""
 
     kind: str
     at: float
@@ -122,8 +122,8 @@ class ProjectedResidual:
     """What columns leave of the last one.
 
     ``rest`` (rows,) is at the valid samples; ``rank`` the degrees of freedom of the columns; ``kept`` the share of white noise that
-    they leave at each frequency of the periodogram; ``found`` the lines and jumps fitted beside them; ``shapes`` (k, rows) their
-    fitted series. ``columns`` (n, rows) times ``directions`` (n, k) are orthonormal. ``valid`` (N,) says where the rows are.
+    they leave at each frequency of the periodogram; ``found`` the lines and jumps fitted jointly; ``shapes`` (k, rows) their
+    fitted series. ``columns`` (n, rows) times ``directions`` (n, k) are orthonormal. ``valid`` (N,) marks the rows.
     """
 
     rest: Array
@@ -171,7 +171,7 @@ def fit_columns(
     band: tuple[float, float] | None,
     through: Callable[[Array], Array] = lambda columns: columns,
 ) -> ProjectedResidual:
-    """What columns leave of the last of flat (n + 1, rows), with lines and jumps in it fitted beside them.
+    """Project the first n of flat (n + 1, rows), and lines and jumps, out of the last.
 
     No line is looked for in ``band``; ``through`` does to columns (k, rows) what was done to ``flat``. Without ``rate`` neither
     lines nor ``kept`` are looked for.
@@ -194,9 +194,7 @@ def fit_columns(
         jump = None if lines else _jump(left, valid, rate)
         with_it = None if jump is None else _and(left, through(jump.columns(time))[0], valid)
         if jump is not None and with_it is not None and _told(left, with_it, valid, rate, band):
-            left = beside(
-                [*left.found, jump]
-            )  # to the sample; those that a mean shows are of no use beside it
+            left = beside([*left.found, jump])  # to the sample; those that a mean shows are of no further use
             continue
         if not seen:
             break
@@ -247,7 +245,7 @@ INSTANTS = 96
 
 
 def _jump(left: ProjectedResidual, valid: NDArray[np.bool_], rate: float) -> Disturbance | None:
-    """The jump that would explain most of what is left, columns fitted beside it anew; ``None`` if white noise would do."""
+    """The jump that would explain most of the residual, fitted jointly with the columns; ``None`` if white noise would do."""
     n = len(left.rest)
     low, high = 0, n
     while True:
@@ -279,7 +277,7 @@ def _told(
     rate: float,
     band: tuple[float, float] | None,
 ) -> bool:
-    """Whether what was fitted last stands out of the noise that is left without it: red noise looks like jumps, too."""
+    """Whether what was fitted last is significant against the noise without it: red noise looks like jumps, too."""
     model = estimate([place_valid(after.rest, valid)], rate, band, [after.kept])
     taps = model.whitening_filter(len(valid))
     gone = filtered(place_valid(before.rest - after.rest, valid)[None], taps)[0][valid]

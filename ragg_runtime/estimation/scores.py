@@ -51,7 +51,7 @@ class Error:
 
 
 def finite(x: float) -> float | None:
-    """``None`` for NaN and infinity, which JSON does not know."""
+    """``None`` for NaN and infinity, which JSON does not have."""
     return float(x) if np.isfinite(x) else None
 
 
@@ -82,7 +82,7 @@ def find_supported(selected: NDArray[np.bool_], valid: NDArray[np.bool_], taps: 
 
 
 def shortest_demodulated(rate: float) -> int:
-    """Samples that a stretch must have for the demodulator's low-pass to fit, and leave something."""
+    """Samples that a segment needs for the demodulator's low-pass to fit and leave something."""
     return len(low_pass(rate)) + int(2 * rate)
 
 
@@ -124,7 +124,7 @@ class Tally:
     """Sums of squares of k residual series of a flight, before and after demodulation, for ``groups`` of samples.
 
     ``beyond`` is a mean square, V^2, that each of the series has lost before (:mod:`ragg_runtime.estimation.thinning`). Of a disc that
-    stands still (not ``turning``) there is nothing to demodulate.
+    is at rest (not ``turning``) there is nothing to demodulate.
     """
 
     def __init__(

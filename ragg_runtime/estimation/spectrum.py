@@ -53,7 +53,7 @@ class Spectrum:
         Sorted natural logarithms of frequency (Hz) and density (unit^2/Hz) on a fine grid; held constant
         outside it.
     spread
-        Standard error of ``log_psd``: a few bins of a periodogram know the lowest frequencies.
+        Standard error of ``log_psd``: only a few bins of a periodogram determine the lowest frequencies.
     """
 
     rate: float
@@ -90,7 +90,7 @@ class Spectrum:
     def whitening_filter(self, length: int) -> Array:
         """Causal minimum-phase FIR (length,) that turns this noise into white noise of unit variance.
 
-        Of n bins the mean of 1/density is 1/n larger than that of the noise: by so much the density is taken higher where few tell it.
+        Of n bins the mean of 1/density is 1/n larger than that of the noise: the density is corrected by this where few bins determine it.
         """
         n = 1 << max(13, (4 * length - 1).bit_length())
         f: Array = np.fft.fftfreq(n, 1 / self.rate).astype(np.float64)
@@ -103,7 +103,7 @@ class Spectrum:
 
 @dataclass(frozen=True)
 class Averages:
-    """What is left of a long record's means over neighbouring samples: of noise that is slower than stretches are long.
+    """The residual of a long record's means over neighbouring samples: noise slower than the segments are long.
 
     Attributes
     ----------
@@ -112,7 +112,7 @@ class Averages:
     rate
         How many there are a second, Hz.
     below
-        Frequency below which they, not the stretches, tell the noise, Hz.
+        Frequency below which they, not the segments, determine the noise, Hz.
     """
 
     rest: Array
@@ -129,14 +129,14 @@ def estimate(
     slow: Averages | None = None,
     spin: float | None = None,
 ) -> Spectrum:
-    """Spectrum of the noise from contiguous stretches of residual, by Whittle fits.
+    """Spectrum of the noise from contiguous segments of residual, by Whittle fits.
 
     Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise. ``kept``: for
-    every stretch the share of the noise that a fit has left it at each frequency of its periodogram (default: all). ``slow``: of
-    a record of which the stretches are but parts. ``spin``: the spin rate, Hz; about one and two times it the spectrum is resolved
+    every segment the share of the noise that a fit has left it at each frequency of its periodogram (default: all). ``slow``: of
+    a record of which the segments are parts. ``spin``: the spin rate, Hz; about one and two times it the spectrum is resolved
     finely where it asks for that.
 
-    First alpha f^-b + omega_T (paper, Eq. 53), b from 1 to 2, which also says how the noise goes on below the lowest
+    First alpha f^-b + omega_T (paper, Eq. 53), b from 1 to 2, which also extrapolates the noise below the lowest
     frequency of the record; then a smooth correction, a spline of the logarithm over log frequency, fitted
     as a gamma generalised linear model. Neither bends to a single line.
     """
@@ -157,7 +157,7 @@ def estimate(
     spread = 1 / np.sqrt(np.maximum(near @ count, 1.0))
     log_psd = np.asarray(np.log(chosen.base(np.exp(grid))) + chosen.at(np.exp(np.clip(grid, x[0], x[-1]))))
     model = Spectrum(rate, grid, log_psd, spread)
-    # the level once more by itself: the penalties must not bias it
+    # the level once more alone: the penalties must not bias it
     level = float(np.sum(count * p / model.psd(f)) / np.sum(count))
     return Spectrum(rate, grid, model.log_psd + np.log(level), spread)
 
@@ -195,7 +195,7 @@ def _hats(f: Array, humps: Sequence[float]) -> Array:
 
 
 def _beside(humps: Sequence[float], f: Array, p: Array, count: Array) -> tuple[Array, Array, Array]:
-    """The frequencies beside the humps."""
+    """The frequencies outside the humps."""
     beside = ~np.any(_hats(f, humps), axis=1)
     return (f[beside], p[beside], count[beside]) if 2 * np.sum(beside) > len(f) else (f, p, count)
 
@@ -233,7 +233,7 @@ def _corrected(
     held = np.ones(X.shape[1])
     if dense is not None:
         # What asks for it may be steep by decades near the top, and is held back little there. Low frequencies, of which
-        # few bins tell and a fit has taken some, are held to their base as ever.
+        # determined by few bins, of which a fit has absorbed some, are held to their base as usual.
         centre = np.array([np.mean(knots[k + 1 : k + 4]) for k in range(len(b))])
         held[centre > scale(np.array(dense / (2 * FINE)))] = LOOSE
     penalty = 20.0 * (roughness.T * held[1:-1]) @ roughness + 2.0 * np.diag(held)
@@ -274,7 +274,7 @@ def _periodogram(
     """Frequencies, densities and numbers of averaged bins (in equal steps of log frequency).
 
     The power in a group of bins over what a fit has left of unit noise there is its density without bias, and as many
-    bins as are left tell it.
+    remaining bins determine it.
     """
     longest = max(len(r) for r in residuals)
     usable = [k for k, r in enumerate(residuals) if len(r) >= max(64, longest // 4)]
@@ -351,14 +351,14 @@ EXPONENTS = (1.0, 1.5, 2.0)
 def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]:
     """alpha f^-b + omega_T by maximum (Whittle) likelihood for each of :data:`EXPONENTS`: the mean density, by their likelihoods.
 
-    A few bins hardly tell one exponent from another, and below them all depends on it: there the mean is of the noise that there may be.
+    A few bins hardly determine the exponent, and below them all depends on it: there the mean is over the possible noise.
     """
     white = float(np.median(p[f >= np.sqrt(f[0] * f[-1])]))
     log_f = np.log(f / 0.1)
 
     def fitted(b: float) -> tuple[float, Array]:
         def cost(theta: Array) -> tuple[float, Array]:
-            """And its gradient, by which the optimum is found to rounding, whatever that does on the way."""
+            """And its gradient, by which the optimum is found to rounding."""
             flat, red = white * np.exp(theta[0]), white * np.exp(theta[1] - b * log_f)
             s = flat + red
             slope = count * (1.0 - p / s) / s

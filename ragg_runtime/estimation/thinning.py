@@ -42,7 +42,7 @@ MOST_LEFT_OUT = 0.2
 
 
 def certain(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
-    """The observations without the samples of which the model says nothing: sides of a switch, ends of the motion."""
+    """The observations without the samples that the model does not describe: sides of a switch, ends of the motion."""
     observations = [_inside(model, instrument, o) for o in observations]
     if not any(e.switches for e in model.effects):
         return observations
@@ -64,7 +64,7 @@ def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation
     n = int(np.ceil(LATEST * max(most, default=0.0)))
     settled = max((memory(f_0, LATEST * Q) * r.rate for _, f_0, Q in resonant), default=0.0)
     begun = max(n, int(min(settled, MOST_LEFT_OUT / 2 * len(r.valid))))
-    n = max(n, HALO if resonant else 0)  # beyond the end the record is continued as it stands
+    n = max(n, HALO if resonant else 0)  # beyond the end the record is continued with its last value
     inside = np.zeros(len(r.valid), dtype=np.bool_)
     inside[begun : len(inside) - n] = True
     kept = r.valid & inside
@@ -209,7 +209,7 @@ def _alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[Array
         # towards an end or a gap derivatives are of one side
         inside = ndimage.binary_erosion(o.record.valid, iterations=HALO)
         if 2 * np.sum(inside) < len(inside):
-            return False  # so few samples tell nothing of the rest
+            return False  # too few samples to determine the rest
         made = linearise(at, o)[:-1]
         wanted = np.concatenate([thin.kept(columns[some]) for some in stretches(len(columns), TOGETHER)])
         square = square + np.sum(wanted[:, :, inside] ** 2, axis=(1, 2))
@@ -219,7 +219,7 @@ def _alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[Array
 
 
 def _has_line(at: LinearisationPoint, thin: Thin) -> bool:
-    """Whether what the low-pass takes of a piece's residual has a line, which must be told."""
+    """Whether the part of a piece's residual that the low-pass removes has a line, which must be reported."""
     r, half, e = thin.whole.record, len(thin.taps) // 2, residual_of(at, thin.whole)
     fast = e[:, half:-half] - convolved(e, thin.taps)
     told = (0.0, STOPPED * r.rate / (2 * thin.every))

@@ -104,7 +104,7 @@ EXCERPT = 4
 
 
 def take_excerpt(o: Observation) -> Observation:
-    """The observation with but some segments of a long flight valid, evenly spread: what is loud they tell as well as all."""
+    """The observation with but some segments of a long flight valid, evenly spread: for strong signals they are as good as all."""
     found = heard(o)
     if len(found) <= EXCERPT:
         return o
@@ -171,7 +171,7 @@ def _white(
     record: Record,
     windows: Sequence[Window],
 ) -> Array:
-    """(n + 1, rows): columns (n + 1, m, N) whitened, without what an unknown gradient spans; zero where nothing is heard."""
+    """(n + 1, rows): columns (n + 1, m, N) whitened, without what an unknown gradient spans; zero where there is no valid sample."""
     some = whiten_columns(columns[heard], noise, None if tail is None else tail[heard], record)
     if windows:
         some = some.copy() if np.shares_memory(some, columns) else some
@@ -322,7 +322,7 @@ def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
 
 @dataclass(frozen=True)
 class Projector:
-    """Takes whatever base and given columns can explain out of whitened rows.
+    """Projects base and given columns out of whitened rows.
 
     Whitened columns (rows, len(taken)) times ``to_basis`` (len(taken), k) are orthonormal over all rows, without the directions
     that the data see worse than the prior; ``along`` (k,) are the residual's components.

@@ -17,7 +17,7 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 
 
 def line(term: Term, centre: Mapping[str, float], unit: str) -> str | None:
-    """The effect as one line of model.toml; ``None`` if a channel's name cannot stand in an expression, or it is made of the output.
+    """The effect as one line of model.toml; ``None`` if a channel's name is not possible in an expression, or it is made of the output.
 
     ``centre`` are the means that auxiliary channels enter less; ``unit`` is that of the term's channels.
     """
@@ -37,7 +37,7 @@ def line(term: Term, centre: Mapping[str, float], unit: str) -> str | None:
 
 
 def columns(term: Term) -> list[str]:
-    """In words: the columns that a flight must have for :func:`line`, since an expression knows only the moment."""
+    """In words: the columns that a flight must have for :func:`line`, since an expression has only the values of one instant."""
     found = {}
     for name in term.channels:
         s = series_name.series(name)

@@ -1,11 +1,11 @@
-"""Which of the effects that were chosen may be claimed, whatever else a record holds.
+"""Which of the chosen effects may be claimed although something else remains in a record.
 
-A model is never complete: y = h(theta) + d + n, with d what no effect explains. A claim stands if
+A model is never complete: y = h(theta) + d + n, with d what no effect explains. A claim is made if
 
 (a) the claims together explain more than generic terms could on the residual of the model without them: the difference of log
     evidence (``probability.log_bayes``), each side charged for its coefficients and for what it was chosen from. Where d is
     significant its generic terms have Gaussian coefficients of one fitted variance, and the claims must be ahead plainly;
-(b) its coefficients are significant with a variance that their scores, block of time by block, tell (P. Huber 1967; H. White, Econometrica
+(b) its coefficients are significant with a variance estimated from their scores in blocks of time (P. Huber 1967; H. White, Econometrica
     48, 1980), of few blocks with the correction CR2 (R. Bell and D. McCaffrey, Survey Methodology 28, 2002);
 (c) held-out, interleaved blocks of time do not speak against it, by their predictive density.
 """
@@ -118,7 +118,7 @@ def _absent(f: Fitted) -> Array:
 
 @dataclass(frozen=True)
 class Robust:
-    """The fit with a covariance (n, n) that the scores in ``blocks`` blocks of time tell, beside the model's own."""
+    """The fit with a covariance (n, n) from the scores in ``blocks`` blocks of time, next to the model's own."""
 
     regression: Regression
     value: Array
@@ -147,7 +147,7 @@ class Robust:
         return np.asarray(V * np.outer(wider, wider))
 
     def significance(self, effect: str) -> Significance:
-        """Of an effect beside all others."""
+        """Of an effect fitted jointly with all others."""
         E = self.regression.columns(effect)
         own = np.ix_(E, E)
         sizes, U = np.linalg.eigh(self.covariance[own])
@@ -173,7 +173,7 @@ class Significance:
     blocks: int
 
     def log_p(self, log_p: float | None, *, doubted: bool) -> float:
-        """Logarithm of the p-value with the variance that the scores tell.
+        """Logarithm of the p-value with the variance of the scores.
 
         ``log_p`` is that of a noise that is as its model says, where a test of fewer coefficients knows it. Unless the noise is
         ``doubted`` it holds as long as the scores scatter no more than is likely of it.
@@ -230,7 +230,7 @@ def _of_terms(s: Omnibus, claimed: float, most: int, spread: float) -> list[floa
 
 
 def best_single(bases: Sequence[Remainder]) -> float:
-    """Chi-square that the best generic term explains by itself."""
+    """Chi-square that the best generic term explains alone."""
     return max(sum(max([0.0, *(t.z**2 for t in _singles(s))]) for s in b.searches) for b in bases)
 
 
@@ -252,7 +252,7 @@ def spread_of(left: Remainder) -> float:
 
 
 def strongest(left: Remainder) -> ResidualTerm | None:
-    """The generic term that stands out most of what is left."""
+    """The most significant generic term of the residual."""
     return max((t for s in left.searches for t in s.terms), key=lambda t: abs(t.z), default=None)
 
 

@@ -56,7 +56,7 @@ class Comparison:
 
     @property
     def converged(self) -> bool:
-        """Whether the calibration has arrived at an optimum; if not, ``complaint`` says why."""
+        """Whether the calibration has converged; if not, ``complaint`` has the reason."""
         return self.complaint is None
 
     @property
@@ -117,7 +117,7 @@ class Comparison:
         }
 
     def _of_outputs(self) -> dict[str, object]:
-        """Of an instrument with several outputs each of them, and what they say together."""
+        """Of an instrument with several outputs each of them, and all together."""
         if len(self.fitted.instrument.layout.outputs) == 1:
             return {}
         return {
@@ -233,7 +233,7 @@ def errors(f: Fitted, coefficients: Sequence[Array]) -> list[Scored]:
 def concluded(
     f: Fitted, nominal: Error, calibrated: Scored, holdout: Error, *, judged: bool = True
 ) -> Comparison:
-    """Search what is left, and say whether the model is adequate (if it is to be ``judged``)."""
+    """Search the residual, and decide whether the model is adequate (if it is to be ``judged``)."""
     rem = remainder(f) if judged else None
     available = testable_effects(f) if judged else []
     choice = selection.choose(field_of(f, available)) if available else None
@@ -271,7 +271,7 @@ def _grounds(exceeds: bool, rem: Remainder, choice: selection.Choice | None) -> 
 
 
 def loud(f: Fitted, scored: Scored, noise: float) -> bool:
-    """Whether an error stands above the noise (rms, Eo), lines and three standard errors of the noise allowed for."""
+    """Whether an error exceeds the noise (rms, Eo), allowing for lines and three standard errors of the noise."""
     freedom = sum(n.freedom for n in f.calibration.noise)
     known = 1.0 + 3.0 / float(np.sqrt(2.0 * freedom))
     return scored.whole.rms_Eo > float(np.hypot(LOUD * noise * swell(f) * known, fitted.lines(f)))

@@ -44,7 +44,7 @@ def derived(
     candidates: bool = False,
     held: frozenset[str] = frozenset(),
 ) -> tuple[Model, Instrument]:
-    """The model of some flights with further effects in it, and the sheet, as sure as it says, with the instants of steps.
+    """The model of some flights with further effects in it, and the priors of the sheet, with the instants of steps.
 
     Coefficients labelled in ``held`` are not fitted.
     """

@@ -1,4 +1,4 @@
-"""Which physical effect is missing: the method, its verdict, and what the record cannot tell.
+"""Which physical effect is missing: the method, its verdict, and what the record cannot separate.
 
 The model is calibrated, every candidate tested on what no parameter absorbs, strong ones derived into the model one after the
 other; a refit with all chosen effects shows whether the residual comes down to noise.
@@ -134,7 +134,7 @@ def _share(o: Outcome, left: Remainder) -> float:
 def complete_ranking(
     ranking: Sequence[Ranked], before: Error, evidence: Evidence, found: Conclusion
 ) -> list[Ranked]:
-    """The effects as they stand in the ranking; ``ranking`` is the first stage's, ``before`` the error without any."""
+    """The effects in the order of the ranking; ``ranking`` is the first stage's, ``before`` the error without any."""
     steps, last = evidence.steps, evidence.last
     random = {} if found.remains else found.outcome.random
     ranking = [*ranking, *rank_random(random, before)]
@@ -238,7 +238,7 @@ def contradiction(first: Stage) -> tuple[Disagreement, ...]:
 
 
 def disagreement(f: Fitted, flights: Sequence[Flight], extend: Extend | None) -> tuple[Disagreement, ...]:
-    """What each of the flights lacks by itself, where each is explained so; nothing if one is not."""
+    """What each flight alone lacks, where each is explained so; nothing if one is not."""
     found: dict[tuple[str, ...], list[str]] = {}
     for x, own in zip(flights, _by_flight(f), strict=True):
         d = diagnose_fitted(fit(f.model, f.instrument, own), [x], extend)

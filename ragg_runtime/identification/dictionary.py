@@ -2,7 +2,7 @@
 
 The dictionary behind ``where`` and ``unexplained``, searched sparsely: harmonics 0 ... 4 of the spin times products
 of up to three channels (motion, its time derivatives, auxiliary channels); and, without harmonics, what a transducer
-may make of the forces that it feels as they turn with the disc: higher powers, kinks and signs, rates, after-effects,
+may make of the forces on it as they turn with the disc: higher powers, kinks and signs, rates, after-effects,
 products with auxiliary channels and with rotation. Of those, a sum of harmonics would have to be long: f_i^4 alone is
 fifteen of them.
 """
@@ -103,7 +103,7 @@ class Dictionary:
             (m, o) for m in motion if m.startswith(("a_", "omega_")) for o in other if o in self.centre
         ]
         products += list(combinations_with_replacement([n for n in names if n in _CUBIC], 3))
-        # of a disc that stands still every harmonic is a constant
+        # of a disc at rest every harmonic is a constant
         of_one, of_several = (harmonics(n if r.turning else 0) for n in (HIGHEST_OF_ONE, HIGHEST))
         alone = [Term(h, c) for c in products if len(c) <= 1 for h in of_one]
         alone += [Term("const", (f,)) for f in features.FORCES if f in self._size]
@@ -197,7 +197,7 @@ class _Statistics:
 
 
 def generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
-    """Products, of whatever order, in which a transducer may depend on what it feels; ``auxiliary``: see above."""
+    """Products, of any order, by which a transducer may depend on the force on it; ``auxiliary``: see above."""
     a, omega, omegadot = (tuple(f"{n}_{k}" for k in "xyz") for n in ("a", "omega", "omegadot"))
     rates = tuple(f"d_{f}" for f in _FORCES)
     turning = features.FORCES

@@ -1,4 +1,4 @@
-"""Harmonic x motion term: how strongly each generic term stands out of what is left of a flight, all at once."""
+"""Harmonic x motion term: the significance of every generic term in the residual of a flight."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Heat:
-    """Significance ``z`` (harmonics, products of channels) of generic terms, each by itself, in standard deviations (NaN: not
-    asked); ``coefficient`` in V per SI unit of the product; from ``level`` on one of all the terms stands out.
+    """Significance ``z`` (harmonics, products of channels) of generic terms, each alone, in standard deviations (NaN: not
+    asked); ``coefficient`` in V per SI unit of the product; from ``level`` on one of all the terms is significant.
     """
 
     harmonics: tuple[str, ...]

@@ -31,7 +31,7 @@ rest is its couplings to the motion, which a strong one shows."""
 
 @dataclass(frozen=True)
 class LineRival:
-    """A line that explains as much as an effect, which by its ``own`` explains that chi-square beside the others that are chosen."""
+    """A line that explains as much as an effect, which explains the chi-square ``own`` next to the other chosen effects."""
 
     line: NearLine
     effect: str
@@ -45,14 +45,14 @@ class LineRival:
         )
 
     def better(self, rem: Remainder) -> bool:
-        """Whether it also explains as much as the effect does together with the best generic term in a remainder."""
+        """Whether it also explains as much as the effect together with the best generic term of the residual."""
         if not rem.significant:
             return True
         best = max((t.z**2 for s in rem.searches for t in s.terms), default=0.0)
         return self.line.chi2 - self.own > best - INDISTINGUISHABLE
 
     def within(self, rem: Remainder) -> Remainder:
-        """A remainder in which this line is what is left."""
+        """A residual of which this line is the strongest term."""
         chi2 = self.line.chi2
         found = ResidualTerm(
             term=Term(f"line {self.line.frequency:.5g} Hz", ()),
@@ -99,7 +99,7 @@ class Steady:
 
 
 def line_rival(steps: Sequence[Taken], last: Stage) -> tuple[LineRival | None, tuple[Steady, ...]]:
-    """The first chosen effect in whose place a line beside a multiple of the spin rate would do, and those that are no more than
+    """The first chosen effect that a line next to a multiple of the spin rate could replace, and those that are no more than
     one.
     """
     steady = []
@@ -175,7 +175,7 @@ DISTINCT = 1e-6
 
 @dataclass(frozen=True)
 class NearLine:
-    """A sinusoid in what is left of a record: Hz, chi-square beside what is fitted, V; ``slip`` is how much of ``chi2`` one at the
+    """A sinusoid in the residual of a record: Hz, chi-square given what is fitted, V; ``slip`` is how much of ``chi2`` one at the
     very multiple would not explain, ``log_p`` counts the frequencies tried.
     """
 
@@ -187,7 +187,7 @@ class NearLine:
 
 
 def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
-    """The sinusoid beside a multiple of the spin rate that explains most, base and ``given`` candidate columns projected out.
+    """The sinusoid next to a multiple of the spin rate that explains most, base and ``given`` candidate columns projected out.
 
     ``None`` of several records or of channels, where no disc turns, or where none has a direction of its own.
     """

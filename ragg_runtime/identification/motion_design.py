@@ -80,9 +80,9 @@ def design(
     duration: float,
     band: tuple[float, float],
 ) -> Design | None:
-    """The motion of ``duration`` s with frequencies within ``band``, Hz, that is best for these pairs of rivals.
+    """The motion of ``duration`` s with frequencies within ``band``, Hz, that is best for these pairs of alternatives.
 
-    ``None`` if there is nothing to tell apart, or no frequency within the band.
+    ``None`` if there is nothing to separate, or no frequency within the band.
     """
     asked = Alternatives.of(f, field_of(f, testable_effects(f)), pairs, both=True)
     tones = tones_of(f.instrument.spin_frequency, limits, band)
@@ -240,7 +240,7 @@ class CalibrationDesign:
 
 @dataclass(frozen=True)
 class Knowledge:
-    """What flights know of the parameters, and what of these shows in the compensated channels of their motion.
+    """The information of flights about the parameters, and how these show in the compensated channels of their motion.
 
     ``root`` (n, n): R factor of the information, prior included; ``shown`` (2, n, n): R factors of the mean product of the changes of
     inline, and of cross, Eo, by a scale of each parameter.

@@ -67,7 +67,7 @@ STRENGTHS = np.logspace(0.0, 12.0, 49)
 
 @dataclass(frozen=True)
 class Separation:
-    """By how many standard deviations ``rival`` is ruled out if ``effect`` is what is there.
+    """By how many standard deviations ``rival`` is ruled out if ``effect`` is present.
 
     ``now``: by the flights; ``then``: once the motion has been flown as well, with its standard deviation ``spread``, because the
     size of the effect is known no better.
@@ -139,7 +139,7 @@ class Strength:
 
 
 def estimate_strength(f: Fitted, field: Field, effect: str, beside: Sequence[str] = ()) -> Strength:
-    """The coefficients of an effect by the flights, whatever the model's parameters and effects ``beside`` it may be."""
+    """The coefficients of an effect by the flights, marginal over the model's parameters and the effects ``beside`` it."""
     own = [f.n_base + n for n in field.testable(effect)]
     others = [*range(f.n_base), *columns_of(f, field, beside)]
     k = len(others)
@@ -173,7 +173,7 @@ class Alternatives:
     """Pairs (effect, rival) that flights do not separate, and what is known of each effect.
 
     ``places``: among all columns of the model's, then the rivals' and those of effects beside a pair.
-    ``nuisance``: of each pair the columns, counted in ``places``, that may imitate the effect.
+    ``nuisance``: of each pair the columns, counted in ``places``, that may absorb the effect.
     """
 
     f: Fitted
@@ -207,7 +207,7 @@ class Alternatives:
         return np.asarray(np.linalg.qr(np.hstack([self.f.whole[:, list(self.places)], *signals]), mode="r"))
 
     def separations(self, *further: Array) -> list[tuple[float, float]]:
-        """Of every pair its separation and the spread, with further rows (n, k) beside the flights."""
+        """Of every pair its separation and the spread, with further rows (n, k) added to the flights."""
         rows = np.vstack([self.root, *further])
         own, start = {}, len(self.places)
         for e, s in self.strengths.items():
@@ -268,7 +268,7 @@ def whitened_motion(f: Fitted, at: LinearisationPoint, motion: Sequence[Sinusoid
     channels = _continued(f, n)
     channels |= moved(channels, motion, time)
     r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
-    r = replace(r, reading=None if r.reading is None else np.zeros(n))  # what it is the model says
+    r = replace(r, reading=None if r.reading is None else np.zeros(n))  # the model names it
     series = (np.zeros(n),) * len(o.series)
     made = replace(o, record=r, series=series, name="motion", thin=None)
 
@@ -301,7 +301,7 @@ def _continued(f: Fitted, samples: int) -> dict[str, Array]:
 def proposals(
     f: Fitted, field: Field, pairs: Sequence[tuple[str, str]], limits: Mapping[str, float] = LIMITS
 ) -> list[Proposal]:
-    """The best motion for every pair (effect, rival), the separation that it promises beside today's."""
+    """The best motion for every pair (effect, rival), the predicted separation next to today's."""
     asked = Alternatives.of(f, field, pairs)
     if not asked.pairs:
         return []
@@ -322,7 +322,7 @@ def proposals(
 
 
 def moved(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: Array) -> dict[str, Array]:
-    """The channels (N,) that sinusoids move, and their angular accelerations, beside what they are without."""
+    """The channels (N,) that sinusoids move, and their angular accelerations, added to their means."""
     found: dict[str, Array] = {}
     for axis, frequency, amplitude, phase in motion:
         w = 2 * np.pi * frequency

@@ -102,11 +102,11 @@ class Omnibus:
     terms, chi2, square
         What is left, in terms, and what these explain of the whitened residual's sum of squares.
     steady, varying
-        The significant terms, one beside the other, and those that come and go, each by itself.
+        The significant terms, fitted jointly, and those that come and go, each alone.
     spread
         Mean square of all terms' scores.
     shift
-        How far the coefficients of the projected columns move with the steady terms beside them, in scales.
+        How far the coefficients of the projected columns move when the steady terms are fitted jointly, in scales.
     """
 
     log_p: float
@@ -227,7 +227,7 @@ class Scores:
             return found
 
         score, square = sum(self.prepared.each(of_blocks), np.zeros((2, BLOCKS, len(order))))
-        left = score - square * (np.sum(score, axis=0) / np.sum(square, axis=0))  # beside the term itself
+        left = score - square * (np.sum(score, axis=0) / np.sum(square, axis=0))  # besides the term itself
         by = np.maximum(np.sum(left**2, axis=0) / np.sum(square, axis=0), 1.0)
         return np.asarray(by[np.argsort(np.argsort(places))])
 
@@ -297,7 +297,7 @@ def _varying(s: Scores) -> tuple[float, ResidualTerm] | None:
 
 
 def _line(s: Scores) -> tuple[float, ResidualTerm] | None:
-    """The strongest line of what is left, if it is none beside those that were taken out (of one that wanders something stays)."""
+    """The strongest line of the residual, if it is not next to one that was taken out (of one that wanders something stays)."""
     if s.prepared.observation.recorded.demodulated:
         return None  # their noise is only white within the demodulator's band
     line = s.sums.spectrum.best()
@@ -336,7 +336,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         if first >= np.log(FAMILY):
             return replace(nothing, log_p=first)
     G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
-    # a term of which next to nothing is left: where single precision does not know its own square, nothing is known beside another
+    # a term that is almost absorbed: its square is below single precision, and it cannot be separated from another
     score, left = z[places].copy(), (np.abs(np.diag(G) - 1.0) < APART).astype(np.float64)
     left[int(np.argmax(np.abs(score) / sober))] = 1.0
     directions: list[Array] = []  # components of every term along each direction taken
@@ -405,7 +405,7 @@ class Remainder:
 
 
 def remainder(f: Fitted, given: Sequence[int] = (), only: int | None = None) -> Remainder:
-    """Search what is left once base and ``given`` candidate columns are projected out."""
+    """Search the residual once base and ``given`` candidate columns are projected out."""
     found = []
     for x, triangles in zip(f.prepared, f.triangles, strict=True):
         lean, projector, _ = whitening.projector(triangles, f.n_base, given).lean(x)

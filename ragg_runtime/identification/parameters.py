@@ -110,7 +110,7 @@ class Combination:
     """A parameter, or a combination of accelerometers', that a record sees.
 
     ``weights`` (n,), in ``unit``, are those of the fitted columns in scales; ``shares`` those of the accelerometers' values
-    in ``unit``, empty of a parameter by itself.
+    in ``unit``, empty of a parameter alone.
     """
 
     name: str
@@ -122,7 +122,7 @@ class Combination:
 def combinations_seen(
     model: Model, p: Array, columns: Sequence[Column], std: Callable[[Array], float]
 ) -> list[Combination]:
-    """The combinations of accelerometers' values that the record sees, or the values that it knows far better by themselves.
+    """The combinations of accelerometers' values that the record determines, or the single values that it determines far better.
 
     ``std`` is that of weights (n,) of values in scales; ``p`` the model's parameter vector.
     """

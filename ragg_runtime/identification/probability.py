@@ -68,7 +68,7 @@ class Sets:
         return Sets(effects, *_merged(holds.reshape(-1, len(effects)), logs))
 
     def probabilities(self) -> Probabilities:
-        """What they say of each effect."""
+        """The probability of each effect."""
         top = self.logs.max()
         kept = np.flatnonzero(self.logs > top - KEPT)
         share = np.exp(self.logs[kept] - top)
@@ -144,7 +144,7 @@ def _blocks(f: Field, effect: str, norms: Array, seen: NDArray[np.bool_]) -> lis
 
 
 def _best(blocks: Sequence[_Subspace], alone: Array) -> list[_Subspace]:
-    """The most probable way of each effect, by which it stands in larger sets (its weight is paid there, too)."""
+    """The most probable form of each effect, which represents it in larger sets (with its weight)."""
     chosen: dict[str, tuple[float, _Subspace]] = {}
     for b, value in zip(blocks, alone, strict=True):
         if b.effect not in chosen or value > chosen[b.effect][0]:

@@ -28,7 +28,7 @@ def heed_flags(
     Parameters
     ----------
     d
-        What the records say, taken as they are.
+        The verdict of the records as they are.
     flights
         The same records, with their flags.
     again
@@ -42,7 +42,7 @@ def heed_flags(
     """
     d = _without_feigned(d, flights, again)
     flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind == "motion-noise"]
-    # an output that is more than even noise, beside motion that was not recorded, is not explained
+    # an output that exceeds stationary noise, where motion was not recorded, is not explained
     unknown = bool(d.reasons) and any(f.kind == "still" for _, f in flags)
     if not flags or (d.verdict == "adequate" and not unknown):
         return d
@@ -78,7 +78,7 @@ def _without_feigned(
     made = {r.effect: r for r in feigned.ranking if r.log_p < level}
     found = [r for r in d.ranking if r.effect in d.found]
     alike = [r.effect for r in found if _is_as_strong(made.get(r.effect), r) or _smooths_motion(d, r.effect)]
-    if alike:  # what is significant beside them alone is no more
+    if alike:  # what is significant only next to them is no longer significant
         alike += [r.effect for r in found if r.effect not in alike and r.log_p >= level]
     kept = tuple(e for e in d.found if e not in alike)
     term = _feigned_term(d, feigned) if d.remains else None

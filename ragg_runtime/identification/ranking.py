@@ -150,7 +150,7 @@ def staged(
     steps: Sequence[Taken], chosen: Sequence[Ranked], others: Sequence[Ranked], target: Fitted
 ) -> list[Ranked]:
     """The ranking where effects were derived into the model: each by what the model with those before leaves without and with it;
-    the rest as they stand against the model as it was.
+    the rest against the model as it was.
     """
     free = with_held(target)
     found = [_ranked_taken(t, free) for t in steps] + list(chosen)
@@ -266,7 +266,7 @@ def list_detectable(f: Fitted, field: Field) -> list[Detectable]:
 
 
 def weighed(field: Field, steps: Sequence[Taken]) -> Probabilities:
-    """The probabilities of what is left, and of what is in the model: there rivals that would do as well share alike."""
+    """The probabilities of the remaining effects, and of those in the model: equivalent alternatives share there."""
     sets = probability.weighed(field)
     for t in steps:
         sets = sets.with_one_of((t.effect, *t.rivals))

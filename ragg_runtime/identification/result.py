@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 
 def name_verdict(*, claimed: bool, remains: bool) -> str:
-    """The verdict where something is ``claimed`` or not, and something significant ``remains`` beside it or not."""
+    """The verdict where something is ``claimed`` or not, and something significant ``remains`` or not."""
     if remains:
         return "partly-explained" if claimed else "unexplained"
     return "missing-effect" if claimed else "adequate"
@@ -67,7 +67,7 @@ class Diagnosis:
 
     @property
     def converged(self) -> bool:
-        """Whether the calibration with what was chosen in the model has arrived; if not, ``complaint`` says why."""
+        """Whether the calibration with what was chosen in the model has converged; if not, ``complaint`` has the reason."""
         return self.complaint is None
 
     @property
@@ -82,7 +82,7 @@ class Diagnosis:
 
     @property
     def remains(self) -> bool:
-        """Whether something significant remains beside what is found."""
+        """Whether something significant remains besides what is found."""
         return self.verdict in ("unexplained", "partly-explained")
 
     @property
@@ -180,7 +180,7 @@ class Diagnosis:
 
 @dataclass(frozen=True)
 class Reason:
-    """A part of why a verdict is what it is; ``is_verdict``: it only says the verdict itself, which a headline does, too."""
+    """A part of the reason of a verdict; ``is_verdict``: it only repeats the verdict, as a headline does."""
 
     text: str
     is_verdict: bool = False
@@ -218,7 +218,7 @@ def words(apart: Sequence[Disagreement]) -> str | None:
 
 @dataclass(frozen=True)
 class Group:
-    """Effects that are one finding, the one that would be added first; ``name``: what they make where only that shows."""
+    """Effects that are one finding, the one that would be added first; ``name``: their combination where only that is observable."""
 
     effects: tuple[str, ...]
     name: str | None

@@ -1,4 +1,4 @@
-"""The search: which effects together explain what the model lacks, derived into it and fitted with all else."""
+"""The search: which effects together explain the residual of the model, derived into it and fitted jointly."""
 
 from __future__ import annotations
 
@@ -85,13 +85,13 @@ class Outcome:
         return comparison.loud(self.target, self.scored, self.noise_floor)
 
     def significance(self, effect: str) -> Significance:
-        """Of an effect beside the others, with the variance that its scores tell."""
+        """Of an effect fitted jointly with the others, with the variance of its scores."""
         return self.robust.significance(effect)
 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What the search has found: strong effects in ``steps``, the ``last`` stage beside them, and the ``outcome`` of all chosen.
+    """What the search has found: strong effects in ``steps``, the ``last`` stage with them in the model, and the ``outcome`` of all chosen.
 
     ``first`` is the stage without any effect; ``spent``: the budget of fits did not suffice.
     """
@@ -110,7 +110,7 @@ class Evidence:
 
     @property
     def log_p(self) -> dict[str, float]:
-        """Of what the last stage has chosen, each beside the others: logarithms of p-values."""
+        """Logarithms of the p-values of what the last stage has chosen, fitted jointly."""
         chosen = self.last.choice.chosen
         tests = {e: self.last.field.tests([o for o in chosen if o != e])[e] for e in chosen}
         return {e: t.log_p for e, t in tests.items()}
@@ -130,7 +130,7 @@ class Evidence:
         return max(linear, min(fitted, (1.0 + SECOND_ORDER) * linear) if o.remains else fitted), rank
 
     def _block(self, effect: str) -> tuple[int, ...]:
-        """The columns of an effect that are needed, as far as a linear test of the first stage tells."""
+        """The columns of an effect that are needed, by a linear test of the first stage."""
         beside = {} if self.steps else self.last.choice.blocks
         return beside.get(effect) or self.first.choice.tests[effect].which
 
@@ -143,7 +143,7 @@ class Evidence:
         return sum(charges.values())
 
     def rivals(self) -> Mapping[str, tuple[str, ...]]:
-        """For every chosen effect those that would do as well in its place."""
+        """For every chosen effect those that would explain as much in its place."""
         if self.steps:
             return {t.effect: t.rivals for t in self.steps}
         return selection.rivals(self.first.field, self.first.choice)
@@ -159,7 +159,7 @@ class Evidence:
         return Outcome.of(fit(*self._model_with(kept), first.fitted.observations), kept, ())
 
     def gain(self, o: Outcome, effect: str) -> float:
-        """Chi-square that one of an outcome's effects explains beside the others, by a fit without it; 0 if it is not derived."""
+        """Chi-square that one of an outcome's effects explains given the others, by a fit without it; 0 if it is not derived."""
         if not self._is_derived(o):
             return 0.0
         model, instrument = self._model_with([e for e in o.effects if e != effect])
@@ -184,7 +184,7 @@ class Evidence:
 
 
 def _held(last: Stage, chosen: Sequence[str]) -> frozenset[str]:
-    """Coefficients of the chosen effects that their tests do not need: free, those that a record does not tell would wander."""
+    """Coefficients of the chosen effects that their tests do not need: free, those that a record does not determine would wander."""
     return frozenset[str]().union(*(strong.unneeded(last.field, e, last.choice.blocks[e]) for e in chosen))
 
 
@@ -194,7 +194,7 @@ def _given(last: Stage, chosen: Sequence[str]) -> list[int]:
 
 
 def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
-    """Search forward; nothing is sought of flights that stand ``apart``."""
+    """Search forward; nothing is searched in flights that are kept ``apart``."""
     budget = strong.Budget()
     steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend, budget)
     last, outcome = confirmed(steps, last, extend)

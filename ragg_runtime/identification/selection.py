@@ -152,7 +152,7 @@ class Field:
 @dataclass(frozen=True)
 class Choice:
     """Effects that together account for what the model lacks, each with its ``blocks``; ``tests`` of single effects with nothing
-    else in, ``conditional`` ones of the rest beside the chosen.
+    else in, ``conditional`` ones of the rest given the chosen.
     """
 
     chosen: tuple[str, ...]
@@ -224,7 +224,7 @@ def alike(a: Test, b: Test) -> bool:
 
 
 def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
-    """For every chosen effect those that would do as well in its place."""
+    """For every chosen effect those that would explain as much in its place."""
     result = {}
     for e in choice.chosen:
         others = [o for o in choice.chosen if o != e]

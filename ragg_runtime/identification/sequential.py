@@ -106,7 +106,7 @@ def _blocks(f: Fitted) -> Iterator[_TimeBlock]:
     n = f.n_base
     nothing = np.zeros((n + 1, n + 1))
     known = with_prior(nothing, range(n), f.to_nominal / WIDE)
-    known[:, :n] /= WIDE  # the prior's rows alone stand in it: WIDE times as wide
+    known[:, :n] /= WIDE  # it holds the prior's rows alone: WIDE times as wide
     for x, triangles in zip(f.prepared, f.triangles, strict=True):
         r = x.observation.record
         for T, (first, last) in zip(triangles, pairwise(x.edges), strict=True):

@@ -36,7 +36,7 @@ DRAWN = CUTOFF + WIDTH / 2
 
 @dataclass(frozen=True)
 class SeriesEnvelope:
-    """A series in ``POINTS`` stretches: middle (s), minimum, maximum and rms of the valid samples (NaN: none)."""
+    """A series in ``POINTS`` segments: middle (s), minimum, maximum and rms of the valid samples (NaN: none)."""
 
     time: Array
     low: Array
@@ -73,7 +73,7 @@ class AmplitudeSpectrum:
 
 
 def spectrum(x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260) -> AmplitudeSpectrum | None:
-    """Welch spectrum over the valid stretches of 32 samples and more, averaged to ``points`` steps of log frequency, or ``None``."""
+    """Welch spectrum over the valid segments of 32 samples and more, averaged to ``points`` steps of log frequency, or ``None``."""
     from scipy import signal  # half a second to import, which a command that draws nothing need not wait for
 
     parts = derivative.runs(valid, 32)

@@ -1,4 +1,4 @@
-"""What several outputs of one instrument say together: of each its error, of all the tensor, and where they disagree."""
+"""Several outputs of one instrument together: the error of each, the tensor of all, and where they disagree."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Seen:
 
 @dataclass(frozen=True)
 class Together:
-    """One flight's outputs beside each other: its name, and what each output saw, those of turning discs."""
+    """One flight's outputs side by side: its name, and the gradient by each output of a turning disc."""
 
     name: str
     fitted: Fitted
@@ -159,7 +159,7 @@ def _predicted(f: Fitted, o: Observation, gradient: Mapping[str, Array]) -> Arra
 
 
 def errors(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:
-    """The error object of every output of every flight, by itself."""
+    """The error object of every output of every flight."""
     return [
         {"observation": o.name, "output": o.output.name, **error(e, o.record, k).as_json()}
         for o, e, k in zip(f.observations, residuals, f.scales, strict=True)

@@ -1,4 +1,4 @@
-"""Effects in disguise: the sheet's own parameters, and of a disc that stands still, constants; both seen without the prior."""
+"""Degenerate effects: those that the sheet's own parameters, or constants of a disc at rest, absorb without the prior."""
 
 from __future__ import annotations
 
@@ -40,5 +40,5 @@ def doubtful(f: Fitted, effect: str) -> str | None:
 
 
 def _freed(f: Fitted, name: str, own: list[int]) -> Array:
-    """Columns and residual once a base is projected out of which the sheet does not know that parameter."""
+    """Columns and residual once a base without the prior of that parameter is projected out."""
     return likelihood_ratio.project(f.freed(name, own), f.n_base)

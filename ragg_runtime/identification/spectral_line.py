@@ -22,7 +22,7 @@ LOWEST_BIN = 4
 
 @dataclass(frozen=True)
 class SpectralPeak:
-    """The bin of the spectrum that stands out most: its frequency, Hz, and the share of the power that is in it."""
+    """The most significant bin of the spectrum: its frequency, Hz, and the share of the power that is in it."""
 
     log_p: float
     frequency: float

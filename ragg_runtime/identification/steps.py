@@ -41,7 +41,7 @@ def best_steps(
     owned: Sequence[Sequence[tuple[int, Column]]],
     prior: Array,
 ) -> list[Step]:
-    """For each effect the edge between two stretches of time, of which each output has a triangle, where its step explains most.
+    """For each effect the edge between two segments of time, each with an R factor of every output, where its step explains most.
 
     ``owned`` are each effect's columns, ``given`` those of chosen ones (positions after the base); ``prior`` (n_base,) the centre.
     """
@@ -49,7 +49,7 @@ def best_steps(
     k, m = n_base + len(given), len(columns)
     others = [*(n_base + n for n in given), *(n_base + n for n, _ in columns), -1]
     picked = [fold([below(t, n_base, others) for t in each]) for each in zip(*triangles, strict=True)]
-    # The stretches after an edge count with the steps' columns, those before it without; the prior in them.
+    # The segments after an edge count with the steps' columns, those before it without; the prior in them.
     sheet = prior_rows(range(n_base), k + m + 1, prior)
     after: list[Array] = [np.pad(sheet, ((0, k + m + 1 - n_base), (0, 0)))]
     for t in reversed(picked[1:]):

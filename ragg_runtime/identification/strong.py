@@ -211,7 +211,7 @@ def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend
 
 
 def _alike(a: Test, b: Test) -> bool:
-    """Whether two effects explain the same, with as much evidence, as far as a linear test tells."""
+    """Whether two effects explain the same, with as much evidence, by a linear test."""
     return abs(a.chi2 - b.chi2) < INDISTINGUISHABLE and _as_sure(a, b)
 
 
@@ -309,7 +309,7 @@ def _scanned(
         found = special.best_steps(f.triangles, edges, f.n_base, given, owned, f.to_nominal)
         return [(step, given) for step in found]
 
-    # By itself, unless it explains far more beside the first choice.
+    # Alone, unless it explains far more next to the first choice.
     return [
         ways[-1] if ways[-1][0].test.log_p < ways[0][0].test.log_p - BESIDE else ways[0]
         for ways in zip(*map(steps, [[], first] if first else [[]]), strict=True)

@@ -45,7 +45,7 @@ class Varying:
     """The term whose coefficient varies most.
 
     ``place`` is the term's; ``coefficient`` the root mean square of its coefficient over the flight, in units of the
-    term's series, and ``std`` its standard deviation; ``how`` says in words how it varies.
+    term's series, and ``std`` its standard deviation; ``how`` describes how it varies.
     """
 
     log_p: float
@@ -89,7 +89,7 @@ class BlockScores:
         np.add.at(self.rows, intervals, np.diff(starts, append=len(y)).astype(np.float64))
 
     def add(self, piece: Piece, y: Array, at: slice, X: NDArray[np.float32]) -> None:
-        """Count in the whitened series X (terms, rows) of the terms at places ``at``; others than ours are left."""
+        """Count in the whitened series X (terms, rows) of the terms at places ``at``; others are left alone."""
         if at.start >= self.count:
             return
         at = slice(at.start, min(at.stop, self.count))
@@ -105,7 +105,7 @@ class BlockScores:
         used = self.rows > 0
         if np.sum(used) < 2 or not len(terms):
             return None
-        # over the whole the residual is as loud as its noise model says; blocks may be louder or quieter
+        # over the record the residual is as large as its noise model predicts; blocks may be larger or smaller
         block = np.arange(len(self.rows)) // PARTS
         square, rows = np.bincount(block, self.square), np.bincount(block, self.rows)
         level = square / np.maximum(rows, 1.0) / (np.sum(square) / np.sum(rows))

@@ -2,7 +2,7 @@
 
 A likelihood-ratio test trusts that whitened noise has unit variance everywhere. Where the noise's level was seen to change
 (``estimation.noise_level``) the weights are estimates by groups, tails are heavy, and a term that is large in a few swings
-of the motion rides on them. The scores of what is tested, summed in blocks of time, tell how variable they really are: the
+of the motion rides on them. The scores of what is tested, summed in blocks of time, give their real variance: the
 ratio to what unit variance gives divides chi-square (J. N. K. Rao, A. J. Scott, Ann. Stat. 12, 1984, first-order correction).
 That ratio is known from so many blocks: the test then follows Fisher's F, as one of a variance that was estimated.
 """
@@ -29,7 +29,7 @@ DIRECTIONS = 1e-7
 
 @dataclass(frozen=True)
 class Beside:
-    """A triangle [columns | data] and those of blocks of time, whatever is in the model projected out.
+    """An R factor [columns | data] and those of blocks of time, with what is in the model projected out.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ def telling(blocks: Iterable[Array]) -> tuple[Array, ...]:
 
 
 def tempered(t: Test, by: float, freedom: float, blocks: int) -> Test:
-    """A test with the p-value of its chi-square divided, by what so many blocks tell; corrections for variants stay."""
+    """A test whose chi-square is divided by the variance of the blocks; corrections for variants stay."""
     if by <= 1.0:
         return t
     known = min(freedom, blocks - 1.0)

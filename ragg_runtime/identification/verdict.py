@@ -1,4 +1,4 @@
-"""The verdict: what is claimed of what the search has found, what remains beside it, and why, in words."""
+"""The verdict: what is claimed of what the search has found, what remains, and why, in words."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ragg_runtime.identification.strong import Stage
 
 @dataclass(frozen=True, eq=False)
 class Conclusion:
-    """The verdict, the effects that are claimed, and what is left beside them.
+    """The verdict, the effects that are claimed, and what remains.
 
     ``open``: effects that the record speaks for, but not surely enough; ``line``, ``steady``: see ``line_rival``; ``share``: probability
     of what the search chose against generic terms; ``rival``: these do as well.
@@ -65,10 +65,10 @@ class Conclusion:
             weak.append(e)
             outcome = found.without(outcome, e)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
-        # beside the noise model, whose level has shapes of its own
+        # next to the noise model, whose level has shapes of its own
         tests = outcome.random.items()
         random = sorted((t.log_p, e) for e, t in tests if selection.significant(t, count, selection.FURTHER))
-        # noise that follows the motion is louder where the motion is: a random effect says so itself
+        # noise that follows the motion grows with the motion: a random effect models just that
         remains = line is not None or left.significant or outcome.complaint is not None
         remains = remains or (outcome.loud and not random)
         claimed: tuple[str, ...] = ()
@@ -81,7 +81,7 @@ class Conclusion:
         remains = remains or rival or doubted
         if not remains:
             claimed = (*claimed, *(e for _, e in random[:1]))
-        if not doubted:  # what the recorder did stands in the record, whatever else does
+        if not doubted:  # what the recorder did is certain, whatever else is in the record
             claimed = (*claimed, *output)
         beside = last.choice.conditional
         unsure = sorted((t.log_p, e) for e, t in beside.items() if t.rank and t.log_p < np.log(OPEN))
@@ -156,7 +156,7 @@ def listed(names: Sequence[str], word: str = "and") -> str:
 
 
 def _weakest(found: Evidence, o: Outcome, needed: Sequence[str]) -> str | None:
-    """The effect that is not significant with a variance that its own scores tell, the least significant of several."""
+    """The effect that is not significant with the variance of its own scores, the least significant of several."""
     doubted, log_p = o.remainder.significant, found.log_p
     p = {e: o.significance(e).log_p(log_p.get(e), doubted=doubted) for e in o.effects if e not in needed}
     weakest = max(p, key=lambda e: (p[e], e), default=None)
@@ -169,7 +169,7 @@ def _is_significant(found: Evidence, o: Outcome, log_p: float) -> bool:
 
 
 def _is_needed(found: Evidence, o: Outcome, effect: str) -> bool:
-    """Whether an effect is significant by the fit without it: far from there a linearisation may not know what it explains."""
+    """Whether an effect is significant by the fit without it: far from there a linearisation may be wrong about what it explains."""
     log_p = replace(o.significance(effect), chi2=max(0.0, found.gain(o, effect))).log_p(None, doubted=True)
     return _is_significant(found, o, log_p)
 
@@ -191,7 +191,7 @@ def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) 
         chi2, rank = found.explained(o)
         more = chi2 - rank > claims.MORE * claims.best_single(base)
         return o.effects if more and ahead > claims.PLAINLY else ()
-    # of one effect that leaves but noise and generic terms that do as well, the one that is known to occur is taken
+    # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
     if len(o.effects) == 1:
         return o.effects if ahead > -claims.PLAINLY else ()
     return o.effects if ahead > claims.PLAINLY else ()

@@ -28,7 +28,7 @@ STRETCH = 2048
 
 
 def products(X: Singles, right: Array | Singles) -> Array:
-    """X (terms, N) times right (N, k): single precision within a stretch, double from stretch to stretch."""
+    """X (terms, N) times right (N, k): single precision within a segment, double between segments."""
     singles = right.astype(np.float32, copy=False)
     total = np.zeros((len(X), right.shape[1]))
     for start in range(0, X.shape[1], STRETCH):

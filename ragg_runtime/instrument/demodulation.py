@@ -1,11 +1,11 @@
 """How inline and cross were made of an output before they were recorded: ``[demodulator]`` of model.toml or of a mapping.
 
 [demodulator]
-kind = "butterworth"   # fir: ours; butterworth: forward and backward; causal: forward alone; average: a moving average; none
+kind = "butterworth"   # fir: the default; butterworth: forward and backward; causal: forward alone; average: a moving average; none
 cutoff = "0.18 Hz"     # fir: half amplitude; butterworth, causal: half power of one pass
 order = 6              # of butterworth, in each direction, and of causal
 length = "4 s"         # of average, about the sample
-delay = "0 s"          # by which the channels stand later than that low-pass makes them
+delay = "0 s"          # by which the channels are later than that low-pass makes them
 rate = "16 Hz"         # at which they were made, if they were thinned out afterwards
 """
 
@@ -63,7 +63,7 @@ class Demodulation:
         return text + (f", made at {self.rate:.6g} Hz" if self.rate is not None else "")
 
     def entries(self, digits: str = "") -> dict[str, str | int]:
-        """Keys and values as they stand in a file; numbers with so many ``digits`` (a format), or all."""
+        """Keys and values for a file; numbers with so many ``digits`` (a format), or all."""
         found: dict[str, str | int] = {"kind": self.kind}
         for key in _KEYS[1:]:
             value = getattr(self, key)

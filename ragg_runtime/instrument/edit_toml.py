@@ -26,7 +26,7 @@ def set_parameters(
     """``text`` of a model.toml with some of ``[accelerometers]`` set, comments kept.
 
     ``sigmas``, in the values' units, replace those of the sheet, ``None`` takes them out; of what is not named they stay where the unit
-    does. ``fixed`` says of some whether they are not fitted. Raises UserError for an unknown parameter.
+    does. ``fixed`` marks those that are not fitted. Raises UserError for an unknown parameter.
     """
     document = _document(text)
     table: Any = document.setdefault("accelerometers", tomlkit.table())
@@ -104,7 +104,7 @@ def _document(text: str) -> tomlkit.TOMLDocument:
 
 def _entries(document: tomlkit.TOMLDocument) -> Any:
     if "effects" not in document:
-        # A plain key must stand before the first table.
+        # A plain key must come before the first table.
         fresh = tomlkit.document()
         fresh.add("effects", tomlkit.array())
         document_text = tomlkit.dumps(fresh) + tomlkit.dumps(document)

@@ -1,4 +1,4 @@
-"""What a model keeps, from ``[model]`` of model.toml: at which order, and whose rotation its accelerometers feel."""
+"""The form of a model, from ``[model]`` of model.toml: its order, and whose rotation its accelerometers sense."""
 
 from __future__ import annotations
 

@@ -104,7 +104,7 @@ class Instrument:
         sigmas: Mapping[str, ArrayLike] | None = None,
         **others: Any,
     ) -> Instrument:
-        """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0; by default the paper's layout.
+        """An instrument from SI values: scalars hold for all accelerometers, missing ones are 0; by default the paper's layout.
 
         ``others`` are further fields, as they are.
         """
@@ -140,13 +140,13 @@ class Instrument:
         return dataclasses.replace(self, accelerometers=MappingProxyType(vectors))
 
     def sigma(self, name: str) -> Vector:
-        """How far a parameter of the accelerometers may be from its sheet, (n,) SI: as the sheet says, or plausible."""
+        """How far a parameter of the accelerometers may be from its sheet, (n,) SI: by the sheet, or plausible."""
         said = self.sigmas.get(name)
         usual = PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
         return (usual if said is None else said) * self.widths.get(name, 1.0)
 
     def grade(self, name: str | None) -> float:
-        """How many times less sure the sheet is of a parameter than of a navigation instrument's; 1 if it says nothing."""
+        """How many times wider the sheet's prior of a parameter is than for a navigation instrument; 1 if it gives none."""
         if name is None or not (name in self.sigmas or name in self.widths):
             return 1.0
         usual = PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
@@ -187,7 +187,7 @@ def _finite(value: Vector, where: str | None) -> Vector:
 
 def _check_physical(instrument: Instrument) -> None:
     path, k = instrument.path, instrument.accelerometers
-    own_discs = not instrument.layout.of_paper  # which may stand still, with accelerometers at their centres
+    own_discs = not instrument.layout.of_paper  # which may be at rest, with accelerometers at their centres
     for name in ("g0",) if own_discs else DISC_UNITS:
         value = getattr(instrument, name)
         if not (np.isfinite(value) and value > 0):

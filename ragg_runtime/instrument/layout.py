@@ -38,7 +38,7 @@ HIGHEST_HARMONIC = 4
 class Disc:
     """A disc, turning or standing still.
 
-    ``spin_frequency``: Hz; 0: it stands still unless its angle is recorded. ``axis``, ``zero``: perpendicular unit
+    ``spin_frequency``: Hz; 0: at rest unless its angle is recorded. ``axis``, ``zero``: perpendicular unit
     vectors in the measurement frame, of the spin and of angle 0. ``angle_column``: of its encoder.
     """
 

@@ -18,7 +18,7 @@ Vector = NDArray[np.float64]
 class AccelerometerParameter:
     """A parameter of an accelerometer; 0 where model.toml leaves it out, unless ``required``.
 
-    ``plausible``: a usual error beside the test sheet, in ``display_unit``; if ``relative``, a fraction of the nominal
+    ``plausible``: a usual error of the test sheet, in ``display_unit``; if ``relative``, a fraction of the nominal
     value.
     """
 

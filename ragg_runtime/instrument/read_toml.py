@@ -109,7 +109,7 @@ def _table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[st
 def _accelerometers(
     table: Mapping[str, Any], g0: float, path: Path | None, count: int
 ) -> tuple[dict[str, Vector], dict[str, Vector], frozenset[str]]:
-    """Values, and how sure the sheet is of those for which it says so, in SI; and which are not fitted."""
+    """Values, their priors where the sheet gives any, in SI; and which are not fitted."""
     check_keys(table, PARAMETER, at(path, "[accelerometers]"))
     found, sigmas, fixed = {}, {}, set()
     for name, raw in table.items():
@@ -163,7 +163,7 @@ def _effect(entry: object, where: str, known: Units, count: int) -> EffectSettin
     where = f"{where} ({effect_id})"
     own = {name: raw for name, raw in entry.items() if name not in ("id", "stage", "add", "params")}
     if ("stage" in entry or "add" in entry) and "params" not in entry:
-        # An effect in one line: its parameters stand beside stage and add, with or without a value.
+        # An effect in one line: its parameters are keys next to stage and add, with or without a value.
         entry = {k: entry[k] for k in ("id", "stage", "add") if k in entry} | {"params": own}
         own = {}
     for name in (*own, *(entry["params"] if isinstance(entry.get("params"), dict) else ())):

@@ -32,13 +32,13 @@ DIMENSIONLESS = ("1", "", "-", "dimensionless")
 _EXAMPLES = "a unit such as m, um, rad, arcsec, ug, ug/g^2, mA/g, ohm, deg/h, Eo, 1/K, s^-2, or 1 for none"
 
 _ROTATIONS = ("revolutions_per_minute", "revolutions_per_second")
-# Words that count angle though their dimension is one: 1 Hz is one turn a second, not one radian a second.
+# Units that count angle though their dimension is one: 1 Hz is one turn a second, not one radian a second.
 _ANGLES = frozenset(
     ("radian", "degree", "arcminute", "arcsecond", "milliarcsecond", "turn", "grade", "mil", *_ROTATIONS)
 )
 _CYCLES = frozenset(("hertz", "counts_per_second"))
 
-# pint evaluates powers of numbers in a unit ("9**9**9" never returns) and drops signs that it does not know ("m;s"): only
+# pint evaluates powers of numbers in a unit ("9**9**9" never returns) and drops unknown characters ("m;s"): only
 # products and quotients of names with small exponents reach it, in brackets at most once.
 _POWER = r"(?:\s*(?:\^|\*\*)\s*[+-]?(?:\d|1[012])(?:\.\d+)?)?"
 _NAME = rf"(?:°?[^\W\d]\w*|°|%){_POWER}"
@@ -322,7 +322,7 @@ _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 
 
 def spellings(text: str) -> Iterator[str]:
-    """What ``text`` may stand for, in the order in which it is to be tried: the field's spellings first."""
+    """What ``text`` may mean, in the order to try: the field's spellings first."""
     yield _NAMED.get(text, text)
     plain = re.sub(r"[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: "^" + m[0].translate(_SUPERSCRIPTS), text)
     plain = re.sub(r"(?<=[^\W\d_])(-?\d+)(?![\w.])", r"^\1", plain)

@@ -1,7 +1,7 @@
 """Parquet, NetCDF, HDF5 and MATLAB: arrays with names and units, perhaps in groups or structures that are lines.
 
 NetCDF-4 and MATLAB 7.3 are HDF5. Of HDF5 the datasets at the root and in groups are read, tables of PyTables as well;
-nothing that stands in another file. What a library raises for a damaged file becomes one message.
+nothing that is in another file. What a library raises for a damaged file becomes one message.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ _DIMENSION = "This is a netCDF dimension but not a netCDF variable"
 
 @contextlib.contextmanager
 def report_damage(path: Path, kind: str) -> Iterator[None]:
-    """Say of whatever a library raises that the file is damaged."""
+    """Report whatever a library raises as a damaged file."""
     try:
         yield
     except (UserError, MemoryError):
@@ -158,7 +158,7 @@ def read_hdf5(path: Path) -> list[DataTable]:
 
 
 def _find_groups(file: h5py.File) -> Iterator[tuple[str, h5py.Group, dict[str, h5py.Dataset]]]:
-    """Every group once, with its datasets; groups may stand in each other, round in a circle."""
+    """Every group once, with its datasets; groups may contain each other in a cycle."""
     import h5py
 
     waiting: list[tuple[str, h5py.Group]] = [("", file)]
@@ -169,7 +169,7 @@ def _find_groups(file: h5py.File) -> Iterator[tuple[str, h5py.Group, dict[str, h
         if address in seen:
             continue
         seen.add(address)
-        # not what MATLAB keeps for itself, nor what stands elsewhere in this file or in another
+        # not MATLAB's own groups, nor links to elsewhere in this file or to another
         names = [n for n in group if n[0] != "#" and isinstance(group.get(n, getlink=True), h5py.HardLink)]
         items = {n: group[n] for n in names}
         waiting += [(f"{place}/{n}", x) for n, x in items.items() if isinstance(x, h5py.Group)]
@@ -225,7 +225,7 @@ def _read_records(data: h5py.Dataset) -> list[tuple[str, Any, Attributes]]:
         written = write_cell(kind)
         if name == INDEX and written.startswith(
             ("datetime64", "timedelta64")
-        ):  # whole numbers, of ns if not said
+        ):  # whole numbers, of ns by default
             step = written[written.index("[") + 1 : -1] if written.endswith("]") else "ns"
             values = values.astype(np.int64).view(f"{'M8' if written[0] == 'd' else 'm8'}[{step}]")
         titles = [] if name == INDEX else _read_pickled_names(kind)
@@ -272,7 +272,7 @@ def read_matlab_text(item: object) -> str:
 
 
 def _read_structures(variables: Mapping[str, Any]) -> Iterator[DataTable]:
-    """Every structure of vectors as a table; where it stands is the name of its line."""
+    """Every structure of vectors as a table; its path is the name of its line."""
     waiting: list[tuple[str, Mapping[str, Any]]] = [("", variables)]
     while waiting:
         place, inside = waiting.pop(0)

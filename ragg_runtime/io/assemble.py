@@ -61,7 +61,7 @@ def make_flight(
     ------
     UserError
         If a column is missing, does not convert, the record is not uniformly sampled, or half of the file's rows or more
-        lack something: what is left must not acquit a model.
+        lack something: the rest must not make a model look adequate.
     """
     _require_names(made, NEEDED, "the motion needs")
     if any(n in made.names for n in ANGULAR_ACCELERATION):
@@ -84,7 +84,7 @@ def make_flight(
     channels = {c: _fill(v, c) for c, v in placed.items()}
     if ANGULAR_ACCELERATION[0] not in channels:
         slopes, sure, derivative = derive_accelerations([placed[n] for n in ANGULAR_RATE], grid.time)
-        valid &= sure  # a sample that stands alone between two gaps has no derivative
+        valid &= sure  # a single sample between two gaps has no derivative
         channels |= {n: _fill(x, n) for n, x in zip(ANGULAR_ACCELERATION, slopes, strict=True)}
         notes.append(derivative.note)
     _check_gradient(channels, notes)
@@ -132,7 +132,7 @@ def _convert(
 
 
 def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> list[str]:
-    """Take out temperatures that no sensor can have read, and say so.
+    """Leave out temperatures that no sensor can have read, with a note.
 
     Where those above 0 K are farther from it than from each other, a column holds temperatures; else differences of them.
     """
@@ -212,7 +212,7 @@ def _place(values: Array, grid: Grid) -> Array:
 
 
 def _find_valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, notes: list[str]) -> Mask:
-    """Samples at which everything stands that has to; counts the others in ``notes``."""
+    """Samples with everything that is needed; counts the others in ``notes``."""
     present = np.zeros(len(grid.time), dtype=np.bool_)
     present[grid.index] = True
     valid = present.copy()
@@ -336,7 +336,7 @@ def _interpolate_slower(
     """Auxiliary channels of a lower rate on the whole grid; they are taken out of ``si``, as are those that cannot be."""
     time = grid.time[grid.index]
     whole = float(time[-1] - time[0])
-    # One value in two seconds: more often than that, blanks are bridged where they stand.
+    # One value in two seconds: more often than that, blanks are bridged in place.
     most = 1000 + 2 * int(min(whole / BRIDGED, ENDLESS))
     found = {}
     for name in filter(_is_auxiliary, list(si)):

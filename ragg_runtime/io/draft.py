@@ -1,4 +1,4 @@
-"""A first ``mapping.toml`` from what a file says: names and units. What it does not say is marked, not guessed.
+"""A first ``mapping.toml`` from names and units of a file. Missing units are marked, not guessed.
 
 Every line carries how sure it is: *certain* (the contract's own name), *likely* or *guess*. Units come from the file
 alone. Whatever is odd about a column, the others are written.
@@ -273,7 +273,7 @@ def _draft_channel(
 
 
 def _draft_null(c: DataColumn, odd: Mapping[str, Sequence[str]]) -> list[str]:
-    """What stands for missing values in a column: its cells that are no numbers."""
+    """The code of missing values in a column: its cells that are not numbers."""
     cells = ", ".join(f'"{_quoted(t)}"' for t in odd.get(c.name, ()))
     return [f"null = [{cells}]"] if cells else []
 

@@ -266,7 +266,7 @@ def flight_name(path: Path) -> str:
     """The file's name without its ending; the folder's where the file is just called ``flight``."""
     stem = path.name[: len(path.name) - len(find_ending(path.name) or "")]
     folder = path.resolve().parent.name
-    # it is told on terminals and in reports: what would steer them, or pass for a line of ours, is written out
+    # it is shown on terminals and in reports: control characters and line ends are escaped
     return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)
 
 
@@ -286,14 +286,14 @@ def write_flight(flight: Flight, path: Path | str) -> None:
 
 
 def write_tables(path: Path, tables: Sequence[DataTable]) -> None:
-    """Write tables in the format of the name's ending, whole or not at all; lines are told apart by a column ``line``."""
+    """Write tables in the format of the name's ending, whole or not at all; lines are distinguished by a column ``line``."""
     write = require_writable(path)
     with replacing(path) as temporary:
         write(temporary, _join_tables(tables))
 
 
 def _join_tables(tables: Sequence[DataTable]) -> list[DataColumn]:
-    """The columns of all tables one after the other; where they are lines a column ``line`` tells them apart."""
+    """The columns of all tables one after the other; where they are lines a column ``line`` distinguishes them."""
     units_of = {c.name: c.unit for t in reversed(tables) for c in t.columns}
     found: list[DataColumn] = []
     if any(t.line is not None for t in tables):

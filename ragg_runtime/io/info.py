@@ -44,7 +44,7 @@ def describe_flight(path: Path | str, mapping: Mapped | None = None) -> Json:
         file has only one record), ``rows``; ``start_s``, ``duration_s``, ``rate_Hz`` (``None`` where there is no uniform time), ``origin``
         (the instant at which time is 0, ISO 8601, or ``None``); ``gap_count``, ``missing`` samples in all gaps, ``gaps`` (the longest:
         from_s, to_s, samples); ``columns`` (name, unit in the file, samples with and without a value, minimum, maximum and mean in that
-        unit); ``notes``: what was assumed, left out or looks odd; ``refused``: why the record is no flight as it stands, or ``None``.
+        unit); ``notes``: what was assumed, left out or looks odd; ``refused``: why the record cannot be used as it is, or ``None``.
 
     Raises
     ------
@@ -79,7 +79,7 @@ def _describe_record(r: DataTable, name: str, several: bool) -> Json:
         time = r.column("time")
         grid = make_grid(units(PAPER_G).to_si(time.values, time.unit or "s", "s", "column 'time'"), r.place)
     except (KeyError, UserError):
-        pass  # said in ``refused``
+        pass  # reported in ``refused``
     gaps = [] if grid is None else _list_gaps(grid)
     longest = sorted(gaps, key=lambda g: -g["samples"])[:MOST_GAPS]
     return {

@@ -1,6 +1,6 @@
 """Instants as files write them, in seconds: ISO 8601, d/m/y and m/d/y, times of the day, elapsed times, GPS weeks.
 
-A date whose day and month could change places is refused until ``format`` says which is which.
+A date whose day and month could change places is refused until ``format`` settles it.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ WAYS: Mapping[str, tuple[int, str]] = MappingProxyType(
 
 _EPOCH = datetime(1970, 1, 1)
 _SECOND = 10**9
-_LOOKED_AT = 64  # stamps that tell how all are written
+_LOOKED_AT = 64  # stamps that show how all are written
 _DAY, _HOUR = 86400 * _SECOND, 3600 * _SECOND
 _NO_HOUR = "000000"
 _NONE = np.iinfo(np.int64).min
@@ -60,7 +60,7 @@ _YEAR_DAY = re.compile(r"(\d{4})-?(\d{3})")
 
 @dataclass(frozen=True)
 class Stamps:
-    """Instants in seconds (n,), NaN where nothing stands.
+    """Instants in seconds (n,), NaN where there is none.
 
     ``instants``: they are dates, times of the day or GPS time and count from ``origin``, the midnight before the first one
     (UTC, or GPS time where the file counts in that; ``None`` if the day is not known). Otherwise they are elapsed times.
@@ -228,7 +228,7 @@ def _read_texts(values: Sequence[str], order: str | None, where: str, row: Calla
 
 
 def _date_in(m: re.Match[str]) -> str:
-    """The date in a stamp, with a year that stands behind the time of the day; ``""``: there is none."""
+    """The date in a stamp, with a year that follows the time of the day; ``""``: there is none."""
     return (m["date"] or "") + (m["year"] or "")
 
 
@@ -274,7 +274,7 @@ def _read_date(text: str, order: str) -> int | None:
             return (datetime(year, int(part["m"]), int(part["d"])) - _EPOCH).days
         if m := _YEAR_DAY.fullmatch(text):  # ISO 8601, day of the year
             return (datetime(int(m[1]), 1, 1) - _EPOCH).days + int(m[2]) - 1
-        # of a date that lacks a part the parser takes that of its default
+        # for a missing part of a date the parser takes its default
         both = {
             parser.parse(text, default=datetime(year, year % 9 + 1, 3 + year % 9)) for year in (1970, 2004)
         }

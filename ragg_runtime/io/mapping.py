@@ -51,7 +51,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class TimeEntry:
-    """Where time stands and how it is written (``None``: by its looks); ``origin``: when plain seconds were 0."""
+    """The columns of time and how it is written (``None``: recognised); ``origin``: when plain seconds were 0."""
 
     columns: tuple[str, ...]
     format: str | None = None
@@ -92,7 +92,7 @@ def read_mapping(path: Path) -> Mapped:
 
 
 def parse_mapping(text: str, path: Path) -> Mapped:
-    """The mapping in a text; ``path`` is where it stands."""
+    """The mapping in a text; ``path`` is its file."""
     try:
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # ValueError: numbers of thousands of digits

@@ -71,9 +71,9 @@ class Flag:
     reason
         What is odd, and what was done about it, as one sentence for people: the note that a user reads.
     open
-        Whether it is still in the record: nothing is claimed of such a record but what ``effects`` says.
+        Whether it is still in the record: of such a record only ``effects`` may be claimed.
     effects
-        Ids of effects that describe the same, and may be claimed beside it.
+        Ids of effects that describe the same, and may be claimed with it.
     kind
         ``motion-noise`` of sensors whose noise shows in the output, ``still`` where no motion was recorded; else empty.
     """
@@ -93,7 +93,7 @@ class Flight:
     (s^-2), ``spin_angle`` (rad), auxiliaries; interpolated where the file has none. ``outputs``: name -> (N,),
     ``G_out`` and ``V_1`` ... in V, ``inline`` and ``cross`` in s^-2; NaN where the file has none. ``valid`` (N,): False
     where a sample is missing or incomplete. ``units``: SI, of every column; ``written``: those of the file. ``digest``:
-    SHA-256 of the file. ``demodulation``: how ``inline`` and ``cross`` were made, if the mapping says so. ``flags``: what
+    SHA-256 of the file. ``demodulation``: how ``inline`` and ``cross`` were made, by the mapping. ``flags``: what
     was found odd (each is among the ``notes``, too). ``motion_noise``: column -> standard deviation, SI, of the noise with which it was
     measured, where that matters in the output.
     ``instants``: whether the file's stamps are instants (dates, GPS time), not seconds. ``began``: time, s, of the first
@@ -158,7 +158,7 @@ class Flight:
 
     @property
     def duration(self) -> float:
-        """Time that the samples stand for, s: N / rate."""
+        """Duration of the record, s: N / rate."""
         return len(self.time) / self.rate
 
     @property
@@ -168,7 +168,7 @@ class Flight:
         return np.asarray(np.any(recorded, axis=0)) if recorded else self.valid
 
     def without(self, stretches: Sequence[tuple[float, float]]) -> Flight:
-        """The flight with stretches of time (from, to, s since the first sample) marked as not to be used, and said so."""
+        """The flight with segments of time (from, to, s since the first sample) marked as not to be used, with a note."""
         valid, notes = np.array(self.valid), list(self.notes)
         since = self.time - self.time[0]
         for first, last in stretches:
@@ -182,7 +182,7 @@ class Flight:
         return dataclasses.replace(self, flags=(*self.flags, *flags), notes=notes)
 
     def part(self, rows: slice) -> Flight:
-        """A stretch of the flight, as views."""
+        """A segment of the flight, as views."""
         return dataclasses.replace(
             self,
             time=self.time[rows],
@@ -194,7 +194,7 @@ class Flight:
 
 
 def left_out(first: float, last: float) -> str:
-    """The note of a stretch of time that somebody has left out, s."""
+    """The note of a segment of time that the user has left out, s."""
     return f"left out by hand: {first:g} s to {last:g} s"
 
 

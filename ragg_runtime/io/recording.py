@@ -117,7 +117,7 @@ def _pick_lines(lines: list[DataTable], names: Sequence[str] | None, place: Path
 
 
 def _read_plain(table: DataTable, lenient: bool, leave: frozenset[str]) -> DataTable:
-    """A table whose columns have the names of the contract; where none is called time the index is, if it is one."""
+    """A table whose columns have the names of the contract; without a column called time the index is used, if it is one."""
     notes = list(table.notes)
     time = next((c for c in table.columns if c.name == "time"), None)
     index = next((c for c in table.columns if c.name == table.index), None)
@@ -150,7 +150,7 @@ def _read_plain(table: DataTable, lenient: bool, leave: frozenset[str]) -> DataT
 
 
 def _read_mapped(table: DataTable, mapping: Mapped, leave: frozenset[str]) -> DataTable:
-    """A table whose columns are what the mapping says."""
+    """A table with the columns of the mapping."""
     notes = [f"read by {mapping.path.name} (SHA-256 {mapping.digest[:16]})", *table.notes]
     if mapping.demodulator is not None:
         notes.append(f"demodulated: {mapping.demodulator.words()}")
@@ -282,8 +282,8 @@ def read_quantities(c: DataColumn) -> DataColumn:
 def parse_numbers(texts: NDArray[np.object_]) -> Array:
     """Numbers (n,) of texts, NaN where they are none: with decimal commas, a minus of print or the D of Fortran, too.
 
-    Where a number has points and then a comma (1.234,5) the comma is decimal in all; where one has a point, commas stand between
-    thousands. Commas alone are decimal, unless all of them may stand between thousands (1,234).
+    Where a number has points and then a comma (1.234,5) the comma is decimal in all; where one has a point, commas separate
+    thousands. Commas alone are decimal, unless all of them may separate thousands (1,234).
     """
 
     def parse(text: str) -> float:
@@ -307,12 +307,12 @@ def parse_numbers(texts: NDArray[np.object_]) -> Array:
 
 
 def find_spoiled(texts: NDArray[np.object_], numbers: Array) -> NDArray[np.bool_]:
-    """Where a text is neither a number nor one of those that stand for nothing."""
+    """Where a text is neither a number nor one of the usual codes of missing values."""
     return np.isnan(numbers) & np.array([t not in MISSING for t in texts], dtype=np.bool_)
 
 
 def _leave_out_codes(c: DataColumn, null: Null, notes: list[str]) -> DataColumn:
-    """The column without what stands for missing values, by the mapping or by its looks; said in ``notes``."""
+    """The column without codes of missing values, given by the mapping or recognised, which ``notes`` report."""
     values = c.values
     named = [n for n in null if isinstance(n, float)]
 
@@ -332,7 +332,7 @@ def _leave_out_codes(c: DataColumn, null: Null, notes: list[str]) -> DataColumn:
 
 
 def find_codes(values: Array, *, known_only: bool = False) -> list[float]:
-    """Values that stand for missing ones: isolated extremes that repeat, or are usual codes such as -9999.
+    """Codes of missing values: isolated extremes that repeat, or are usual codes such as -9999.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The time axis of a flight: uniform rate, jitter, and the places of samples that the file lacks."""
+"""The time axis of a flight: uniform rate, jitter, and the positions of missing samples."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ _BY_COUNT = "if sampling continued, give the times by the sample count: time = r
 class ClockStep:
     """A place where the stamps move on by ``size``, s, more than the samples: before ``row``, at ``time``, s.
 
-    ``part``, s, of it is no whole number of steps; 0 where samples may just lack.
+    ``part``, s, of it is no whole number of steps; 0 where samples may just be missing.
     """
 
     row: int
@@ -61,7 +61,7 @@ class ClockStep:
 
 @dataclass(frozen=True)
 class Grid:
-    """Where the file's samples stand on the uniform grid.
+    """The positions of the file's samples on the uniform grid.
 
     ``index`` (n,): places of the file's samples, increasing from 0. ``time`` (N,) s: the whole grid, the file's own
     instants where it has a sample. ``step``: s.
@@ -81,7 +81,7 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
     _require_increasing(time, path, where)
     steps = np.diff(time)
     step, span = _typical_step(steps), float(time[-1] - time[0])
-    # A gap of more samples than memory holds is refused below, whatever their number.
+    # A gap of more samples than memory holds is refused below.
     jumps = np.rint(np.minimum(steps / step, 2.0**31)).astype(np.int64)
     off = np.abs(steps - jumps * step) / step
     uneven = bool(np.any(jumps < 1) or np.any(off > JITTER_REFUSED))
@@ -139,7 +139,7 @@ def _follow_clock(time: Array, step: float) -> tuple[NDArray[np.int64], Array] |
     much each is off; ``None``: they do not.
     """
     whole = float(time[-1] - time[0]) / (len(time) - 1)
-    # without gaps the mean step is exact, the median of jittering ones is not; a few per cent of the rows may lack
+    # without gaps the mean step is exact, the median of jittering ones is not; a few per cent of the rows may be missing
     exact = _track_clock(time, whole, True) if abs(whole / step - 1) < NO_GAPS else None
     return _track_clock(time, step, False) if exact is None else exact
 
@@ -185,7 +185,7 @@ def unround(time: Array, index: NDArray[np.int64]) -> tuple[float, float, float]
     -------
     tuple or None
         Unit to which the stamps were rounded (or cut off), first instant and step, s; ``None`` if they are not the roundings of
-        an even clock. Where the stamps cannot tell, a round rate is taken, and a tick at time 0.
+        an even clock. Where the stamps do not determine them, a round rate is taken, and a tick at time 0.
     """
     unit = _find_unit(time)
     if unit is None:
@@ -241,7 +241,7 @@ def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]
     Returns
     -------
     list of ClockStep
-        In order; more than a few are jitter, and none is said.
+        In order; more than a few are jitter, and none is reported.
     """
     rows = np.flatnonzero(present)
     if len(rows) < 4 * BESIDE:
@@ -251,7 +251,7 @@ def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]
     apart = np.abs(steps - median)
     step = float(np.mean(steps[apart <= 8 * np.median(apart) + 0.02 * median]))  # of rounded stamps, too
     over = steps / step - 1.0
-    off = np.where(np.abs(over) > 0.5, over - np.rint(over), over)  # whole steps are samples that lack
+    off = np.where(np.abs(over) > 0.5, over - np.rint(over), over)  # whole steps are missing samples
     scatter = float(np.median(np.abs(off)))
     phase = np.r_[0.0, np.cumsum(off)]
     found = []
@@ -268,7 +268,7 @@ def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]
 
 
 def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, float, Array]:
-    """The steady clock by which the samples were taken, whatever their stamps say.
+    """The steady clock by which the samples were taken, whatever their stamps.
 
     Parameters
     ----------
@@ -287,7 +287,7 @@ def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, floa
     X, t = whole[k], time[k] - time[0]
     fitted = np.linalg.lstsq(X, t, rcond=None)[0]
     set_by, scatter = whole[:, 2:] @ fitted[2:], float(np.std(t - X @ fitted))
-    # A clock is set to a round rate: take it where the instants cannot tell it from the fitted one.
+    # A clock is set to a round rate: take it where the instants do not separate it from the fitted one.
     known = 4 * scatter * np.sqrt(np.linalg.pinv(X.T @ X, hermitian=True)[0, 0])
     step = _round_rate(float(fitted[0]), known)
     return float(time[0] + np.mean(t - set_by[k] - step * k)), step, set_by
@@ -376,7 +376,7 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
 
 
 def _is_swapped(time: Array) -> bool:
-    """Whether rows stand in another order."""
+    """Whether rows are in another order."""
     in_order = np.diff(np.sort(time))
     return bool(np.min(in_order) > 0.5 * np.median(in_order))
 

@@ -1,4 +1,4 @@
-"""Tables: columns with names and units as they stand in files or in memory, and the lines among them.
+"""Tables: columns with names and units as in files or in memory, and the lines among them.
 
 A reader of a format makes one or more :class:`DataTable`; what a pandas DataFrame, an xarray Dataset, a group of an HDF5
 file, a structure of MATLAB or a dict of arrays holds becomes one by :func:`make_table`.
@@ -73,7 +73,7 @@ class DataTable:
     """Columns of one length: as a file has them or, once read, those of a flight under the names of the contract.
 
     ``line`` is the flight line, where there are several; ``part`` the group, structure or sheet; ``index`` the name of
-    the column that labels the rows (the index of a DataFrame); ``notes`` what was made of the file. ``counts`` says how
+    the column that labels the rows (the index of a DataFrame); ``notes`` what was made of the file. ``counts`` is how
     the file itself counts its rows: its word for them, and the number of the first.
 
     Of a flight further: ``place`` for messages; ``origin``, the instant at which ``time`` is 0, if it is known (UTC, or
@@ -146,7 +146,7 @@ def read_headings(texts: Sequence[str]) -> list[tuple[str, str]]:
 def read_units(cells: Sequence[str]) -> list[str] | None:
     """The units in a row below the names: each cell is a unit, perhaps in brackets, or empty; not all numbers.
 
-    In front may stand what the row is: ``Units``.
+    The first cell may name the row: ``Units``.
     """
     found = [re.sub(r"\s*(?:\[(.*)\]|\((.*)\)|'(.*)')\s*", r"\1\2\3", c).strip() for c in cells]
     found[:1] = ["" if re.fullmatch(r"units?:?", c, re.IGNORECASE) else c for c in found[:1]]
@@ -199,7 +199,7 @@ def make_table(
         Name, array and perhaps attributes: (n,), or (n, m), (m, n) with m up to ``WIDEST``, which give ``name_1`` ... ``name_m`` (or
         ``a_x`` ... of a vector ``a``, or what m texts in an attribute or another array, such as ``colheaders``, say).
     given
-        Units by name, beside those in the attributes and in the names themselves.
+        Units by name, besides those in the attributes and in the names.
     about
         Further fields of the table.
     """
@@ -277,7 +277,7 @@ def read_attributes(thing: Any) -> dict[str, Any]:
         try:
             found[str(name)] = thing.attrs[name]
         except (OSError, RuntimeError, TypeError, ValueError, KeyError):
-            continue  # of a type that h5py does not know
+            continue  # of a type that h5py does not support
     return found
 
 
@@ -318,7 +318,7 @@ def decode_values(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArra
         ("valid_max", False),
     ):
         bound = numbers.get(name, [])[:1] if low else numbers.get(name, [])[-1:]
-        # of packed whole numbers the range is one of whole numbers, or of what they stand for (NUG, appendix A)
+        # of packed whole numbers the range is one of whole numbers, or of what they encode (NUG, appendix A)
         own = (
             result if bound and packed and kind in "iu" and np.asarray(bound[0]).dtype.kind == "f" else values
         )
@@ -329,7 +329,7 @@ def decode_values(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArra
 
 
 def _decode_objects(values: NDArray[Any]) -> NDArray[Any] | None:
-    """Texts; numbers and dates that stand in an array of objects as what they are."""
+    """Texts; numbers and dates in an array of objects as such."""
     cells = values.tolist()
     there = [c for c in cells if c is not None and c != "" and c == c]
     number = (int, float, np.number)
@@ -472,7 +472,7 @@ def _count_kinds(tables: Sequence[DataTable]) -> int:
 
 
 def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | str | None) -> list[DataTable]:
-    """A table for each line, in the order in which they begin; the rows of one need not stand together."""
+    """A table for each line, in the order in which they begin; the rows of one need not be contiguous."""
     if len(tables) != 1:
         return list(tables)
     (table,) = tables
@@ -509,7 +509,7 @@ def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | s
 
 
 def name_line(value: object) -> str:
-    """The name of a line: 1010 of 1010.0, in numbers or in text; ``""`` where nothing stands."""
+    """The name of a line: 1010 of 1010.0, in numbers or in text; ``""`` where there is none."""
     try:
         number = float(str(value))
     except ValueError:
@@ -520,7 +520,7 @@ def name_line(value: object) -> str:
 def join_groups(tables: Sequence[DataTable]) -> list[DataTable]:
     """Groups in groups as one table: what has as many rows, and no name in common, is a part of the record around it.
 
-    A record that has all of the motion needs nothing further, and units may lack in what stands beside it. Groups of one
+    A record that has all of the motion needs nothing further, and columns besides it may have no units. Groups of one
     channel each that share their time are one record, too.
     """
     found: dict[str, DataTable] = {}
@@ -574,9 +574,9 @@ def require_memory(path: Path, size: float) -> None:
 
 
 def find_free_memory() -> float | None:
-    """Bytes that can be had without swapping; ``None`` where the system does not say."""
+    """Bytes that can be had without swapping; ``None`` where the system does not report it."""
     try:
         with open("/proc/meminfo", encoding="ascii") as lines:
             return next(float(x.split()[1]) * 1024 for x in lines if x.startswith("MemAvailable:"))
     except (OSError, StopIteration, ValueError):
-        return None  # of other systems NumPy's own MemoryError is said
+        return None  # on other systems NumPy raises its own MemoryError

@@ -51,7 +51,7 @@ QUANTITY = re.compile(
 )
 """A number with its unit in one cell."""
 
-_LOOKED_AT = 600  # lines that are looked at to find the header and to tell numbers from text
+_LOOKED_AT = 600  # lines that are looked at to find the header and to separate numbers from text
 _CELL_OF_XML = 4  # bytes in memory for one of a sheet's XML: a cell of 25 bytes becomes an object of 100
 _NOT_CSV = "the file is not a table of comma-separated values"
 _GZIP = b"\x1f\x8b"
@@ -94,7 +94,7 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
         if abs(len(r) - width) <= 1 or not any(map(_is_filled, r[width:] or "x"))
     ]
     data = [_is_data(rows[k]) for k in alike]
-    # numbers that stand before the header are followed by other text, or have their names in front
+    # numbers before the header are followed by other text, or have their names in front
     usual = _find_usual(
         [is_number(write_cell(rows[k][0])) for k, yes in zip(alike, data, strict=True) if yes]
     )
@@ -176,7 +176,7 @@ def is_comma(text: str) -> bool:
 
 
 def _needs_a_row_above(names: Sequence[str]) -> bool:
-    """Whether names are parts of names: some are missing before the last one, or stand twice."""
+    """Whether names are parts of names: some are missing before the last one, or occur twice."""
     bare = [read_heading(n)[0] for n in names]
     there = [n for n in bare if n]
     last = max((k for k, n in enumerate(names) if n), default=-1)
@@ -199,7 +199,7 @@ def _join_rows(above: Sequence[str], below: Sequence[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class _Dialect:
-    """How a text is written: ``lines`` stand before the first row (``headings``), ``texts`` are columns that hold text."""
+    """How a text is written: ``lines`` come before the first row (``headings``), ``texts`` are columns that hold text."""
 
     delimiter: str
     decimal: str
@@ -321,7 +321,7 @@ def _read_rows(lines: Sequence[str], delimiter: str) -> tuple[list[list[str]], l
 
 
 def _split_at_blanks(lines: Sequence[str]) -> list[list[str]]:
-    """Cells between blanks, however many; names of several words stand apart by two blanks or a tab."""
+    """Cells between blanks, however many; names of several words are separated by two blanks or a tab."""
     rows = [re.split(r"[ \t]+(?![\[({<])", x.strip()) for x in lines]
     width = Counter(map(len, rows)).most_common(1)[0][0] if rows else 0
     wide = (re.split(r" {2,}|\t+", x.strip()) for x in lines)
@@ -336,7 +336,7 @@ def _holds_text(rows: Sequence[Sequence[str]], column: int) -> bool:
 
 
 def _drop_headers(data: bytes, d: _Dialect, notes: list[str]) -> bytes:
-    """The text without headings that stand in it again, as in files that were joined."""
+    """The text without repeated headings, as in files that were joined."""
     begins, count = sum(map(len, d.headings)), 0
     for heading in d.headings:
         if d.delimiter.encode() in heading and data.find(b"\n" + heading, begins - 1) >= 0:
@@ -361,7 +361,7 @@ def _parse(data: bytes, d: _Dialect, passed: list[str]) -> pa.Table:
         return "skip"
 
     kinds = {str(k): pa.string() if k in d.texts else pa.float64() for k in range(len(d.header.names))}
-    # with several threads Arrow does not say in which row it stumbled
+    # with several threads Arrow does not report the row of the error
     options = pyarrow.csv.ReadOptions(
         skip_rows=d.lines, column_names=list(kinds), block_size=1 << 22, use_threads=False
     )
@@ -376,7 +376,7 @@ def _parse(data: bytes, d: _Dialect, passed: list[str]) -> pa.Table:
 
 
 def _changed(d: _Dialect, error: str, path: Path) -> _Dialect:
-    """The file read otherwise, by what Arrow says; UserError where nothing helps."""
+    """Read the file again as Arrow's error suggests; UserError where nothing helps."""
     if (match := _NO_NUMBER.match(error)) and int(match[1]) not in d.texts:
         return replace(d, texts=d.texts | {int(match[1])})
     if match := _OTHER_WIDTH.match(error):

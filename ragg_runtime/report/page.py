@@ -25,7 +25,7 @@ class Origin:
 
 
 def _find_renderer() -> Callable[[Plot], str]:
-    """What draws a plot as SVG; where matplotlib is not installed, a line that says so."""
+    """The function that draws a plot as SVG; without matplotlib it returns a line that names the extra."""
     try:
         from ragg_runtime.report.plots import draw_both
     except ModuleNotFoundError as error:

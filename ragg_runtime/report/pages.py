@@ -1,4 +1,4 @@
-"""The reports of the commands: what :mod:`ragg_runtime.wording.describe` says of a result, with figures between, as one page each."""
+"""The reports of the commands: the sections of :mod:`ragg_runtime.wording.describe` with figures, one page each."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _ask_whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
 
 
 def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
-    """The sections, the one that says where the model fails with its figures."""
+    """The sections, that on where the model fails with its figures."""
     f = c.fitted
     harmonics = panels.plot_harmonics(f, f.vector(np.zeros(f.n_base)), "where")
     if any(s.title == "Where it fails" for s in sections):

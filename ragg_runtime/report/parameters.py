@@ -178,7 +178,7 @@ def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...
 
 
 def correlate_parameters(f: Fitted) -> tuple[Matrix, list[tuple[str, str, str]]]:
-    """The matrix of correlations of the directions that the record says something of, and its largest entries."""
+    """The matrix of correlations of the directions that the record constrains, and its largest entries."""
     directions, U = find_directions(f)
     covariance = U @ posterior(f).covariance @ U.T
     std = np.sqrt(np.diag(covariance))

@@ -77,7 +77,7 @@ def _style() -> Iterator[None]:
     """Matplotlib's defaults with the report's look, whatever the user's own settings; names in any script."""
     sheet = resources.files("ragg_runtime.report").joinpath("templates", "report.mplstyle")
     with warnings.catch_warnings(), matplotlib.rc_context():
-        # a glyph that the measuring font lacks is still drawn, by the reader's browser
+        # a glyph missing from the font used for measuring is still drawn by the reader's browser
         warnings.filterwarnings("ignore", message=r"Glyph .* missing from")
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(matplotlib.rc_params_from_file(str(sheet), use_default_template=False))
@@ -169,7 +169,7 @@ def _find_log_limits(axes: Axes, every: Array) -> tuple[float, float]:
     low, high = float(np.min(every)) / 1.4, float(np.max(every)) * 1.8
     for c in axes.curves:
         if c.role == "noise":
-            # where an unknown gradient is taken out, the residual has a notch that says nothing
+            # where an unknown gradient is projected out, the residual has a notch without meaning
             low = max(low, float(np.min(c.y[c.y > np.max(c.y) / 1e2])) / 4.0)
     spread = max(1.0, float(np.sqrt(10.0 * low / high)))
     return low / spread, high * spread
@@ -210,7 +210,7 @@ def _draw_bars(plot: Bars, width: float) -> str:
         ax.barh(place, shown - low, 0.6, left=low, color=colours)
     for k, b in enumerate(plot.bars):
         text = numbers.number(b.value) if np.isfinite(b.value) else "certain"
-        # beside a lying bar nothing may lie below the value
+        # next to a horizontal bar nothing may lie below the value
         end = shown[k] if up else max([shown[k], *(d for d in b.dots if np.isfinite(d))])
         at = (place[k], end) if up else (end, place[k])
         away: dict[str, Any] = (

@@ -1,4 +1,4 @@
-"""What a record shows by itself: too short, too slow, still, or columns that contradict each other."""
+"""Checks of a record without a model: too short, too slow, constant, or columns that contradict each other."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def _require_rate(what: str, where: Path | str, rate: float, found: str, f: floa
 
 
 def list_remarks(instrument: Instrument, flight: Flight) -> list[Flag]:
-    """Columns that stand still or contradict each other, with the likely mistake."""
+    """Columns that are constant or contradict each other, with the likely mistake."""
     encoders = (x for d in instrument.layout.discs for x in _encoder(d, flight))
     noted = (*_rates(flight), *encoders, *_angle_origin(instrument, flight))
     return [*_still(flight), *(Flag((), text) for text in noted)]
@@ -181,7 +181,7 @@ def _rates(flight: Flight) -> list[str]:
 
 
 def _lost_rows(column: str, angle: Array, time: Array) -> list[str]:
-    """Rows that lack though the stamps go on evenly, as those made of row numbers do: the disc turned on meanwhile."""
+    """Missing rows where the stamps go on evenly, as those made of row numbers do: the disc turned on meanwhile."""
     turned, passed = np.diff(angle), np.diff(time)
     pace = float(np.median(turned / passed))
     step = float(np.median(passed))

@@ -66,7 +66,7 @@ class LinearFit:
     surprise
         Sum of the squares of the parameters' moves, in plausible sizes.
     room
-        What the record tells of the parameters: the logarithm of prior over posterior volume, the price of wide priors.
+        What the record determines of the parameters: the logarithm of prior over posterior volume, the price of wide priors.
     kept
         Share of the rows that are no outliers.
     """
@@ -85,7 +85,7 @@ class LinearFit:
 
     @property
     def misfit(self) -> float:
-        """Minus the log likelihood of a row: 0 of a model that says nothing. An outlier is explained by nothing, and is rare."""
+        """Minus the log likelihood of a row: 0 of a model that predicts nothing. An outlier is explained by nothing, and is rare."""
         return self.kept * float(np.log(max(self.share, 1e-300))) - (1.0 - self.kept) * float(np.log(RARE))
 
     @property
@@ -108,7 +108,7 @@ class Hypothesis:
         What orders hypotheses that explain as much, the plainest first: far below ``mistakes.AS_GOOD``.
     kind
         ``record`` (units, signs, axes, clock: the record is refused), ``shift`` (motion and output apart in time), ``origin``
-        (the disc angle counts from elsewhere) or ``sheet`` (it is less sure than it says).
+        (the disc angle counts from elsewhere) or ``sheet`` (its priors are too narrow).
     effects
         Ids of effects that describe the same.
     calming
@@ -124,7 +124,7 @@ class Hypothesis:
     calming: bool = True
 
     def score(self, before: LinearFit) -> float:
-        """Minus the log evidence: one number for whatever may be wrong; ``before``: the record as it stands."""
+        """Minus the log evidence: one number for any mistake; ``before``: the record as it is."""
         calmed = 0.0 if self.calming else max(0.0, before.surprise - self.fitted.surprise)
         return self.fitted.score + self.cost + calmed / 2
 
@@ -260,7 +260,7 @@ def _make_gradient(rows: Rows) -> Array:
 
 
 def fit_robustly(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_], float]:
-    """Coefficients (n,) of columns X (n, rows), the rows that are no outliers of the fit, and what is told of the coefficients."""
+    """Coefficients (n,) of columns X (n, rows), the rows that are no outliers of the fit, and the information about the coefficients."""
     kept = np.ones(len(y), dtype=np.bool_)
     theta, room = fit_shrunken(X, y)
     for _ in range(10):
@@ -274,7 +274,7 @@ def fit_robustly(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_], float]:
 
 
 def fit_shrunken(X: Array, y: Array) -> tuple[Array, float]:
-    """Coefficients (n,) of columns X (n, rows), each with a prior of unit width, and what y tells of them; y's noise is estimated.
+    """Coefficients (n,) of columns X (n, rows), each with a prior of unit width, and y's information about them; y's noise is estimated.
 
     The noise is what the fit leaves: starting from "all is noise" it falls until fit and noise agree.
     """

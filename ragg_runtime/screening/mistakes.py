@@ -45,7 +45,7 @@ and three times as much give the same answers (docs/contributors/decisions.md)."
 
 @dataclass(frozen=True)
 class Finding:
-    """The hypothesis that explains a record best, ``others`` that do as well, and the model as the record stands."""
+    """The hypothesis that explains a record best, ``others`` that do as well, and the model of the record as it is."""
 
     best: Hypothesis
     others: tuple[str, ...]
@@ -83,9 +83,9 @@ def find_mistake(model: Model, instrument: Instrument, s: Sampler) -> Finding | 
 
 
 def _chosen(before: LinearFit, tried: Sequence[Hypothesis]) -> Finding | None:
-    """The best hypothesis that is plainly better than the record as it stands and than a model that says nothing.
+    """The best hypothesis that is clearly better than the record as it is and than a model that predicts nothing.
 
-    A record is not taken to be wrong where a sheet that is less sure explains it as it stands.
+    A record is not taken to be wrong where wider priors explain it as it is.
     """
     sheets = [h.fitted.score for h in tried if h.kind == "sheet"]
     stands = min(before.score, 0.0) - NAMED
@@ -99,7 +99,7 @@ def _chosen(before: LinearFit, tried: Sequence[Hypothesis]) -> Finding | None:
     return Finding(best, tuple(near[:2]), before)
 
 
-# --- a sheet that is less sure than it says ------------------------------------------------------------
+# --- a sheet with priors that are too narrow ------------------------------------------------------------
 
 
 def _sheets(model: Model, instrument: Instrument, rows: Rows) -> Iterator[Hypothesis]:
@@ -141,7 +141,7 @@ def _farthest(model: Model, instrument: Instrument, fitted: LinearFit) -> str:
 
 @dataclass(frozen=True)
 class ColumnMistake:
-    """One possible mistake: in words, what to do, and rows as they stand -> rows without it.
+    """One possible mistake: in words, what to do, and rows as they are -> rows without it.
 
     ``plainness``: of mistakes that explain a record equally well the smallest is named first.
     """
@@ -245,7 +245,7 @@ def _reordered(rows: Rows, order: tuple[int, ...]) -> Rows:
 
 
 def _orders(count: int) -> Iterator[tuple[int, ...]]:
-    """Orders in which voltages may stand by mistake: any of up to four, of more those with two exchanged."""
+    """Orders in which voltages may be listed by mistake: any of up to four, of more those with two exchanged."""
     straight = tuple(range(count))
     if count <= 4:
         yield from (order for order in permutations(straight) if order != straight)

@@ -162,7 +162,7 @@ def _joined(x: Array, there: Mask) -> _Repeated | None:
 
 
 def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
-    """(N,): samples in runs of equal values that are too long for how often the column repeats a value beside them.
+    """(N,): samples in runs of equal values that are too long for how often the column repeats a value elsewhere.
 
     The chance that two neighbours are equal is counted in the pairs before and after a run, as many as it has. Runs that a column
     enters and leaves by a ``step`` or two of its resolution are where it turns; those at an end of its range are saturation, an effect
@@ -179,7 +179,7 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
     first, last = first[kept], last[kept]
     long = np.zeros(len(equal), dtype=np.bool_)
     for a, b in zip(first, last, strict=True):
-        long[a:b] |= b - a + 1 >= BESIDE  # a run beside another says nothing of the column
+        long[a:b] |= b - a + 1 >= BESIDE  # a run next to another is no evidence about the column
     before = np.r_[0, np.cumsum(equal & ~long)]
     reach = np.maximum(BESIDE, last - first)
     left, right = np.maximum(first - reach, 0), np.minimum(last + reach, len(equal))
@@ -193,7 +193,7 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
 
 
 def _interpolated(x: Array, there: Mask, smooth: bool, turning: bool = False) -> Array:
-    """A series (N,) between the samples that are there: by a spline, or straight over a stretch that is missing."""
+    """A series (N,) between the samples that are there: by a spline, or linearly over a gap."""
     at = np.flatnonzero(there)
     k, known = np.arange(len(x)), np.unwrap(x[at]) if turning else x[at]
     turn = np.polyfit(at, known, 1) if turning else np.zeros(1)  # a disc turns on beyond the ends
@@ -203,7 +203,7 @@ def _interpolated(x: Array, there: Mask, smooth: bool, turning: bool = False) ->
 
 
 def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
-    """One flag of each kind, about all columns of which the same is said."""
+    """One flag of each kind, about all columns that share it."""
     groups: dict[str, list[tuple[str, _Repeated]]] = {}
     for name, r in found:
         places = np.flatnonzero(r.left_out)

@@ -1,4 +1,4 @@
-"""Some rows of a flight as what a model needs of them, as they stand or with a mistake undone, so that a fit costs milliseconds."""
+"""Some rows of a flight as a model needs them, as they are or with a mistake undone, so that a fit costs milliseconds."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ class Sampler:
         return self.disc.angle_column in self.flight.channels
 
     def rows(self, first: int = 0, last: int | None = None, most: int = MOST) -> Index:
-        """At most ``most`` usable rows of a stretch; neighbours where only the channels are recorded."""
+        """At most ``most`` usable rows of a segment; neighbours where only the channels are recorded."""
         if self.recorded.demodulated:
             whole = np.arange(first, len(self.usable) if last is None else last)
             every = len(self.usable) / max(float(np.sum(self.usable)), 1.0)
@@ -151,7 +151,7 @@ class Sampler:
         rows
             (n,) which.
         motion_later, of, output_later
-            Samples by which the quantities ``of`` motion, or the output, are taken later than they stand there; rows that
+            Samples by which the quantities ``of`` motion, or the output, are taken later than recorded; rows that
             would lie outside are left out.
         spin_frequency
             Hz, in place of the instrument's (or the encoder's angle).
@@ -209,7 +209,7 @@ def make_sampler(
     Raises
     ------
     ValueError
-        If the flight lacks this output.
+        If the flight does not have this output.
     """
     layout = instrument.layout
     output = layout.outputs[place]

@@ -62,7 +62,7 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     Raises
     ------
     UserError
-        If the flight cannot be compared with the model: it is too short, too slow, lacks a channel, or holds
+        If the flight cannot be compared with the model: it is too short, too slow, has no such channel, or holds
         a mistake of units, signs, axes, order or clock, which the message names.
     """
     flight = leave_out_repeated(flight)
@@ -131,7 +131,7 @@ def _remark(f: Finding) -> Flag:
 
 
 def _saturated(s: Sampler) -> list[Flag]:
-    """A flag of the samples of an output that stand at the end of its range."""
+    """A flag of the samples of an output that are at the end of its range."""
     name = s.output.name
     if name not in s.flight.outputs or s.recorded.separate:
         return []
@@ -205,7 +205,7 @@ def _is_even(model: Model, s: Sampler, even: Sampler, p: Array) -> bool:
 
 
 def _by_count(x: Flight, steps: Sequence[ClockStep]) -> Flight:
-    """The flight with times by the sample count; rows that lack where the clock was set are no rows."""
+    """The flight with times by the sample count; rows that are missing where the clock was set are no gap."""
     first, step, _ = fit_even_clock(x.time, x.present)
     kept = np.ones(len(x), dtype=np.bool_)
     for c in steps:

@@ -51,7 +51,7 @@ MOST = 0.05
 def find_spikes(residual: Array, valid: Mask) -> Mask:
     """The samples of a residual that are spikes.
 
-    A spike stands off the medians of the samples before and of those after it, to the same side: a step does
+    A spike differs from the medians of the samples before and after it, to the same side: a step does
     not. It is at most ``WIDEST_SPIKE`` samples wide and ``FAR`` beyond the usual scatter of the whole record and of
     its own block of it. Where more than ``MOST`` of the samples would be spikes, none is.
 
@@ -89,7 +89,7 @@ def find_spikes(residual: Array, valid: Mask) -> Mask:
 
 
 def _in_blocks(x: Array, q: float) -> Array:
-    """(N,): the largest quantile of the blocks in which and beside which every sample is."""
+    """(N,): the largest quantile of each sample's own block and its neighbours."""
     size = min(BLOCK, len(x))
     whole = len(x) // size  # what is left over is too short to speak for itself
     usual = np.quantile(x[: whole * size].reshape(whole, size), q, axis=1)
@@ -124,7 +124,7 @@ def find_glitches(x: Array, valid: Mask) -> tuple[Mask, Array]:
 
     A glitch is off the prediction by its neighbours (a polynomial of the fifth degree through three samples on
     either side) by ``GLITCH`` times the usual error of that, and by more than twice the range of everything
-    within a dozen samples. The largest go first, since they spoil the prediction of the others.
+    within a dozen samples. The largest go first, since they distort the prediction of the others.
     """
     found, there = np.zeros(len(x), dtype=np.bool_), valid & np.isfinite(x)
     if np.sum(there) < 8 * SIDE:
@@ -168,7 +168,7 @@ def _glitches(x: Array) -> tuple[Mask, Array]:
         y[off] = np.interp(np.flatnonzero(off), np.flatnonzero(~off), x[~off])
     if y is x:
         return off, x
-    # what was only spoiled by a glitch beside it stays
+    # what was only distorted by a neighbouring glitch stays
     at = np.flatnonzero(off)
     off[at] = np.abs(x[at] - y[at]) > 2 * _spread(x, at)
     return off, np.where(off, y, x)

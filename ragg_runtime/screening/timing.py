@@ -133,7 +133,7 @@ def _propose_spin(t: _Trial) -> list[Hypothesis]:
 
 
 def write_rate(f: float, duration: float) -> str:
-    """A spin rate, Hz, with the fewest digits that this record does not tell from it."""
+    """A spin rate, Hz, with the fewest digits that this record cannot distinguish from it."""
     near = TELLING_PHASE / (2 * np.pi * duration)
     texts = (f"{f:.{n}g}" for n in range(3, 18))  # seventeen are the number itself
     return next(x for x in texts if abs(float(x) - f) <= near)
@@ -200,7 +200,7 @@ def _propose_jump(t: _Trial) -> list[Hypothesis]:
     everywhere = spacing * np.arange(1, INSTANTS + 1)
     small = np.array([2.0, 4.0, 8.0, 15.0])
     at, jump = find_best(rows, everywhere, np.deg2rad([*-small, *small, *np.arange(30.0, 360.0, 30.0)]))
-    for _ in range(2):  # where the jump is wrong the instant is not told, and the other way round
+    for _ in range(2):  # where the jump is wrong the instant is not determined, and the other way round
         for step in np.deg2rad([8.0, 2.0, 0.5, 0.125]):
             _, jump = find_best(rows, at, jump + step * np.arange(-3, 4))
         at, _ = find_best(rows, everywhere, jump)
@@ -252,7 +252,7 @@ def _propose_shifts(t: _Trial) -> list[Hypothesis]:
         each = [t.judge(s.take(rows, **shift(k)) for k in waiting) for *_, shift in _SHIFTED]
         tried |= {k: list(misfits) for k, *misfits in zip(waiting, *each, strict=True)}
         best = [min(tried, key=lambda k: tried[k][way]) for way in range(len(_SHIFTED))]
-        near = {k + d or d for k in best for d in (-1, 1)}  # beyond 0, which is the record as it stands
+        near = {k + d or d for k in best for d in (-1, 1)}  # beyond 0, which is the record as it is
         waiting = sorted(near - set(tried))
     found = []
     for (name, columns, against, shift), k in zip(_SHIFTED, best if tried else (), strict=False):

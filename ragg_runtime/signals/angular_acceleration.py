@@ -93,7 +93,7 @@ def derive_accelerations(rates: Sequence[Array], time: Array) -> tuple[list[Arra
 
 
 def resample(x: Array, time: Array, instants: Array) -> Array:
-    """A series (N,) at instants that are near its own, s; every run without a gap by itself, NaN where it has no sample."""
+    """A series (N,) at instants that are near its own, s; every run without a gap separately, NaN where it has no sample."""
     found = np.full(len(x), np.nan)
     for run in runs(np.isfinite(x)):
         size = run.stop - run.start

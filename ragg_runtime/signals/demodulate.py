@@ -82,7 +82,7 @@ def low_pass(rate: float, *, cutoff: float = CUTOFF, attenuation: float = ATTENU
 
 
 def demodulable(rate: float) -> bool:
-    """Whether a record of this rate, Hz, has room for the low-pass: of a disc that stands still it need not."""
+    """Whether a record of this rate, Hz, is long enough for the low-pass; of a disc at rest it need not be."""
     return rate / 2 > CUTOFF + WIDTH / 2
 
 

@@ -46,7 +46,7 @@ class Demodulator:
     ahead
         Samples of the future that a value needs.
     latency
-        By how much a value lags behind the gradient that it tells, s: the group delay at zero frequency.
+        By how much a value lags behind the gradient, s: the group delay at zero frequency.
     """
 
     name: str
@@ -63,7 +63,7 @@ class Demodulator:
 
     @cached_property
     def settling(self) -> tuple[int, int]:
-        """Samples at the beginning and the end of a record of which the kernel has not heard enough."""
+        """Samples at the beginning and the end of a record at which the kernel has not settled."""
         share = np.abs(self.taps) / np.sum(np.abs(self.taps))
         from_right = np.cumsum(share[::-1])[::-1]  # [j]: all from j on
         first = int(np.sum(from_right[self.ahead + 1 :] > EDGE))

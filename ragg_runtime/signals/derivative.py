@@ -40,7 +40,7 @@ def differentiate(x: Array, rate: float, valid: NDArray[np.bool_] | None = None)
         Sampling rate, Hz.
     valid
         (N,) bool, False where there is no sample; NaN counts as none as well. Each run of samples is
-        differentiated by itself, so that nothing is carried over a gap.
+        differentiated separately, so that nothing is carried over a gap.
 
     Returns
     -------
@@ -179,7 +179,7 @@ def best_degree(x: Iterable[Array], half: int) -> int:
     nothing but noise; the error grows by as much, and falls by what the change is beyond it (Mallows, Technometrics 15 (1973)
     661). The variance s^2 is by what the highest degree leaves, or, where that is more, by a later step: the rounding of an
     encoder whose turning fits the samples is not white, and a swing fades from step to step. Runs shorter than two windows
-    are too few samples to tell.
+    are too few samples.
     """
     degrees, kernels = _choices(half)
     if not kernels:

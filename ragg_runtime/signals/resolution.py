@@ -44,7 +44,7 @@ def find_step(x: Array) -> float | None:
     apart = np.sort(np.diff(values))
     apart = apart[apart > FINEST * span]
     step, reach = float(apart[0]), 1.5
-    # The closest two know the step to the rounding of two values; wider distances, in whole steps, know it better.
+    # The closest two give the step to the rounding of two values; wider distances, in whole steps, refine it.
     while True:
         some = apart[apart <= reach * step]
         step = float(np.sum(some) / np.sum(np.rint(some / step)))

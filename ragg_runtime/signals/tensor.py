@@ -2,7 +2,7 @@
 
 A disc with axes e_1, e_2 (angle 0, a quarter turn on) sees inline = e_1 G e_1 - e_2 G e_2 and cross = e_1 G e_2. No
 channel sees the trace: it is zero by Laplace's equation, and that is put in. So three discs give six channels for five
-components, and one combination of them vanishes whatever the gradient is (for axes at right angles the sum of the three
+components, and one combination of them vanishes for any gradient (for axes at right angles the sum of the three
 inline channels, (Gamma_yy - Gamma_zz) + (Gamma_zz - Gamma_xx) + (Gamma_xx - Gamma_yy)): its size is a figure of quality.
 """
 
@@ -46,7 +46,7 @@ class Tensor:
 
     @property
     def quality(self) -> float:
-        """rms of the closure over its expected size: 1 if the channels are as good as they say."""
+        """rms of the closure over its expected size: 1 if the channels are as good as stated."""
         return float(np.sqrt(np.mean(self.closure**2))) if self.closure.size else float("nan")
 
 

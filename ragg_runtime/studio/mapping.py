@@ -67,7 +67,7 @@ def _show(data: Json, held: Sequence[DataColumn], sure: Mapping[str, str], *, ke
 
 
 def write(given: Mapping[str, Any]) -> str:
-    """``mapping.toml`` of what the page says; rows without a column are left out."""
+    """``mapping.toml`` from the page's entries; rows without a column are left out."""
 
     def table(values: Mapping[str, Any], names: tuple[str, ...]) -> list[str]:
         return [f"{k} = {_toml(values[k])}" for k in names if values.get(k) not in (None, "", [])]

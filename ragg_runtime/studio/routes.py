@@ -110,7 +110,7 @@ def _send_json(content: Any) -> Response:
 
 
 def _finite(x: Any) -> Any:
-    """JSON knows no NaN: null in its place."""
+    """JSON has no NaN: null in its place."""
     if isinstance(x, float):
         return x if math.isfinite(x) else None
     if isinstance(x, Mapping):
@@ -234,7 +234,7 @@ async def _read_body(request: Request) -> dict[str, Any]:
 
 
 def _whole(text: str) -> int:
-    """A whole number that a float holds as well: whatever the page asks for is far smaller."""
+    """A whole number that a float holds as well: all that the page asks for are far smaller."""
     if abs(number := int(text)) > 1 << 53:
         raise ValueError("a number is out of range")
     return number
@@ -264,7 +264,7 @@ KINDS: Mapping[str, Callable[[Any], bool]] = {
 
 
 def _take(body: Body, key: str, kind: str = "a text") -> Any:
-    """What stands under a key; UserError if it is of another kind."""
+    """The value of a key; UserError if it is of another kind."""
     value = body.get(key)
     if not KINDS[kind](value):
         raise UserError(f"{kind} is needed", where=key[:40], found=repr(value)[:80])

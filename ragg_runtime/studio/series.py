@@ -223,8 +223,8 @@ class View:
         """(rows,) V of any series; zero where a sample is not valid.
 
         ``effect`` is what the ticked effects would take out of the residual, ``left`` what they would leave; ``term:h:p`` a generic
-        term as it would be fitted by itself; ``band:low:high`` (Hz) what of the residual lies there; ``before`` the residual of the
-        last step, ``beside`` that of the model beside it.
+        term fitted alone; ``band:low:high`` (Hz) the part of the residual there; ``before`` the residual of the
+        last step, ``beside`` that of the other model.
         """
         kind, _, of = name.partition(":")
         match kind:
@@ -387,7 +387,7 @@ def spectrogram(
 
 
 def draw_heat(s: State, a: Asked) -> dict[str, Any]:
-    """Significance of harmonic x product of channels: the single channels, and the products that stand out most."""
+    """Significance of harmonic x product of channels: the single channels, and the most significant products."""
     h = View(s, a).terms(a.effects)
     strongest = np.nanmax(np.abs(np.nan_to_num(h.z)), axis=0)
     single = [

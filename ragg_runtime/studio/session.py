@@ -50,7 +50,7 @@ NOTHING: Mapping[str, None] = MappingProxyType(
 
 
 class SheetEdit(NamedTuple):
-    """Values of a parameter, the sheet's sigmas in the same unit (``None``: it says nothing), and whether it is not fitted."""
+    """Values of a parameter, the sheet's sigmas in the same unit (``None``: none given), and whether it is fixed."""
 
     value: RawQuantity
     sigma: tuple[float, ...] | None
@@ -165,7 +165,7 @@ class Session:
         self._put(**{**NOTHING, "cache": SeriesCache(), **changes})
 
     def _work(self, name: str, command: str, do: Callable[[State], Mapping[str, object]]) -> None:
-        """Do something beside the page that takes as long as a command, and put what comes of it into the state."""
+        """Run something that takes as long as a command in the background, and put its result into the state."""
 
         def work(part: Part) -> None:
             part(name, PASSES[command] * self.state.samples)

@@ -66,7 +66,7 @@ def overview(s: State) -> Json:
 
 
 def clean(x: Any) -> Any:
-    """The same without what names of strangers may hold."""
+    """The same without control characters, which names in files may hold."""
     if isinstance(x, str):
         return numbers.clean(x)
     if isinstance(x, Mapping):
@@ -190,7 +190,7 @@ def _show_steps(m: Loaded, c: Comparison) -> list[Json]:
 
 
 def show_flights(s: State) -> list[Json]:
-    """Every flight that is open; before it is compared, what a first look tells."""
+    """Every flight that is open; before it is compared, what a first look shows."""
     found: list[Json] = []
     if not s.flights:  # they are being read
         return found
@@ -264,7 +264,7 @@ def _show_error(e: Any) -> Json:
 
 
 def _about(d: Diagnosis, effect: str) -> Json:
-    """What the catalogue says of an effect; its id alone of one that the model does not know."""
+    """The catalogue's entry of an effect; only the id of one that the model does not have."""
     e: Any = d.fitted.model.effect(effect)
     if e is None:
         return {"id": effect}
@@ -273,7 +273,7 @@ def _about(d: Diagnosis, effect: str) -> Json:
 
 
 def show_effects(d: Diagnosis) -> list[Json]:
-    """The ranking, best first, each with what the catalogue says of it."""
+    """The ranking, best first, each with its entry in the catalogue."""
     level = math.log(false_alarms.CATALOGUE / max(1, len(d.ranking)))
     # what these would do can be predicted: their columns are in the triangles
     linear = {e.id for e in d.fitted.model.candidates if e.kind in ("deterministic", "step")}
@@ -368,7 +368,7 @@ def mathml(latex: str, *, block: bool = False) -> str:
     text = _OPERATOR.sub(r"\1=", _BOLD.sub(r"\\mathbf", latex))
     try:
         made = str(convert(text, display="block" if block else "inline"))
-    except Exception:  # whatever a stranger's text does to the converter, the text can be shown
+    except Exception:  # if the converter fails on a text, the text itself is shown
         return plain
     return made if "\\" not in made else plain
 

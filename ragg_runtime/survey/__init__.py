@@ -1,1 +1,1 @@
-"""Many flights: each diagnosed by itself, on a pool of processes or a Dask cluster, and summarised."""
+"""Many flights: each diagnosed separately, on a pool of processes or a Dask cluster, and summarised."""

@@ -110,7 +110,7 @@ def digest_file(file: str) -> str | None:
 
 @contextlib.contextmanager
 def _writing(path: Path) -> Iterator[None]:
-    """What goes wrong with a results file is one message."""
+    """Turn what goes wrong with a results file into one message."""
     try:
         yield
     except TimeoutError:
@@ -143,13 +143,13 @@ def keep_results(resume: Path | None) -> Iterator[Path]:
         handle, name = tempfile.mkstemp(prefix="ragg-survey-", suffix=".jsonl")
         os.close(handle)
         path = Path(name)
-        # a survey that is killed outright cannot say it any more
+        # a survey that is killed cannot report it
         click.echo(f"... if it is cut short, continue with --resume {path}", err=True)
     before = path.stat().st_size if path.is_file() else 0
     try:
         yield path
     except BaseException:
-        # nothing that was there before is read: it may be anything, and a refusal says so
+        # nothing that was there before is read: it may be anything, and is refused
         if path.is_file() and path.stat().st_size > before and path.read_bytes().count(b"\n") > 1:
             click.echo(f"ragg: finished flights are kept; continue with --resume {path}", err=True)
         elif resume is None:

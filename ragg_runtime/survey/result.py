@@ -1,4 +1,4 @@
-"""The result of a survey: what the records of all flights say together."""
+"""The result of a survey: the records of all flights together."""
 
 from __future__ import annotations
 
@@ -59,13 +59,13 @@ class Survey:
         return render_notebook(self.sections("MODEL_DIR"))
 
     def sections(self, model_dir: Path | str) -> tuple[Section, ...]:
-        """What the survey says, with the commands that come next."""
+        """The result of the survey, with the commands that come next."""
         summary = self.as_json()
         headline = f"{count_verdicts(summary['counts'])}."
         return describe_other.describe_survey(summary, headline, _recommend(self.done, summary, model_dir))
 
     def as_json(self) -> dict[str, Any]:
-        """As ``ragg survey --json`` writes it: the summary, lists sorted with the most telling first, and the records."""
+        """As ``ragg survey --json`` writes it: the summary, lists with the most important first, and the records."""
         done = self.done
         counts = {v: sum(r["verdict"] == v for r in done) for v in VERDICTS if v != "error"}
         floors = [r["noise_floor"]["rms_Eo"] for r in done]
@@ -147,7 +147,7 @@ def _advise(done: Sequence[Record]) -> list[Record]:
     """Effects that together account for all claims, each the one with most claims still open.
 
     ``log10_chance``: probability of as many false alarms; ``strongest_log10_p``: the least p-value of the ``flights`` that ask for
-    it; ``alternatives``: effects that none of them can tell from it; ``firm``: so many, or one with such evidence, can hardly be
+    it; ``alternatives``: effects that none of them can distinguish from it; ``firm``: so many, or one with such evidence, can hardly be
     false alarms.
     """
     claims = [(r, e, group) for r in done for e, group in _claims(r)]
@@ -266,7 +266,7 @@ def _row(r: Record) -> Record:
 
 
 def require_table_place(path: Path) -> None:
-    """UserError if a file stands there that is neither empty nor such a table: a record may be a Parquet file too."""
+    """UserError if a file exists there that is neither empty nor such a table: a record may be a Parquet file too."""
     if not path.is_file() or not path.stat().st_size:
         return
     try:

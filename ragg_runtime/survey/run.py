@@ -1,4 +1,4 @@
-"""A survey: every flight diagnosed by itself, on a pool of processes or on a Dask cluster, and what they say together."""
+"""A survey: every flight diagnosed separately, on a pool of processes or on a Dask cluster, and a summary."""
 
 from __future__ import annotations
 
@@ -289,7 +289,7 @@ def examine_on_cluster(job: Job, files: Sequence[str], address: str) -> Generato
 
 @contextlib.contextmanager
 def _connect(address: str) -> Iterator[tuple[Any, Any]]:
-    """Dask, and its client of the scheduler; what Dask logs is said here, in one message."""
+    """Dask, and its client of the scheduler; what Dask logs is reported here, in one message."""
     try:
         distributed: Any = importlib.import_module("distributed")
     except ImportError:

@@ -175,7 +175,7 @@ def describe_comparison(
 
 
 def write_comparison_headline(c: Json) -> tuple[str, ...]:
-    """Whether the model is adequate, with the error, the noise and what says so."""
+    """Whether the model is adequate, with the error, the noise and the tests."""
     error, noise = c["error"]["calibrated"]["rms_Eo"], c["noise_floor"]["rms_Eo"]
     if not c["converged"]:
         return (f"The calibration has not converged: {c['reason']!s}.",)
@@ -274,7 +274,7 @@ def _group_name(effect: str, groups: Sequence[Json]) -> str:
 
 
 def choose_values(r: Json) -> list[Json]:
-    """One value of every parameter of an effect: of its combinations, or single values, the one that stands out most."""
+    """One value of every parameter of an effect: of its combinations, or single values, the most significant one."""
     every: dict[str, list[Json]] = {}
     for q in (*r["combinations"], *r["parameters"]):
         every.setdefault(str(q["name"]).rpartition(" ")[2], []).append(q)
@@ -319,7 +319,7 @@ def explain_patterns(values: Sequence[Json]) -> list[str]:
 def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sections:
     """All values of effects (name, parameters, combinations): those that are larger than their uncertainty, and the others.
 
-    ``explained``: what their combinations are has been said.
+    ``explained``: their combinations have been explained.
     """
     every = [(e, p) for e in effects for p in _values_of(e)]
     if not every:
@@ -366,7 +366,7 @@ def describe_diagnosis(d: Json, then: str = "") -> Sections:
 
 
 def _remarks(d: Json) -> list[str]:
-    """What belongs beside the verdict: its reason, groups, flights that disagree, from when on the model fails."""
+    """What belongs to the verdict: its reason, groups, flights that disagree, from when on the model fails."""
     judged = d["converged"] or d["verdict"] == "partly-explained"
     said = [f"Note: {text}." for text in d["notes"]] if judged else []
     for g in d["groups"]:
@@ -559,5 +559,5 @@ def describe_model(name: str, effects: Sequence[str], steps: Sequence[Json]) -> 
 
 
 def summarize(kind: str, said: str, *errors: tuple[str, float | None]) -> str:
-    """The ``repr`` of a result: what it is, what it says, errors in Eo."""
+    """The ``repr`` of a result: its kind, its headline, errors in Eo."""
     return numbers.to_ascii(f"<{kind}: {said}; {', '.join(f'{name} {number(x)}' for name, x in errors)} Eo>")

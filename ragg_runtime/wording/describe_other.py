@@ -76,7 +76,7 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
 def tabulate_parameters(
     combinations: Sequence[Json], parameters: Sequence[Json], *, detail: bool = False
 ) -> Sections:
-    """What a record determines of the parameters, and every one of them beside its test sheet."""
+    """What a record determines of the parameters, and every one of them next to its test sheet."""
     clear = [p for p in combinations if significance(p) > CLEAR]
     value: Columns = {"parameter": label_parameter, "value": format_value}
     sheet: Columns = {
@@ -231,7 +231,7 @@ def describe_effect(e: Json) -> Sections:
 
 
 def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
-    """The result of ``survey``; ``headline`` counts the verdicts, ``advice`` says what to do, in sentences."""
+    """The result of ``survey``; ``headline`` counts the verdicts, ``advice`` is what to do, in sentences."""
     done = [r for r in s["flights"] if "verdict" in r]
     failed = [r for r in s["flights"] if "verdict" not in r]
 

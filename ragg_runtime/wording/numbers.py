@@ -18,7 +18,7 @@ _DIRECTION = frozenset("\u200e\u200f\u061c\u202a\u202b\u202c\u202d\u202e\u2066\u
 
 
 def clean(text: str) -> str:
-    """``text`` of strangers without control characters, half surrogates and marks that reverse the line."""
+    """``text`` from files without control characters, half surrogates and marks that reverse the line."""
     return "".join(
         "\ufffd" if (unicodedata.category(c) in _FORBIDDEN and c not in "\n\t") or c in _DIRECTION else c
         for c in text

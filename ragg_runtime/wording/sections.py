@@ -1,4 +1,4 @@
-"""What a result says: a list of sections (sentences, a table, data of plots), and how a terminal and HTML show it."""
+"""A result as a list of sections (sentences, a table, data of plots), and how a terminal and HTML show it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ T = TypeVar("T")
 class Table:
     """Rows of text: ``words`` leading columns are left-aligned, rows that begin with one of ``strong`` are bold.
 
-    ``brief``: rows that a terminal shows unless it is asked for all (``None``: all); ``note`` is said below.
+    ``brief``: rows that a terminal shows unless it is asked for all (``None``: all); ``note`` is printed below.
     """
 
     heads: tuple[str, ...]
@@ -79,7 +79,7 @@ class Curves:
 
 @dataclass(frozen=True)
 class Bar:
-    """A bar: its label and value, the level that noise alone would give, and other values marked beside it (NaN: none)."""
+    """A bar: its label and value, the level that noise alone would give, and other values marked next to it (NaN: none)."""
 
     label: str
     value: float
@@ -117,7 +117,7 @@ Plot = Curves | Bars | Matrix
 
 @dataclass(frozen=True)
 class Section:
-    """A part of what a result says. One with a ``state`` and without a title is the verdict, in the colour of that state.
+    """A part of a result. One with a ``state`` and without a title is the verdict, in the colour of that state.
 
     ``detail``: a terminal shows it on request alone, and a page folds it; ``summary`` then replaces it, in one line.
     """
@@ -178,7 +178,7 @@ def _text_table(t: Table, indent: str, verbose: bool) -> list[str]:
 
 
 def escape(text: object) -> str:
-    """Text of strangers for HTML: no markup, no control characters, no marks that reverse the line."""
+    """Text from files for HTML: no markup, no control characters, no marks that reverse the line."""
     return html.escape(numbers.clean(str(text)))
 
 
