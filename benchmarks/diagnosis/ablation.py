@@ -153,7 +153,7 @@ def _level(*args: Any) -> Any:
 
 
 def _scipy(linearise: Callable[[Array], Any], start: Array, most: int = 150, ceiling: float = np.inf) -> Any:
-    """``scipy.optimize.least_squares`` on the triangles: residual [y, sqrt(rest)], Jacobian -R."""
+    """``scipy.optimize.least_squares`` on the R factors: residual [y, sqrt(rest)], Jacobian -R."""
     from ragg_runtime.estimation.least_squares import Minimum, settled
 
     known: dict[bytes, Any] = {}

@@ -176,13 +176,13 @@ def invert_root(R: Array) -> Array:
     return np.asarray(linalg.solve_triangular(R, np.diag(np.sign(np.diag(R)))))
 
 
-def list_base_triangles(f: Fitted, k: int) -> list[Array]:
+def list_base_r_factors(f: Fitted, k: int) -> list[Array]:
     """Of an observation the R factors [base | residual] of its blocks of time."""
-    return [t[:, [*range(f.n_base), -1]] for t in f.triangles[k]]
+    return [t[:, [*range(f.n_base), -1]] for t in f.r_factors[k]]
 
 
-def fit_some(f: Fitted, triangles: Sequence[Array]) -> tuple[Array, Array]:
+def fit_some(f: Fitted, r_factors: Sequence[Array]) -> tuple[Array, Array]:
     """The posterior of some R factors [base | residual] and the prior: the step (n,) from here, and a root (n, n) of its covariance."""
-    whole = with_prior(join(triangles), range(f.n_base), f.to_nominal)
+    whole = with_prior(join(r_factors), range(f.n_base), f.to_nominal)
     R = whole[:-1, :-1]
     return Linear(R=R, y=whole[:-1, -1], rest=0.0).step, invert_root(R)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.compensation.calibrate import fit_some, information, invert_root, list_base_triangles
+from ragg_runtime.compensation.calibrate import fit_some, information, invert_root, list_base_r_factors
 from ragg_runtime.compensation.drift import smooth_drift
 from ragg_runtime.compensation.frozen import (
     CalibrationChange,
@@ -181,7 +181,7 @@ def _fitted_blocks(f: Fitted, flights: Sequence[Flight], kind: Kind) -> list[tup
             for o in f.observations
         ]
     if kind == "crossed":
-        of_all = [list_base_triangles(f, k) for k in range(len(f.observations))]
+        of_all = [list_base_r_factors(f, k) for k in range(len(f.observations))]
         return [tuple(_crossed_block(f, o, b, of_all) for b in range(BLOCKS)) for o in f.observations]
     root = invert_root(information(f))
     return _whole_blocks(c, f.observations, root)
@@ -198,8 +198,8 @@ def _crossed_block(f: Fitted, o: Observation, b: int, of_all: Sequence[Sequence[
     """A block of time with the calibration on everything else."""
     others = [
         t
-        for x, triangles in zip(f.observations, of_all, strict=True)
-        for y, t in enumerate(triangles)
+        for x, r_factors in zip(f.observations, of_all, strict=True)
+        for y, t in enumerate(r_factors)
         if (x.flight, y) != (o.flight, b)
     ]
     edges = block_edges(len(o.record.time))

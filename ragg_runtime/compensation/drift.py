@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
-from ragg_runtime.compensation.calibrate import find_values_in_scales, invert_root, list_base_triangles
+from ragg_runtime.compensation.calibrate import find_values_in_scales, invert_root, list_base_r_factors
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.least_squares import join
 from ragg_runtime.estimation.observation import BLOCKS, block_edges
@@ -108,7 +108,7 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
             rows = slice(int(edges[b]), int(edges[b + 1]))
             if rows.start < rows.stop:
                 epochs.append(Epoch(n, rows, float(t[rows.start] + t[rows.stop - 1]) / 2))
-                measured.append(join([list_base_triangles(f, k)[b] for k in own]))
+                measured.append(join([list_base_r_factors(f, k)[b] for k in own]))
                 elapsed.append(start + epochs[-1].middle)
     hours = np.maximum(np.diff(elapsed), 0.0) / HOUR
     prior = np.column_stack([np.eye(f.n_base), f.to_nominal])

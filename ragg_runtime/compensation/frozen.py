@@ -12,7 +12,7 @@ from scipy import special
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.compensation.calibrate import invert_root, list_base_triangles
+from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, about
@@ -171,7 +171,7 @@ def compare_frozen(model: Model, instrument: Instrument, flights: Sequence[Fligh
 def measure_change(f: Fitted, saved: Saved) -> CalibrationChange:
     """Test the step from frozen parameters to those fitted to flights."""
     n, root = f.n_base, invert_root(saved.information)
-    T = join([t for k in range(len(f.observations)) for t in list_base_triangles(f, k)])
+    T = join([t for k in range(len(f.observations)) for t in list_base_r_factors(f, k)])
     U, s, _ = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
     informed = s**2 >= INFORMED
     both = (U.T @ T[:n])[informed] / np.sqrt(1.0 + s[informed] ** 2)[:, None]

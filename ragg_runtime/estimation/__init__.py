@@ -1,1 +1,1 @@
-"""Fitting a model to flights: nonlinear least squares on the triangles of whitened columns."""
+"""Fitting a model to flights: nonlinear least squares on the R factors of whitened columns."""

@@ -71,7 +71,7 @@ class Calibration:
 
 @dataclass(frozen=True)
 class _Fall(Linear):
-    """A fit linearised about a point: triangle ``data`` (n + 1, n + 1) of [base | residual] without the prior, the prior's centre
+    """A fit linearised about a point: R factor ``data`` (n + 1, n + 1) of [base | residual] without the prior, the prior's centre
     ``to_nominal`` (n,) as seen from the point, in scales, and ``sums`` (n + 1,), V, of the columns and residual of each output.
     """
 
@@ -154,14 +154,14 @@ class _Task:
         if not all(scale_factor(self.model, p, place) > 0.0 for place in places):
             return self._nowhere(x)
         point = LinearisationPoint(self.model, self.instrument, p, with_candidates=False)
-        triangles, rows = [], 0
+        r_factors, rows = [], 0
         sums = {o.place: np.zeros(len(x) + 1) for o in self.observations}
         for o, n, w in zip(self.observations, noise, windows, strict=True):
-            for T, count, part in pass_over(point, o, n, _triangle, chosen=heard(o), windows=w):
-                triangles.append(T)
+            for T, count, part in pass_over(point, o, n, _r_factor, chosen=heard(o), windows=w):
+                r_factors.append(T)
                 rows += count
                 sums[o.place] += part
-        data = join(triangles)
+        data = join(r_factors)
         if not np.isfinite(data).all():
             return self._nowhere(x)
         fall = _linear(data, -x)
@@ -297,12 +297,12 @@ def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[NoiseModel]
     )
 
 
-def _triangle(piece: Piece) -> tuple[Array, int, Array]:
-    return piece.triangle(), piece.white.shape[1], piece.sums()
+def _r_factor(piece: Piece) -> tuple[Array, int, Array]:
+    return piece.r_factor(), piece.white.shape[1], piece.sums()
 
 
 def _linear(T: Array, to_nominal: Array) -> Linear:
-    """The fit of a triangle [base (n) | residual], the prior in it: its centre is ``to_nominal`` away, its width one scale."""
+    """The fit of an R factor [base (n) | residual], the prior in it: its centre is ``to_nominal`` away, its width one scale."""
     R = with_prior(T, range(len(to_nominal)), to_nominal)
     return Linear(R[:-1, :-1], R[:-1, -1], float(R[-1, -1] ** 2))
 

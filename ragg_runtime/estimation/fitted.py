@@ -56,7 +56,7 @@ class Scored:
 class Fitted:
     """A model fitted to flights, and everything that evidence is read from.
 
-    ``triangles`` holds for every flight the triangle of its whitened columns [base | candidates | residual]
+    ``r_factors`` holds for every flight the R factor of its whitened columns [base | candidates | residual]
     in each block of time; all tests are made on them alone. ``sums`` (BLOCKS, size + 1) are those of the plain columns.
     """
 
@@ -65,7 +65,7 @@ class Fitted:
     observations: tuple[Observation, ...]
     calibration: Calibration
     prepared: tuple[PreparedFlight, ...]
-    triangles: tuple[tuple[Array, ...], ...]
+    r_factors: tuple[tuple[Array, ...], ...]
     sums: tuple[Array, ...]
     to_nominal: Array
     scales: tuple[float, ...]
@@ -105,7 +105,7 @@ class Fitted:
     @property
     def size(self) -> int:
         """Number of regressors, base and candidates."""
-        return int(self.triangles[0][0].shape[1]) - 1
+        return int(self.r_factors[0][0].shape[1]) - 1
 
     @cached_property
     def beyond(self) -> tuple[float, ...]:
@@ -114,16 +114,16 @@ class Fitted:
 
     @cached_property
     def _fitted_part(self) -> Array:
-        return fold([t[b] for t in self.triangles for b in FITTED_BLOCKS])
+        return fold([t[b] for t in self.r_factors for b in FITTED_BLOCKS])
 
     @cached_property
     def data(self) -> Array:
-        """Triangle of all flights, without the prior."""
-        return fold([self._fitted_part, *(t[b] for t in self.triangles for b in HELD_OUT_BLOCKS)])
+        """R factor of all flights, without the prior."""
+        return fold([self._fitted_part, *(t[b] for t in self.r_factors for b in HELD_OUT_BLOCKS)])
 
     @cached_property
     def whole(self) -> Array:
-        """Triangle of all flights, the prior in it."""
+        """R factor of all flights, the prior in it."""
         return fold([self.data, self._prior])
 
     @cached_property
@@ -136,7 +136,7 @@ class Fitted:
         return prior(range(self.n_base), self.size + 1, self.to_nominal)
 
     def freed(self, name: str, extra: Sequence[int]) -> Array:
-        """Triangle [base | candidates ``extra`` | residual] without the prior of one parameter of the accelerometers."""
+        """R factor [base | candidates ``extra`` | residual] without the prior of one parameter of the accelerometers."""
         picked = [*range(self.n_base), *(self.n_base + k for k in extra), -1]
         sheet = self._prior[:, picked]
         of_it = [k for k, c in enumerate(self.calibration.columns) if c.effect is None and c.name == name]
@@ -298,14 +298,14 @@ def about(
     tested = regressors.tested_columns(model, instrument, [o.record for o in observations])
     at = regressors.LinearisationPoint(model, instrument, c.p, with_candidates=candidates, only=tested)
     prepared = tuple(prepare_flight(o, own, at) for o, own in zip(observations, c.noise, strict=True))
-    triangles, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
+    r_factors, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
     return Fitted(
         model=model,
         instrument=instrument,
         observations=tuple(observations),
         calibration=c,
         prepared=prepared,
-        triangles=triangles,
+        r_factors=r_factors,
         sums=sums,
         to_nominal=calibration.to_nominal(model, instrument, c),
         scales=tuple(scale_factor(model, c.p, o.place) for o in observations),

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 def with_prior(T: Array, columns: Sequence[int], centre: Array | float = 0.0) -> Array:
-    """A triangle (n, n) whose last column is the data, with a prior of unit width on some of the other columns.
+    """An R factor (n, n) whose last column is the data, with a prior of unit width on some of the other columns.
 
     ``centre`` (columns,) or one number is where the prior has its mean. A prior is so many further rows of data.
     """
@@ -40,13 +40,13 @@ def orthonormal(columns: Array) -> Array:
 
 
 CHUNK = 2048
-"""Rows that enter a triangle at a time: so many that it is passed through seldom, so few that they stay in the cache."""
+"""Rows that enter an R factor at a time: so many that it is passed through seldom, so few that they stay in the cache."""
 
 PANEL = 32
 """Columns that LAPACK eliminates at a time."""
 
 
-def triangle(columns: Array) -> Array:
+def r_factor(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows. What is zero stays so, without work."""
     some = not_zero(columns)
     k = np.count_nonzero(some)
@@ -69,10 +69,10 @@ def _entered(R: Array, part: Array, trapezoid: int = 0) -> Array:
 
 
 def join(blocks: Sequence[Array]) -> Array:
-    """The triangle of several records together, each of them in any rows (k, n) with the right inner products."""
+    """The R factor of several records together, each of them in any rows (k, n) with the right inner products."""
     if len(blocks) == 1:
         return blocks[0]
-    return triangle(np.vstack(blocks).T)
+    return r_factor(np.vstack(blocks).T)
 
 
 def fold(trapezoids: Sequence[Array]) -> Array:
@@ -87,7 +87,7 @@ def fold(trapezoids: Sequence[Array]) -> Array:
 
 
 def below(T: Array, first: int, picked: Sequence[int]) -> Array:
-    """The triangle of the first columns of T (n, n), which are triangular in it already, and of others ``picked``."""
+    """The R factor of the first columns of T (n, n), which are triangular in it already, and of others ``picked``."""
     k = first + len(picked)
     R = np.zeros((k, k))
     R[:first, :first] = T[:first, :first]

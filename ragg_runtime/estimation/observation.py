@@ -20,7 +20,7 @@ from ragg_runtime.model.recorded import RecordedSeries, recorded
 from ragg_runtime.signals.fir import convolved
 
 BLOCKS = 24
-"""Stretches of time of which each keeps a triangle of its own."""
+"""Segments of time of which each keeps an R factor of its own."""
 
 ROWS = 30000
 """Most samples of a segment: a few hundred columns of them in float64 take less than 100 MB."""

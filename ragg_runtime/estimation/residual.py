@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy import fft, linalg
 
 from ragg_runtime.base.threads import stretches
-from ragg_runtime.estimation.least_squares import triangle
+from ragg_runtime.estimation.least_squares import r_factor
 from ragg_runtime.estimation.spectrum import LOWEST, Spectrum, estimate, hann, periodogram, without_lines
 from ragg_runtime.signals.fir import GROUP, SPARSE, filtered, not_zero
 
@@ -330,7 +330,7 @@ class _Fit:
 
 def _least_squares(columns: Array) -> _Fit:
     """The fit of columns (n + 1, rows) to the last of them; numerically absent directions are faded out."""
-    R = triangle(columns)
+    R = r_factor(columns)
     n = len(R) - 1
     norms = np.linalg.norm(R[:, :n], axis=0)
     norms[norms == 0.0] = 1.0

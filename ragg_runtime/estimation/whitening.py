@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base import progress
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.least_squares import join, triangle
+from ragg_runtime.estimation.least_squares import join, r_factor
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import (
     BLOCKS,
@@ -52,13 +52,13 @@ class Piece:
     heard: slice | NDArray[np.intp]
     noise: NoiseModel
 
-    def triangle(self, first: int = 0, stop: int | None = None) -> Array:
+    def r_factor(self, first: int = 0, stop: int | None = None) -> Array:
         """Triangular factor (n + 1, n + 1) of the whitened columns: of the flight's samples from ``first`` on, before ``stop``."""
         valid = int(np.count_nonzero(self.observation.record.valid))
         ends = (first, self.segment.rows.stop if stop is None else stop)
         a, b = (int(k) for k in np.searchsorted(self.sample[:valid], ends))
         begins = range(0, max(1, self.white.shape[1]), max(1, valid))  # of every output
-        return triangle(np.concatenate([self.white[:, k + a : k + b] for k in begins], axis=1))
+        return r_factor(np.concatenate([self.white[:, k + a : k + b] for k in begins], axis=1))
 
     def sums(self, some: slice = slice(None)) -> Array:
         """(n + 1,), V: sums of the columns of G_out over some samples; zero of channels, which have lost their mean."""
@@ -289,7 +289,7 @@ def prepare_flight(
 
 
 def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
-    """Of the columns [base | candidates | residual]: triangles (n + 1, n + 1) of the whitened ones, one a block of
+    """Of the columns [base | candidates | residual]: R factors (n + 1, n + 1) of the whitened ones, one a block of
     time, and (BLOCKS, n + 1), V: sums of the plain ones of G_out.
     """
     size = 1
@@ -299,23 +299,23 @@ def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
         return [
             (
                 b,
-                piece.triangle(rows.start, rows.stop),
+                piece.r_factor(rows.start, rows.stop),
                 piece.sums(slice(rows.start - first, rows.stop - first)),
             )
             for b, rows in piece.segment.blocks
         ]
 
-    triangles: list[Array | None] = [None] * BLOCKS
+    r_factors: list[Array | None] = [None] * BLOCKS
     totals: list[Array | float] = [0.0] * BLOCKS
     for parts in prepared.each(own):
         for b, T, sums in parts:
             size = len(T)
-            before = triangles[b]
-            triangles[b] = T if before is None else join([before, T])
+            before = r_factors[b]
+            r_factors[b] = T if before is None else join([before, T])
             totals[b] = totals[b] + sums
     empty = np.zeros((size, size))
     return (
-        tuple(empty if t is None else t for t in triangles),
+        tuple(empty if t is None else t for t in r_factors),
         np.stack([np.broadcast_to(x, size) for x in totals]),
     )
 
@@ -349,10 +349,10 @@ class Projector:
         return x, replace(self, taken=np.array(places[:k], dtype=np.intp)), places[k:]
 
 
-def projector(triangles: Sequence[Array], n_base: int, given: Sequence[int]) -> Projector:
-    """The projector onto base and ``given`` candidate columns, from the block triangles of a flight."""
+def projector(r_factors: Sequence[Array], n_base: int, given: Sequence[int]) -> Projector:
+    """The projector onto base and ``given`` candidate columns, from the block R factors of a flight."""
     taken = np.array([*range(n_base), *(n_base + n for n in given)], dtype=np.intp)
-    T = join([t[:, [*taken, t.shape[1] - 1]] for t in triangles])
+    T = join([t[:, [*taken, t.shape[1] - 1]] for t in r_factors])
     U, s, Vt = np.linalg.svd(T[:, :-1], full_matrices=False)
     seen = s > 1.0
     return Projector(taken, np.asarray(Vt[seen].T / s[seen]), np.asarray(U[:, seen].T @ T[:, -1]))

@@ -65,7 +65,7 @@ class Regression:
         picked = [*range(f.n_base), *(f.n_base + k for k in extra), -1]
         effects = [c.effect for c in f.calibration.columns] + [f.candidates[k].effect for k in extra]
         return Regression(
-            flights=tuple(tuple(t[:, picked] for t in own) for own in f.triangles),
+            flights=tuple(tuple(t[:, picked] for t in own) for own in f.r_factors),
             centre=np.concatenate([f.to_nominal, np.zeros(len(extra))]),
             absent=np.concatenate([_absent(f), np.zeros(len(extra))]),
             effects=tuple(effects),

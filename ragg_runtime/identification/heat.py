@@ -34,10 +34,10 @@ class Heat:
 
 @one_thread
 def heat(
-    prepared: PreparedFlight, triangles: Sequence[Array], n_base: int, given: Sequence[int] = ()
+    prepared: PreparedFlight, r_factors: Sequence[Array], n_base: int, given: Sequence[int] = ()
 ) -> Heat:
     """The scores of all terms once base and ``given`` candidate columns are projected out, in one pass."""
-    prepared, projector, _ = whitening.projector(triangles, n_base, given).lean(prepared)
+    prepared, projector, _ = whitening.projector(r_factors, n_base, given).lean(prepared)
     scores = Scores(prepared, projector)
 
     def own(piece: Piece) -> Sums:

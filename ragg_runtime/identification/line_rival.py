@@ -197,7 +197,7 @@ def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
     r = x.observation.record
     if not r.turning:
         return None
-    x, projector, _ = whitening.projector(f.triangles[0], f.n_base, given).lean(x)
+    x, projector, _ = whitening.projector(f.r_factors[0], f.n_base, given).lean(x)
     width = 1.0 / float(r.time[-1] - r.time[0])
     offsets = np.arange(-REACH, REACH + STEP / 2, STEP) * width
     found = np.concatenate([m * r.spin_frequency + offsets for m in MULTIPLES])

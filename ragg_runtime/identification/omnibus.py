@@ -407,8 +407,8 @@ class Remainder:
 def remainder(f: Fitted, given: Sequence[int] = (), only: int | None = None) -> Remainder:
     """Search the residual once base and ``given`` candidate columns are projected out."""
     found = []
-    for x, triangles in zip(f.prepared, f.triangles, strict=True):
-        lean, projector, _ = whitening.projector(triangles, f.n_base, given).lean(x)
+    for x, r_factors in zip(f.prepared, f.r_factors, strict=True):
+        lean, projector, _ = whitening.projector(r_factors, f.n_base, given).lean(x)
         found.append(search(lean, projector, lambda piece, y: None, only)[0])
     return Remainder(tuple(found))
 

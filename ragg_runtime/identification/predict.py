@@ -1,4 +1,4 @@
-"""What an effect would do before it is derived: the error left, and its signature, from triangles of the unwhitened columns."""
+"""What an effect would do before it is derived: the error left, and its signature, from R factors of the unwhitened columns."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import HELD_OUT_BLOCKS, Fitted
-from ragg_runtime.estimation.least_squares import join, triangle
+from ragg_runtime.estimation.least_squares import join, r_factor
 from ragg_runtime.estimation.observation import BLOCKS, ROWS, as_output
 from ragg_runtime.estimation.whitening import Piece, flight_segments
 from ragg_runtime.identification.result import Diagnosis
@@ -26,24 +26,24 @@ WIDEST = 8 * ROWS
 
 @dataclass(frozen=True)
 class Unwhitened:
-    """The columns [base | candidates | residual] of G_out, not whitened: a triangle (n + 1, n + 1), V, of all flights in each block
+    """The columns [base | candidates | residual] of G_out, not whitened: an R factor (n + 1, n + 1), V, of all flights in each block
     of time, and its valid samples (BLOCKS,).
     """
 
-    triangles: tuple[Array, ...]
+    r_factors: tuple[Array, ...]
     samples: Array
 
     def rms(self, v: Array, blocks: Sequence[int]) -> float:
         """Root mean square, V, of the residual in some blocks once columns have coefficients v (n,)."""
         w = np.append(-v, 1.0)
-        squares = sum(float(np.sum((self.triangles[b] @ w) ** 2)) for b in blocks)
+        squares = sum(float(np.sum((self.r_factors[b] @ w) ** 2)) for b in blocks)
         count = float(np.sum(self.samples[list(blocks)]))
         return float(np.sqrt(squares / count)) if count else float("nan")
 
 
 @one_thread
 def pass_unwhitened(f: Fitted) -> Unwhitened:
-    """The triangles of the unwhitened columns, in one pass over the flights."""
+    """The R factors of the unwhitened columns, in one pass over the flights."""
     found: list[list[Array]] = [[] for _ in range(BLOCKS)]
     samples = np.zeros(BLOCKS)
 
@@ -53,7 +53,7 @@ def pass_unwhitened(f: Fitted) -> Unwhitened:
         parts = []
         for b, rows in piece.segment.blocks:
             here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
-            parts.append((b, triangle(e[:, here]), int(np.sum(r.valid[here]))))
+            parts.append((b, r_factor(e[:, here]), int(np.sum(r.valid[here]))))
         return parts
 
     for x in f.prepared:
@@ -82,7 +82,7 @@ class Prediction:
 
 
 def field_of_diagnosis(d: Diagnosis) -> Field:
-    """The testable effects, steps included, on the triangles of everything."""
+    """The testable effects, steps included, on the R factors of everything."""
     return field_of(d.fitted, [r.effect for r in d.ranking])
 
 

@@ -244,8 +244,8 @@ def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Va
     """What is left once ``given`` columns are projected out, and the sums of random effects, in one pass."""
     random = _random_columns(f)
     searches, counted = [], []
-    for x, triangles in zip(f.prepared, f.triangles, strict=True):
-        taken = whitening.projector(triangles, f.n_base, given)
+    for x, r_factors in zip(f.prepared, f.r_factors, strict=True):
+        taken = whitening.projector(r_factors, f.n_base, given)
         lean, projector, places = taken.lean(x, list(random.values()))
 
         def variances(piece: Piece, y: Array, places: Sequence[int] = places) -> dict[str, Variance]:

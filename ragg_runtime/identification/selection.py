@@ -1,4 +1,4 @@
-"""Which effects: forward selection with swaps, on triangles alone."""
+"""Which effects: forward selection with swaps, on R factors alone."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ is no alternative.
 
 @dataclass(frozen=True)
 class Field:
-    """A triangle [base | candidates | residual] with the prior in, and the effects in it.
+    """An R factor [base | candidates | residual] with the prior in, and the effects in it.
 
     ``candidates`` are columns after the base, by effect; ``penalty`` the logarithm of the number of variants an effect was chosen
     from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``blocks``: R factors
@@ -238,12 +238,12 @@ def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
 def field_of(
     f: Fitted, available: Sequence[str], T: Array | None = None, within: Field | None = None
 ) -> Field:
-    """The candidates among ``available`` effects, on the triangle of everything or another one of the same columns."""
+    """The candidates among ``available`` effects, on the R factor of everything or another one of the same columns."""
     candidates = grouped(f.candidates)
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
     uneven_noise = any(n.uneven for n in f.calibration.noise)
-    blocks = uneven.telling(t for own in f.triangles for t in own) if uneven_noise else ()
+    blocks = uneven.telling(t for own in f.r_factors for t in own) if uneven_noise else ()
     return Field(
         T=f.whole if T is None else T,
         n_base=f.n_base,

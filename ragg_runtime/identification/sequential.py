@@ -18,7 +18,7 @@ from scipy.special import logsumexp
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.least_squares import triangle, with_prior
+from ragg_runtime.estimation.least_squares import r_factor, with_prior
 
 Array = NDArray[np.float64]
 
@@ -107,9 +107,9 @@ def _blocks(f: Fitted) -> Iterator[_TimeBlock]:
     nothing = np.zeros((n + 1, n + 1))
     known = with_prior(nothing, range(n), f.to_nominal / WIDE)
     known[:, :n] /= WIDE  # it holds the prior's rows alone: WIDE times as wide
-    for x, triangles in zip(f.prepared, f.triangles, strict=True):
+    for x, r_factors in zip(f.prepared, f.r_factors, strict=True):
         r = x.observation.record
-        for T, (first, last) in zip(triangles, pairwise(x.edges), strict=True):
+        for T, (first, last) in zip(r_factors, pairwise(x.edges), strict=True):
             samples = int(np.sum(r.valid[first:last])) * len(x.observation.series)
             if not samples:
                 continue
@@ -117,7 +117,7 @@ def _blocks(f: Fitted) -> Iterator[_TimeBlock]:
             level = float(np.sqrt((T[-1, -1] ** 2 + KNOWN) / (free + KNOWN)))
             own = np.column_stack([T[:n, :n], T[:n, -1]]) / level
             z = _innovations(known, own)
-            known = triangle(np.vstack([known, own]).T)
+            known = r_factor(np.vstack([known, own]).T)
             further = T[n:-1, -1][np.diag(T)[n:-1] != 0.0] / level
             yield _TimeBlock(
                 flight=x.observation.name,

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.least_squares import below, fold, join, triangle
+from ragg_runtime.estimation.least_squares import below, fold, join, r_factor
 from ragg_runtime.estimation.least_squares import prior as prior_rows
 from ragg_runtime.estimation.observation import BLOCKS, ROWS
 from ragg_runtime.estimation.regressors import Column
@@ -34,7 +34,7 @@ class Step:
 
 
 def best_steps(
-    triangles: Sequence[Sequence[Array]],
+    r_factors: Sequence[Sequence[Array]],
     edges: Sequence[int],
     n_base: int,
     given: Sequence[int],
@@ -48,7 +48,7 @@ def best_steps(
     columns = [c for own in owned for c in own]
     k, m = n_base + len(given), len(columns)
     others = [*(n_base + n for n in given), *(n_base + n for n, _ in columns), -1]
-    picked = [fold([below(t, n_base, others) for t in each]) for each in zip(*triangles, strict=True)]
+    picked = [fold([below(t, n_base, others) for t in each]) for each in zip(*r_factors, strict=True)]
     # The segments after an edge count with the steps' columns, those before it without; the prior in them.
     sheet = prior_rows(range(n_base), k + m + 1, prior)
     after: list[Array] = [np.pad(sheet, ((0, k + m + 1 - n_base), (0, 0)))]
@@ -92,20 +92,20 @@ def refined(
         low, high = _near(step.sample, reach, length)
         edges = np.unique(np.linspace(low, high, FINE + 1).astype(np.intp))
         cuts = np.array([0, *edges, length])
-        triangles: list[Array | None] = [None] * (len(cuts) - 1)
+        r_factors: list[Array | None] = [None] * (len(cuts) - 1)
 
         def cut(piece: Piece, own: Sequence[int], cuts: NDArray[np.intp] = cuts) -> list[tuple[int, Array]]:
             X = piece.white[[*own, -1]]
             which = np.searchsorted(cuts, piece.sample, side="right") - 1
-            return [(int(k), triangle(X[:, which == k])) for k in np.unique(which)]
+            return [(int(k), r_factor(X[:, which == k])) for k in np.unique(which)]
 
         for x, own in flights:
             for parts in x.each(partial(cut, own=own)):
                 for k, T in parts:
-                    before = triangles[k]
-                    triangles[k] = T if before is None else join([before, T])
+                    before = r_factors[k]
+                    r_factors[k] = T if before is None else join([before, T])
         empty = np.zeros((len(places) + 1, len(places) + 1))
-        known = [empty if t is None else t for t in triangles]
+        known = [empty if t is None else t for t in r_factors]
         (step,) = best_steps([known], [int(e) for e in edges], n_base, range(len(given)), [named], prior)
         reach = int(np.max(np.diff(edges), initial=1))
     return step

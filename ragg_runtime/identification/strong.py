@@ -285,7 +285,7 @@ def with_steps(
 
 
 def _sharpened(f: Fitted, step: _Found, places: Sequence[int]) -> int:
-    everything = [t for own in f.triangles for t in own]
+    everything = [t for own in f.r_factors for t in own]
     projector = whitening.projector(everything, f.n_base, step.given)
     return special.sharpened(f.prepared, step.sample, projector, places)
 
@@ -295,8 +295,8 @@ def _from(f: Fitted, exact: Mapping[str, int]) -> Fitted:
     time = f.observations[0].record.time
     instants = {e: float(time[k]) for e, k in exact.items()}
     prepared = [x.with_steps(instants) for x in f.prepared]
-    triangles, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
-    return replace(f, prepared=tuple(prepared), triangles=triangles, sums=sums)
+    r_factors, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
+    return replace(f, prepared=tuple(prepared), r_factors=r_factors, sums=sums)
 
 
 def _scanned(
@@ -306,7 +306,7 @@ def _scanned(
     edges = [int(k) for k in f.prepared[0].edges[1:-1]]
 
     def steps(given: Sequence[int]) -> list[tuple[special.Step, Sequence[int]]]:
-        found = special.best_steps(f.triangles, edges, f.n_base, given, owned, f.to_nominal)
+        found = special.best_steps(f.r_factors, edges, f.n_base, given, owned, f.to_nominal)
         return [(step, given) for step in found]
 
     # Alone, unless it explains far more next to the first choice.
@@ -322,22 +322,22 @@ def _begun(
     samples: Mapping[str, int],
     places: Mapping[str, Sequence[int]],
 ) -> Fitted:
-    """The same with triangles and sums in which the columns of steps are zero in blocks of time that begin before them."""
+    """The same with R factors and sums in which the columns of steps are zero in blocks of time that begin before them."""
     sums = tuple(own.copy() for own in f.sums)
     for own in sums:
         for e, k in samples.items():
             own[np.ix_(np.asarray(edges)[:-1] < k, np.array(places[e]))] = 0.0
-    return replace(f, triangles=tuple(_stepped(t, edges, samples, places) for t in f.triangles), sums=sums)
+    return replace(f, r_factors=tuple(_stepped(t, edges, samples, places) for t in f.r_factors), sums=sums)
 
 
 def _stepped(
-    triangles: Sequence[Array],
+    r_factors: Sequence[Array],
     edges: Sequence[int] | NDArray[np.intp],
     samples: Mapping[str, int],
     places: Mapping[str, Sequence[int]],
 ) -> tuple[Array, ...]:
-    """The triangles of blocks of time, in each the columns of steps put to zero that come after its first edge."""
-    found = tuple(t.copy() for t in triangles)
+    """The R factors of blocks of time, in each the columns of steps put to zero that come after its first edge."""
+    found = tuple(t.copy() for t in r_factors)
     for t, start in zip(found, edges[:-1], strict=True):
         for e, sample in samples.items():
             if start < sample:
@@ -351,10 +351,10 @@ def _root(
     samples: Mapping[str, int],
     places: Mapping[str, Sequence[int]],
 ) -> Array:
-    """Triangle of a flight, the prior in it, whose last columns are those of the steps from their instants on."""
+    """R factor of a flight, the prior in it, whose last columns are those of the steps from their instants on."""
     n, m = f.size + 1, sum(len(places[e]) for e in samples)
     blocks = []
-    for own in f.triangles:
+    for own in f.r_factors:
         for T, start in zip(own, edges[:-1], strict=True):
             begun = [T[:, list(places[e])] * float(start >= samples[e]) for e in samples]
             blocks.append(np.hstack([T, *begun]))
@@ -363,7 +363,7 @@ def _root(
 
 
 def _picked(root: Array, f: Fitted, steps: Sequence[str], places: Mapping[str, Sequence[int]]) -> Array:
-    """Of :func:`_root` the triangle (n, n) in which some steps begin at their instants."""
+    """Of :func:`_root` the R factor (n, n) in which some steps begin at their instants."""
     column = list(range(f.n_base, f.size + 1))
     first = f.size + 1
     for e, own in places.items():
@@ -377,6 +377,6 @@ def _picked(root: Array, f: Fitted, steps: Sequence[str], places: Mapping[str, S
 def _with_penalty(
     f: Fitted, effects: Sequence[str], T: Array | None = None, within: Field | None = None
 ) -> Field:
-    """The field of effects, steps among them charged for the choice of their instant; on another triangle if one is given."""
+    """The field of effects, steps among them charged for the choice of their instant; on another R factor if one is given."""
     steps = [e.id for e in f.model.candidates if e.kind == "step"]
     return replace(field_of(f, effects, T, within), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))

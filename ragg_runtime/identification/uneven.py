@@ -34,7 +34,7 @@ class Beside:
     Attributes
     ----------
     T, blocks
-        Triangles: of everything, and of those blocks in which there is any sample.
+        R factors: of everything, and of those blocks in which there is any sample.
     base, others
         What is in the model: the first so many columns, and others.
     B
@@ -56,7 +56,7 @@ class Beside:
         object.__setattr__(self, "data", tuple(self.left(t, [-1])[:, 0] for t in (self.T, *self.blocks)))
 
     def left(self, t: Array, columns: Sequence[int]) -> Array:
-        """What is left of some columns of the triangle of everything, or of a block."""
+        """What is left of some columns of the R factor of everything, or of a block."""
         n = self.base
         found = t[:, columns] - t[:, :n] @ self.B[:n, columns]
         return np.asarray(found - t[:, self.others] @ self.B[n:, columns] if self.others else found)

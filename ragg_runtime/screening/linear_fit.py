@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from ragg_runtime.estimation.least_squares import triangle
+from ragg_runtime.estimation.least_squares import r_factor
 from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
@@ -278,7 +278,7 @@ def fit_shrunken(X: Array, y: Array) -> tuple[Array, float]:
 
     The noise is what the fit leaves: starting from "all is noise" it falls until fit and noise agree.
     """
-    R = triangle(np.vstack([X, y]))
+    R = r_factor(np.vstack([X, y]))
     n = len(X)
     U, s, Vt = np.linalg.svd(R[:n, :n])
     d = U.T @ R[:n, n]

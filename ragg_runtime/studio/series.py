@@ -273,7 +273,7 @@ class View:
             d, effects = None, ()
         f = self.f if d is None else d.fitted
         given = [] if d is None else predict.columns_of(predict.field_of_diagnosis(d), effects)
-        make = lambda: heat.heat(f.prepared[self.n], f.triangles[self.n], f.n_base, given)  # noqa: E731
+        make = lambda: heat.heat(f.prepared[self.n], f.r_factors[self.n], f.n_base, given)  # noqa: E731
         found: heat.Heat = self.remember(("heat", effects, d is None), make)
         return found
 

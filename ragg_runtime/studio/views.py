@@ -275,7 +275,7 @@ def _about(d: Diagnosis, effect: str) -> Json:
 def show_effects(d: Diagnosis) -> list[Json]:
     """The ranking, best first, each with its entry in the catalogue."""
     level = math.log(false_alarms.CATALOGUE / max(1, len(d.ranking)))
-    # what these would do can be predicted: their columns are in the triangles
+    # what these would do can be predicted: their columns are in the R factors
     linear = {e.id for e in d.fitted.model.candidates if e.kind in ("deterministic", "step")}
     found: list[Json] = []
     for r in d.ranking:

@@ -130,7 +130,7 @@ def scored() -> tuple[Scores, Array, Array]:
     """An effect-free flight: its scores, its whitened terms (float32) and the basis of what is projected out."""
     s = scenario(71, duration=300.0)
     f = fitted.fit(load.packaged(), s.sheet, [observation.observe(s.simulate({}).flight(), s.sheet)])
-    projector = whitening.projector(f.triangles[0], f.n_base, ())
+    projector = whitening.projector(f.r_factors[0], f.n_base, ())
     scores = Scores(f.prepared[0], projector)
     (piece,) = f.prepared[0].each(lambda p: p)
     Q = projector.basis(piece)

@@ -73,13 +73,13 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
     from ragg_runtime.identification import omnibus
 
     f = diagnosis.fitted
-    h = heat.heat(f.prepared[0], f.triangles[0], f.n_base)
+    h = heat.heat(f.prepared[0], f.r_factors[0], f.n_base)
     best = omnibus.remainder(f).searches[0].terms[0]
     at = h.harmonics.index(best.term.harmonic), h.products.index(best.term.product)
     assert h.z[at] == pytest.approx(best.z, rel=1e-6)
     assert abs(best.z) > h.level
     found = list(diagnosis.found)
-    given = heat.heat(f.prepared[0], f.triangles[0], f.n_base, predict.columns_of(field_of(f, found), found))
+    given = heat.heat(f.prepared[0], f.r_factors[0], f.n_base, predict.columns_of(field_of(f, found), found))
     assert np.nanmax(np.abs(given.z)) < h.level
 
 
