@@ -94,7 +94,7 @@ def prepared(spec: Spec) -> Prepared:
     w, kind = plan.world(spec), records.KINDS[spec.record]
     plain = _simulated(w, {})
     channels = _table(plain, plain.voltages_noise_free)
-    loudness = kind.noise(channels, spec.rng(2))
+    noise_rms = kind.noise(channels, spec.rng(2))
     hidden: tuple[Hidden, ...] = ()
     term = None
     if spec.kind != "quiet":
@@ -103,7 +103,7 @@ def prepared(spec: Spec) -> Prepared:
         )
         lost = np.isnan(changed["G_out"])
         flight = plain.flight("plain", voltages=w.output == "voltages")
-        oracle = Oracle(w, flight, loudness, lost, spec.catalogue)
+        oracle = Oracle(w, flight, noise_rms, lost, spec.catalogue)
         hidden = _hidden(spec, oracle)
         if spec.kind == "outside":
             at = outside.Surroundings(
@@ -119,7 +119,7 @@ def prepared(spec: Spec) -> Prepared:
     values = {h.effect: h.values for h in hidden}
     recorder = {e: values.pop(e) for e in ("output-curve", "quantisation", "saturation") if e in values}
     sim = _simulated(w, values) if values else plain
-    return Prepared(w, _recorded(spec, w, sim, loudness, term, recorder), hidden, term)
+    return Prepared(w, _recorded(spec, w, sim, noise_rms, term, recorder), hidden, term)
 
 
 def _simulated(w: World, effects: EffectValues) -> Simulation:
@@ -152,14 +152,14 @@ def _recorded(
     spec: Spec,
     w: World,
     sim: Simulation,
-    loudness: Loudness,
+    noise_rms: Loudness,
     term: Outside | None,
     recorder: Mapping[str, Any],
 ) -> Table:
     """What the recorder makes of a flight: noise, what the kind of its record is, and the outputs that are recorded."""
     s, i = w.scenario, w.scenario.instrument.accelerometers
     scale = (i["k_VI"] * i["K1"])[:, None]
-    noise = scale * records.sampled(loudness, w.density, spec.rng(3), len(sim.time), s.rate)
+    noise = scale * records.sampled(noise_rms, w.density, spec.rng(3), len(sim.time), s.rate)
     x = _table(sim, sim.voltages_noise_free + noise)
     if term is not None:
         x["G_out"] = x["G_out"] + term.change

@@ -381,16 +381,16 @@ KNOWN = tuple(n for n, k in KINDS.items() if k.known)
 TAME = tuple(n for n, k in KINDS.items() if k.tame)
 
 
-def sampled(loudness: Loudness, density: float, rng: np.random.Generator, size: int, rate: float) -> Array:
+def sampled(noise_rms: Loudness, density: float, rng: np.random.Generator, size: int, rate: float) -> Array:
     """(4, N) m/s^2: noise of four accelerometers, white density (m/s^2)^2/Hz; no power below rate / (2 N)."""
     period = 2 * size
     f = np.fft.rfftfreq(period, 1 / rate)[1:]
-    scale = np.sqrt(density * loudness.psd(f) * rate * period / 4)
+    scale = np.sqrt(density * noise_rms.psd(f) * rate * period / 4)
     spectrum = np.zeros((4, size + 1), dtype=np.complex128)
     drawn = rng.standard_normal((2, 4, size))
     spectrum[:, 1:] = scale * (drawn[0] + 1j * drawn[1])
     spectrum[:, -1] = np.sqrt(2) * spectrum[:, -1].real
-    return np.asarray(np.fft.irfft(spectrum, period)[:, :size] * loudness.level)
+    return np.asarray(np.fft.irfft(spectrum, period)[:, :size] * noise_rms.level)
 
 
 def write(x: Table, units: Mapping[str, str], path: Path) -> None:

@@ -76,7 +76,7 @@ class Oracle:
         self,
         w: World,
         flight: Flight,
-        loudness: Loudness,
+        noise_rms: Loudness,
         lost: Mask | None = None,
         catalogue: Container[str] | None = None,
     ) -> None:
@@ -87,10 +87,10 @@ class Oracle:
         self.valid = self.o.record.valid if lost is None else self.o.record.valid & ~lost
         i = w.known.accelerometers
         scale = (i["k_VI"] * i["K1"])[:, None]
-        of_each = np.broadcast_to(scale * loudness.level, (4, len(flight))) ** 2
+        of_each = np.broadcast_to(scale * noise_rms.level, (4, len(flight))) ** 2
         variance = of_each if w.output == "voltages" else np.sum(of_each, axis=0, keepdims=True)
         self.rms = np.sqrt(w.density * flight.rate / 2 * variance)
-        self.taps = whitening(loudness, flight.rate, len(flight))
+        self.taps = whitening(noise_rms, flight.rate, len(flight))
         p = vector(self.model, w.known)
         every, ids = design.list_candidate_columns(self.model, w.known), {e.id for e in known}
         only = tuple(n for n, c in enumerate(every) if c.effect in ids)
@@ -210,12 +210,12 @@ class Oracle:
         return Hidden("saturation", {"V_max": high}, float("nan"), seen(high))
 
 
-def whitening(loudness: Loudness, rate: float, size: int) -> Array:
+def whitening(noise_rms: Loudness, rate: float, size: int) -> Array:
     """Taps of the causal filter that makes stationary noise white: the minimum phase of one over the root of its spectrum."""
     n = 1 << int(np.ceil(np.log2(4 * size)))
     f = np.fft.rfftfreq(n, 1 / rate)
     f[0] = rate / (2 * size)
-    log = -0.5 * np.log(loudness.psd(np.maximum(f, rate / (2 * size))))
+    log = -0.5 * np.log(noise_rms.psd(np.maximum(f, rate / (2 * size))))
     if not np.any(log):
         return np.ones(1)
     cepstrum = np.fft.irfft(log, n)

@@ -83,7 +83,7 @@ def _is_stream(path: Path, mode: int | None) -> bool:
     return found
 
 
-def require_room(path: Path, size: int) -> None:
+def require_space(path: Path, size: int) -> None:
     """OSError where so many bytes do not fit on the disc of ``path``, for libraries that do not survive a full disc (HDF5)."""
     if shutil.disk_usage(path.parent).free < size:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))

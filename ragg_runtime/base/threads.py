@@ -13,7 +13,7 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 
-def stretches(length: int, most: int) -> list[slice]:
+def split_range(length: int, most: int) -> list[slice]:
     """Consecutive slices of at most so many of ``length`` items."""
     return [slice(k, min(k + most, length)) for k in range(0, length, most)]
 

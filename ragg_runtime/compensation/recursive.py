@@ -17,7 +17,7 @@ from scipy import linalg
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import one_thread, stretches
+from ragg_runtime.base.threads import one_thread, split_range
 from ragg_runtime.compensation.compensate import find_seeing
 from ragg_runtime.compensation.result import Compensation, without_gradients
 from ragg_runtime.compensation.saved import Saved
@@ -290,7 +290,7 @@ def _follow_flight(
         volts = tuning.noise / np.sqrt(2.0) * scale_factor(model, p, o.place) * np.sqrt(o.record.rate / 2)
         f = Online(model, instrument, replace(tuning, noise=float(volts)), p, root, o.place)
         parts = []
-        for rows in stretches(len(o.record.time), ROWS):
+        for rows in split_range(len(o.record.time), ROWS):
             parts.append(f.feed(o.part(rows)))
             progress.step(float(rows.stop - rows.start))
         got, end = Followed(*np.hstack(parts)), endings[o.place]
@@ -305,9 +305,9 @@ def _follow_flight(
 def _flag_bridged(time: Array, o: Observation) -> NDArray[np.int64]:
     """Of every instant: bridged where one of the samples since the instant before is missing."""
     step = 1.0 / o.record.rate
-    heard = np.searchsorted(o.record.time[o.record.valid], time, "right")
+    count = np.searchsorted(o.record.time[o.record.valid], time, "right")
     due = np.rint(np.diff(time, prepend=o.record.time[0] - step) / step)
-    return np.where(np.diff(heard, prepend=0) < due, int(Quality.BRIDGED), 0)
+    return np.where(np.diff(count, prepend=0) < due, int(Quality.BRIDGED), 0)
 
 
 def _parameters_json(f: Online) -> list[dict[str, Any]]:

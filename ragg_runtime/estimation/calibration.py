@@ -18,7 +18,7 @@ from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.regressors import Column, LinearisationPoint, spelt, tested_columns
 from ragg_runtime.estimation.unknown_gradient import Window
-from ragg_runtime.estimation.whitening import Piece, heard, pass_over, take_excerpt
+from ragg_runtime.estimation.whitening import Piece, find_segments, pass_over, take_excerpt
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.evaluate import scale_factor, vector
@@ -140,7 +140,7 @@ class _Task:
 
     def windows(self, noise: Sequence[NoiseModel]) -> _Windows:
         """What an unknown gradient spans of each flight of one segment, which is the same at every point of a fit."""
-        found = [heard(o) for o in self.observations]
+        found = [find_segments(o) for o in self.observations]
         return [
             unknown_gradient.windows(o, s[0].rows, n) if len(s) == 1 else None
             for o, n, s in zip(self.observations, noise, found, strict=True)
@@ -157,7 +157,7 @@ class _Task:
         r_factors, rows = [], 0
         sums = {o.place: np.zeros(len(x) + 1) for o in self.observations}
         for o, n, w in zip(self.observations, noise, windows, strict=True):
-            for T, count, part in pass_over(point, o, n, _r_factor, chosen=heard(o), windows=w):
+            for T, count, part in pass_over(point, o, n, _r_factor, chosen=find_segments(o), windows=w):
                 r_factors.append(T)
                 rows += count
                 sums[o.place] += part
@@ -265,12 +265,12 @@ def _loud(p: _Unweighted, x: Array, noise: Sequence[NoiseModel], fixed: bool) ->
         if fixed or np.array_equal(found.x, x):
             break
         x, before, noise = found.x, noise, p.task.noise(found.x)
-        if loudness(noise) > FALLING * loudness(before) and p.left(x) > FALLING * left:
+        if noise_rms(noise) > FALLING * noise_rms(before) and p.left(x) > FALLING * left:
             break
     return _calibration(p.task, found, noise)
 
 
-def loudness(noise: Sequence[NoiseModel]) -> float:
+def noise_rms(noise: Sequence[NoiseModel]) -> float:
     """Root of the mean power of the outputs' noise over all flights, V."""
     return float(np.sqrt(np.mean([n.power for n in noise])))
 
@@ -401,7 +401,7 @@ def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument 
     return replace(instrument, widths=MappingProxyType(then)) if changed else None
 
 
-def as_said(instrument: Instrument) -> Instrument:
+def restore_priors(instrument: Instrument) -> Instrument:
     """The instrument with the priors of its sheet again."""
     return replace(instrument, widths=MappingProxyType({}))
 
@@ -427,7 +427,7 @@ def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, f
     return {n: width[k] for n, k in kinds.items() if wide[k]}
 
 
-def room_taken(instrument: Instrument, c: Calibration) -> float:
+def prior_volume(instrument: Instrument, c: Calibration) -> float:
     """The chi-square price of wider priors: the logarithm of the volume that they add, over the parameters that the record determines."""
     width = np.array([instrument.widths.get(q.name, 1.0) for q in c.columns])
     return float(2.0 * np.log(width) @ np.maximum(0.0, 1.0 - np.diag(c.covariance)))

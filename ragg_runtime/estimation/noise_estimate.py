@@ -19,8 +19,8 @@ from ragg_runtime.estimation.observation import (
     Observation,
     Segment,
     beginnings,
+    information_per_sample,
     spread,
-    telling,
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint
 from ragg_runtime.estimation.residual import (
@@ -258,7 +258,7 @@ def _parts(
     def part(piece: Piece) -> _Part:
         r = piece.observation.record
         valid, loud = r.valid, np.broadcast_to(level.of(r.quantity), r.valid.shape)[r.valid]
-        each = np.split(piece.white[piece.heard], len(o.series), axis=1)
+        each = np.split(piece.white[piece.nonzero], len(o.series), axis=1)
         known = [partial(_through, piece, m, len(each), loud) for m in range(len(each))]
         return _Part(
             rows=piece.segment.rows,
@@ -297,7 +297,7 @@ def _through(piece: Piece, m: int, outputs: int, loud: Array, columns: Array) ->
 
 def _of_channels(parts: Sequence[_Part], o: Observation) -> NoiseModel:
     """Within the demodulator's band the noise of G_out is taken as white; a sample of a seldom recorded channel counts for more."""
-    gain, more = o.recorded.noise_share(o.record), telling(o.record)
+    gain, more = o.recorded.noise_share(o.record), information_per_sample(o.record)
     squares = free = 0.0
     for p in parts:
         (x,) = p.outputs

@@ -255,7 +255,7 @@ def _spacing(there: NDArray[np.bool_]) -> int:
     return max(1, int(np.median(np.diff(at)))) if len(at) > 1 else 1
 
 
-def telling(r: Record) -> float:
+def information_per_sample(r: Record) -> float:
     """How many times more informative a sample of the channels is than one of a record at the full rate."""
     from scipy import signal  # slow to import, and only records of channels need it
 

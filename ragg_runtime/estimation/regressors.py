@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.threads import stretches
+from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation.observation import Observation, Thin, bridge_gaps
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
@@ -141,7 +141,7 @@ def _of_effect(e: DerivedEffect, known: Units, instrument: Instrument) -> list[t
     return columns
 
 
-def heard(columns: Sequence[Column], instrument: Instrument, place: int) -> slice | NDArray[np.intp]:
+def find_nonzero(columns: Sequence[Column], instrument: Instrument, place: int) -> slice | NDArray[np.intp]:
     """Which of these columns, and of the residual after them, are not zero in an output; a slice if there is one output."""
     if len(instrument.layout.outputs) == 1:
         return slice(None)
@@ -272,7 +272,7 @@ def _put_derivatives(
             for n, c in enumerate(parameters)
             if c.accelerometer in (None, j + 1)
         ]
-        for some in stretches(len(r.time), CACHED):
+        for some in split_range(len(r.time), CACHED):
             slopes = e.derivatives(j, r.time[some], x[:, some], p, r.phi[some])
             for n, of, scale in own:
                 columns[n, series, some] += scale * slopes[of]
@@ -286,7 +286,7 @@ def _voltages(at: LinearisationPoint, o: Observation, r: Record, p: Array) -> Ar
 
 def thin_residual(at: LinearisationPoint, thin: Thin) -> Array:
     """Residual (m, n), V, of a thinned record: that of the whole one, thinned, for the outputs are a million times the noise."""
-    parts = [thin.part(some) for some in stretches(thin.rows.stop - thin.rows.start, PART)]
+    parts = [thin.part(some) for some in split_range(thin.rows.stop - thin.rows.start, PART)]
     return np.concatenate([x.kept(residual_of(at, x.source(at.channels))) for x in parts], axis=1)
 
 

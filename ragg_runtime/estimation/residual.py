@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, linalg
 
-from ragg_runtime.base.threads import stretches
+from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation.least_squares import r_factor
 from ragg_runtime.estimation.spectrum import LOWEST, Spectrum, estimate, hann, periodogram, without_lines
 from ragg_runtime.signals.fir import GROUP, SPARSE, filtered, not_zero
@@ -151,7 +151,7 @@ class ProjectedResidual:
         power = np.interp(np.arange(bins) / n, fft.rfftfreq(size), fft.rfft(lags).real)
         Q = self.directions.T @ self.columns
         CQ, waves, cross = np.empty_like(Q), np.empty((len(Q), bins), complex), np.zeros(bins)
-        for rows in stretches(len(Q), GROUP):
+        for rows in split_range(len(Q), GROUP):
             wide = np.zeros((len(Q[rows]), n))
             wide[:, valid] = Q[rows]
             through = fft.irfft(fft.rfft(wide, size) * density, size)[:, :n] * valid
@@ -299,7 +299,7 @@ def _kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
     some = np.unique(np.r_[0 : min(bins, EVERY // 2), np.geomspace(1, bins, EVERY).astype(np.intp) - 1])
     waves = np.empty((len(columns), len(some)), dtype=np.complex128)
 
-    for group in stretches(len(columns), GROUP):
+    for group in split_range(len(columns), GROUP):
         part = columns[group] * window[valid]
         if not valid.all():
             x = np.zeros((len(part), n))

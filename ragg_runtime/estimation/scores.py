@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from ragg_runtime.base.threads import stretches
+from ragg_runtime.base.threads import split_range
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.demodulate import CUTOFF, demodulate, low_pass
@@ -158,7 +158,7 @@ class Tally:
         whole = np.where(find_supported(selected, valid, len(self._taps)), 1.0, 0.0)
         self.demodulated += np.sum(whole, axis=1)
         for c, carrier in enumerate((4 * np.sin(2 * phi), -2 * np.cos(2 * phi))):
-            for some in stretches(len(e), SERIES):
+            for some in split_range(len(e), SERIES):
                 x = convolved(e[some] * carrier, self._taps)
                 self._sums[0, :, c, some] += whole @ x.T
                 self._sums[1, :, c, some] += whole @ (x**2).T

@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ragg_runtime.base.threads import stretches
+from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.observation import Observation, Segment, Thin, bridge_gaps, segments, spread
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise, residual_of
 from ragg_runtime.estimation.residual import disturbances
-from ragg_runtime.estimation.whitening import heard, longer
+from ragg_runtime.estimation.whitening import find_segments, longer
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.record import is_disc_angle
 from ragg_runtime.model.evaluate import vector
@@ -148,7 +148,7 @@ def _most(at: LinearisationPoint, o: Observation) -> int:
     choices = [k for k in EVERY if o.record.rate >= k * least]
     if o.recorded.demodulated or not longer(o) or not choices:
         return 1
-    some = spread(heard(o), EXCERPTS)
+    some = spread(find_segments(o), EXCERPTS)
     pieces = [o.part(slice(s.rows.start, min(s.rows.start + EXCERPT, s.rows.stop))) for s in some]
     whole = [linearise(at, _everywhere(x))[:-1] for x in pieces]
 
@@ -197,7 +197,7 @@ def beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> fl
         square = ((e[inner] - slow) * (e[inner] + slow))[part.record.valid[inner]]
         return np.array([np.sum(square), len(square)])
 
-    square, count = sum(map(taken, heard(whole)), np.zeros(2))
+    square, count = sum(map(taken, find_segments(whole)), np.zeros(2))
     return max(0.0, float(square) / max(float(count), 1.0))
 
 
@@ -211,7 +211,7 @@ def _alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[Array
         if 2 * np.sum(inside) < len(inside):
             return False  # too few samples to determine the rest
         made = linearise(at, o)[:-1]
-        wanted = np.concatenate([thin.kept(columns[some]) for some in stretches(len(columns), TOGETHER)])
+        wanted = np.concatenate([thin.kept(columns[some]) for some in split_range(len(columns), TOGETHER)])
         square = square + np.sum(wanted[:, :, inside] ** 2, axis=(1, 2))
         off = off + np.sum((made - wanted)[:, :, inside] ** 2, axis=(1, 2))
     most = np.where(np.arange(len(off)) < len(at.base), ALIKE, NEAR)
@@ -231,7 +231,7 @@ def _supported(valid: NDArray[np.bool_], thin: Thin) -> NDArray[np.bool_]:
     """(n,): which samples that are kept have nearly all that makes them."""
     found = np.empty(thin.rows.stop, dtype=np.bool_)
     weights = replace(thin, taps=np.abs(thin.taps) / np.sum(np.abs(thin.taps)))
-    for some in stretches(len(found), BLOCK):
+    for some in split_range(len(found), BLOCK):
         missing = ~valid[thin.part(some).span]
         found[some] = not missing.any() or weights.kept(missing.astype(np.float64)) < MISSING
     return found
@@ -245,7 +245,7 @@ def _kept(o: Observation, thin: Thin) -> Observation:
     series = [np.empty(size) for x in o.series]
     wide = {n: np.empty(size) for n, x in channels.items()}
 
-    for some in stretches(size, BLOCK):
+    for some in split_range(size, BLOCK):
         rows = thin.part(some).span
         there = np.array(r.valid[rows])
         for x, found in zip(o.series, series, strict=True):

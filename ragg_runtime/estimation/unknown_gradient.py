@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import interpolate
 
-from ragg_runtime.base.threads import stretches
+from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation.least_squares import orthonormal
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation
@@ -117,10 +117,10 @@ def windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
         if unknown(o):
             shares = _shares(o, splines(*r.carried(slice(a - lead, b))) * here)
         plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
-        loud = level[a - rows.start : b - rows.start]
+        levels = level[a - rows.start : b - rows.start]
         lines = noise.line_columns(r.time[a - lead : b], len(o.series))
         together = np.concatenate([np.stack(shares, axis=1), lines * here])
-        white = noise.whiten(together, inside, loud, lead=lead)
+        white = noise.whiten(together, inside, levels, lead=lead)
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
         places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(noise.outputs)])
         samples = slice(a - rows.start, b - rows.start)
@@ -149,7 +149,7 @@ def project(columns: Floats, found: Sequence[Window]) -> None:
     """Take what an unknown gradient spans out of whitened columns (n, rows), in place."""
     for w in found:
         Q = w.white.astype(columns.dtype, copy=False)
-        for some in stretches(len(columns), TOGETHER):
+        for some in split_range(len(columns), TOGETHER):
             part = columns[some, w.rows]
             part -= np.matmul(np.matmul(part, Q), Q.T)
             if not isinstance(w.rows, slice):  # then ``part`` is a copy

@@ -39,7 +39,7 @@ class Piece:
 
     ``columns`` (n + 1, m, N), V, are base (``n_base``) and candidates, each times its parameter's scale, and the residual;
     ``white`` (n + 1, rows) the same whitened, one output after the other, an unknown gradient (``windows``) projected out;
-    ``sample`` (rows,) the flight's sample of each whitened row; ``heard`` the columns that are not zero.
+    ``sample`` (rows,) the flight's sample of each whitened row; ``nonzero`` the columns that are not zero.
     """
 
     segment: Segment
@@ -49,7 +49,7 @@ class Piece:
     white: Array
     sample: NDArray[np.intp]
     windows: Sequence[Window]
-    heard: slice | NDArray[np.intp]
+    nonzero: slice | NDArray[np.intp]
     noise: NoiseModel
 
     def r_factor(self, first: int = 0, stop: int | None = None) -> Array:
@@ -94,7 +94,7 @@ def longer(o: Observation) -> bool:
     return len(flight_segments(o)) > 1
 
 
-def heard(o: Observation) -> list[Segment]:
+def find_segments(o: Observation) -> list[Segment]:
     """The segments of a flight that hold valid samples."""
     return [s for s in flight_segments(o) if np.any(o.record.valid[s.rows])]
 
@@ -105,7 +105,7 @@ EXCERPT = 4
 
 def take_excerpt(o: Observation) -> Observation:
     """The observation with but some segments of a long flight valid, evenly spread: for strong signals they are as good as all."""
-    found = heard(o)
+    found = find_segments(o)
     if len(found) <= EXCERPT:
         return o
     valid = np.zeros(len(o.record.time), dtype=np.bool_)
@@ -131,7 +131,7 @@ def pass_over(
     ``windows``: of a flight of one segment, if they are known.
     """
     n_base = len(at.base)
-    heard = design.heard([*at.base, *at.candidates], at.instrument, o.place)
+    nonzero = design.find_nonzero([*at.base, *at.candidates], at.instrument, o.place)
     found = flight_segments(o) if chosen is None else chosen
     memory = noise.memory if whitened else 0
     tail: Array | None = None
@@ -144,7 +144,7 @@ def pass_over(
         taken = unknown_gradient.windows(o, s.rows, noise) if windows is None else windows
         if whitened:
             tail = _past(tail, s.rows.start - before, memory)
-            flat = _white(columns, heard, noise, tail, part.record, taken)
+            flat = _white(columns, nonzero, noise, tail, part.record, taken)
             tail, before = _carried(tail, columns, memory), s.rows.stop
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, noise.outputs)
         piece = Piece(
@@ -155,7 +155,7 @@ def pass_over(
             white=flat,
             sample=sample,
             windows=taken,
-            heard=heard,
+            nonzero=nonzero,
             noise=noise,
         )
         made = work(piece)
@@ -165,21 +165,21 @@ def pass_over(
 
 def _white(
     columns: Array,
-    heard: slice | NDArray[np.intp],
+    nonzero: slice | NDArray[np.intp],
     noise: NoiseModel,
     tail: Array | None,
     record: Record,
     windows: Sequence[Window],
 ) -> Array:
     """(n + 1, rows): columns (n + 1, m, N) whitened, without what an unknown gradient spans; zero where there is no valid sample."""
-    some = whiten_columns(columns[heard], noise, None if tail is None else tail[heard], record)
+    some = whiten_columns(columns[nonzero], noise, None if tail is None else tail[nonzero], record)
     if windows:
         some = some.copy() if np.shares_memory(some, columns) else some
         unknown_gradient.project(some, windows)
-    if isinstance(heard, slice):
+    if isinstance(nonzero, slice):
         return some
     flat = np.zeros((len(columns), some.shape[1]))
-    flat[heard] = some
+    flat[nonzero] = some
     return flat
 
 

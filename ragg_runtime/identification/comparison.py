@@ -241,7 +241,7 @@ def concluded(
     noise = noise_floor(f)
     output_explained = explained(f, calibrated)
     doubt = output_explained.complaint if judged else None
-    grounds = [] if rem is None else _grounds(loud(f, calibrated, noise), rem, choice)
+    grounds = [] if rem is None else _grounds(exceeds_noise(f, calibrated, noise), rem, choice)
     adequate = None if rem is None else complaint is None and doubt is None and not grounds
     return Comparison(
         fitted=f,
@@ -270,7 +270,7 @@ def _grounds(exceeds: bool, rem: Remainder, choice: selection.Choice | None) -> 
     return found
 
 
-def loud(f: Fitted, scored: Scored, noise: float) -> bool:
+def exceeds_noise(f: Fitted, scored: Scored, noise: float) -> bool:
     """Whether an error exceeds the noise (rms, Eo), allowing for lines and three standard errors of the noise."""
     freedom = sum(n.freedom for n in f.calibration.noise)
     known = 1.0 + 3.0 / float(np.sqrt(2.0 * freedom))

@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.calibration import as_said, room_taken, to_nominal
+from ragg_runtime.estimation.calibration import prior_volume, restore_priors, to_nominal
 from ragg_runtime.estimation.fitted import Fitted, calibrated
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.thinning import certain
@@ -55,7 +55,7 @@ def derived(
         if e in instants
     )
     sheet = replace(
-        as_said(f.instrument), effects=(*f.instrument.effects, *steps), held=f.instrument.held | held
+        restore_priors(f.instrument), effects=(*f.instrument.effects, *steps), held=f.instrument.held | held
     )
     return model, sheet
 
@@ -83,7 +83,7 @@ def left(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: Instrument
     # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
     tails = float(np.sum(np.log1p(own**2) - own**2))
     return ContenderFit(
-        chi2=c.chi2 + left_out + 2.0 * known + tails + room_taken(instrument, c),
+        chi2=c.chi2 + left_out + 2.0 * known + tails + prior_volume(instrument, c),
         arrived=c.converged,
     )
 

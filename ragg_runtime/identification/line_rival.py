@@ -17,7 +17,7 @@ from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector
 from ragg_runtime.identification import selection
 from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.omnibus import Remainder, ResidualTerm
-from ragg_runtime.identification.strong import Stage, Taken
+from ragg_runtime.identification.strong import AddedEffect, Stage
 
 SLIP = 6.6
 """Chi-square by which a line must be off the multiple: what keeps step with the disc is taken for the disc's, and seems as far
@@ -98,7 +98,7 @@ class Steady:
         return f"{said}; a line within {self.width:.1g} Hz of {self.frequency:.6g} Hz would explain it too"
 
 
-def line_rival(steps: Sequence[Taken], last: Stage) -> tuple[LineRival | None, tuple[Steady, ...]]:
+def line_rival(steps: Sequence[AddedEffect], last: Stage) -> tuple[LineRival | None, tuple[Steady, ...]]:
     """The first chosen effect that a line next to a multiple of the spin rate could replace, and those that are no more than
     one.
     """

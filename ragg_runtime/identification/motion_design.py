@@ -239,7 +239,7 @@ class CalibrationDesign:
 
 
 @dataclass(frozen=True)
-class Knowledge:
+class Information:
     """The information of flights about the parameters, and how these show in the compensated channels of their motion.
 
     ``root`` (n, n): R factor of the information, prior included; ``shown`` (2, n, n): R factors of the mean product of the changes of
@@ -251,8 +251,8 @@ class Knowledge:
     shown: Array
 
     @staticmethod
-    def of(f: Fitted) -> Knowledge:
-        return Knowledge(f, np.triu(f.whole[: f.n_base, : f.n_base]), _channel_changes(f))
+    def of(f: Fitted) -> Information:
+        return Information(f, np.triu(f.whole[: f.n_base, : f.n_base]), _channel_changes(f))
 
     def with_motion(self, motion: Sequence[Sinusoid], simulated: float, duration: float) -> Array:
         """(n, n): the inverse of the R factor with so much, s, of a motion."""
@@ -311,7 +311,7 @@ def design_calibration(
     Criterion ``A``: least mean variance of inline and cross by the parameters; ``D``: least volume of the uncertainty of the
     directions that matter to them.
     """
-    c = Knowledge.of(f)
+    c = Information.of(f)
     important = c.matter()
 
     def worth(motion: Sequence[Sinusoid]) -> float:

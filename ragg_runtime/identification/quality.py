@@ -40,7 +40,7 @@ def heed_flags(
         Nothing is claimed of a record that holds something odd, but effects that describe just that; nor what the
         noise of motion sensors feigns.
     """
-    d = _without_feigned(d, flights, again)
+    d = _without_imitations(d, flights, again)
     flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind == "motion-noise"]
     # an output that exceeds stationary noise, where motion was not recorded, is not explained
     unknown = bool(d.reasons) and any(f.kind == "still" for _, f in flags)
@@ -60,7 +60,7 @@ def heed_flags(
     return replace(d, verdict="unexplained", found=(), groups=(), reasons=reasons)
 
 
-def _without_feigned(
+def _without_imitations(
     d: Diagnosis, flights: Sequence[Flight], again: Callable[[Sequence[Flight]], Diagnosis]
 ) -> Diagnosis:
     """The diagnosis without effects that the noise of motion sensors feigns.
@@ -73,15 +73,15 @@ def _without_feigned(
     noisy = sorted({n for x in flights for n in x.motion_noise})
     if not noisy or d.verdict == "adequate" or len(d.residual) != len(flights):
         return d
-    feigned = again([_measured_again(x, e) for x, e in zip(flights, d.residual, strict=True)])
+    imitated = again([_measured_again(x, e) for x, e in zip(flights, d.residual, strict=True)])
     level = np.log(false_alarms.CATALOGUE)
-    made = {r.effect: r for r in feigned.ranking if r.log_p < level}
+    made = {r.effect: r for r in imitated.ranking if r.log_p < level}
     found = [r for r in d.ranking if r.effect in d.found]
     alike = [r.effect for r in found if _is_as_strong(made.get(r.effect), r) or _smooths_motion(d, r.effect)]
     if alike:  # what is significant only next to them is no longer significant
         alike += [r.effect for r in found if r.effect not in alike and r.log_p >= level]
     kept = tuple(e for e in d.found if e not in alike)
-    term = _feigned_term(d, feigned) if d.remains else None
+    term = _imitated_term(d, imitated) if d.remains else None
     if not alike and term is None:
         return d
     what = ", ".join([*alike, *([] if term is None else [f"the residual, mostly {term},"])])
@@ -91,13 +91,13 @@ def _without_feigned(
     return replace(d, verdict=verdict, found=kept, groups=groups, reasons=(Reason(said),))
 
 
-def _feigned_term(d: Diagnosis, feigned: Diagnosis) -> str | None:
+def _imitated_term(d: Diagnosis, imitated: Diagnosis) -> str | None:
     """The strongest generic term that remains, if flights without any effect show something as strong, under whatever name."""
     remaining = claims.strongest(d.remainder)
     if remaining is None:
         return None
-    made = claims.strongest(feigned.remainder)
-    strengths = [0.0 if made is None else abs(made.z), *(float(np.sqrt(r.chi2)) for r in feigned.ranking)]
+    made = claims.strongest(imitated.remainder)
+    strengths = [0.0 if made is None else abs(made.z), *(float(np.sqrt(r.chi2)) for r in imitated.ranking)]
     if max(strengths) < FEIGNED * abs(remaining.z):
         return None
     return f"{remaining.term.harmonic} x {remaining.term.product}"

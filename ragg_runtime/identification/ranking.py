@@ -15,7 +15,7 @@ from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.parameters import ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.identification.probability import Probabilities
 from ragg_runtime.identification.selection import Choice, Field
-from ragg_runtime.identification.strong import Taken
+from ragg_runtime.identification.strong import AddedEffect
 from ragg_runtime.model.model import DerivedEffect
 
 
@@ -147,7 +147,7 @@ def _instant(t_step: float) -> ParameterValue:
 
 
 def staged(
-    steps: Sequence[Taken], chosen: Sequence[Ranked], others: Sequence[Ranked], target: Fitted
+    steps: Sequence[AddedEffect], chosen: Sequence[Ranked], others: Sequence[Ranked], target: Fitted
 ) -> list[Ranked]:
     """The ranking where effects were derived into the model: each by what the model with those before leaves without and with it;
     the rest against the model as it was.
@@ -158,7 +158,7 @@ def staged(
     return [*found, *(r for r in others if r.effect not in names)]
 
 
-def _ranked_taken(t: Taken, free: Fitted) -> Ranked:
+def _ranked_taken(t: AddedEffect, free: Fitted) -> Ranked:
     """The row of an effect that was derived into the model; ``free``: the flights with all of them, and all their coefficients."""
     (before,) = t.before.score([np.zeros(t.before.size)])
     half = t.after.vector(t.after.coefficients((), held_out=True)[0])
@@ -265,7 +265,7 @@ def list_detectable(f: Fitted, field: Field) -> list[Detectable]:
     return rows
 
 
-def weighed(field: Field, steps: Sequence[Taken]) -> Probabilities:
+def weighed(field: Field, steps: Sequence[AddedEffect]) -> Probabilities:
     """The probabilities of the remaining effects, and of those in the model: equivalent alternatives share there."""
     sets = probability.weighed(field)
     for t in steps:

@@ -20,7 +20,7 @@ from ragg_runtime.identification.comparison import Explained, explained
 from ragg_runtime.identification.contenders import Extend
 from ragg_runtime.identification.likelihood_ratio import Test, Variance, log_bayes, pooled
 from ragg_runtime.identification.omnibus import Remainder
-from ragg_runtime.identification.strong import Stage, Taken
+from ragg_runtime.identification.strong import AddedEffect, Stage
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
@@ -78,11 +78,11 @@ class Outcome:
     @property
     def remains(self) -> bool:
         """Whether the discrepancy is significant."""
-        return self.remainder.significant or self.loud
+        return self.remainder.significant or self.exceeds_noise
 
     @cached_property
-    def loud(self) -> bool:
-        return comparison.loud(self.target, self.scored, self.noise_floor)
+    def exceeds_noise(self) -> bool:
+        return comparison.exceeds_noise(self.target, self.scored, self.noise_floor)
 
     def significance(self, effect: str) -> Significance:
         """Of an effect fitted jointly with the others, with the variance of its scores."""
@@ -97,7 +97,7 @@ class Evidence:
     """
 
     first: Stage
-    steps: Sequence[Taken]
+    steps: Sequence[AddedEffect]
     last: Stage
     outcome: Outcome
     extend: Extend | None
@@ -201,7 +201,7 @@ def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
     return Evidence(first, steps, last, outcome, extend, budget.spent)
 
 
-def confirmed(steps: Sequence[Taken], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:
+def confirmed(steps: Sequence[AddedEffect], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:
     """The chosen effects fitted in the model; and the last stage without those that then have an impossible size."""
     f = last.fitted
     final = _derived(last, extend)

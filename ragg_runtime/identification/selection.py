@@ -111,7 +111,7 @@ class Field:
         }
         if self.blocks and any(map(self._raises, found.values())):
             others = [self.n_base + n for e in given for n, _ in self.candidates[e]]
-            beside = uneven.Beside(self.T, self.blocks, self.n_base, others)
+            beside = uneven.ProjectedBlocks(self.T, self.blocks, self.n_base, others)
             found |= {e: self._tempered(t, beside, floor) for e, t in found.items() if self._raises(t)}
         found |= known
         return {e: found[e] for e in self.candidates if e in found}
@@ -120,7 +120,7 @@ class Field:
         """Whether a test says anything: those that do not stay as they are."""
         return t.rank > 0 and t.log_p <= np.log(FAMILY)
 
-    def _tempered(self, t: Test, beside: uneven.Beside, floor: Array) -> Test:
+    def _tempered(self, t: Test, beside: uneven.ProjectedBlocks, floor: Array) -> Test:
         """A test as sure as the scores in blocks of time are."""
         tested = [self.n_base + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
         return uneven.tempered(t, uneven.inflation(beside, tested), self.freedom, len(self.blocks))
@@ -243,7 +243,7 @@ def field_of(
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
     uneven_noise = any(n.uneven for n in f.calibration.noise)
-    blocks = uneven.telling(t for own in f.r_factors for t in own) if uneven_noise else ()
+    blocks = uneven.nonempty_blocks(t for own in f.r_factors for t in own) if uneven_noise else ()
     return Field(
         T=f.whole if T is None else T,
         n_base=f.n_base,

@@ -71,7 +71,7 @@ class Stage:
 
 
 @dataclass(frozen=True)
-class Taken:
+class AddedEffect:
     """An effect that was derived into the model: its linear test, the fits before and after, ``rivals`` that would have done as
     well, and the instant of a step, s.
     """
@@ -99,11 +99,11 @@ class Budget:
         return self.left <= 0
 
 
-def taken(first: Stage, extend: Extend | None, budget: Budget) -> tuple[list[Taken], Stage]:
+def taken(first: Stage, extend: Extend | None, budget: Budget) -> tuple[list[AddedEffect], Stage]:
     """The strong effects, the strongest first, and the stage at which none is left, or what is missing is not in the catalogue, or
     the budget is spent.
     """
-    found: list[Taken] = []
+    found: list[AddedEffect] = []
     stage = first
     while extend is not None and stage.strong and len(found) < selection.MOST and not budget.spent:
         one = _strongest(stage, extend, budget)
@@ -119,7 +119,7 @@ def unneeded(field: Field, effect: str, which: Sequence[int]) -> frozenset[str]:
     return frozenset(c.label for n, c in field.candidates[effect] if n not in which)
 
 
-def _strongest(stage: Stage, extend: Extend, budget: Budget) -> Taken | None:
+def _strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect | None:
     """The effect that explains most once it is in the model, of those that are possible at the size that they then have.
 
     ``None`` where only an impossible one leaves but noise, or none of several comes to an optimum.
@@ -195,12 +195,12 @@ def _evidence(t: Test, columns: int) -> float:
     return float(log_bayes(t.chi2, t.rank)) - float(np.log(comb(columns, min(t.rank, columns))))
 
 
-def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend) -> Taken:
+def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend) -> AddedEffect:
     """An effect of a stage derived into the model, with the coefficients that its test needs, and everything fitted anew."""
     f = stage.fitted
     held = unneeded(stage.field, effect, stage.choice.tests[effect].which)
     model, instrument = contenders.derived(f, [effect], stage.instants, extend, candidates=True, held=held)
-    return Taken(
+    return AddedEffect(
         effect=effect,
         test=stage.choice.tests[effect],
         before=f,

@@ -28,7 +28,7 @@ DIRECTIONS = 1e-7
 
 
 @dataclass(frozen=True)
-class Beside:
+class ProjectedBlocks:
     """An R factor [columns | data] and those of blocks of time, with what is in the model projected out.
 
     Attributes
@@ -62,7 +62,7 @@ class Beside:
         return np.asarray(found - t[:, self.others] @ self.B[n:, columns] if self.others else found)
 
 
-def inflation(beside: Beside, tested: Sequence[int]) -> float:
+def inflation(beside: ProjectedBlocks, tested: Sequence[int]) -> float:
     """How much more the scores vary than they should: at least 1.
 
     That is the variance of a block's score along what is fitted, relative to that of noise of unit variance. What is left
@@ -83,7 +83,7 @@ def inflation(beside: Beside, tested: Sequence[int]) -> float:
     return max(1.0, power / float(along @ along))
 
 
-def telling(blocks: Iterable[Array]) -> tuple[Array, ...]:
+def nonempty_blocks(blocks: Iterable[Array]) -> tuple[Array, ...]:
     """Those in which there is any sample."""
     return tuple(t for t in blocks if np.any(t))
 

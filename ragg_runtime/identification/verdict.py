@@ -70,7 +70,7 @@ class Conclusion:
         random = sorted((t.log_p, e) for e, t in tests if selection.significant(t, count, selection.FURTHER))
         # noise that follows the motion grows with the motion: a random effect models just that
         remains = line is not None or left.significant or outcome.complaint is not None
-        remains = remains or (outcome.loud and not random)
+        remains = remains or (outcome.exceeds_noise and not random)
         claimed: tuple[str, ...] = ()
         doubted = apart or outcome.explained.complaint is not None
         if base is not None and not doubted:
@@ -100,8 +100,8 @@ class Conclusion:
     @property
     def contradictory(self) -> bool:
         """Whether flights that contradict each other would explain the verdict."""
-        loud = self.outcome.target.calibration.excess > QUIET
-        return self.verdict == "unexplained" or (self.remains and loud)
+        far = self.outcome.target.calibration.excess > QUIET
+        return self.verdict == "unexplained" or (self.remains and far)
 
     def remarks(self, apart: str | None, spent: bool) -> list[str]:
         """What is wrong with the record, or what else than the effects found would do, or how the record is disturbed."""

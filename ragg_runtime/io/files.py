@@ -20,7 +20,7 @@ import pyarrow.csv
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import file_digest, replacing, require_room
+from ragg_runtime.base.files import file_digest, replacing, require_space
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.io.array_files import (
@@ -74,11 +74,13 @@ def write_netcdf(path: Path, columns: Sequence[DataColumn]) -> None:
             }
             values = values.astype(np.int32)
         variables[c.name] = ("time", values, attributes)
-    require_room(path, estimate_room([len(c.values) for c in columns]))  # HDF5 does not survive a full disc
+    require_space(
+        path, estimate_memory([len(c.values) for c in columns])
+    )  # HDF5 does not survive a full disc
     xarray.Dataset(variables).to_netcdf(path, engine="h5netcdf")
 
 
-def estimate_room(sizes: Sequence[int]) -> int:
+def estimate_memory(sizes: Sequence[int]) -> int:
     """Bytes that columns of so many numbers take at most in a NetCDF file, with their headers."""
     return (1 << 16) + sum(8 * n + 8192 for n in sizes)
 

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from generated.folded import disc_angle
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import stretches
+from ragg_runtime.base.threads import split_range
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.compile import BuildError, build, load
 
@@ -97,7 +97,7 @@ class Evaluator:
             name = "folded" if hasattr(self.library, "ragg_folded_output") else self.name
             self._call(f"{name}_output", own, (t, x, p, angle), G)
         elif self.folded is not None:
-            for some in stretches(len(t), BLOCK):
+            for some in split_range(len(t), BLOCK):
                 phi = None if angle is None else angle[some]
                 G[some] = self.folded.output(t[some], np.stack([v[some] for v in x]), p, phi, *own)
         else:
@@ -182,7 +182,7 @@ class Evaluator:
             and few <= LONGEST
         ):
             weights, case = np.ascontiguousarray(weights), self._case(t, inputs, p, angle)
-            for some in stretches(len(steps), TOGETHER):
+            for some in split_range(len(steps), TOGETHER):
                 vectors = np.concatenate([p[None], p + steps[some]])
                 sizes = (_SIZE(len(vectors) - 1),)
                 arguments = _pointers((case[0], case[1], vectors, case[3]), sizes)
@@ -203,7 +203,7 @@ class Evaluator:
         """Samples, and what the generated NumPy functions take of them for accelerometer j."""
         t, x, p, angle = case
         q = self.chain.values_of(j, p)
-        for some in stretches(len(t), BLOCK):
+        for some in split_range(len(t), BLOCK):
             phi = disc_angle(t[some], float(q[1])) if angle is None else angle[some]
             yield some, (t[some], np.cos(phi), np.sin(phi), np.stack([v[some] for v in x]), q)
 

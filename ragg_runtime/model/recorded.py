@@ -88,7 +88,7 @@ FORMS = (
     RecordedSeries("G_out", "G_out"),
     RecordedSeries("channels", "inline and cross, remodulated"),
 )
-"""The most telling first."""
+"""The most informative first."""
 
 
 def recorded(flight: Flight, layout: Layout, place: int) -> RecordedSeries | None:

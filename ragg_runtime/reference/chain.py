@@ -168,7 +168,7 @@ class Chain:
         shakes = [
             (v + u * instant.auxiliaries["vibration_rms"] if np.any(u) else v, weight * w)
             for v, weight in shaken
-            for u, w in force.louder(self.effects)
+            for u, w in force.scale_vibration(self.effects)
         ]
         voltages = (weight * self._voltage(j, instant, v) for v, weight in shakes)
         return np.asarray(sum(voltages), dtype=np.float64)

@@ -180,7 +180,7 @@ def _rates(flight: Flight) -> list[str]:
     return found
 
 
-def _lost_rows(column: str, angle: Array, time: Array) -> list[str]:
+def _find_lost_rows(column: str, angle: Array, time: Array) -> list[str]:
     """Missing rows where the stamps go on evenly, as those made of row numbers do: the disc turned on meanwhile."""
     turned, passed = np.diff(angle), np.diff(time)
     pace = float(np.median(turned / passed))
@@ -205,7 +205,7 @@ def _encoder(disc: Disc, flight: Flight) -> list[str]:
     time = flight.time[part]
     rate = float(np.median(np.diff(angle) / np.diff(time))) / (2 * np.pi)
     if abs(rate - f) < SAME_SPIN * abs(f):
-        return _lost_rows(column, angle[flight.valid[part]], time[flight.valid[part]])
+        return _find_lost_rows(column, angle[flight.valid[part]], time[flight.valid[part]])
     if abs(rate + f) < SAME_SPIN * abs(f):
         return [f"{column} runs backwards, at {rate:.6g} Hz: the sign of the encoder is reversed?"]
     nyquist = flight.rate / 2

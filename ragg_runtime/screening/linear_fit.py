@@ -65,7 +65,7 @@ class LinearFit:
         Fitted parameter vector of the model's chain, SI.
     surprise
         Sum of the squares of the parameters' moves, in plausible sizes.
-    room
+    volume
         What the record determines of the parameters: the logarithm of prior over posterior volume, the price of wide priors.
     kept
         Share of the rows that are no outliers.
@@ -75,7 +75,7 @@ class LinearFit:
     size: float
     p: Array
     surprise: float
-    room: float
+    volume: float
     kept: float = 1.0
 
     @property
@@ -91,7 +91,7 @@ class LinearFit:
     @property
     def score(self) -> float:
         """Minus the log evidence, with :data:`INDEPENDENT` rows; the smaller the better."""
-        return INDEPENDENT * self.misfit + self.surprise / 2 + self.room
+        return INDEPENDENT * self.misfit + self.surprise / 2 + self.volume
 
 
 @dataclass(frozen=True)
@@ -196,7 +196,7 @@ class _Columns:
         inner, n = rows.inner, len(self.places)
         X = seen[:, :, inner].reshape(len(seen), -1)
         y = ((rows.data[:, inner] - nominal[:, inner]) / self.eotvos).reshape(-1)
-        theta, kept, room = fit_robustly(X, y)
+        theta, kept, volume = fit_robustly(X, y)
         size = rows.data[:, inner] / self.eotvos
         size = (size - np.mean(size, axis=1, keepdims=True)).reshape(-1)
         moved = self.p.copy()
@@ -206,7 +206,7 @@ class _Columns:
             size=float(np.sqrt(np.mean(size[kept] ** 2))),
             p=moved,
             surprise=float(np.sum(theta[:n] ** 2)),
-            room=room,
+            volume=volume,
             kept=float(np.mean(kept)),
         )
 
@@ -262,15 +262,15 @@ def _make_gradient(rows: Rows) -> Array:
 def fit_robustly(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_], float]:
     """Coefficients (n,) of columns X (n, rows), the rows that are no outliers of the fit, and the information about the coefficients."""
     kept = np.ones(len(y), dtype=np.bool_)
-    theta, room = fit_shrunken(X, y)
+    theta, volume = fit_shrunken(X, y)
     for _ in range(10):
         left = np.abs(y - theta @ X)
         now = left <= OUTLIER * float(np.quantile(left, QUARTILE)) / QUARTILE_OF_NORMAL
         if np.array_equal(now, kept) or np.sum(now) < 2 * len(X):
             break
         kept = now
-        theta, room = fit_shrunken(X[:, kept], y[kept])
-    return theta, kept, room
+        theta, volume = fit_shrunken(X[:, kept], y[kept])
+    return theta, kept, volume
 
 
 def fit_shrunken(X: Array, y: Array) -> tuple[Array, float]:
@@ -290,5 +290,5 @@ def fit_shrunken(X: Array, y: Array) -> tuple[Array, float]:
         if found > SETTLED * noise:
             break
         noise = found
-    room = 0.5 * float(np.sum(np.log1p(s**2 * INDEPENDENT / (len(y) * noise))))
-    return np.asarray(Vt.T @ (d * s / (s**2 + noise))), room
+    volume = 0.5 * float(np.sum(np.log1p(s**2 * INDEPENDENT / (len(y) * noise))))
+    return np.asarray(Vt.T @ (d * s / (s**2 + noise))), volume

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from ragg_runtime.base.threads import stretches
+from ragg_runtime.base.threads import split_range
 
 Array = NDArray[np.float64]
 Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])
@@ -57,7 +57,7 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
     size = fft.next_fast_len(before + n + max(0, reach - 1 - before - lead), real=True)
     gain = fft.rfft(taps[:reach].astype(columns.dtype), size)
     result = np.empty((len(columns), n - lead), dtype=columns.dtype)
-    for some in stretches(len(columns), GROUP * max(1, AT_A_TIME // (GROUP * size))):
+    for some in split_range(len(columns), GROUP * max(1, AT_A_TIME // (GROUP * size))):
         if not own[some].any():
             result[some] = 0.0
             continue
@@ -86,6 +86,6 @@ def convolved(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "
         return np.empty((*x.shape[:-1], 0), dtype=x.dtype)
     rows, own = x.reshape(-1, n), taps[None].astype(x.real.dtype)
     found = np.empty((len(rows), {"valid": n - k + 1, "same": n, "full": n + k - 1}[mode]), dtype=x.dtype)
-    for some in stretches(len(rows), max(1, BLOCK // n)):
+    for some in split_range(len(rows), max(1, BLOCK // n)):
         found[some] = (oaconvolve if n > BLOCK else fftconvolve)(rows[some], own, mode, axes=-1)
     return found.reshape(*x.shape[:-1], -1)

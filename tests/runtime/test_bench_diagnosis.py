@@ -18,16 +18,16 @@ def prepared(record: str) -> tuple[plan.World, Any, strength.Oracle, records.Lou
     w = plan.world(Spec("ten", record, 0, 7))
     plain = fly._simulated(w, {})
     x = fly._table(plain, plain.voltages_noise_free)
-    loudness = records.KINDS[record].noise(x, np.random.default_rng(1))
-    return w, plain, strength.Oracle(w, plain.flight(), loudness), loudness
+    noise_rms = records.KINDS[record].noise(x, np.random.default_rng(1))
+    return w, plain, strength.Oracle(w, plain.flight(), noise_rms), noise_rms
 
 
 @pytest.mark.parametrize("record", ["walk", "along-axes"])
 def test_the_oracle_makes_the_noise_white(record: str) -> None:
-    w, _, oracle, loudness = prepared(record)
+    w, _, oracle, noise_rms = prepared(record)
     i = w.scenario.instrument.accelerometers
     rng, size = np.random.default_rng(2), len(oracle.flight)
-    n = (i["k_VI"] * i["K1"])[:, None] * records.sampled(loudness, w.density, rng, size, oracle.flight.rate)
+    n = (i["k_VI"] * i["K1"])[:, None] * records.sampled(noise_rms, w.density, rng, size, oracle.flight.rate)
     y = oracle.whitened((n[0] + n[1] - n[2] - n[3])[None, None])[0][200:]
     assert np.std(y) == pytest.approx(1.0, abs=0.04)
     power = np.abs(np.fft.rfft(y)) ** 2 / len(y)

@@ -20,7 +20,7 @@ from scipy.io import netcdf_file, savemat
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight, files, read_flight, write_flight
-from ragg_runtime.io.files import convert, estimate_room, read_recordings, write_tables
+from ragg_runtime.io.files import convert, estimate_memory, read_recordings, write_tables
 from ragg_runtime.io.tables import DataColumn, DataTable
 from tests.runtime.foreign_files import ENDINGS, write
 
@@ -142,7 +142,7 @@ def test_a_failed_writer_leaves_the_old_file(
 def test_a_disc_without_room_is_asked_beforehand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """HDF5 does not survive a write that fails: it ended in a crash as the process ended."""
     path, tables = tmp_path / "x.nc", made(500, ())
-    size = estimate_room([500] * 5)
+    size = estimate_memory([500] * 5)
     disc = shutil.disk_usage(tmp_path)._replace(free=size - 1)
     with monkeypatch.context() as patch:
         patch.setattr(shutil, "disk_usage", lambda place: disc)

@@ -189,7 +189,7 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     assert min(q["std_planned"] / q["std_before"] for q in certificate) < 0.7
     f = fit(m.model, m.instrument, observations_of(api.read_flights(m, [files["x.parquet"]]), m.instrument))
     made = motion_design.design_calibration(f, next_motion.LIMITS, duration=600.0, band=(0.0, 3.2))
-    known = motion_design.Knowledge.of(f)
+    known = motion_design.Information.of(f)
     tones = motion_design.tones_of(0.25, next_motion.LIMITS, (0.0, 3.2))
     even = motion_design.multisine(tones, motion_design.even(tones))
     assert made.then < known.channels(known.with_motion(even, 600.0, 1200.0))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import stretches
+from ragg_runtime.base.threads import split_range
 from ragg_runtime.compensation.export.forms import format_csv
 from ragg_runtime.compensation.recursive import UNKNOWN_EO, UPDATE, Online, Tuning
 from ragg_runtime.estimation.observation import Observation, observe
@@ -52,7 +52,7 @@ def test_with_nothing_forgotten_it_is_the_batch_fit_to_rounding() -> None:
     prior[n:, n : n + 2] = np.eye(2) / UNKNOWN_EO
     batch = np.linalg.qr(np.vstack([prior, rows]), mode="r")
     x = np.linalg.solve(batch[:-1, :-1], batch[:-1, -1])
-    for rows in stretches(len(o.record.time), 388):  # in parts of any length
+    for rows in split_range(len(o.record.time), 388):  # in parts of any length
         f.feed(o.part(rows))
     found = np.linalg.solve(f.R[:, :-1], f.R[:, -1])
     # in standard deviations: eps times a dynamic of 1e11

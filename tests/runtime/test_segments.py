@@ -93,31 +93,31 @@ def test_single_missing_samples_do_not_silence_the_demodulator(flown: tuple[Scen
         assert b.cross_Eo == pytest.approx(a.cross_Eo, rel=0.1)
     gap = np.ones(1000, dtype=bool)
     gap[500:560] = False
-    heard = scores.find_supported(np.ones((1, 1000), dtype=bool), gap, 101)[0]
-    assert not heard[460:500].any()  # windows with more than half of the gap
-    assert heard[:400].all() and heard[560:].all()
+    found_segments = scores.find_supported(np.ones((1, 1000), dtype=bool), gap, 101)[0]
+    assert not found_segments[460:500].any()  # windows with more than half of the gap
+    assert found_segments[:400].all() and found_segments[560:].all()
 
 
 def test_an_excerpt_tells_of_its_samples_what_the_whole_pass_tells(
     flown: tuple[Scenario, Flight], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What is not heard is left out of the pass, and nothing else is: the same misfit, slope and sums as with zeros there."""
+    """What holds no valid sample is left out of the pass, and nothing else is: the same misfit, slope and sums as with zeros there."""
     s, flight = flown
     o = observation.observe(flight, s.sheet)
     noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
     monkeypatch.setattr(whitening, "ROWS", 1700)
     monkeypatch.setattr(whitening, "EXCERPT", 3)
     some = whitening.take_excerpt(o)
-    heard = whitening.heard(some)
-    assert len(heard) == 3 < len(whitening.flight_segments(o))
-    assert heard[0].rows.start == 0 and heard[-1].rows.stop == len(flight.time)
+    found_segments = whitening.find_segments(some)
+    assert len(found_segments) == 3 < len(whitening.flight_segments(o))
+    assert found_segments[0].rows.start == 0 and found_segments[-1].rows.stop == len(flight.time)
     assert whitening.take_excerpt(some) is some
     task = calibration._Task(model.packaged(), s.sheet, [some])
     x = np.full(len(task.index), 0.01)
     found = task.at(x, noise)
-    monkeypatch.setattr(calibration, "heard", lambda o: None)
+    monkeypatch.setattr(calibration, "find_segments", lambda o: None)
     expected = task.at(x, noise)
-    assert found.rows == expected.rows == sum(r.rows.stop - r.rows.start for r in heard)
+    assert found.rows == expected.rows == sum(r.rows.stop - r.rows.start for r in found_segments)
     assert found.cost == pytest.approx(expected.cost, rel=1e-10)
     assert found.decrement == pytest.approx(expected.decrement, rel=1e-8)
     for place, sums in expected.sums.items():
@@ -184,10 +184,10 @@ def test_noise_slower_than_a_segment_is_seen(monkeypatch: pytest.MonkeyPatch) ->
     assert np.max(np.abs(np.log(ratio))) < np.log(2.0)
 
 
-def test_of_long_flights_as_many_samples_are_heard_whatever_their_length() -> None:
+def test_of_long_flights_as_many_samples_are_taken_whatever_their_length() -> None:
     for samples in (1_000_000, 3_000_000, 16_000_000):
         found = spread(segments(samples), 4)
-        heard = beginnings(found, 80_000)
-        assert [s.rows.start for s in heard] == [s.rows.start for s in found]
-        assert [s.rows.stop - s.rows.start for s in heard] == [20_000] * 4
+        found_segments = beginnings(found, 80_000)
+        assert [s.rows.start for s in found_segments] == [s.rows.start for s in found]
+        assert [s.rows.stop - s.rows.start for s in found_segments] == [20_000] * 4
     assert [s.rows for s in beginnings(segments(28_800), 80_000)] == [slice(0, 28_800)]

@@ -53,7 +53,7 @@ def test_few_blocks_say_nothing() -> None:
     rng = np.random.default_rng(3)
     M = rng.normal(size=(70, 4))
     blocks = np.split(M, 7)
-    assert uneven.inflation(uneven.Beside(M, blocks, 2, []), [2]) == 1.0
+    assert uneven.inflation(uneven.ProjectedBlocks(M, blocks, 2, []), [2]) == 1.0
     t = likelihood_ratio.Test(30.0, 1, -14.0, (2,))
     assert uneven.tempered(t, 1.0, np.inf, 24) is t
     assert -6.0 < uneven.tempered(t, 3.0, np.inf, 24).log_p < -4.0 + np.log(10.0)

@@ -131,7 +131,7 @@ def vibration(effects: Injected) -> tuple[tuple[Array, float], ...]:
     return _instances(effects, "vibration-rectification", "P")
 
 
-def louder(effects: Injected) -> tuple[tuple[Array, float], ...]:
+def scale_vibration(effects: Injected) -> tuple[tuple[Array, float], ...]:
     """Instances of ``vibration-level`` at a level of 1 m/s^2, like those of :func:`vibration`."""
     return _instances(effects, "vibration-level", "L")
 
