@@ -26,21 +26,26 @@ os.environ.pop("RAGG_EFFECTS", None)
 
 
 DEAREST = (
-    "test_studio_browser.py",
     "test_studio_server.py",
+    "test_studio_browser.py",
+    "test_screening_mistakes.py",
+    "test_compensate.py",
     "test_strong.py",
     "test_loop.py",
-    "test_screening_mistakes.py",
-    "test_readme.py",
-    "test_real_measurements.py",
-    "test_compensate.py",
-    "test_effect_conformance.py",
-    "test_bad_input_messages.py",
-    "test_report.py",
     "test_survey.py",
+    "test_bad_input_messages.py",
+    "test_effect_conformance.py",
+    "test_readme.py",
+    "test_survey_cluster.py",
     "test_terms.py",
-    "test_form.py",
     "test_next_motion.py",
+    "test_c.py",
+    "test_real_measurements.py",
+    "test_segments.py",
+    "test_contradiction.py",
+    "test_thinning.py",
+    "test_quality.py",
+    "test_report.py",
 )
 """Files that take ten seconds and more, the longest first: what one worker begins last the other waits for."""
 
