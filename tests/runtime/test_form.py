@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import ragg
 from scipy.signal import savgol_filter
 
 from benchmarks.sheet import model_text
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.cli.main import main
 from ragg_runtime.instrument.form import PAPER, PRESETS, Form
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model import derive
@@ -30,18 +30,6 @@ def sheet(model: str) -> str:
     """The example with another table [model] (or none)."""
     head, _, rest = EXAMPLE.partition("[model]")
     return head + model + "\n" + rest[rest.index("[disc]") :]
-
-
-def ragg(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
-    try:
-        main([str(a) for a in arguments])
-    except SystemExit as end:
-        code = end.code
-        assert isinstance(code, int)
-    else:
-        code = 0
-    said = capsys.readouterr()
-    return code, said.out, said.err
 
 
 @pytest.mark.parametrize(
@@ -83,19 +71,17 @@ def test_what_is_no_form_is_refused_with_a_remedy(table: str, words: tuple[str, 
         assert word in str(refused.value)
 
 
-def test_new_writes_full_kinematics_where_the_sheet_has_no_form_and_says_so(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_new_writes_full_kinematics_where_the_sheet_has_no_form_and_says_so(tmp_path: Path) -> None:
     (tmp_path / "sheet.toml").write_text(sheet(""))
-    _, _, said = ragg(capsys, "new", tmp_path / "from-sheet", "--from", tmp_path / "sheet.toml")
+    said = ragg("new", tmp_path / "from-sheet", "--from", tmp_path / "sheet.toml").stderr
     assert "no [model]" in said
     assert 'kinematics = "full"' in said
     assert (tmp_path / "from-sheet" / "model.toml").read_text().startswith(sheet("").rstrip())
     (tmp_path / "platform.toml").write_text(sheet("[model]"))
-    _, _, said = ragg(capsys, "new", tmp_path / "platform", "--from", tmp_path / "platform.toml")
+    said = ragg("new", tmp_path / "platform", "--from", tmp_path / "platform.toml").stderr
     assert said == ""
     assert api.load(tmp_path / "platform").model is packaged()
-    _, _, said = ragg(capsys, "new", tmp_path / "own")
+    said = ragg("new", tmp_path / "own").stderr
     assert said == ""
     m = api.load(tmp_path / "own")
     assert m.instrument.form == Form(kinematics="full")

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import ragg
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.cli.main import main
 from ragg_runtime.estimation.fitted import Fitted, about, fit
 from ragg_runtime.estimation.observation import Observation, observations_of
 from ragg_runtime.estimation.regressors import LinearisationPoint, grouped, residual_of
@@ -155,33 +155,15 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     write_flight(simulated(m.instrument, [], seed=3, duration=150.0), tmp_path / "x.parquet")
     names = ("m", "x.parquet", "motion.csv", "y.parquet", "sheet.md", "plan.json", "c.json")
     files = {n: str(tmp_path / n) for n in names}
-    words = [
-        "--for",
-        "calibration",
-        "--criterion",
-        "D",
-        "--run-sheet",
-        files["sheet.md"],
-        "--json",
-        files["plan.json"],
-    ]
-    main(["next-motion", files["m"], files["x.parquet"], "-o", files["motion.csv"], *words])
+    words = ["--for", "calibration", "--criterion", "D"]
+    told = ["--run-sheet", files["sheet.md"], "--json", files["plan.json"]]
+    ragg("next-motion", files["m"], files["x.parquet"], "-o", files["motion.csv"], *words, *told)
     plan = json.loads((tmp_path / "plan.json").read_text())
     assert plan["channels"]["planned"]["inline_Eo"] < 0.5 * plan["channels"]["now"]["inline_Eo"]
     assert f"| {plan['sinusoids'][0]['axis']} |" in (tmp_path / "sheet.md").read_text()
     write_flight(simulated(m.instrument, [], seed=3, motion=files["motion.csv"]), tmp_path / "y.parquet")
-    main(
-        [
-            "calibrate",
-            files["m"],
-            files["x.parquet"],
-            files["y.parquet"],
-            "--plan",
-            files["plan.json"],
-            "--json",
-            files["c.json"],
-        ]
-    )
+    flown = (files["x.parquet"], files["y.parquet"])
+    ragg("calibrate", files["m"], *flown, "--plan", files["plan.json"], "--json", files["c.json"])
     certificate = json.loads((tmp_path / "c.json").read_text())["certificate"]
     ratios = [q["std_reached"] / q["std_planned"] for q in certificate]
     assert np.allclose(ratios, 1.0, atol=0.05)

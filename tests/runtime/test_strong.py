@@ -8,11 +8,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+import commands
 import numpy as np
 import pytest
 
 import ragg_runtime.api as ragg
-from ragg_runtime.cli.main import main
 from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observations_of
@@ -143,9 +143,7 @@ def never_arrives(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(calibration, "minimise", stopped)
 
 
-def test_what_has_not_converged_says_so_and_adds_nothing(
-    tmp_path: Path, never_arrives: None, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_has_not_converged_says_so_and_adds_nothing(tmp_path: Path, never_arrives: None) -> None:
     m = ragg.new(tmp_path / "m")
     s = scenario(6, duration=150.0, rate=RATE)
     flight = s.simulate({"cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]}}).flight()
@@ -162,19 +160,10 @@ def test_what_has_not_converged_says_so_and_adds_nothing(
     )
     before = {p: p.read_bytes() for p in sorted((tmp_path / "m").rglob("*")) if p.is_file()}
     write_flight(flight, tmp_path / "f.parquet")
-    with pytest.raises(SystemExit) as end:
-        main(
-            [
-                "add",
-                str(tmp_path / "m"),
-                "cubic-input",
-                str(tmp_path / "f.parquet"),
-                "--json",
-                str(tmp_path / "a.json"),
-            ]
-        )
-    assert end.value.code == 2
-    assert "nothing was added" in capsys.readouterr().err
+    done = commands.ragg(
+        "add", tmp_path / "m", "cubic-input", tmp_path / "f.parquet", "--json", tmp_path / "a.json"
+    )
+    assert (done.returncode, "nothing was added" in done.stderr) == (2, True)
     added = json.loads((tmp_path / "a.json").read_text())
     assert added["converged"] is False
     assert "was NOT added" in describe.describe_addition(added, [])[0].sentences[0]
