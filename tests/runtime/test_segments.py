@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ragg_runtime.estimation import calibration, fitted, noise_estimate, observation, scores, whitening
+from ragg_runtime.estimation import fitted, noise_estimate, observation, scores, whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, beginnings, segments, spread
@@ -96,32 +96,6 @@ def test_single_missing_samples_do_not_silence_the_demodulator(flown: tuple[Scen
     found_segments = scores.find_supported(np.ones((1, 1000), dtype=bool), gap, 101)[0]
     assert not found_segments[460:500].any()  # windows with more than half of the gap
     assert found_segments[:400].all() and found_segments[560:].all()
-
-
-def test_an_excerpt_tells_of_its_samples_what_the_whole_pass_tells(
-    flown: tuple[Scenario, Flight], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """What holds no valid sample is left out of the pass, and nothing else is: the same misfit, slope and sums as with zeros there."""
-    s, flight = flown
-    o = observation.observe(flight, s.sheet)
-    noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
-    monkeypatch.setattr(whitening, "ROWS", 1700)
-    monkeypatch.setattr(whitening, "EXCERPT", 3)
-    some = whitening.take_excerpt(o)
-    found_segments = whitening.find_segments(some)
-    assert len(found_segments) == 3 < len(whitening.flight_segments(o))
-    assert found_segments[0].rows.start == 0 and found_segments[-1].rows.stop == len(flight.time)
-    assert whitening.take_excerpt(some) is some
-    task = calibration._Task(model.packaged(), s.sheet, [some])
-    x = np.full(len(task.index), 0.01)
-    found = task.at(x, noise)
-    monkeypatch.setattr(calibration, "find_segments", lambda o: None)
-    expected = task.at(x, noise)
-    assert found.rows == expected.rows == sum(r.rows.stop - r.rows.start for r in found_segments)
-    assert found.cost == pytest.approx(expected.cost, rel=1e-10)
-    assert found.decrement == pytest.approx(expected.decrement, rel=1e-8)
-    for place, sums in expected.sums.items():
-        np.testing.assert_allclose(found.sums[place], sums, rtol=1e-9)
 
 
 def test_a_long_flight_with_gaps_everywhere_has_no_means(
