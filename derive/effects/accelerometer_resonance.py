@@ -48,4 +48,5 @@ EFFECT = Effect(
     transducer=transducer,
     resonance="accelerometer",
     searched=False,
+    contains=("lag", "second-order-loop"),
 )

@@ -21,7 +21,7 @@ def present(values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
 
 
 def quantisation(G: Array, valid: NDArray[np.bool_], noise: float) -> float | None:
-    """Step of the lattice on which all values of an output lie, V, if it matters beside the noise."""
+    """Quantisation step of an output, V, if it is not negligible against the noise."""
     values = np.unique(G[:ENOUGH][valid[:ENOUGH]])
     if len(values) < 3:
         return None

@@ -24,12 +24,12 @@ def present(values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
 
 
 def clipped(values: Array, valid: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(N,): the samples of an output that stand at its extreme value, if many of them do."""
+    """(N,): the samples of an output that are at its extreme value, if there are many."""
     at = np.zeros(len(values), dtype=np.bool_)
     top = largest(values, valid)
     for rows, size in sizes(values, valid):
         at[rows] = size >= top * (1 - 1e-12)
-    # a short record at coarse quantisation may repeat its maximum: neighbours at the top tell a clip
+    # a short record at coarse quantisation may repeat its maximum: neighbours at the top show clipping
     neighbours = np.count_nonzero(at[1:] & at[:-1])
     if top == 0.0 or np.count_nonzero(at) < CLIPPED or neighbours < 2:
         at[:] = False

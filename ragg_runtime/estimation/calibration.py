@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from types import MappingProxyType
@@ -401,9 +401,10 @@ def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument 
     return replace(instrument, widths=MappingProxyType(then)) if changed else None
 
 
-def restore_priors(instrument: Instrument) -> Instrument:
-    """The instrument with the priors of its sheet again."""
-    return replace(instrument, widths=MappingProxyType({}))
+def restore_priors(instrument: Instrument, but: Iterable[str] = ()) -> Instrument:
+    """The instrument with the priors of its sheet again, ``but`` for those of some parameters."""
+    kept = {n: w for n, w in instrument.widths.items() if n in but}
+    return replace(instrument, widths=MappingProxyType(kept))
 
 
 def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, float]:

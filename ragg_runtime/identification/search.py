@@ -18,7 +18,7 @@ from ragg_runtime.identification import comparison, contenders, omnibus, selecti
 from ragg_runtime.identification.claims import SECOND_ORDER, Regression, Robust, Significance
 from ragg_runtime.identification.comparison import Explained, explained
 from ragg_runtime.identification.contenders import Extend
-from ragg_runtime.identification.likelihood_ratio import Test, Variance, log_bayes, pooled
+from ragg_runtime.identification.likelihood_ratio import Test, Variance, pooled
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.strong import AddedEffect, Stage
 from ragg_runtime.instrument.instrument import Instrument
@@ -108,21 +108,24 @@ class Evidence:
         """Of the steps among the effects, s."""
         return [(t.effect, t.instant) for t in self.steps] + [*self.last.instants.items()]
 
+    def test(self, effect: str) -> Test:
+        """The test by which an effect was chosen: a strong one by itself, any other beside all that were chosen."""
+        strong_ones = {t.effect: t.test for t in self.steps}
+        if effect in strong_ones:
+            return strong_ones[effect]
+        return self.last.field.tests([e for e in self.last.choice.chosen if e != effect])[effect]
+
     @property
     def log_p(self) -> dict[str, float]:
-        """Logarithms of the p-values of what the last stage has chosen, fitted jointly."""
-        chosen = self.last.choice.chosen
-        tests = {e: self.last.field.tests([o for o in chosen if o != e])[e] for e in chosen}
-        return {e: t.log_p for e, t in tests.items()}
+        """Of what the last stage has chosen, each beside the others: logarithms of p-values."""
+        return {e: self.test(e).log_p for e in self.last.choice.chosen}
 
     def explained(self, o: Outcome) -> tuple[float, int]:
         """Chi-square that an outcome's effects explain of what the model leaves without them, and with how many coefficients."""
         field = self.first.field
         known = [e for e in o.effects if e in field.candidates]
-        linear, rank = field.joint([self._block(e) for e in known]) if known else (0.0, 0)
-        rank += len(o.effects) - len(known)
-        if not o.given:
-            rank += sum(q.shape for e in o.target.model.effects if e.id in o.effects for q in e.parameters)
+        linear, _ = field.joint([self._block(e) for e in known]) if known else (0.0, 0)
+        rank = sum(self.test(e).rank for e in o.effects)
         if o.given or (linear < strong.STRONG and len(known) == len(o.effects)):
             return linear, rank
         # second orders of strong effects: what is left once they are derived into the model, with a noise that is estimated anew
@@ -136,11 +139,7 @@ class Evidence:
 
     def charge(self, o: Outcome) -> float:
         """Logarithm of the number of ways in which an outcome's effects may be present."""
-        tests = {e: self.first.choice.tests[e] for e in o.effects if e in self.first.choice.tests}
-        charges = {e: float(log_bayes(t.chi2, t.rank)) - t.log_b for e, t in tests.items() if t.rank}
-        # of what is strong the scores vary with what a linear test misses, and the model with it does not
-        charges |= {t.effect: t.test.charge for t in self.steps if t.effect in o.effects}
-        return sum(charges.values())
+        return sum(self.test(e).charge for e in o.effects)
 
     def rivals(self) -> Mapping[str, tuple[str, ...]]:
         """For every chosen effect those that would explain as much in its place."""

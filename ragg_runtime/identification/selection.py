@@ -211,6 +211,11 @@ def _swap(f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]]) -> di
     return blocks
 
 
+def evidence(f: Field, choice: Choice) -> float:
+    """Log evidence of what is chosen against nothing, charged for the choice of the effects and of their columns."""
+    return _evidence(f, choice.blocks) - sum(choice.tests[e].charge for e in choice.chosen)
+
+
 def _evidence(f: Field, blocks: Mapping[str, tuple[int, ...]]) -> float:
     """Log evidence of effects together, each with these columns, charged for their choice."""
     chi2, rank = f.joint(list(blocks.values()))

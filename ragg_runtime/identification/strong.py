@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import comb
 
-from ragg_runtime.estimation import whitening
-from ragg_runtime.estimation.calibration import QUIET
-from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation import calibration, whitening
+from ragg_runtime.estimation.calibration import QUIET, prior_volume, restore_priors
+from ragg_runtime.estimation.fitted import Fitted, about, fit
 from ragg_runtime.estimation.least_squares import below, fold, prior
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS
@@ -55,9 +55,26 @@ class Stage:
 
     @staticmethod
     def of(f: Fitted, *, beside: bool = False) -> Stage:
-        """``beside``: of what is left beside effects that were taken into the model."""
+        """Of a fit, or of one with the sheet as sure as it says, if effects beside that are more probable than a sheet that is off.
+
+        ``beside``: of what is left beside effects that were taken into the model.
+        """
+        stage = Stage._of(f, beside)
+        said = _with_priors_of_sheet(f)
+        if said is None:
+            return stage
+        other = Stage._of(said, beside)
+        return other if other._deviance(said) < stage._deviance(f) else stage
+
+    @staticmethod
+    def _of(f: Fitted, beside: bool) -> Stage:
         field, fitted, instants = with_steps(f)
         return Stage(field, fitted, instants, selection.choose(field, beside=beside))
+
+    def _deviance(self, f: Fitted) -> float:
+        """Chi-square of the fit before this stage, with what wider priors cost, less twice the log evidence of what is chosen."""
+        evidence = selection.evidence(self.field, self.choice)
+        return f.calibration.chi2 + prior_volume(f.instrument, f.calibration) - 2.0 * evidence
 
     def without_choice(self) -> Stage:
         """The same, none of the effects being what is missing."""
@@ -97,6 +114,16 @@ class Budget:
     @property
     def spent(self) -> bool:
         return self.left <= 0
+
+
+def _with_priors_of_sheet(f: Fitted) -> Fitted | None:
+    """The fit with the same noise and the priors of the sheet; ``None`` if none of them was widened."""
+    effects = [c.name for c in f.calibration.columns if c.effect is not None]
+    sheet = restore_priors(f.instrument, effects)
+    if sheet.widths == f.instrument.widths:
+        return None
+    c = calibration.fit(f.model, sheet, f.observations, noise=f.calibration.noise, start=f.calibration.p)
+    return about(f.model, sheet, f.observations, c)
 
 
 def taken(first: Stage, extend: Extend | None, budget: Budget) -> tuple[list[AddedEffect], Stage]:

@@ -23,7 +23,8 @@ class Conclusion:
     """The verdict, the effects that are claimed, and what remains.
 
     ``open``: effects that the record speaks for, but not surely enough; ``line``, ``steady``: see ``line_rival``; ``share``: probability
-    of what the search chose against generic terms; ``rival``: these do as well.
+    of what the search chose against generic terms; ``rival``: these do as well; ``one``: the effect of which what it chose are special
+    cases.
     """
 
     verdict: str
@@ -35,6 +36,7 @@ class Conclusion:
     open: tuple[str, ...]
     share: float = 1.0
     rival: bool = False
+    one: str | None = None
 
     @property
     def remains(self) -> bool:
@@ -95,6 +97,7 @@ class Conclusion:
             open=tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in unsure)) if e not in claimed)),
             share=share,
             rival=rival,
+            one=None if claimed else _of_one_kind(found, outcome.effects),
         )
 
     @property
@@ -135,6 +138,9 @@ class Conclusion:
         """What remains, in words."""
         o = self.outcome
         terms = [f"{t.term.harmonic} x {t.term.product}" for x in self.left.searches for t in x.terms]
+        if self.one:
+            cases = f"{listed(o.effects)} would explain it together, as {self.one} may alone"
+            return [Reason(f"{cases}: add {self.one} and compare")]
         if self.rival and terms:
             return [Reason(f"{listed(o.effects)} would explain it no better than a generic term, {terms[0]}")]
         found = [] if o.complaint is None else [Reason(o.complaint)]
@@ -184,7 +190,7 @@ def _contradicted(o: Outcome, first: Stage) -> str | None:
 
 def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> tuple[str, ...]:
     """What of an outcome's effects may be claimed (``claims``)."""
-    if not o.effects:
+    if not o.effects or _of_one_kind(found, o.effects):
         return ()
     ahead = _ahead(found, o, count, base)
     if o.remains:
@@ -194,7 +200,13 @@ def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) 
     # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
     if len(o.effects) == 1:
         return o.effects if ahead > -claims.PLAINLY else ()
-    return o.effects if ahead > claims.PLAINLY else ()
+    return o.effects if ahead > 0.0 else ()
+
+
+def _of_one_kind(found: Evidence, effects: Sequence[str]) -> str | None:
+    """The effect of which several of these are special cases, which together may be that one: of a resonance its low frequencies."""
+    known = found.first.fitted.model.candidates
+    return next((e.id for e in known if len({e.id, *e.contains} & {*effects}) > 1), None)
 
 
 def _ahead(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> float:
