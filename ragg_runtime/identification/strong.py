@@ -55,12 +55,13 @@ class Stage:
 
     @staticmethod
     def of(f: Fitted, *, beside: bool = False) -> Stage:
-        """Of a fit, or of one with the sheet as sure as it says, if effects beside that are more probable than a sheet that is off.
+        """Of a fit; if a sheet that is less sure than it says leaves no effect there, and effects beside a sheet as sure as it says are
+        more probable, of the fit with that one.
 
         ``beside``: of what is left beside effects that were taken into the model.
         """
         stage = Stage._of(f, beside)
-        said = _with_priors_of_sheet(f)
+        said = None if stage.choice.chosen else _with_priors_of_sheet(f)
         if said is None:
             return stage
         other = Stage._of(said, beside)

@@ -204,9 +204,11 @@ def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) 
 
 
 def _of_one_kind(found: Evidence, effects: Sequence[str]) -> str | None:
-    """The effect of which several of these are special cases, which together may be that one: of a resonance its low frequencies."""
-    known = found.first.fitted.model.candidates
-    return next((e.id for e in known if len({e.id, *e.contains} & {*effects}) > 1), None)
+    """The effect of which several of these, or what cannot be told from them, are special cases: of a resonance its low frequencies."""
+    rivals = found.rivals()
+    groups = [{e, *rivals.get(e, ())} for e in effects]
+    kinds = {e.id: {e.id, *e.contains} for e in found.first.fitted.model.candidates}
+    return next((k for k, own in kinds.items() if sum(bool(own & g) for g in groups) > 1), None)
 
 
 def _ahead(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> float:

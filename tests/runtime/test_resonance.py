@@ -60,6 +60,13 @@ def test_a_mount_that_resonates_is_named() -> None:
     assert d.found == ("mount-resonance",)
 
 
+def test_the_low_frequencies_of_an_accelerometers_resonance_are_not_two_effects() -> None:
+    s = scenario(5, duration=150.0, rate=RATE)
+    d = diagnosed(s, s.simulate(hidden("accelerometer-resonance", 3.0, 15.0, 3e-6)).flight())
+    assert (d.verdict, d.found) == ("unexplained", ())
+    assert "add accelerometer-resonance and compare" in d.reasons[0].text
+
+
 def test_a_part_of_a_record_hears_what_the_whole_one_does() -> None:
     s = scenario(72, duration=120.0)
     r = record(s.simulate().flight(), s.sheet)

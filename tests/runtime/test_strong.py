@@ -58,6 +58,12 @@ def test_a_strong_effect_is_found_and_nothing_beside_it(name: str) -> None:
     assert d.noise_floor == pytest.approx(truth, rel=0.03)
 
 
+def test_an_effect_that_a_sheet_with_larger_errors_would_absorb_is_found() -> None:
+    s = scenario(5, duration=400.0, rate=4.0)
+    d = diagnosed(s, s.simulate({"spin-phase-offset": {"phi_0": 2e-3}}).flight())
+    assert (d.verdict, d.found) == ("missing-effect", ("spin-phase-offset",))
+
+
 def sheet_of_a_mems(s: Scenario) -> dict[str, Any]:
     arcsec = np.pi / 180 / 3600
     angles = dict.fromkeys(("beta_x", "beta_z", "vartheta_y", "vartheta_z"), 1800 * arcsec)
