@@ -32,8 +32,10 @@ from ragg_runtime.wording.sections import render_notebook
 Array = NDArray[np.float64]
 
 
-LOUD = 1.15
-"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
+LOUD = 2.0
+"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say. Slow noise, most of whose
+power is below the lowest frequency at which its spectrum is estimated, is up to 1.4 times as loud as the estimate (random walks).
+"""
 
 
 @dataclass(frozen=True, repr=False)
@@ -271,10 +273,8 @@ def _grounds(exceeds: bool, rem: Remainder, choice: selection.Choice | None) -> 
 
 
 def exceeds_noise(f: Fitted, scored: Scored, noise: float) -> bool:
-    """Whether an error exceeds the noise (rms, Eo), allowing for lines and three standard errors of the noise."""
-    freedom = sum(n.freedom for n in f.calibration.noise)
-    known = 1.0 + 3.0 / float(np.sqrt(2.0 * freedom))
-    return scored.whole.rms_Eo > float(np.hypot(LOUD * noise * swell(f) * known, fitted.lines(f)))
+    """Whether an error is several times the noise (rms, Eo) and its lines."""
+    return scored.whole.rms_Eo > LOUD * float(np.hypot(noise * swell(f), fitted.lines(f)))
 
 
 def disturbed(f: Fitted) -> str | None:

@@ -55,8 +55,8 @@ class Stage:
 
     @staticmethod
     def of(f: Fitted, *, beside: bool = False) -> Stage:
-        """Of a fit; if a sheet that is less sure than it says leaves no effect there, and effects beside a sheet as sure as it says are
-        more probable, of the fit with that one.
+        """Of a fit. If widened priors of the sheet leave no effect, and effects beside the sheet's own priors are more probable, of
+        the fit with these.
 
         ``beside``: of what is left beside effects that were taken into the model.
         """
