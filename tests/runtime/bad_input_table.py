@@ -181,7 +181,7 @@ def both(*makes: Make) -> Make:
     return lambda: [m() for m in makes]
 
 
-_SPIN, _EFFECTS = r"^spin_frequency = .*$", r"^effects = .*$"
+_EFFECTS = r"^effects = .*$"
 _LIKELY = "likely mistake"
 
 TABLE = {
@@ -220,11 +220,6 @@ TABLE = {
     "V_2 and V_3 exchanged": MessageCase(
         flown(voltages_ordered("V_1", "V_3", "V_2", "V_4"), voltages=True),
         (_LIKELY, "V_2 and V_3 are exchanged"),
-    ),
-    "spin rate 1 % too high": MessageCase(
-        both(flown(same), toml(_SPIN, 'spin_frequency = "0.2525 Hz"')),
-        (_LIKELY, "the spin rate is 0.25 Hz"),
-        of_time=True,
     ),
     "the second of two flights": MessageCase(
         both(flown(same), flown(outputs(lambda v: -v), "second.csv")),
