@@ -19,7 +19,8 @@ def test_a_command_that_is_cut_off_leaves_the_old_or_the_new_model(
     command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """What lies there whenever a file is put in place is kept, as a kill would leave it, and the command repeated."""
-    base, places = prepared(tmp_path / "base"), []
+    base = prepared(tmp_path / "base")
+    places: list[Path] = []
     arguments, new = COMMANDS[command]
     words = arguments[:3] if command == "add" else arguments  # an effect is added without a flight as well
     replace = os.replace
