@@ -207,6 +207,7 @@ def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
             "the hidden effect has no value",
             found=repr(text),
             expected=f"{identifier}:{effect.parameters[0].name}=VALUE",
+            remedy=f"parameters, units and usual sizes: ragg effects {identifier}",
         )
     return identifier, values
 

@@ -235,8 +235,8 @@ def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
         others = [o for o in choice.chosen if o != e]
         conditional = f.tests(others)
         mine = conditional[e]
-        alternatives = (o for o, t in conditional.items() if o != e and t.rank and alike(mine, t))
-        result[e] = tuple(sorted(o for o in alternatives if e not in f.contains.get(o, ())))
+        equal = (o for o, t in conditional.items() if o != e and t.rank and alike(mine, t))
+        result[e] = tuple(sorted(o for o in equal if e not in f.contains.get(o, ())))
     return result
 
 
