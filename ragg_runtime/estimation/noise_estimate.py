@@ -327,7 +327,7 @@ def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
     names = level_quantities(o.record)
     white: list[Array] = []
     quantities: dict[str, list[Array]] = {n: [] for n in names}
-    rivals: dict[str, list[Array]] = {}
+    alternatives: dict[str, list[Array]] = {}
     for p in parts:
         r = o.record.part(p.rows)
         for m, taps in enumerate(noise.filters):
@@ -335,11 +335,11 @@ def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
             for n in names:
                 quantities[n].append(r.quantity(n)[p.valid])
             for e, variance in p.random.items():
-                rivals.setdefault(e, []).append(variance[m])
+                alternatives.setdefault(e, []).append(variance[m])
     return noise_level.estimated(
         np.concatenate(white),
         {n: np.concatenate(x) for n, x in quantities.items()},
-        {e: np.concatenate(x) for e, x in rivals.items()},
+        {e: np.concatenate(x) for e, x in alternatives.items()},
     )
 
 

@@ -132,23 +132,23 @@ def excess(gram: Array) -> tuple[float, float]:
 def estimated(
     white: Array,
     quantities: Mapping[str, Array],
-    rivals: Mapping[str, Array],
+    alternatives: Mapping[str, Array],
 ) -> Level:
     """The level of whitened residuals (N,) as a function of ``quantities``, (N,) each; ``time`` and ``phi`` have a meaning.
 
-    Nothing is concluded once one of the ``rivals``, variances (N,) that random effects would add, explains it best and more than
+    Nothing is concluded once one of the ``alternatives``, variances (N,) that random effects would add, explains it best and more than
     quantities can: that is for a test of that effect.
     """
     parts: list[LevelFactor] = []
     u = white
-    asked = len(quantities) + len(rivals)
-    rivals = {n: x for n, x in rivals.items() if _is_rival(white, x, quantities, asked)}
+    asked = len(quantities) + len(alternatives)
+    alternatives = {n: x for n, x in alternatives.items() if _is_alternative(white, x, quantities, asked)}
     while len(parts) < MOST:
-        tests = {n: _test(u, n, x) for n, x in (*quantities.items(), *rivals.items())}
+        tests = {n: _test(u, n, x) for n, x in (*quantities.items(), *alternatives.items())}
         follows = {n: t for n, t in tests.items() if t.log_p + np.log(asked) < np.log(CHANGES)}
         best = max(follows, key=lambda n: (follows[n].gain, n), default=None)
         part = None if best is None else follows[best].part
-        if best is None or part is None or best in rivals:
+        if best is None or part is None or best in alternatives:
             break
         parts.append(part)
         u = u / part.of(quantities[best])
@@ -158,7 +158,7 @@ def estimated(
     return Level(tuple(parts), 1.0 / float(np.sqrt(np.mean(level**2)))) if parts else Level()
 
 
-def _is_rival(u: Array, variance: Array, quantities: Mapping[str, Array], asked: int) -> bool:
+def _is_alternative(u: Array, variance: Array, quantities: Mapping[str, Array], asked: int) -> bool:
     """Whether a variance (N,) explains more of u (N,) than shapes of the quantities can."""
     X = np.stack([*shapes(quantities.__getitem__, quantities, Level()), variance, u**2])
     return bool(special.log_ndtr(-excess(X @ X.T)[0]) + np.log(asked) < np.log(CHANGES))

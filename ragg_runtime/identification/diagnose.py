@@ -108,7 +108,9 @@ def diagnose_fitted(
         target=target,
         coefficients=outcome.coefficients,
         next_motion=tuple(
-            next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(evidence.rivals()), limits)
+            next_motion.proposals(
+                first.fitted, first.field, next_motion.pairs_of(evidence.alternatives()), limits
+            )
         ),
         complaint=outcome.complaint,
         remarks=tuple(found.remarks(words(apart), evidence.spent)),

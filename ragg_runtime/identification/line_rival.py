@@ -30,7 +30,7 @@ rest is its couplings to the motion, which a strong one shows."""
 
 
 @dataclass(frozen=True)
-class LineRival:
+class LineAlternative:
     """A line that explains as much as an effect, which explains the chi-square ``own`` next to the other chosen effects."""
 
     line: NearLine
@@ -98,7 +98,9 @@ class Steady:
         return f"{said}; a line within {self.width:.1g} Hz of {self.frequency:.6g} Hz would explain it too"
 
 
-def line_rival(steps: Sequence[AddedEffect], last: Stage) -> tuple[LineRival | None, tuple[Steady, ...]]:
+def line_rival(
+    steps: Sequence[AddedEffect], last: Stage
+) -> tuple[LineAlternative | None, tuple[Steady, ...]]:
     """The first chosen effect that a line next to a multiple of the spin rate could replace, and those that are no more than
     one.
     """
@@ -106,17 +108,17 @@ def line_rival(steps: Sequence[AddedEffect], last: Stage) -> tuple[LineRival | N
     for t in steps:
         line = best(t.before, ())
         if _in_place(line, t.test.chi2):
-            return LineRival(line=line, effect=t.effect, own=t.test.chi2), ()
-        steady += _steady(t.before, line, t.effect, t.test.chi2, t.rivals)
+            return LineAlternative(line=line, effect=t.effect, own=t.test.chi2), ()
+        steady += _steady(t.before, line, t.effect, t.test.chi2, t.alternatives)
     field, choice = last.field, last.choice
-    rivals = selection.rivals(field, choice)
+    alternatives = selection.alternatives(field, choice)
     for e in choice.chosen:
         others = [o for o in choice.chosen if o != e]
         beside = field.joint([choice.blocks[o] for o in others])[0] if others else 0.0
         line = best(last.fitted, [n for o in others for n, _ in field.candidates[o]])
         if _in_place(line, choice.chi2 - beside):
-            return LineRival(line=line, effect=e, own=choice.chi2 - beside), ()
-        steady += _steady(last.fitted, line, e, choice.chi2 - beside, rivals[e])
+            return LineAlternative(line=line, effect=e, own=choice.chi2 - beside), ()
+        steady += _steady(last.fitted, line, e, choice.chi2 - beside, alternatives[e])
     return None, tuple(steady)
 
 

@@ -172,7 +172,7 @@ def columns_of(f: Fitted, field: Field, effects: Sequence[str]) -> list[int]:
 class Alternatives:
     """Pairs (effect, rival) that flights do not separate, and what is known of each effect.
 
-    ``places``: among all columns of the model's, then the rivals' and those of effects beside a pair.
+    ``places``: among all columns of the model's, then the alternatives' and those of effects beside a pair.
     ``nuisance``: of each pair the columns, counted in ``places``, that may absorb the effect.
     """
 
@@ -345,4 +345,4 @@ def kind(axis: str) -> str:
 
 def pairs_of(groups: Mapping[str, Sequence[str]]) -> list[tuple[str, str]]:
     """(effect, rival) of groups that the record cannot split."""
-    return [(e, r) for e, rivals in groups.items() for r in rivals[:ALTERNATIVES]]
+    return [(e, r) for e, alternatives in groups.items() for r in alternatives[:ALTERNATIVES]]

@@ -79,7 +79,7 @@ def rank_effects(
     only: Sequence[str] | None = None,
 ) -> tuple[list[Ranked], Error]:
     """Every testable effect, or ``only`` some, with the evidence for it alone, and the error without any."""
-    rivals = selection.rivals(field, choice)
+    alternatives = selection.alternatives(field, choice)
     asked = choice.tests if only is None else {e: t for e, t in choice.tests.items() if e in only}
     tested = [(e, t, field.testable(e)) for e, t in asked.items() if t.rank]
     fits = [f.coefficients(extra) for _, _, extra in tested]
@@ -97,8 +97,8 @@ def rank_effects(
         parameters = parameter_values(mine, values, spread)
         if e in instants:
             parameters.append(_instant(instants[e]))
-        indistinguishable = rivals.get(e, ())
-        for main, others in rivals.items():
+        indistinguishable = alternatives.get(e, ())
+        for main, others in alternatives.items():
             if e in others:
                 indistinguishable = tuple(sorted({main, *others} - {e}))
         ranked.append(
@@ -182,7 +182,7 @@ def _ranked_taken(t: AddedEffect, free: Fitted) -> Ranked:
         after_holdout=held_out.held_out,
         parameters=tuple(parameters),
         combinations=tuple(visible_combinations(free.model, c.p, columns, values, covariance)),
-        indistinguishable_from=t.rivals,
+        indistinguishable_from=t.alternatives,
     )
 
 
@@ -269,7 +269,7 @@ def weighed(field: Field, steps: Sequence[AddedEffect]) -> Probabilities:
     """The probabilities of the remaining effects, and of those in the model: equivalent alternatives share there."""
     sets = probability.weighed(field)
     for t in steps:
-        sets = sets.with_one_of((t.effect, *t.rivals))
+        sets = sets.with_one_of((t.effect, *t.alternatives))
     return sets.probabilities()
 
 

@@ -141,11 +141,11 @@ class Evidence:
         """Logarithm of the number of ways in which an outcome's effects may be present."""
         return sum(self.test(e).charge for e in o.effects)
 
-    def rivals(self) -> Mapping[str, tuple[str, ...]]:
+    def alternatives(self) -> Mapping[str, tuple[str, ...]]:
         """For every chosen effect those that would explain as much in its place."""
         if self.steps:
-            return {t.effect: t.rivals for t in self.steps}
-        return selection.rivals(self.first.field, self.first.choice)
+            return {t.effect: t.alternatives for t in self.steps}
+        return selection.alternatives(self.first.field, self.first.choice)
 
     def without(self, o: Outcome, effect: str) -> Outcome:
         """An outcome without one of its effects, fitted again."""

@@ -228,7 +228,7 @@ def alike(a: Test, b: Test) -> bool:
     return as_much or b.log_b > a.log_b - DISTINGUISHABLE
 
 
-def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
+def alternatives(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
     """For every chosen effect those that would explain as much in its place."""
     result = {}
     for e in choice.chosen:

@@ -90,7 +90,7 @@ class Stage:
 
 @dataclass(frozen=True)
 class AddedEffect:
-    """An effect that was derived into the model: its linear test, the fits before and after, ``rivals`` that would have done as
+    """An effect that was derived into the model: its linear test, the fits before and after, ``alternatives`` that would have done as
     well, and the instant of a step, s.
     """
 
@@ -98,7 +98,7 @@ class AddedEffect:
     test: Test
     before: Fitted
     after: Fitted
-    rivals: tuple[str, ...]
+    alternatives: tuple[str, ...]
     instant: float | None
 
 
@@ -164,14 +164,14 @@ def _strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect | No
 
     contest = Contest(f, entered)
     while True:
-        effect, rivals = _best(stage, tests, left)
+        effect, alternatives = _best(stage, tests, left)
         if not contest.arrived:
             return None
-        found = _in_model(stage, effect, rivals, extend)
+        found = _in_model(stage, effect, alternatives, extend)
         budget.left -= 1
         if len(tests) == 1 or budget.spent or not impossible(found.after, (effect,)):
             return found
-        if found.after.calibration.excess <= QUIET and not rivals:
+        if found.after.calibration.excess <= QUIET and not alternatives:
             return None
         tests.pop(effect)
 
@@ -223,7 +223,7 @@ def _evidence(t: Test, columns: int) -> float:
     return float(log_bayes(t.chi2, t.rank)) - float(np.log(comb(columns, min(t.rank, columns))))
 
 
-def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend) -> AddedEffect:
+def _in_model(stage: Stage, effect: str, alternatives: tuple[str, ...], extend: Extend) -> AddedEffect:
     """An effect of a stage derived into the model, with the coefficients that its test needs, and everything fitted anew."""
     f = stage.fitted
     held = unneeded(stage.field, effect, stage.choice.tests[effect].which)
@@ -233,7 +233,7 @@ def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend
         test=stage.choice.tests[effect],
         before=f,
         after=fit(model, instrument, f.observations),
-        rivals=rivals,
+        alternatives=alternatives,
         instant=stage.instants.get(effect),
     )
 

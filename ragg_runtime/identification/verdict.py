@@ -11,7 +11,7 @@ from scipy.special import expit
 from ragg_runtime.estimation.calibration import QUIET
 from ragg_runtime.identification import claims, comparison, omnibus, selection, strong
 from ragg_runtime.identification.likelihood_ratio import Test
-from ragg_runtime.identification.line_rival import LineRival, Steady, line_rival
+from ragg_runtime.identification.line_rival import LineAlternative, Steady, line_rival
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.result import Reason, name_verdict
 from ragg_runtime.identification.search import Evidence, Outcome
@@ -31,7 +31,7 @@ class Conclusion:
     claims: tuple[str, ...]
     outcome: Outcome
     left: Remainder
-    line: LineRival | None
+    line: LineAlternative | None
     steady: tuple[Steady, ...]
     open: tuple[str, ...]
     share: float = 1.0
