@@ -149,12 +149,12 @@ class Units:
 
     def fits(self, unit: str, si_unit: str) -> bool:
         """Whether ``unit`` is a unit and has the dimension of ``si_unit``."""
-        return any(self._has_dimension(u, si_unit) for u in (unit, _LETTERS.get(unit.strip(), unit)))
+        return self._has_dimension(self._meant(unit, si_unit), si_unit)
 
     def _meant(self, unit: str, si_unit: str) -> str:
-        """``g`` of an acceleration in G, ``degC`` of a temperature in C: no gauss or coulomb has the dimension."""
-        other = _LETTERS.get(unit.strip())
-        return unit if other is None or not self._has_dimension(other, si_unit) else other
+        """What alone has the dimension: ``g`` for G of an acceleration, ``degC`` for C of a temperature, ``m/s2`` for M/S2."""
+        readings = (unit, _LETTERS.get(unit.strip(), unit), unit.casefold())
+        return next((u for u in readings if self._has_dimension(u, si_unit)), unit)
 
     def _has_dimension(self, unit: str, si_unit: str) -> bool:
         try:
@@ -309,8 +309,8 @@ _NAMED = {
     }.items()
     for spelling in spellings
 }
-_LETTERS = {"G": "g", "C": "degC", "F": "degF"}
-"""What people write G, C and F for where only this has the dimension."""
+_LETTERS = {"C": "degC", "F": "degF"}
+"""What people write C and F for where only this has the dimension."""
 
 _WORDS = frozenset((
     "deg", "degs", "degree", "degrees", "rad", "rads", "radian", "radians", "s", "sec", "secs", "second", "seconds", "h",

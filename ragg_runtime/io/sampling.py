@@ -324,16 +324,19 @@ def _describe_jitter(time: Array, jumps: NDArray[np.int64], off: Array, step: fl
 
 
 def _refuse_uneven(time: Array, steps: Array, step: float, off: Array, where: str) -> UserError:
-    row = int(np.argmax(off))
-    was_set = find_clock_steps(time, np.ones(len(time), dtype=np.bool_))
+    row, present = int(np.argmax(off)), np.ones(len(time), dtype=np.bool_)
+    what, remedy = "the record is not uniformly sampled", "resample the record to a constant rate"
+    if was_set := find_clock_steps(time, present):
+        jumps = ", ".join(f"by {c.size:.4g} s at t = {c.time:.10g} s" for c in was_set[:3])
+        what = f"the time stamps jump {jumps}: was the clock adjusted?"
+        step = fit_even_clock(time, present)[1]
+        remedy = _BY_COUNT.format(rate=1 / step)
     return UserError(
-        f"the time stamps jump by {steps[row] - step:.4g} s at t = {time[row + 1]:.10g} s: was the clock adjusted?"
-        if was_set
-        else "the record is not uniformly sampled",
+        what,
         where=where,
         found=f"a step of {steps[row]:.6g} s after row {row + 1} (t = {time[row]:.10g} s)",
         expected=f"steps of {step:.6g} s",
-        remedy=_BY_COUNT.format(rate=1 / step) if was_set else "resample the record to a constant rate",
+        remedy=remedy,
     )
 
 

@@ -33,6 +33,7 @@ from ragg_runtime.io.tables import (
     INDEX,
     DataColumn,
     DataTable,
+    is_unit,
     read_heading,
     read_headings,
     read_units,
@@ -184,11 +185,14 @@ def _needs_a_row_above(names: Sequence[str]) -> bool:
 
 
 def _join_rows(above: Sequence[str], below: Sequence[str]) -> list[str]:
-    """A header over two rows: ``acceleration [g]`` over x, y, z (of merged cells the first holds the text)."""
+    """A header over two rows: ``acceleration [g]`` over x, y, z (of merged cells the first holds the text), ``time`` over ``s``."""
     found, title = [], ""
-    for upper, lower in zip(above, below, strict=True):
+    for k, (upper, lower) in enumerate(zip(above, below, strict=True)):
         title = upper or (title if lower else "")
         (name, unit), (own, its) = read_heading(title), read_heading(lower)
+        alone = bool(upper) and (k + 1 == len(above) or bool(above[k + 1]))
+        if alone and not (unit or its) and is_unit(own):
+            own, its = "", own
         whole = own if own in SI_UNITS else "_".join(filter(None, (name, own)))
         found.append(f"{whole} [{its or unit}]" if its or unit else whole)
     return found

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-from ragg_runtime.instrument.units import Units
+from ragg_runtime.instrument.units import EOTVOS, Units
 from ragg_runtime.io import Flight
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT, SPECIFIC_FORCE, Flag
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening.linear_fit import LinearFit
@@ -76,6 +76,23 @@ def _floor(x: Array) -> float:
     _, density = signal.welch(x, nperseg=min(WINDOW, max(8, len(x) // 8)))
     lowest, next_one = sorted(float(np.mean(b)) for b in np.array_split(density[2:-1], BANDS) if len(b))[:2]
     return float(np.sqrt(0.5 * lowest)) if next_one < FLAT * lowest else 0.0
+
+
+def leave_out_noisy_gradient(model: Model, s: Sampler, fitted: LinearFit) -> Flight:
+    """The flight without its gravity gradient if noise of that makes a good part of what is left: unknown, it varies slowly."""
+    recorded = [n for n in GRADIENT if n in s.flight.channels]
+    errors = {n: e for n in recorded if (e := _floor(s.flight.channels[n][s.flight.valid])) > 0.0}
+    if s.recorded.demodulated or not errors:
+        return s.flight
+    made = _made_of(model, s, s.take(s.rows()), errors, fitted)
+    if not TOLD * fitted.rms < made < MOST * fitted.rms:
+        return s.flight
+    text = (
+        f"{', '.join(errors)} have a noise floor of {max(errors.values()) / EOTVOS:.2g} Eo rms, which causes about {made:.2g} Eo of the"
+        " output: the recorded gradient is not used; it is taken to be unknown and to vary slowly"
+    )
+    channels = {n: x for n, x in s.flight.channels.items() if n not in GRADIENT}
+    return replace(s.flight, channels=channels).flagged([Flag((), text)])
 
 
 def flag_noise(

@@ -170,7 +170,9 @@ class Sampler:
             phi = x.channels[self.disc.angle_column][rows]
         else:
             phi = disc_angle(time, f, start)
-        moved = {name for name in (*x.channels, *self.derived) if find_stem(name) in of}
+        moved = {
+            name for name in (*x.channels, *self.derived) if {find_stem(name), differentiated(name)} & {*of}
+        }
         channels = {
             name: v[rows + motion_later] if name in moved else v[rows]
             for name, v in (*x.channels.items(), *self.derived.items())

@@ -126,6 +126,8 @@ def _propose_spin(t: _Trial) -> list[Hypothesis]:
         remedy = f"check the encoder and its zero, or leave {s.disc.angle_column} out"
     if float(shown) != float(write_rate(f0, x.duration)):
         remedy = f'write spin_frequency = "{shown} Hz" in model.toml, or {remedy}'
+        if not s.has_encoder:
+            remedy += "; if times were made from row numbers, rows may be missing: use the recorder's time"
     elif not s.has_encoder:
         return [backwards]
     effects = ("spin-rate-offset",)
@@ -237,6 +239,8 @@ def _describe_jump(s: Sampler, at: int, jump: float) -> tuple[str, str]:
 _SHIFTED: tuple[tuple[str, str, str, Callable[[int], dict[str, Any]]], ...] = (
     ("the motion record is", "motion columns", "the output", lambda k: {"motion_later": k}),
     ("a_x, a_y, a_z are", "columns", "the output", lambda k: {"motion_later": k, "of": ("a",)}),
+    ("a_x is", "column", "the output", lambda k: {"motion_later": k, "of": ("a_x",)}),
+    ("a_y is", "column", "the output", lambda k: {"motion_later": k, "of": ("a_y",)}),
     ("the output is", "output column", "motion and disc angle", lambda k: {"output_later": -k}),
 )
 """What may be late: in words, the columns, against what, and how rows of it are taken."""
@@ -256,7 +260,7 @@ def _propose_shifts(t: _Trial) -> list[Hypothesis]:
         waiting = sorted(near - set(tried))
     found = []
     for (name, columns, against, shift), k in zip(_SHIFTED, best if tried else (), strict=False):
-        by, whole = f"{abs(k) / rate:.6g} s", columns != "columns"
+        by, whole = f"{abs(k) / rate:.6g} s", columns not in ("columns", "column")
         late = "late" if (k > 0) == (name != "the output is") else "early"
         what = f"{name} {by} ({abs(k)} sample{'s' * (abs(k) > 1)}) {late} against {against}"
         effects = ("time-offset",) if whole else ()
@@ -276,7 +280,7 @@ def _propose_shifts(t: _Trial) -> list[Hypothesis]:
 
 
 def _lags(instrument: Instrument, s: Sampler) -> Sequence[int]:
-    """Samples by which the motion may be late: where the demodulated output resembles a_x + i a_y most."""
+    """Samples by which the motion may be late: where the demodulated output resembles a_x + i a_y, or one of them, most."""
     x, f = s.flight, abs(s.disc.spin_frequency)
     if s.recorded.demodulated or not demodulable(x.rate) or (f > 0 and x.duration < 3 / f):
         return ()
@@ -294,12 +298,13 @@ def _lags(instrument: Instrument, s: Sampler) -> Sequence[int]:
         low = np.diff(low)  # slow drifts resemble each other at any lag
         return np.asarray(fft.fft(low - np.mean(low), size))
 
-    motion = prepared(np.asarray(whole.channels["a_x"] + 1j * whole.channels["a_y"]))
+    x_axis, y_axis = (whole.channels[n].astype(np.complex128) for n in ("a_x", "a_y"))
     output = np.conj(prepared(np.asarray(carried)))
     reach = min(n // 4, int(FARTHEST * x.rate))
     found: list[int] = []
-    for other in (motion, np.conj(np.roll(motion[::-1], 1))):
-        like = np.abs(fft.ifft(other * output))
-        top = int(np.argmax(np.concatenate([like[-reach:], like[: reach + 1]]))) - reach
-        found += [k for k in range(top - 2, top + 3) if k not in found]
+    for motion in map(prepared, (x_axis + 1j * y_axis, x_axis, y_axis)):
+        for other in (motion, np.conj(np.roll(motion[::-1], 1))):
+            like = np.abs(fft.ifft(other * output))
+            top = int(np.argmax(np.concatenate([like[-reach:], like[: reach + 1]]))) - reach
+            found += [k for k in range(top - 2, top + 3) if k not in found]
     return found

@@ -209,7 +209,7 @@ def test_a_mapping_gives_identifiers(tmp_path: Path) -> None:
         with pytest.raises(UserError, match="not a name") as error:
             parse_mapping(head + f"{json.dumps(text, ensure_ascii=False)} = 't'\n", tmp_path / "mapping.toml")
         assert "[columns]" in str(error.value.where)
-    (tmp_path / "flight.csv").write_text("time [s],Öl °C [K],*/ [V]\n1,2,3\n2,3,4\n")
+    (tmp_path / "flight.csv").write_text("time [s],Öl °C [K],*/ [T]\n1,2,3\n2,3,4\n")
     made = draft_mapping(tmp_path / "flight.csv").text.replace("# c_", "c_")
     assert {"c_l_C", "c_"} <= {*parse_mapping(made, tmp_path / "mapping.toml").channels}
 

@@ -122,14 +122,15 @@ def test_the_spin_rate_is_measured() -> None:
     assert float(found.best.what.split()[4]) == pytest.approx(0.25, rel=1e-6)
 
 
-@pytest.mark.parametrize(("samples", "of"), [(1, ("a_", "om")), (-32, ("a_",))])
+@pytest.mark.parametrize(("samples", "of"), [(1, ("a_", "om")), (-32, ("a_",)), (16, ("a_y",))])
 def test_what_is_late_is_measured_and_flagged(samples: int, of: tuple[str, ...]) -> None:
-    x = changed(flown(11), lambda n, v: np.roll(v, samples) if n[:2] in of else v)
+    x = changed(flown(11), lambda n, v: np.roll(v, samples) if n.startswith(of) else v)
     (flag,) = (f for f in screen(MODEL, drawn(11).sheet, x).flags if f.open)
     assert f"({abs(samples)} sample" in flag.reason
     assert ("late" if samples > 0 else "early") in flag.reason
     assert flag.effects == (("time-offset",) if len(of) == 2 else ())
-    assert ("the motion record" if len(of) == 2 else "a_x, a_y, a_z are 2 s") in flag.reason
+    words = {"a_": "a_x, a_y, a_z are 2 s", "a_y": "a_y is 1 s"}
+    assert ("the motion record" if len(of) == 2 else words[of[0]]) in flag.reason
 
 
 def test_a_lost_row_is_said_before_the_disc_is_blamed() -> None:
@@ -215,6 +216,15 @@ def test_columns_that_contradict_each_other_are_remarked() -> None:
         except UserError as error:
             said = str(error)
         assert words in said
+
+
+def test_a_gradient_that_is_mostly_noise_is_not_used() -> None:
+    s, rng = drawn(15), np.random.default_rng(3)
+    x = s.simulate().flight()
+    noisy = changed(x, lambda n, v: v + 5e-8 * rng.standard_normal(len(v)) * n.startswith("Gamma"))
+    found = screen(MODEL, s.sheet, noisy)
+    assert "Gamma_xx" not in found.channels and "50 Eo rms" in found.notes[-1]
+    assert "Gamma_xx" in screen(MODEL, s.sheet, x).channels
 
 
 def demodulated(s: Scenario, x: Flight, low_pass: Any = None) -> Flight:

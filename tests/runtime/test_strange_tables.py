@@ -69,6 +69,7 @@ CSV = {
     "units in a row of their own": text(",".join(UNITS) + "\n" + ",".join(UNITS.values()), rows()),
     "units in round brackets": text(PLAIN.replace("[", "(").replace("]", ")"), rows()),
     "a header over two rows": text("time [s],a [g],,,omega [deg/h],,,G_out [V]\n,x,y,z,x,y,z,", rows()),
+    "bare units in the second of two rows": text("time,a,,,omega,,,G_out\ns,x [g],y [g],z [g],x [deg/h],y [deg/h],z [deg/h],V", rows()),
     "units in the second of two rows": text("time,a,,,omega,,,G_out\n[s],x [g],y [g],z [g],x [deg/h],y [deg/h],z [deg/h],[V]", rows()),
     "units as in ISO 80000": text(",".join(f"{n} / {u}" for n, u in UNITS.items()), rows()),
     "units behind a comma": text(";".join(f"{n}, {u}" for n, u in UNITS.items()), rows(), ";"),

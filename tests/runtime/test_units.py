@@ -55,6 +55,9 @@ def test_g_is_g0_wherever_it_stands(g0: float) -> None:
         ("rpm", "Hz", 1 / 60),
         ("rad/s", "Hz", 1 / (2 * math.pi)),
         ("deg/s", "Hz", 1 / 360),
+        ("mG", "m/s^2", 9.8e-3),
+        ("M/S2", "m/s^2", 1.0),
+        ("MV", "V", 1e6),
     ],
 )
 def test_conversions(unit: str, si_unit: str, expected: float) -> None:
