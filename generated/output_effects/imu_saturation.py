@@ -15,6 +15,9 @@ CHANNELS = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
 LATTICE = 5
 """So many times as often as the next smaller value occurs the extreme one, or the channel is but coarsely quantised."""
 
+STEPS = 100
+"""So many steps of the resolution an end of a range is away from zero: converters have 8 bits and more."""
+
 
 def present(values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
     """Of a channel of the motion, (N,); the noise of the output does not matter."""
@@ -30,4 +33,6 @@ def clipped(values: Array, valid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     edge = sum(np.count_nonzero(size >= top * (1 - 1e-12)) for _, size in saturation.sizes(values, below))
     if top == 0.0 or np.count_nonzero(found) < LATTICE * edge:
         found[:] = False
+    elif np.any(found) and np.min(np.diff(np.unique(values[usable])), initial=top) > top / STEPS:
+        found[:] = False  # few steps, so that a slow motion dwells at the largest
     return found

@@ -250,7 +250,7 @@ def _propose_shifts(t: _Trial) -> list[Hypothesis]:
     """Motion, specific force alone, and output apart in time: candidates from a cross-correlation, judged by the model."""
     s, rate = t.s, t.s.flight.rate
     rows = s.rows(most=400)
-    waiting = [k for k in _lags(t.instrument, s) if k != 0]
+    waiting = [k for k in _lags(s) if k != 0]
     tried: dict[int, list[float]] = {}
     while waiting and len(tried) < MOST_SHIFTS:
         each = [t.judge(s.take(rows, **shift(k)) for k in waiting) for *_, shift in _SHIFTED]
@@ -279,7 +279,7 @@ def _propose_shifts(t: _Trial) -> list[Hypothesis]:
     return found
 
 
-def _lags(instrument: Instrument, s: Sampler) -> Sequence[int]:
+def _lags(s: Sampler) -> Sequence[int]:
     """Samples by which the motion may be late: where the demodulated output resembles a_x + i a_y, or one of them, most."""
     x, f = s.flight, abs(s.disc.spin_frequency)
     if s.recorded.demodulated or not demodulable(x.rate) or (f > 0 and x.duration < 3 / f):

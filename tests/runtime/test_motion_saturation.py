@@ -32,9 +32,10 @@ def test_the_end_of_a_range_is_recognised() -> None:
         np.full(N, 9.8),  # at rest
         np.round(MOVING * 8) / 8,  # coarsely quantised
         np.round(np.sin(0.3 * T) * 100) / 100,  # and slow, so that it dwells at its largest values
+        np.r_[np.round(20 * np.sin(0.02 * T[:600])), np.round(20 * MOVING[600:]).clip(-18, 18)],  # 20 steps
         np.sin(2 * np.pi * T / 16),  # repeats itself, sample by sample
     ],
-    ids=["noise", "zero", "at rest", "coarse", "dwells", "periodic"],
+    ids=["noise", "zero", "at rest", "coarse", "dwells", "few steps", "periodic"],
 )
 def test_what_is_no_end_of_a_range(x: np.ndarray) -> None:
     assert not imu_saturation.clipped(x, ALL).any()
