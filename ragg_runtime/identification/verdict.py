@@ -10,6 +10,7 @@ from scipy.special import expit
 
 from ragg_runtime.estimation.calibration import QUIET
 from ragg_runtime.identification import claims, comparison, omnibus, selection, strong
+from ragg_runtime.identification.claims import Significance
 from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.line_rival import LineAlternative, Steady, line_rival
 from ragg_runtime.identification.omnibus import Remainder
@@ -163,10 +164,18 @@ def listed(names: Sequence[str], word: str = "and") -> str:
 
 def _weakest(found: Evidence, o: Outcome, needed: Sequence[str]) -> str | None:
     """The effect that is not significant with the variance of its own scores, the least significant of several."""
-    doubted, log_p = o.remainder.significant, found.log_p
-    p = {e: o.significance(e).log_p(log_p.get(e), doubted=doubted) for e in o.effects if e not in needed}
+    log_p = found.log_p
+    p = {e: _log_p(o, o.significance(e), log_p.get(e)) for e in o.effects if e not in needed}
     weakest = max(p, key=lambda e: (p[e], e), default=None)
     return None if weakest is None or _is_significant(found, o, p[weakest]) else weakest
+
+
+def _log_p(o: Outcome, s: Significance, log_p: float | None) -> float:
+    """Of an effect; 0 if it does not explain plainly more than the best generic term does of what is left."""
+    left = claims.strongest(o.remainder) if o.remainder.significant else None
+    if left is not None and s.chi2 - s.rank < claims.MORE * left.z**2:
+        return 0.0
+    return s.log_p(log_p, doubted=o.remainder.significant)
 
 
 def _is_significant(found: Evidence, o: Outcome, log_p: float) -> bool:
@@ -176,8 +185,8 @@ def _is_significant(found: Evidence, o: Outcome, log_p: float) -> bool:
 
 def _is_needed(found: Evidence, o: Outcome, effect: str) -> bool:
     """Whether an effect is significant by the fit without it: far from there a linearisation may be wrong about what it explains."""
-    log_p = replace(o.significance(effect), chi2=max(0.0, found.gain(o, effect))).log_p(None, doubted=True)
-    return _is_significant(found, o, log_p)
+    by_fit = replace(o.significance(effect), chi2=max(0.0, found.gain(o, effect)))
+    return _is_significant(found, o, max(_log_p(o, by_fit, None), by_fit.log_p(None, doubted=True)))
 
 
 def _contradicted(o: Outcome, first: Stage) -> str | None:
@@ -194,9 +203,7 @@ def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) 
         return ()
     ahead = _ahead(found, o, count, base)
     if o.remains:
-        chi2, rank = found.explained(o)
-        more = chi2 - rank > claims.MORE * claims.best_single(base)
-        return o.effects if more and ahead > claims.PLAINLY else ()
+        return o.effects if ahead > claims.PLAINLY else ()
     # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
     if len(o.effects) == 1:
         return o.effects if ahead > -claims.PLAINLY else ()
