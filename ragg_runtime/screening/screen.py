@@ -170,9 +170,12 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
     own = judge(x) if worst > EVEN or steps else None
     if own is None:
         return x
+    even = replace(x, time=instants, began=(x.began or 0.0) + float(instants[0] - x.time[0]))
+    # times by the count are even: what that is worth where stamps jitter says nothing about a clock
+    least = min(own.misfit, judge(even).misfit) if steps and worst > EVEN else own.misfit
     several = [steps, *([c] for c in steps if len(steps) > 1)] if steps else []
     gain, k = max(
-        ((own.misfit - judge(_by_count(x, some)).misfit, -k) for k, some in enumerate(several)),
+        ((least - judge(_by_count(x, some)).misfit, -k) for k, some in enumerate(several)),
         default=(0.0, 0),
     )
     if INDEPENDENT * gain > CLOCK:
@@ -183,13 +186,13 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
         )
         return derive_acceleration(_by_count(x, several[-k])).flagged([Flag(("time",), text)])
     x = x.flagged([_pause(c, abs(INDEPENDENT * gain) < CLOCK) for c in steps if c.part])
-    even = replace(x, time=instants, began=(x.began or 0.0) + float(instants[0] - x.time[0]))
     if worst <= EVEN or not _is_even(model, s, make_sampler(even, instrument, inputs, s.place), own.p):
         return x
     text = (
         f"the time stamps jitter by up to {worst:.2g} of a step, but the output was sampled evenly: they are"
         " replaced by an even grid"
     )
+    even = replace(even, flags=x.flags)
     return derive_acceleration(even).flagged([Flag(("time",), text)] * (worst > JITTER_NOTED))
 
 
