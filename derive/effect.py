@@ -139,9 +139,10 @@ class Effect:
     switches
         Whether it changes at once where an accelerometer's voltage passes zero: a fit then does without the samples of which
         the sheet leaves the side open.
-    resonance
-        What it takes from the record through a resonance of its parameters ``f_0`` and ``Q``: the motion of a ``mount`` or
-        the force on an ``accelerometer`` (:mod:`derive.resonance`).
+    memory
+        What it takes from the record through something with a memory, which its parameters of ``shape`` describe: the motion of
+        a ``mount``, the force on an ``accelerometer``, both through a resonance, the torquer's ``heat``, or a bias that
+        ``slip``s and a mount with ``play`` (:mod:`derive.memory`).
     searched
         Whether a diagnosis looks for it; one that can look like many others is only added by name.
     contains
@@ -173,7 +174,7 @@ class Effect:
     told_from: tuple[str, ...] = ()
     turning: bool = False
     switches: bool = False
-    resonance: str | None = None
+    memory: str | None = None
     searched: bool = True
     contains: tuple[str, ...] = ()
     moot: Callable[[Order, Kinematics], bool] = lambda order, kinematics: False

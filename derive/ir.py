@@ -284,7 +284,7 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
         **({"told_from": list(e.told_from)} if e.told_from else {}),
         **({"turning": True} if e.turning else {}),
         **({"switches": True} if e.switches else {}),
-        **({} if e.resonance is None else {"resonance": e.resonance}),
+        **({} if e.memory is None else {"memory": e.memory}),
         **({} if e.searched else {"searched": False}),
         **({"contains": list(e.contains)} if e.contains else {}),
         "kind": e.kind,

@@ -2,6 +2,7 @@
 
 python -m benchmarks.diagnosis [--seed N ...] [--jobs N] [--only KIND] [--real FOLDER] [--save FILE] [--against FILE]
 python -m benchmarks.diagnosis --ablate [--rule ID ...] [--jobs N]
+python -m benchmarks.diagnosis --catalogue [--jobs N]      each effect in turn, 30 sigma
 python -m benchmarks.diagnosis --flight ID      one flight, shown
 """
 
@@ -25,6 +26,8 @@ from benchmarks.diagnosis import ablation, array, plan, score, table
 from benchmarks.diagnosis.fly import fly
 from benchmarks.diagnosis.plan import Spec
 from benchmarks.diagnosis.score import Row
+from benchmarks.diagnosis.strength import NEVER
+from ragg_runtime.model.model import packaged
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -157,6 +160,16 @@ def _fly(options: argparse.Namespace, source: str, pool: Executor | None) -> lis
     return rows
 
 
+def _catalogue(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
+    cache = Cache(options.cache.with_stem(f"{options.cache.stem}-catalogue"), source)
+    hidden = [e.id for e in packaged().candidates if e.searched and e.id not in NEVER]
+    specs = plan.catalogue(len(hidden))
+    run({s.id: partial(fly, s) for s in specs}, cache, pool)
+    rows = [score.row(cache.lines[s.id]) for s in specs]
+    print("\n" + "\n".join(table.catalogue(rows)))
+    return rows
+
+
 def _array(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
     cache = Cache(options.cache.with_stem(f"{options.cache.stem}-array"), source)
     tasks = {f"{r}/{c}": partial(array.asked, path, c) for r, path, c in array.cases(options.real)}
@@ -173,6 +186,7 @@ def main(arguments: Sequence[str]) -> int:
     ask("--only", action="append", choices=list(plan.COUNTS), help="kinds of flights")
     ask("--flight", action="append", default=[], metavar="ID", help="show one flight")
     ask("--array", action="store_true", help="ask the real array instead")
+    ask("--catalogue", action="store_true", help="hide each effect of the catalogue in turn")
     ask("--real", type=Path, metavar="FOLDER", help="its recordings, *.bin.gz (default: what is shipped)")
     ask("--ablate", action="store_true", help="fly with one rule after the other switched off")
     ask("--rule", action="append", choices=[r.id for r in ablation.RULES], help="of the ablation")
@@ -186,7 +200,9 @@ def main(arguments: Sequence[str]) -> int:
         print(json.dumps(fly(Spec(kind, record, int(index), int(sample))), indent=1))
     if options.flight:
         return 0
-    what = _ablate if options.ablate else _array if options.array else _fly
+    what = _fly
+    for asked, other in ((options.ablate, _ablate), (options.array, _array), (options.catalogue, _catalogue)):
+        what = other if asked else what
     try:
         with pool_of(options.jobs) as pool:
             rows = what(options, source_digest(), pool)

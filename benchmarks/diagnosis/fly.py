@@ -41,6 +41,9 @@ TRIES = 60
 
 STRONG = (300.0, 3000.0)
 
+EACH = 30.0
+"""Sigmas of each effect of the catalogue in turn."""
+
 
 @dataclass(frozen=True)
 class Prepared:
@@ -190,6 +193,10 @@ def _hidden(spec: Spec, o: Oracle) -> tuple[Hidden, ...]:
         return _pair(spec, o, rng)
     if spec.kind == "outside" or (spec.kind == "off-sheet" and spec.index % 3 == 2):
         return ()
+    if spec.kind == "each":
+        effect = sorted(e.id for e in o.model.candidates if e.searched and e.id in o.kinds)[spec.index]
+        drawn = (o.drawn(effect, EACH, rng) for _ in range(TRIES))
+        return tuple(h for h in [next((h for h in drawn if h is not None), None)] if h is not None)
     low, high = {"five": (5.0, 5.0), "ten": (10.0, 10.0), "strong": STRONG}.get(spec.kind, (10.0, 1000.0))
     strength = float(np.exp(rng.uniform(np.log(low), np.log(high))))
     order = np.random.default_rng(list(plan.COUNTS).index(spec.kind)).permutation(len(known))

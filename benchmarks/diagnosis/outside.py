@@ -146,6 +146,8 @@ FURTHER: Mapping[str, Callable[[Surroundings], Array]] = {
 """Further terms, of which it holds most in no such form."""
 
 SINCE: Mapping[str, str] = {
+    "play in f_i (hysteresis)": "bias-hysteresis",
+    "heating by f_i^2, 30 s": "inner-temperature",
     "f_i^2 temperature": "thermal-second-order",
     "misalignment jump": "misalignment-step",
     "misalignment drift": "misalignment-drift",

@@ -32,6 +32,9 @@ HELD = (4411, 4412, 4413)
 ABLATION = 4420
 """Seed of the flights of the ablation."""
 
+CATALOGUE = 4430
+"""Seed of the flights with each effect of the catalogue in turn."""
+
 FIRST_CATALOGUE = (
     "adc-nonlinearity", "angular-jitter", "anisoinertia", "arm-length", "arm-sag", "arm-stretch", "bearing-run-out",
     "bias-drift", "bias-step", "clock-drift", "cubic-cross", "cubic-input", "disc-spin", "encoder-harmonic",
@@ -272,6 +275,11 @@ def _elsewhere(rng: np.random.Generator) -> tuple[Instrument, Instrument, Instru
 def replaced_spin(i: Instrument, f: float) -> Instrument:
     """An instrument of the paper's layout whose disc turns at f Hz."""
     return Instrument.build(radius=i.radius, spin_frequency=f, g0=i.g0, accelerometers=i.accelerometers)
+
+
+def catalogue(count: int) -> list[Spec]:
+    """A flight for each of so many effects, kinds of record in turn."""
+    return [Spec("each", records.KNOWN[n % len(records.KNOWN)], n, CATALOGUE) for n in range(count)]
 
 
 def ablation(kinds: Sequence[tuple[str, str]], count: int) -> Iterator[Spec]:

@@ -119,6 +119,12 @@ def ablation(rows: Sequence[Row]) -> list[str]:
     return [*_table(RULE.values(), [[r[n] for n in RULE] for r in rows]), "", *details]
 
 
+def catalogue(rows: Sequence[Row]) -> list[str]:
+    """A line for each effect."""
+    heads = ("hidden", "record", "outcome", "verdict", "found", "probability")
+    return _table(heads, [[r[n] for n in heads] for r in rows])
+
+
 def array(rows: Sequence[Row]) -> list[str]:
     """How many questions hold, of each recording, and claims without evidence."""
     asked = list(dict.fromkeys(r["question"] for r in rows))

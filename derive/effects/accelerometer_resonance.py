@@ -4,7 +4,7 @@ import sympy as sp
 
 from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-from derive.resonance import PARAMETERS, response
+from derive.memory import RESONANCE, response
 from derive.stages import NOMINAL_TRIAD, SensedForce
 from derive.symbols import COS_J, SIN_J
 
@@ -15,10 +15,10 @@ def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
     axis = axes[:, 0] + k["vartheta_z"] * axes[:, 1] - k["vartheta_y"] * axes[:, 2]
 
     def along_input(kind: str) -> sp.Expr:
-        radial, tangential = (response(f"{kind}_{n}", p, c) for n in ("radial", "tangential"))
+        radial, tangential = (response(f"{kind}_{n}", p, c, RESONANCE) for n in ("radial", "tangential"))
         r, t = COS_J * radial + SIN_J * tangential, COS_J * tangential - SIN_J * radial
         r, t = r + k["beta_z"] * t, t - k["beta_z"] * r
-        return axis.dot(sp.Matrix([r, t, response(f"{kind}_axial", p, c, changes=False)]))
+        return axis.dot(sp.Matrix([r, t, response(f"{kind}_axial", p, c)]))
 
     return i - p.u * along_input("rate") - p.v * along_input("curvature")
 
@@ -43,10 +43,10 @@ EFFECT = Effect(
     parameters=(
         EffectParameter("u", "u", "s", "first order of what the resonance takes away", 1e-8),
         EffectParameter("v", "v", "s^2", "second order of what the resonance takes away", 1e-8),
-        *PARAMETERS,
+        *RESONANCE,
     ),
     transducer=transducer,
-    resonance="accelerometer",
+    memory="accelerometer",
     searched=False,
     contains=("lag", "second-order-loop"),
 )

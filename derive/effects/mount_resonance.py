@@ -4,13 +4,13 @@ import sympy as sp
 
 from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-from derive.resonance import PARAMETERS, response
+from derive.memory import RESONANCE, response
 from derive.stages import Motion
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
     def through(name: str, v: sp.Matrix) -> sp.Matrix:
-        further = [response(f"mount_{name}_{k}", p, c, changes=name == "a") for k in "xyz"]
+        further = [response(f"mount_{name}_{k}", p, c, RESONANCE if name == "a" else ()) for k in "xyz"]
         return v + p.share * sp.Matrix(further)
 
     return m._replace(
@@ -39,9 +39,9 @@ EFFECT = Effect(
         EffectParameter(
             "share", r"\kappa", "1", "share of the motion that passes the resonance", 1.0, shared=True
         ),
-        *PARAMETERS,
+        *RESONANCE,
     ),
     sensing=sensing,
-    resonance="mount",
+    memory="mount",
     contains=("imu-filter",),
 )

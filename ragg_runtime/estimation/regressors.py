@@ -17,9 +17,9 @@ from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.model.evaluate import unit_factor, voltages
 from ragg_runtime.model.evaluator import Evaluator, find_places
 from ragg_runtime.model.lateness import about
+from ragg_runtime.model.memory import first_memories, with_responses
 from ragg_runtime.model.model import DerivedEffect, Model
 from ragg_runtime.model.record import Record, made_of
-from ragg_runtime.model.resonance import neutral_values, with_responses
 
 Array = NDArray[np.float64]
 
@@ -240,7 +240,7 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
     columns = np.zeros((n_base + len(at.candidates) + 1, len(o.series), len(r.time)))
     _put_derivatives(columns, at.model.evaluators("chain"), at.base, r, o, p)
     if at.candidates:
-        searched = neutral_values(e for e in at.model.candidates if e.searched)
+        searched = (m for _, m in first_memories((e for e in at.model.candidates if e.searched), r))
         r = with_responses(r, searched, at.model.signatures.INPUTS)
         q = np.concatenate([p, np.zeros(at.model.signatures.SIZE - len(p))])
         _put_derivatives(columns[n_base:], at.model.evaluators("signatures"), at.candidates, r, o, q)

@@ -24,9 +24,9 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.record import is_disc_angle
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.lateness import late
+from ragg_runtime.model.memory import list_memories
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import HALO
-from ragg_runtime.model.resonance import list_resonances, memory
 from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
@@ -51,9 +51,9 @@ def certain(model: Model, instrument: Instrument, observations: Sequence[Observa
 
 
 def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation:
-    """Without as much of either end as motion may be late, and what a resonance may remember of what was before."""
-    moving, resonant = dict(late(model)), [*list_resonances(model, vector(model, instrument))]
-    if not (moving or resonant):
+    """Without as much of either end as motion may be late, and what an instrument may remember of what was before."""
+    moving, memories = dict(late(model)), [*list_memories(model, vector(model, instrument))]
+    if not (moving or memories):
         return o
     r = o.record
     most = [
@@ -62,9 +62,9 @@ def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation
         if k in moving
     ]
     n = int(np.ceil(LATEST * max(most, default=0.0)))
-    settled = max((memory(f_0, LATEST * Q) * r.rate for _, f_0, Q in resonant), default=0.0)
+    settled = LATEST * max((m.settles * r.rate for m in memories), default=0.0)
     begun = max(n, int(min(settled, MOST_LEFT_OUT / 2 * len(r.valid))))
-    n = max(n, HALO if resonant else 0)  # beyond the end the record is continued with its last value
+    n = max(n, HALO if memories else 0)  # beyond the end the record is continued with its last value
     inside = np.zeros(len(r.valid), dtype=np.bool_)
     inside[begun : len(inside) - n] = True
     kept = r.valid & inside

@@ -120,4 +120,4 @@ def _is_as_strong(made: Ranked | None, found: Ranked) -> bool:
 def _smooths_motion(d: Diagnosis, effect: str) -> bool:
     """Whether an effect passes the motion through a resonance: the best prediction from noisy motion is a smoothed one."""
     e = d.target.model.effect(effect)
-    return e is not None and e.resonance == "mount"
+    return e is not None and e.memory == "mount"

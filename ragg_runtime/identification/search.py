@@ -126,7 +126,9 @@ class Evidence:
         known = [e for e in o.effects if e in field.candidates]
         linear, _ = field.joint([self._block(e) for e in known]) if known else (0.0, 0)
         rank = sum(self.test(e).rank for e in o.effects)
-        if o.given or (linear < strong.STRONG and len(known) == len(o.effects)):
+        own = () if o.given else [e for e in o.target.model.effects if e.id in o.effects]
+        remembers = any(e.memory is not None for e in own)
+        if o.given or (linear < strong.STRONG and len(known) == len(o.effects) and not remembers):
             return linear, rank
         # second orders of strong effects: what is left once they are derived into the model, with a noise that is estimated anew
         fitted = float(np.sum(field.P[:, -1] ** 2) - o.target.whole[-1, -1] ** 2)

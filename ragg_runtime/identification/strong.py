@@ -84,8 +84,9 @@ class Stage:
 
     @property
     def strong(self) -> bool:
-        """Whether what is chosen is too strong for a linearisation."""
-        return any(self.choice.tests[e].chi2 > STRONG for e in self.choice.chosen)
+        """Whether what is chosen is too strong for a linearisation, or has a memory, which a search knows at one value only."""
+        shaped = {e.id for e in self.fitted.model.candidates if e.memory is not None}
+        return any(self.choice.tests[e].chi2 > STRONG or e in shaped for e in self.choice.chosen)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The record as a model with certain parameters takes it: motion shifted in time, and through resonances.
+"""The record as a model with certain parameters takes it: motion shifted in time, and what an instrument remembers of it.
 
 A Taylor series in a lateness fails at half a sample: so it is taken about the lateness that a fit has come to.
 """
@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.model.evaluator import find_places
+from ragg_runtime.model.memory import list_memories, with_responses
 from ragg_runtime.model.model import DerivedParameter, Model
 from ragg_runtime.model.record import Record
-from ragg_runtime.model.resonance import list_resonances, with_responses
 
 Array = NDArray[np.float64]
 
@@ -25,11 +25,11 @@ the change, as well as derivatives are known (up to 42 % of the Nyquist frequenc
 def about(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
     """The record with its motion shifted, and the remaining parts of the parameters p (size,), SI, for the series of derivatives.
 
-    Parameters of resonances are left at their neutral values, about which the chain has its series.
+    What describes a memory is left at its neutral values, about which the chain has its series.
     """
-    resonant = [*list_resonances(model, p)]
-    if resonant:
-        r, p = with_responses(r, resonant, model.chain.INPUTS), _at_neutral(model, p)
+    memories = [*list_memories(model, p)]
+    if memories:
+        r, p = with_responses(r, memories, model.chain.INPUTS), _at_neutral(model, p)
     rest = p
     moves: dict[str, tuple[float, float]] = {}
     end = float((r.whole or r).time[-1])

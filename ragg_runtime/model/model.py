@@ -75,7 +75,7 @@ class DerivedEffect:
 
     ``common_of``, ``told_from``: parameters of the accelerometers that the sheet gives; ``turning``: it exists only where the disc
     turns (:mod:`ragg_runtime.identification.sheet`); ``switches``: where a voltage passes zero;
-    ``resonance``: what it takes through one (:mod:`ragg_runtime.model.resonance`); ``searched``: whether a diagnosis looks for it;
+    ``memory``: through what it takes the record (:mod:`ragg_runtime.model.memory`); ``searched``: whether a diagnosis looks for it;
     ``contains``: effects that are special cases.
     """
 
@@ -93,7 +93,7 @@ class DerivedEffect:
     told_from: tuple[str, ...] = ()
     turning: bool = False
     switches: bool = False
-    resonance: str | None = None
+    memory: str | None = None
     searched: bool = True
     contains: tuple[str, ...] = ()
 

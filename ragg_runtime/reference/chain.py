@@ -114,6 +114,16 @@ class Chain:
             V[group] = present + change
         return V
 
+    def forces(self, time: Array) -> Array:
+        """f_x, f_y, f_z of the accelerometers, (n, 3, N) m/s^2, at (N,) s."""
+        now, k = self._instant(time, 0.0, np.zeros(time.size)), self.instrument.accelerometers
+        found = []
+        for j, place in enumerate(self.instrument.layout.places):
+            fixed = mount(place, float(k["beta_x"][j]), float(k["beta_z"][j]), self.rotations)
+            radius = place.radius + float(k["dR"][j]) + geometry.arm_error(self.effects)
+            found.append(self._nominal_force(j, fixed, radius, now, np.zeros((3, 1)))[0])
+        return np.array(found)
+
     def scale(self, time: Array) -> Array:
         """k_VI K1 of the accelerometers as they are at the time, (n, N) V/(m/s^2)."""
         auxiliaries = self._auxiliaries_at(time)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -16,8 +16,8 @@ from ragg_runtime.reference.auxiliaries import plausible
 from ragg_runtime.reference.chain import Auxiliary, Chain
 from ragg_runtime.reference.effects import EffectValues, Injected, channels_needed, resolve
 from ragg_runtime.reference.effects.geometry import Kinematics, random_angle, spin_share
+from ragg_runtime.reference.effects.memory import MEMORIES, remembered, swallowed
 from ragg_runtime.reference.effects.output import record_output
-from ragg_runtime.reference.effects.resonance import swallowed
 from ragg_runtime.reference.effects.sensing import record_motion
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
 from ragg_runtime.reference.gravity import COMPONENTS, Gravity
@@ -144,8 +144,22 @@ def simulate(
         spin=spin_share(kinematics, injected),
         misalignment=misalignment or _of_misalignment(rotations),
     )
-    clean, added = _clean(chain, time, rate, seed), _drawn(noise, chain, time, rate, seed)
+    true = _remembering(chain, time)
+    clean, added = _clean(true, time, rate, seed), _drawn(noise, true, time, rate, seed)
     return _recorded(chain, time, clean, added, _channels(chain, time, record_gradient, given))
+
+
+def _remembering(chain: Chain, time: Array) -> Chain:
+    """The chain that knows what it has to remember of the flight: what it would do without these effects."""
+    own = {e: v for e, v in chain.effects.items() if e in MEMORIES}
+    plain = replace(chain, effects={e: v for e, v in chain.effects.items() if e not in MEMORIES})
+    if not own or len(time) < 2:
+        return plain
+
+    def currents(t: Array) -> Array:
+        return plain.voltages(t, np.zeros(t.size)) / plain.scale(t)
+
+    return replace(chain, auxiliaries={**chain.auxiliaries, **remembered(own, plain.forces, currents, time)})
 
 
 def _world(given: Mapping[str, Auxiliary] | None, injected: Injected, seed: int) -> Mapping[str, Auxiliary]:

@@ -109,12 +109,17 @@ RESPONSES = {
     **{f"C__mount_{n}_{k}": u for n, u in _UNITS.items() for k in "xyz"},
     **{f"C__rate_{k}": "m/s^3" for k in ("radial", "tangential", "axial")},
     **{f"C__curvature_{k}": "m/s^4" for k in ("radial", "tangential", "axial")},
+    **{f"C__{n}_{k}": "1" for n in ("slip", "play") for k in ("radial", "tangential", "axial")},
+    **{f"C__heat_{k}": "m^2/s^4" for k in ("rr", "rt", "ra", "tt", "ta", "aa")},
+    "C__heat_start": "1",
 }
-"""What passes resonances at their neutral values, with its unit; its changes beside these are zero here."""
+"""What is remembered at neutral values, with its unit; its changes beside these are zero here."""
+
+SHAPES = ("f_0", "Q", "tau", "w")
 
 CHANNEL_UNIT = {
     **RESPONSES,
-    **{f"{n}_by_{q}": unit for n, unit in RESPONSES.items() for q in ("f_0", "Q")},
+    **{f"{n}_by_{q}": unit for n, unit in RESPONSES.items() for q in SHAPES},
     "d_temperature": "K/s",
     "d_spin_angle": "rad/s",
     "d2_spin_angle": "rad/s^2",
@@ -166,7 +171,7 @@ def _reference(
             channels[f"d2_{name}_{k}"] = _rate_of(_rate_of(_averaged(s, b))).value(recorded, by)
     for n, name in enumerate(RESPONSES):
         channels[name] = _signal(np.random.default_rng(n), 0.0, 0.1).value(found.time)
-        channels |= {f"{name}_by_{q}": np.zeros_like(found.time) for q in ("f_0", "Q")}
+        channels |= {f"{name}_by_{q}": np.zeros_like(found.time) for q in SHAPES}
     channels["G_out"] = found.G_out
     phi = disc_angle(INSTRUMENT.spin_frequency, found.time)
     spin = np.full(found.time.size, 2 * np.pi * INSTRUMENT.spin_frequency)
@@ -310,8 +315,8 @@ def reach(effect: Effect, q: EffectParameter, share: float) -> float:
     )
 
 
-# what passes a resonance is formed of a record by the runtime: tests/runtime/test_resonance.py
-KNOWN = [(e, q) for e, q in FITTED if (e.id in CATALOGUE or e.id in DIRECT) and e.resonance is None]
+# what is remembered is formed of a record by the runtime: tests/runtime/test_memory.py
+KNOWN = [(e, q) for e, q in FITTED if (e.id in CATALOGUE or e.id in DIRECT) and e.memory is None]
 by_known_parameter = pytest.mark.parametrize(
     ("effect", "parameter"),
     [pytest.param(e, q, id=f"{e.id}.{q.name}") for e, q in KNOWN],
@@ -464,7 +469,7 @@ def test_it_reads_the_channels_that_it_declares(effect: Effect) -> None:
     known |= {"d_spin_angle", "d2_spin_angle"}
     declared = {*effect.channels, *(q.channel for q in effect.parameters if q.channel)}
     rates = {f"d_{name}" for name in declared}
-    known |= RESPONSES.keys() if effect.resonance else set()
+    known |= RESPONSES.keys() if effect.memory else set()
     assert set(a.inputs) - known <= declared | rates
     # An accelerometer's own misalignment may hide a channel from one signature, but not from the model.
     read = set(voltage((effect,), LIKE_REFERENCE).inputs)

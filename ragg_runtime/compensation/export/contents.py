@@ -122,12 +122,13 @@ class Contents:
     def inputs(self) -> list[Json]:
         """The series that the model reads, in order: a column of the flight, or a time derivative of one; of :data:`DISC` one a disc."""
         for e in self.model.effects:
-            if e.resonance is not None:
+            if e.memory is not None:
                 raise UserError(
-                    "a model with a resonance cannot be exported",
-                    where=f"the effect {e.id}",
-                    found="motion that has passed it, of many seconds before every sample",
-                    remedy="ragg remove the effect, or compensate with ragg",
+                    f"a model with the effect {e.id} cannot be exported",
+                    where="model.toml, effects",
+                    found="its output depends on the motion of many seconds before and after each sample",
+                    expected="effects without memory (resonances, hysteresis and heat have one)",
+                    remedy=f"ragg remove the effect {e.id}, or use ragg compensate",
                 )
         found = []
         for name in self.model.chain.INPUTS:

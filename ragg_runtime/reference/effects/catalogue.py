@@ -107,6 +107,13 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "second-order-loop": _each("s^2", "b"),
     "mount-resonance": _shared("1", "share") | _RESONANCE,
     "accelerometer-resonance": _each("s", "u") | _each("s^2", "v") | _RESONANCE,
+    "bias-hysteresis": _each("m/s^2", "h_i", "h_o", "h_p") | _shared("m/s^2", "w", neutral=0.01),
+    "mount-hysteresis": _each("rad", "e_yx", "e_yz", "e_zx") | _shared("m/s^2", "w", neutral=0.01),
+    "inner-temperature": _each("1/(m/s^2)", "b")
+    | _each("1/(m/s^2)^2", "s")
+    | _each("m/s^2", "b_0")
+    | _each("1", "s_0")
+    | _shared("s", "tau", neutral=40.0),
     "output-curve": _shared("1/V", "c_2") | _shared("1/V^2", "c_3"),
     "thermal-misalignment": _each("rad/K", "dvartheta_y_dT"),
     "thermal-second-order": _each("1/(m/s^2)/K", "dK2_dT"),

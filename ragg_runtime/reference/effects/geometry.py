@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.reference.effects import memory
 from ragg_runtime.reference.effects.catalogue import Injected
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
 from ragg_runtime.reference.rotation import by_vector
@@ -135,6 +136,10 @@ def misalignment(
         about_y = about_y + creep["dvartheta_y_dt"][j] * time
     if slip := effects.get("misalignment-step"):
         about_y = about_y + slip["dvartheta_y"][j] * (time >= slip["t_step"])
+    if play := effects.get("mount-hysteresis"):
+        x, z = (auxiliaries[memory.friction("mount-hysteresis", j, n)] for n in (0, 2))
+        about_y = about_y + play["e_yx"][j] * x + play["e_yz"][j] * z
+        about_z = about_z + play["e_zx"][j] * x
     if compliance := effects.get("mount-compliance"):
         c = {name: value[j] for name, value in compliance.items()}
         about_y = about_y + c["c_yx"] * f[0] + c["c_yy"] * f[1] + c["c_yz"] * f[2]

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected, Values
-from ragg_runtime.reference.effects.resonance import recoil
+from ragg_runtime.reference.effects.memory import recoil
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE, averaging
 from ragg_runtime.reference.motion import MotionSignals, MotionState
 from ragg_runtime.reference.rotation import by_vector

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.reference.effects import memory
 from ragg_runtime.reference.effects.catalogue import Injected
 from ragg_runtime.reference.motion import MotionState
 from ragg_runtime.reference.taylor import Taylor, carried
@@ -45,6 +46,12 @@ def bias(
         value = value + step["dK0"][j] * (time >= step["t_step"])
     if warming := effects.get("thermal-lag"):
         value = value + warming["dK0_dTdot"][j] * auxiliaries[RATE_OF_TEMPERATURE]
+    if slipping := effects.get("bias-hysteresis"):
+        for n, axis in enumerate("iop"):
+            value = value + slipping[f"h_{axis}"][j] * auxiliaries[memory.friction("bias-hysteresis", j, n)]
+    if heated := effects.get("inner-temperature"):
+        value = value + heated["b"][j] * auxiliaries[memory.heat(j)]
+        value = value + heated["b_0"][j] * auxiliaries[memory.FORMER]
     return value
 
 
@@ -63,6 +70,9 @@ def gain(j: int, time: Array, auxiliaries: Mapping[str, Array], effects: Injecte
         factor = factor * (1 + balanced["dK1_di"][j] * auxiliaries["balance_current"])
     if warming := effects.get("thermal-lag"):
         factor = factor * (1 + warming["dK1_dTdot"][j] * auxiliaries[RATE_OF_TEMPERATURE])
+    if heated := effects.get("inner-temperature"):
+        former = heated["s_0"][j] * auxiliaries[memory.FORMER]
+        factor = factor * (1 + heated["s"][j] * auxiliaries[memory.heat(j)] + former)
     return factor
 
 

@@ -1,8 +1,9 @@
-"""Resonances of a mount and of accelerometers, as differential equations integrated in time from rest on."""
+"""What an instrument remembers: resonances, friction and heat, integrated in time from rest on."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,7 @@ from scipy import signal
 from scipy.interpolate import make_interp_spline
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.reference.effects.catalogue import Values
+from ragg_runtime.reference.effects.catalogue import Injected, Values
 from ragg_runtime.reference.motion import Signal
 
 Array = NDArray[np.float64]
@@ -55,6 +56,64 @@ def swallowed(values: Values, voltages: Callable[[Array], Array], time: Array) -
     rate = 1 / (fine[1] - fine[0])
     parts = zip(splines(fine), values["u"], values["v"], strict=True)
     return np.stack([_integrated(x, [v, u, 0.0], [b, d, 1.0], rate)[::few] for x, u, v in parts])
+
+
+MEMORIES = ("bias-hysteresis", "mount-hysteresis", "inner-temperature")
+"""Effects that depend on the past of a force or current."""
+
+
+FORMER = "former heat"
+"""Name of the series of what is left, 1 to 0, of the heat with which a record begins."""
+
+
+def friction(effect: str, j: int, axis: int) -> str:
+    """Name of the series, -1 to 1, that slips by the force along an axis, 0 to 2, of accelerometer j."""
+    return f"{effect} {j} {axis}"
+
+
+def heat(j: int) -> str:
+    """Name of the series of what heats accelerometer j, m^2/s^4."""
+    return f"heat {j}"
+
+
+def remembered(
+    effects: Injected, forces: Callable[[Array], Array], currents: Callable[[Array], Array], time: Array
+) -> Mapping[str, Callable[[Array], Array]]:
+    """Series that no record has, as functions of time, s: of the forces (n, 3, N) along the accelerometers' axes, and of their
+    currents (n, N) for a unit scale factor, m/s^2.
+    """
+    fine = np.linspace(time[0], time[-1], OVER * (len(time) - 1) + 1)
+    found: dict[str, Array] = {}
+    for effect in MEMORIES[:2]:
+        if effect in effects:
+            for j, f in enumerate(forces(fine)):
+                found |= {
+                    friction(effect, j, n): _held(x, float(effects[effect]["w"])) for n, x in enumerate(f)
+                }
+    if "inner-temperature" in effects:
+        tau = float(effects["inner-temperature"]["tau"])
+        if not tau > 0:
+            raise UserError("tau of inner-temperature must be positive", found=f"{tau:g} s")
+        found[FORMER] = np.exp((fine[0] - fine) / tau)
+        for j, i in enumerate(currents(fine)):
+            power = np.concatenate([[np.mean(i**2)], i**2])  # as on the average before
+            found[heat(j)] = _integrated(power, [1.0], [tau, 1.0], 1 / (fine[1] - fine[0]))[1:]
+    return {name: partial(_at, fine, x) for name, x in found.items()}
+
+
+def _at(fine: Array, x: Array, time: Array) -> Array:
+    return np.asarray(np.interp(time, fine, x))
+
+
+def _held(force: Array, w: float) -> Array:
+    """Friction (N,), over its greatest size: a spring that slips where the force has moved it by w."""
+    if not w > 0:
+        raise UserError("w of a hysteresis must be positive", found=f"{w:g} m/s^2")
+    found, now = np.zeros_like(force), 0.0
+    for n, step in enumerate(np.diff(force), 1):
+        now = min(max(now + step / w, -1.0), 1.0)
+        found[n] = now
+    return found
 
 
 def _integrated(

@@ -1,0 +1,222 @@
+"""What an instrument remembers: the record's own motion, force and heat, passed through what has the memory.
+
+With b = 1/(2 pi f_0)^2 and d = 1/(2 pi f_0 Q) a ``mount`` adds (H - 1) x to the motion x, H = (1 + d s)/(1 + d s + b s^2); an
+``accelerometer`` sees s/(1 + d s + b s^2) and s^2/(1 + d s + b s^2) of the force that turns with the disc; ``heat`` are products of
+that force behind 1/(1 + tau s), and exp(-t/tau); ``slip`` and ``play`` are what
+friction makes of it in a bias and in a mount, -1 to 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
+from scipy.interpolate import make_interp_spline
+
+from ragg_runtime.model.evaluator import find_places
+from ragg_runtime.model.model import DerivedEffect, Model
+from ragg_runtime.model.record import Record
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+SLIPPING = ("slip", "play")
+"""Kinds of memory that are alike, each of one effect."""
+
+FORGOTTEN = 14.0
+"""Time constants after which a linear response has forgotten: exp(-14) is a millionth."""
+
+SLIPPED = 120.0
+"""s in which a force has changed so often that it is forgotten where what slips has begun."""
+
+SETTLED = 3.0
+"""s in which a disc has turned the force over, so that what slips in it has slipped."""
+
+LEAST = 2e-3
+"""Least value of what describes a memory, in neutral ones: a fit may try others on its way."""
+
+SHARE = 0.15
+"""Of the standard deviation of the force in the disc's plane, at which a search for what slips begins: from 0.01 to 0.4 of it what is
+not absorbed by the calibration is alike by 0.7 and more (two flights)."""
+
+FINER = 4
+"""Instants a sample at which what slips is followed: a force turns back between samples."""
+
+DIFFERENCE = 1e-3
+"""Relative step of the width for the derivative by it: what slips has no derivative at some instants."""
+
+
+@dataclass(frozen=True)
+class Memory:
+    """Of an effect: its ``kind``, and the values, SI, that describe it: ``f_0`` and ``Q``, ``tau``, or ``w``."""
+
+    kind: str
+    values: Mapping[str, float]
+
+    @property
+    def lasts(self) -> float:
+        """For how long, s, it remembers."""
+        v = self.values
+        if self.kind in SLIPPING:
+            return SLIPPED
+        return FORGOTTEN * (v["tau"] if self.kind == "heat" else v["Q"] / (np.pi * v["f_0"]))
+
+    @property
+    def settles(self) -> float:
+        """After how long, s, it does not matter what was before a record; the state of heat there has parameters."""
+        return {"slip": SETTLED, "play": SETTLED, "heat": 0.0}.get(self.kind, self.lasts)
+
+
+def list_memories(model: Model, p: Array) -> Iterator[Memory]:
+    """Those of a model's effects, by the parameters p (size,), SI."""
+    for e in (e for e in model.effects if e.memory is not None):
+        places = find_places(model.chain)
+        shape = (q for q in e.parameters if q.shape)
+        yield Memory(
+            str(e.memory), {q.name: max(float(p[places[q.symbol].start]), LEAST * q.default) for q in shape}
+        )
+
+
+def first_memories(effects: Iterable[DerivedEffect], r: Record) -> Iterator[tuple[DerivedEffect, Memory]]:
+    """Those of effects that are not in the model: where a search in this record begins."""
+    for e in (e for e in effects if e.memory is not None):
+        values = {q.name: q.default for q in e.parameters if q.shape}
+        if e.memory in SLIPPING:
+            x, y, _ = (r.whole or r).along_disc
+            values = {"w": max(SHARE * float(np.hypot(np.nanstd(x), np.nanstd(y))), LEAST * values["w"])}
+        yield e, Memory(str(e.memory), values)
+
+
+def with_responses(r: Record, memories: Iterable[Memory], wanted: Container[str]) -> Record:
+    """The record with the ``wanted`` series that these memories make of it."""
+    wide = dict(r.wide)
+    for m in memories:
+        wide |= _responses(r, m, wanted)
+    return r if len(wide) == len(r.wide) else replace(r, wide=wide)
+
+
+def _responses(r: Record, m: Memory, wanted: Container[str]) -> dict[str, Array]:
+    """Name -> (before + N + after,), as the channels of a part."""
+    whole = r.whole or r
+    before, after = r.halo
+    start = int(np.searchsorted(whole.time, r.time[0])) - before
+    stop = start + before + len(r.time) + after
+    reach = min(int(np.ceil(m.lasts * r.rate)), len(whole.time))
+    first, last = max(start - reach, 0), min(stop + reach, len(whole.time))
+    near = whole.part(slice(first, last))
+    there = {n: _bridged(x, near.valid) for n, x in _given(m.kind, near).items()}
+    slips = m.kind in SLIPPING
+    found = _slip(there, m, wanted) if slips else _filtered(there, m, near.rate, reach, wanted)
+    if m.kind == "heat":
+        t, tau = near.time, m.values["tau"]
+        found |= {"heat_start": np.exp(-t / tau), "heat_start_by_tau": t / tau**2 * np.exp(-t / tau)}
+    return {n: x[start - first : stop - first] for n, x in found.items() if n in wanted}
+
+
+def _given(kind: str, r: Record) -> Mapping[str, Array]:
+    """What the memory is of."""
+    if kind == "mount":
+        motion = (f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
+        return {f"mount_{n}": r.channels[n] for n in motion if n in r.channels}
+    x, y, z = r.along_disc
+    force = (x * r.cos_phi + y * r.sin_phi, y * r.cos_phi - x * r.sin_phi, z)
+    if kind == "heat":
+        pairs = ((i, k) for i in range(3) for k in range(i, 3))
+        return {f"heat_{'rta'[i]}{'rta'[k]}": force[i] * force[k] for i, k in pairs}
+    names = ("radial", "tangential", "axial")
+    if kind in SLIPPING and not _stands_at_quarter_turns(r):
+        return {}
+    return dict(zip(names, force, strict=True))
+
+
+def _stands_at_quarter_turns(r: Record) -> bool:
+    """Whether each accelerometer's axes are those of the one at angle 0, up to their order and signs."""
+    return all(abs(cosine * sine) < 1e-9 for cosine, sine, _ in r.input_axes)
+
+
+def _bridged(x: Array, valid: NDArray[np.bool_]) -> Array:
+    """A series without holes: a part of a record has zeros for what is missing."""
+    there = valid | ((x != 0.0) & np.isfinite(x))
+    if there.all() or not there.any():
+        return x
+    at = np.arange(len(x))
+    return np.asarray(np.interp(at, at[there], x[there]))
+
+
+def _slip(force: Mapping[str, Array], m: Memory, wanted: Container[str]) -> dict[str, Array]:
+    found, w = {}, m.values["w"]
+    for axis, x in force.items():
+        name = f"{m.kind}_{axis}"
+        if name not in wanted:
+            continue
+        between = make_interp_spline(np.arange(len(x)), x, k=3)(np.arange(FINER * len(x)) / FINER)
+        found[name] = stop(between, w)[::FINER]
+        if f"{name}_by_w" in wanted:
+            narrower, wider = (stop(between, w * (1.0 + side * DIFFERENCE)) for side in (-1.0, 1.0))
+            found[f"{name}_by_w"] = (wider - narrower)[::FINER] / (2 * DIFFERENCE * w)
+    return found
+
+
+def stop(x: Array, w: float) -> Array:
+    """(N,): the stop operator of x, over w: it follows x between -1 and 1, at first from 0.
+
+    What has play follows by y = clip(y before, x - w, x + w). Two such steps are one with limits of their own, so that all are
+    put together in log2 N rounds.
+    """
+    low, high = x - w, x + w
+    low[0] = high[0] = x[0]
+    step = 1
+    while step < len(x):
+        ends = low[step:].copy(), high[step:].copy()
+        before = low[:-step].copy(), high[:-step].copy()
+        low[step:], high[step:] = np.clip(before[0], *ends), np.clip(before[1], *ends)
+        step *= 2
+    return (x - low) / w
+
+
+def _filtered(
+    given: Mapping[str, Array], m: Memory, rate: float, reach: int, wanted: Container[str]
+) -> dict[str, Array]:
+    found: dict[str, Array] = {}
+    for name, x in given.items():
+        length = next_fast_len(len(x) + 2 * reach, real=True)
+        s = np.asarray(2j * np.pi * rfftfreq(length, 1.0 / rate), dtype=np.complex128)
+        ways = {n: H for n, H in _transfer(m, name, s).items() if n in wanted}
+        if ways:
+            spectrum: Complex = rfft(_continued(x, reach, length - len(x) - reach))
+            for n, H in ways.items():
+                found[n] = float(H[0].real) * np.mean(x) + irfft(spectrum * H, length)[reach:][: len(x)]
+    return found
+
+
+def _continued(x: Array, before: int, after: int) -> Array:
+    """A series less its mean that goes on smoothly beyond both ends and fades: an edge would ring in all of it."""
+    level = np.mean(x)
+    longer = np.pad(x - level, (before, after), mode="reflect", reflect_type="odd")
+    longer[:before] *= 0.5 - 0.5 * np.cos(np.pi * (np.arange(before) + 0.5) / max(before, 1))
+    longer[len(longer) - after :] *= 0.5 + 0.5 * np.cos(np.pi * (np.arange(after) + 0.5) / max(after, 1))
+    return longer
+
+
+def _transfer(m: Memory, name: str, s: Complex) -> dict[str, Complex]:
+    """Response -> transfer function at s, 1/s, and its derivatives by what describes the memory."""
+    if m.kind == "heat":
+        H = 1 / (1 + m.values["tau"] * s)
+        return {name: H, f"{name}_by_tau": -s * H**2}
+    f_0, Q = m.values["f_0"], m.values["Q"]
+    d, b = 1 / (2 * np.pi * f_0 * Q), 1 / (2 * np.pi * f_0) ** 2
+    D = 1 + d * s + b * s**2
+    if m.kind == "mount":
+        ways = {name: (-b * s**2 / D, -(s**2) * (1 + d * s) / D**2, b * s**3 / D**2)}
+    else:
+        powers = {"rate": s, "curvature": s**2}
+        ways = {f"{k}_{name}": (N / D, -N * s**2 / D**2, -N * s / D**2) for k, N in powers.items()}
+    found: dict[str, Complex] = {}
+    for response, (H, by_b, by_d) in ways.items():
+        found[response] = H
+        found[f"{response}_by_f_0"] = -(2 * b * by_b + d * by_d) / f_0
+        found[f"{response}_by_Q"] = -d / Q * by_d
+    return found

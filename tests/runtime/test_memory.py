@@ -1,0 +1,112 @@
+"""What an instrument remembers: found, with what describes it, where the simulator has integrated it in time."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from diagnosed import diagnosed
+
+from ragg_runtime.estimation import fitted
+from ragg_runtime.estimation.observation import observe
+from ragg_runtime.model import derive
+from ragg_runtime.model import model as load
+from ragg_runtime.model.memory import first_memories, stop, with_responses
+from ragg_runtime.model.record import record
+from ragg_runtime.reference.effects import EffectValues
+from ragg_runtime.reference.scenario import scenario
+from tests.rate import RATE
+
+
+def resonance(effect: str, f_0: float, Q: float, share: float) -> EffectValues:
+    """A mount, or a mode of the first accelerometer, that carries so much of it."""
+    w = 2 * np.pi * f_0
+    own: dict[str, object] = {"share": share}
+    if effect == "accelerometer-resonance":
+        own = {"u": [share / (w * Q), 0, 0, 0], "v": [share / w**2, 0, 0, 0]}
+    return {effect: {"f_0": f_0, "Q": Q, **own}}  # type: ignore[dict-item]
+
+
+def of_first(effect: str, name: str, size: float, **shape: float) -> EffectValues:
+    """One coefficient, in the first accelerometer."""
+    return {effect: {name: [size, 0, 0, 0], **shape}}
+
+
+@pytest.mark.parametrize(
+    "hidden",
+    [
+        resonance("mount-resonance", 1.3, 4.0, 1.0),
+        resonance("accelerometer-resonance", 3.0, 15.0, 1e-5),
+        resonance("accelerometer-resonance", 1.5, 6.0, 3e-7),
+        of_first("bias-hysteresis", "h_i", 1e-8, w=0.04),
+        of_first("bias-hysteresis", "h_p", 1e-8, w=0.2),
+        of_first("mount-hysteresis", "e_yx", 1e-8, w=0.03),
+        of_first("mount-hysteresis", "e_zx", 1e-7, w=0.03),
+        of_first("inner-temperature", "b", 3e-6, tau=30.0),
+        of_first("inner-temperature", "s", 3e-6, tau=120.0),
+    ],
+    ids=str,
+)
+def test_what_describes_a_memory_is_fitted_down_to_noise(hidden: EffectValues) -> None:
+    s = scenario(72, duration=240.0)
+    sim = s.simulate(hidden)
+    ((effect, values),) = hidden.items()
+    model = derive.with_effects(s.sheet, load.packaged(), [effect])
+    f = fitted.fit(model, s.sheet, [observe(sim.flight(), s.sheet)], candidates=False)
+    kept = f.observations[0].record.valid
+    noise = float(np.std(sim.G_out - sim.G_out_noise_free))
+    assert np.std(f.residuals(np.zeros(f.n_base))[0][kept]) < 1.02 * noise
+    c = f.calibration
+    found = {
+        q.name.split(".")[1]: (c.p[k], q.scale * np.sqrt(v))
+        for q, k, v in zip(c.columns, c.index, np.diag(c.covariance), strict=True)
+        if q.effect
+    }
+    for name in {"f_0", "Q", "w", "tau"} & {*values}:
+        (value, std), true = found[name], float(np.asarray(values[name]))
+        assert std < 0.2 * true
+        assert abs(value - true) < 4 * std + 0.01 * true
+
+
+@pytest.mark.parametrize(
+    "hidden",
+    [
+        resonance("mount-resonance", 3.0, 15.0, 1.0),
+        of_first("bias-hysteresis", "h_i", 5e-9, w=0.1),
+        of_first("inner-temperature", "s", 5e-7, tau=15.0),
+    ],
+    ids=lambda x: next(iter(x)),
+)
+def test_what_remembers_is_named_alone(hidden: EffectValues) -> None:
+    s = scenario(5, duration=150.0, rate=RATE)
+    assert diagnosed(s, s.simulate(hidden).flight()).found == (*hidden,)
+
+
+def test_the_low_frequencies_of_an_accelerometers_resonance_are_not_two_effects() -> None:
+    s = scenario(5, duration=150.0, rate=RATE)
+    d = diagnosed(s, s.simulate(resonance("accelerometer-resonance", 3.0, 15.0, 3e-6)).flight())
+    assert (d.verdict, d.found) == ("unexplained", ())
+    assert "add accelerometer-resonance and compare" in d.reasons[0].text
+
+
+def test_what_slips_follows_the_force_within_its_width() -> None:
+    x = np.cumsum(np.random.default_rng(0).standard_normal(500))
+    expected, now = np.zeros(500), x[0]
+    for n in range(500):
+        now = min(max(now, x[n] - 3.0), x[n] + 3.0)
+        expected[n] = (x[n] - now) / 3.0
+    np.testing.assert_allclose(stop(x, 3.0), expected, atol=1e-12)
+
+
+def test_a_part_of_a_record_hears_what_the_whole_one_does() -> None:
+    s = scenario(72, duration=120.0)
+    r = record(s.simulate().flight(), s.sheet)
+    known = [m for _, m in first_memories(load.packaged().candidates, r)]
+    names = (
+        *("mount_a_x", "curvature_tangential", "rate_radial_by_f_0", "rate_radial_by_Q"),
+        *("slip_radial", "play_axial", "play_axial_by_w", "heat_rt", "heat_start_by_tau"),
+    )
+    whole, part = (with_responses(x, known, names) for x in (r, r.part(slice(900, 1000))))
+    for name in names:
+        expected, got = whole.series(name), part.series(name)
+        assert expected is not None and got is not None
+        assert np.max(np.abs(got - expected[900:1000])) < 1e-4 * np.std(expected)
