@@ -214,7 +214,8 @@ def _of_one_kind(found: Evidence, effects: Sequence[str]) -> str | None:
     """The effect of which several of these, or what cannot be told from them, are special cases: of a resonance its low frequencies."""
     others = found.alternatives()
     groups = [{e, *others.get(e, ())} for e in effects]
-    kinds = {e.id: {e.id, *e.contains} for e in found.first.fitted.model.candidates}
+    # those that are searched for have been compared themselves
+    kinds = {e.id: {e.id, *e.contains} for e in found.first.fitted.model.candidates if not e.searched}
     return next((k for k, own in kinds.items() if sum(bool(own & g) for g in groups) > 1), None)
 
 
