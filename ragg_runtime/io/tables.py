@@ -204,7 +204,8 @@ def make_table(
         Further fields of the table.
     """
     given, arrays = given or {}, [(n, _read_array(x), dict(*a)) for n, x, *a in arrays]
-    sizes = [(read_heading(n)[0], max(x.shape)) for n, x, _ in arrays if _is_narrow(x.shape)]
+    numbers = [a for a in arrays if a[1].dtype.kind not in "OSUT"] or arrays  # texts may be names of columns
+    sizes = [(read_heading(n)[0], max(x.shape)) for n, x, _ in numbers if _is_narrow(x.shape)]
     common = Counter(size for _, size in sizes if size > 1).most_common(1)
     length = next((size for n, size in sizes if n == "time" and size > 1), common[0][0] if common else 1)
     lists = {n: x for n, x, _ in arrays if n.casefold() in (*_TITLES, "units") and x.dtype.kind in "OSUT"}
