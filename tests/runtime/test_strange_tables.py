@@ -275,9 +275,9 @@ def test_vectors_and_channels_apart(tmp_path: Path, ending: str) -> None:
                 file[f"{n}/time"], file[f"{n}/value"] = VALUES["time"], VALUES[n]
                 file[f"{n}/time"].attrs["units"], file[f"{n}/value"].attrs["units"] = "s", UNITS[n]
     elif ending == ".mat":
-        savemat(
-            path, {"x": {"data": np.stack([*VALUES.values()], 1), "colheaders": np.array(HEADER, object)}}
-        )
+        names = np.array(HEADER, object)
+        data = np.stack([*VALUES.values()], 1)
+        savemat(path, {"x": {"data": data, "colheaders": names, "textdata": names}})
     else:
         a, omega = (np.stack([VALUES[f"{n}_{k}"] for k in "xyz"], 1) for n in ("a", "omega"))
         one = {
