@@ -65,7 +65,7 @@ def shown(command: str, samples: int) -> Iterator[None]:
         pause = 1.0 if terminal else max(INTERVAL, 0.02 * (now - start) / share)
         if now >= due:
             due = now + pause
-            text = f"... {100 * share:.0f} % done, {_left(share, now - start)}"
+            text = f"... {_describe(share, now - start)}"
             click.echo(f"\r{text:<60}" if terminal else text, err=True, nl=not terminal)
 
     with listening(tell):
@@ -74,10 +74,10 @@ def shown(command: str, samples: int) -> Iterator[None]:
         click.echo(f"\r{'':<60}\r", err=True, nl=False)
 
 
-def _left(share: float, spent: float) -> str:
+def _describe(share: float, spent: float) -> str:
     if share >= BEYOND:
-        return f"takes longer than estimated, {_duration(spent)} so far"
-    return f"about {_duration(spent * (1 / share - 1))} left"
+        return f"{_duration(spent)} so far, longer than estimated"
+    return f"{100 * share:.0f} % done, about {_duration(spent * (1 / share - 1))} left"
 
 
 def _duration(seconds: float) -> str:

@@ -13,7 +13,7 @@ from ragg_runtime.base import progress
     ("passes", "pause", "last"),
     [
         ([0.05] * 10, 12.0, "... 50 % done, about 2 min left"),
-        ([1.0] * 2, 300.0, "... 99 % done, takes longer than estimated, 10 min so far"),
+        ([1.0] * 2, 300.0, "... 10 min so far, longer than estimated"),
         ([0.1], 1.0, ""),  # a short command
     ],
 )
