@@ -55,14 +55,14 @@ class Stage:
 
     @staticmethod
     def of(f: Fitted, *, beside: bool = False) -> Stage:
-        """Of a fit. If widened priors of the sheet leave no effect, and effects beside the sheet's own priors are more probable, of
-        the fit with these.
+        """Of a fit, or of one with the sheet's own priors, if effects beside these are more probable than priors that were widened.
 
         ``beside``: of what is left beside effects that were taken into the model.
         """
         stage = Stage._of(f, beside)
-        said = None if stage.choice.chosen else _with_priors_of_sheet(f)
-        if said is None:
+        said = _with_priors_of_sheet(f)
+        # what is stronger is no matter of linear tests: it is tried in the model, where the sheet has its own priors
+        if said is None or said.calibration.chi2 > f.calibration.chi2 + STRONG:
             return stage
         other = Stage._of(said, beside)
         return other if other._deviance(said) < stage._deviance(f) else stage

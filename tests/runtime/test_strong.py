@@ -59,8 +59,8 @@ def test_a_strong_effect_is_found_and_nothing_beside_it(name: str) -> None:
 
 
 def test_an_effect_that_a_sheet_with_larger_errors_would_absorb_is_found() -> None:
-    s = scenario(6, duration=400.0, rate=4.0)
-    d = diagnosed(s, s.simulate({"spin-phase-offset": {"phi_0": 3e-3}}).flight())
+    s = scenario(5, duration=400.0, rate=4.0)
+    d = diagnosed(s, s.simulate({"spin-phase-offset": {"phi_0": 2e-3}}).flight())
     assert (d.verdict, d.found) == ("missing-effect", ("spin-phase-offset",))
 
 
