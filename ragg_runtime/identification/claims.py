@@ -4,7 +4,8 @@ A model is never complete: y = h(theta) + d + n, with d what no effect explains.
 
 (a) the claims together explain more than generic terms could on the residual of the model without them: the difference of log
     evidence (``probability.log_bayes``), each side charged for its coefficients and for what it was chosen from. Where d is
-    significant its generic terms have Gaussian coefficients of one fitted variance, and the claims must be ahead plainly;
+    significant its generic terms have Gaussian coefficients of one fitted variance, the claims must be ahead plainly, and each must
+    explain more than the best generic term of d;
 (b) its coefficients are significant with a variance estimated from their scores in blocks of time (P. Huber 1967; H. White, Econometrica
     48, 1980), of few blocks with the correction CR2 (R. Bell and D. McCaffrey, Survey Methodology 28, 2002);
 (c) held-out, interleaved blocks of time do not speak against it, by their predictive density.
