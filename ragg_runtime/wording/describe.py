@@ -457,15 +457,21 @@ def _next_motions(proposals: Sequence[Json]) -> Sections:
     return (Section(title="Next motion", sentences=said),) if said else ()
 
 
+def _write_size(text: str) -> str:
+    """``dK1/dT = 8.4 × 10⁻⁹ 1/K`` of the JSON's ``dK1_dT = 8.39e-09 1/K``."""
+    found = re.fullmatch(r"(\S+) = ([-+.\de]+) (.*)", text)
+    if found is None:
+        return text
+    name, value, unit = found.groups()
+    return f"{numbers.parameter(name)} = {numbers.with_unit(number(float(value), 2), unit)}"
+
+
 def _untestable(d: Json) -> Sections:
     """Effects that this record cannot test, and how large the others would have to be."""
     silent = tuple((str(n["effect"]), str(n["why"])) for n in d["not_testable"])
     sizes: dict[str, list[str]] = {}
     for s in d["detectable"]:
-        name, _, size = str(s["three_sigma"]).partition(" = ")
-        value, _, unit = size.partition(" ")
-        shown = numbers.with_unit(number(float(value), 2), unit)
-        sizes.setdefault(s["effect"], []).append(f"{numbers.parameter(name)} = {shown}")
+        sizes.setdefault(s["effect"], []).append(_write_size(str(s["three_sigma"])))
     found = []
     if silent:
         count = f"{counted(len(silent), 'effect')} of the catalogue cannot be tested on this record"
