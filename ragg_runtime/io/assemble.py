@@ -26,6 +26,7 @@ from ragg_runtime.io.record import (
 from ragg_runtime.io.recording import NEEDED, pass_over
 from ragg_runtime.io.sampling import Grid, make_grid
 from ragg_runtime.io.tables import DataTable
+from ragg_runtime.io.text_tables import TWO_ROWS
 from ragg_runtime.signals.angular_acceleration import derive_accelerations
 from ragg_runtime.signals.derivative import runs
 
@@ -167,7 +168,7 @@ def _require_names(made: DataTable, needed: Sequence[str], what: str) -> None:
 
 
 def _list_columns(made: DataTable, names: Sequence[str]) -> str:
-    told = [n for n in made.notes if n.startswith("skipped,")]
+    told = [n for n in made.notes if n.startswith(("skipped,", TWO_ROWS))]
     told += [pass_over(made.passed)] if made.passed else []
     return "; ".join(["the columns " + ", ".join(names), *told])
 

@@ -52,6 +52,9 @@ QUANTITY = re.compile(
 )
 """A number with its unit in one cell."""
 
+TWO_ROWS = "the header stands over two rows, which are joined"
+"""A note: of merged cells, for example."""
+
 _LOOKED_AT = 600  # lines that are looked at to find the header and to separate numbers from text
 _CELL_OF_XML = 4  # bytes in memory for one of a sheet's XML: a cell of 25 bytes becomes an object of 100
 _NOT_CSV = "the file is not a table of comma-separated values"
@@ -73,14 +76,15 @@ _OTHER_WIDTH = re.compile(r"CSV parse error: (?:Row #(\d+): )?Expected (\d+) col
 
 @dataclass(frozen=True)
 class Header:
-    """Names and units of the columns of a table, the position of its first row of data, and the share of rows that are
-    data from there on.
+    """Names and units of the columns of a table, the position of its first row of data, the share of rows that are
+    data from there on, and what was made of it.
     """
 
     names: tuple[str, ...]
     units: tuple[str, ...]
     begins: int
     share: float
+    notes: tuple[str, ...] = ()
 
 
 def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
@@ -119,9 +123,9 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
             if (found := read_units(parts[k])) is not None:
                 units, parts = found, parts[:k]
                 break
-    names = parts[-1]
+    names, notes = parts[-1], tuple[str, ...]()
     if len(parts) > 1 and sum(map(bool, parts[-2])) > 1 and _needs_a_row_above(names):
-        names = _join_rows(parts[-2], names)
+        names, notes = _join_rows(parts[-2], names), (TWO_ROWS,)
     headings = [h if h[0] else (n.strip(), "") for n, h in zip(names, read_headings(names), strict=True)]
     share = sum(data[first:]) / max(1, len(data) - first)
     return Header(
@@ -129,6 +133,7 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
         units=tuple(own or u for (_, own), u in zip(headings, units, strict=True)),
         begins=begins,
         share=share,
+        notes=notes,
     )
 
 
@@ -246,6 +251,7 @@ def read_csv(path: Path) -> list[DataTable]:
         elif _holds_values(x):
             notes.append(f"column {k + 1} has no name; it is skipped")
     index = INDEX if columns and columns[0].name == INDEX else None
+    notes += dialect.header.notes
     return [DataTable(tuple(columns), notes=tuple(notes), index=index, counts=("line", dialect.lines + 1))]
 
 
@@ -421,7 +427,8 @@ def _read_sheet(name: str, cells: list[list[Any]]) -> DataTable | None:
         for k, n in enumerate(header.names)
         if n
     )
-    return DataTable(columns, line=name, part=name, counts=("row", data[0][0] if data else 1))
+    counts = ("row", data[0][0] if data else 1)
+    return DataTable(columns, line=name, part=name, notes=header.notes, counts=counts)
 
 
 def _read_column(cells: Sequence[Any]) -> NDArray[Any]:

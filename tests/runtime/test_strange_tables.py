@@ -489,3 +489,10 @@ def test_a_decimal_comma_in_a_quantity() -> None:
     assert units(G0).quantity("0,1 m").value == 0.1
     with pytest.raises(UserError, match="not a unit"):  # a thousand, or one?
         units(G0).quantity("1,234 m")
+
+
+def test_a_header_over_two_rows_is_named_where_its_names_are_not_known(tmp_path: Path) -> None:
+    rows_above = "time [s],force [g],,,rate [deg/h],,,G_out [V]\n,x,y,z,x,y,z,"
+    (tmp_path / "x.csv").write_text(text(rows_above, rows()))
+    with pytest.raises(UserError, match=r"columns time, force_x.*G_out; the header stands over two rows"):
+        read_flight(tmp_path / "x.csv", G0)
