@@ -148,6 +148,7 @@ The tables are made from `benchmarks/diagnosis/*.csv`.
 
     python -m benchmarks.diagnosis --jobs 2 --against benchmarks/diagnosis/reference.csv
     python -m benchmarks.diagnosis --array --real FOLDER
+    python -m benchmarks.diagnosis --catalogue
     python -m benchmarks.diagnosis --ablate --jobs 2
 """
 
