@@ -15,7 +15,7 @@ from scipy.special import comb
 
 from ragg_runtime.estimation import calibration, whitening
 from ragg_runtime.estimation.calibration import QUIET, prior_volume, restore_priors
-from ragg_runtime.estimation.fitted import Fitted, about, fit
+from ragg_runtime.estimation.fitted import Fitted, about, fit, with_held
 from ragg_runtime.estimation.least_squares import below, fold, prior
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS
@@ -233,10 +233,22 @@ def _in_model(stage: Stage, effect: str, alternatives: tuple[str, ...], extend: 
         effect=effect,
         test=stage.choice.tests[effect],
         before=f,
-        after=fit(model, instrument, f.observations),
+        after=_with_released(fit(model, instrument, f.observations)),
         alternatives=alternatives,
         instant=stage.instants.get(effect),
     )
+
+
+def _with_released(f: Fitted) -> Fitted:
+    """The fit with all coefficients of its effects, if those that were held are plainly needed: beside the strongest a test sees few."""
+    if not f.instrument.held:
+        return f
+    free = with_held(f)
+    gain = float(np.sum(f.whole[f.n_base :, -1] ** 2) - np.sum(free.whole[free.n_base :, -1] ** 2))
+    if log_bayes(gain, free.n_base - f.n_base) < selection.DISTINGUISHABLE:
+        return f
+    released = replace(f.instrument, held=frozenset())
+    return fit(f.model, released, f.observations, start=f.calibration.p)
 
 
 def _alike(a: Test, b: Test) -> bool:

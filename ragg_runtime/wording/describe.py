@@ -253,7 +253,8 @@ def write_verdict(d: Json) -> str:
     if d["verdict"] == "missing-effect":
         return f"Missing: {found}. {falls}; the noise floor is {format_error(noise)} Eo."
     if d["verdict"] == "partly-explained":
-        return f"Partly explained: {found}. {falls}. Not yet explained: {number(left, 2)} Eo{mostly}."
+        rest = f"{number(left, 2)} Eo" if left > 0.05 * noise["rms_Eo"] else "less than the noise"
+        return f"Partly explained: {found}. {falls}. Not yet explained: {rest}{mostly}."
     remain = excess(before["rms_Eo"], noise["rms_Eo"])
     size = (
         f"the other {number(remain, 2)} Eo"

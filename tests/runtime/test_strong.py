@@ -64,6 +64,15 @@ def test_an_effect_that_a_sheet_with_larger_errors_would_absorb_is_found() -> No
     assert (d.verdict, d.found) == ("missing-effect", ("spin-phase-offset",))
 
 
+def test_a_strong_effect_gets_the_coefficients_that_are_weak_beside_its_strongest() -> None:
+    s = scenario(5, duration=300.0, rate=RATE)
+    true = np.array([8.0, -3.0, 2.0, -5.0]) * 1e-6
+    d = diagnosed(s, s.simulate({"thermal-misalignment": {"dvartheta_y_dT": true.tolist()}}).flight())
+    assert d.found == ("thermal-misalignment",)
+    for p, right in zip(d.ranking[0].combinations, (8.0, 11.0, 7.0), strict=False):
+        assert abs(p.value - right) < 3.0 * p.std < 4.0
+
+
 def sheet_of_a_mems(s: Scenario) -> dict[str, Any]:
     arcsec = np.pi / 180 / 3600
     angles = dict.fromkeys(("beta_x", "beta_z", "vartheta_y", "vartheta_z"), 1800 * arcsec)
