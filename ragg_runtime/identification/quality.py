@@ -84,8 +84,9 @@ def _without_imitations(
     term = _imitated_term(d, imitated) if d.remains else None
     if not alike and term is None:
         return d
-    what = ", ".join([*alike, *([] if term is None else [f"the residual, mostly {term},"])])
-    said = f"{what} is no more than the noise of {', '.join(noisy)} can imitate"
+    what = [*alike, *([] if term is None else [f"the residual (mostly {term})"])]
+    are = "is" if len(what) == 1 else "are"
+    said = f"{', '.join(what)} {are} no more than the noise of {', '.join(noisy)} can imitate"
     verdict = name_verdict(claimed=bool(kept), remains=d.remains and term is None)
     groups = tuple(g for g in d.groups if g.effects[0] in kept)
     return replace(d, verdict=verdict, found=kept, groups=groups, reasons=(Reason(said),))

@@ -76,7 +76,7 @@ class Conclusion:
         remains = remains or (outcome.exceeds_noise and not random)
         claimed: tuple[str, ...] = ()
         doubted = apart or outcome.explained.complaint is not None
-        if base is not None and not doubted:
+        if base is not None and not doubted and outcome.complaint is None:
             claimed = _claims(found, outcome, count, base)
         rival = bool(outcome.effects) and not claimed and not remains
         if rival and base is not None:  # generic terms do as well as what was chosen: they are what is left
