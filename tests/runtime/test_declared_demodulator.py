@@ -110,7 +110,8 @@ def test_channels_every_second_are_seen_both() -> None:
     seldom = np.arange(len(x)) % 16 == 0
     right = {n: np.where(seldom, v, np.nan) for n, v in x.outputs.items()}
     c = compared(replace(x, outputs=right), "matched")
-    assert c.adequate and c.noise_floor == pytest.approx(c.calibrated.rms_Eo, rel=0.25)
+    # of 480 samples, of which the calibration explains some of the noise, the held-out error tells the noise
+    assert c.adequate and c.noise_floor == pytest.approx(c.holdout.rms_Eo, rel=0.25)
     wrong = right | {"inline": right["inline"] * 1.001}
     assert compared(replace(x, outputs=wrong), "matched").calibrated.rms_Eo > 3 * c.calibrated.rms_Eo
 

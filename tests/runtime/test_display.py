@@ -125,8 +125,11 @@ def test_every_verdict_has_its_sentence(result: Result) -> None:
     }
     left: Any = dict(d["unexplained"]) | {"terms": [term]}  # type: ignore[call-overload]
     partly = d | {"verdict": "partly-explained", "unexplained": left}
-    assert ". Not yet explained: " in describe.write_verdict(partly)
-    assert describe.write_verdict(partly).endswith(" Eo, mostly at cos 2Ωt × a_x.")
+    assert describe.write_verdict(partly).endswith(
+        ". Not yet explained: less than the noise, mostly at cos 2Ωt × a_x."
+    )
+    quiet = partly | {"noise_floor": dict(d["noise_floor"]) | {"rms_Eo": 1.0}}  # type: ignore[call-overload]
+    assert describe.write_verdict(quiet).endswith(" Eo, mostly at cos 2Ωt × a_x.")
     nothing = d | {"verdict": "unexplained", "found": [], "unexplained": left}
     assert describe.write_verdict(nothing).startswith("Unexplained: ")
     assert "Not explained:" in render_text(describe.describe_diagnosis(nothing))

@@ -239,9 +239,9 @@ def test_a_step_of_the_clock_is_found_with_its_time(size: float, digits: int) ->
 
 
 def test_steps_that_cannot_be_followed_are_named_with_the_rate_between_them() -> None:
-    stamps = TIME + 0.012 * (TIME > 100) - 0.041 * (TIME > 125)
+    stamps = TIME + 0.025 * (TIME > 100) - 0.06 * (TIME > 125)
     with pytest.raises(
-        UserError, match=r"by 0.012 s at t = 100[.\d]* s, by -0.041 s at t = 125[.\d]* s: was"
+        UserError, match=r"by 0.025 s at t = 100[.\d]* s, by -0.06 s at t = 125[.\d]* s: was"
     ) as caught:
         make_grid(stamps, None)
     assert "row / 16 Hz" in str(caught.value)
