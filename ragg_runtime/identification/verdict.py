@@ -203,7 +203,9 @@ def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) 
         return ()
     ahead = _ahead(found, o, count, base)
     if o.remains:
-        return o.effects if ahead > claims.PLAINLY else ()
+        chi2, rank = found.explained(o)
+        more = chi2 - rank > claims.MORE * claims.best_single(base)
+        return o.effects if more and ahead > claims.PLAINLY else ()
     # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
     if len(o.effects) == 1:
         return o.effects if ahead > -claims.PLAINLY else ()
