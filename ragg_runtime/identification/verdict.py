@@ -62,7 +62,7 @@ class Conclusion:
             if e is not None and _is_needed(found, outcome, e):
                 needed.append(e)
                 continue
-            e = e or _contradicted(outcome, first)
+            e = e or _contradicted(outcome, first) or _unfitted(found, outcome)
             if e is None:
                 break
             weak.append(e)
@@ -76,7 +76,7 @@ class Conclusion:
         remains = remains or (outcome.exceeds_noise and not random)
         claimed: tuple[str, ...] = ()
         doubted = apart or outcome.explained.complaint is not None
-        if base is not None and not doubted and outcome.complaint is None:
+        if base is not None and not doubted:
             claimed = _claims(found, outcome, count, base)
         rival = bool(outcome.effects) and not claimed and not remains
         if rival and base is not None:  # generic terms do as well as what was chosen: they are what is left
@@ -195,6 +195,12 @@ def _contradicted(o: Outcome, first: Stage) -> str | None:
     speaks = {e: claims.held_out_evidence(o.robust.regression, e) for e in o.effects if e not in instants}
     worst = min(speaks, key=lambda e: (speaks[e], e), default=None)
     return worst if worst is not None and speaks[worst] < -claims.PLAINLY else None
+
+
+def _unfitted(found: Evidence, o: Outcome) -> str | None:
+    """The least significant effect of a fit that has not converged."""
+    log_p = {} if o.complaint is None else {e: found.test(e).log_p for e in o.effects}
+    return max(log_p, key=lambda e: (log_p[e], e), default=None)
 
 
 def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> tuple[str, ...]:
