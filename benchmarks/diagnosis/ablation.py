@@ -259,7 +259,7 @@ RULES: tuple[Rule, ...] = (
          (Patch("screening.screen:flag_noise", lambda *args: ({}, []), acts=lambda found: bool(found[0])),)),
     Rule("clock", "steps of the recorder's clock are found and undone",
          quiet("rounded-stamps", "uneven-stamps", "clock-set", "from-2-s", "from-10-s"),
-         ("screening/screen.py:_with_right_clock", "screening/screen.py:_evenly"),
+         ("screening/screen.py:_with_right_clock", "screening/screen.py:_is_even"),
          (Patch("screening.screen:_with_right_clock", lambda model, instrument, s: s.flight),)),
     Rule("mistakes", "mistakes of units, signs, axes and order are tried",
          (*quiet("clock-set", "codes", "stuck", "from-10-s"), *OFF), ("screening/mistakes.py",),

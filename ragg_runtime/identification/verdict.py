@@ -76,7 +76,8 @@ class Conclusion:
         remains = remains or (outcome.exceeds_noise and not random)
         claimed: tuple[str, ...] = ()
         doubted = apart or outcome.explained.complaint is not None
-        if base is not None and not doubted:
+        one = _of_one_kind(found, outcome.effects)
+        if base is not None and not doubted and one is None:
             claimed = _claims(found, outcome, count, base)
         rival = bool(outcome.effects) and not claimed and not remains
         if rival and base is not None:  # generic terms do as well as what was chosen: they are what is left
@@ -98,7 +99,7 @@ class Conclusion:
             open=tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in unsure)) if e not in claimed)),
             share=share,
             rival=rival,
-            one=None if claimed else _of_one_kind(found, outcome.effects),
+            one=None if claimed else one,
         )
 
     @property
@@ -205,7 +206,7 @@ def _unfitted(found: Evidence, o: Outcome) -> str | None:
 
 def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> tuple[str, ...]:
     """What of an outcome's effects may be claimed (``claims``)."""
-    if not o.effects or _of_one_kind(found, o.effects):
+    if not o.effects:
         return ()
     ahead = _ahead(found, o, count, base)
     if o.remains:

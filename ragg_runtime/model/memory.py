@@ -2,8 +2,7 @@
 
 With b = 1/(2 pi f_0)^2 and d = 1/(2 pi f_0 Q) a ``mount`` adds (H - 1) x to the motion x, H = (1 + d s)/(1 + d s + b s^2); an
 ``accelerometer`` sees s/(1 + d s + b s^2) and s^2/(1 + d s + b s^2) of the force that turns with the disc; ``heat`` are products of
-that force behind 1/(1 + tau s), and exp(-t/tau); ``slip`` and ``play`` are what
-friction makes of it in a bias and in a mount, -1 to 1.
+that force behind 1/(1 + tau s), and exp(-t/tau); ``slip`` and ``play`` are what friction makes of it in a bias and in a mount, -1 to 1.
 """
 
 from __future__ import annotations
@@ -72,8 +71,8 @@ class Memory:
 
 def list_memories(model: Model, p: Array) -> Iterator[Memory]:
     """Those of a model's effects, by the parameters p (size,), SI."""
+    places = find_places(model.chain)
     for e in (e for e in model.effects if e.memory is not None):
-        places = find_places(model.chain)
         shape = (q for q in e.parameters if q.shape)
         yield Memory(
             str(e.memory), {q.name: max(float(p[places[q.symbol].start]), LEAST * q.default) for q in shape}
