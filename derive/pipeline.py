@@ -143,7 +143,7 @@ def _chains(
     title = "The instrument as a chain of stages (paper, Eq. 1-15)."
     chains = [ir.chain(active, "chain", title, form.order, kinematics=form.kinematics, layout=form.layout)]
     known = {e.id for e in effects}
-    open_ = [e for e in candidates if e.id not in known and e.kind != "output"]
+    open_ = [e for e in candidates if e.id not in known and e.kind != "output" and e.searched]
     if open_:
         title = "Signatures: what each candidate effect would add to V_j."
         chains.append(

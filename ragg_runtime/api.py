@@ -339,8 +339,8 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
     # a candidate of the model has all that is needed here; importing the derivation takes half a second
     found = next((e for e in m.model.candidates if e.id == effect), None)
     offered = derive.offered(m.instrument, effect) if found is None else found
-    present = m.instrument.effect(effect)
-    if present is not None and present.values:
+    present = m.instrument.effect(effect) or EffectSetting(effect)
+    if {q.name for q in offered.parameters if not q.shape} & present.values.keys():
         raise UserError(
             "the effect is already in the model",
             where=str(m.directory.path),
@@ -357,11 +357,10 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
                 expected="a column of that name with its unit",
                 remedy="record it, or choose another effect",
             )
-    values: dict[str, RawQuantity] = {}
+    values = dict(present.values)
     if offered.kind == "step" and flights:
         values = {"t_step": RawQuantity(_instant(m, effect, flights), "s")}
-    expression = present.expression if present is not None else None
-    return EffectSetting(effect, MappingProxyType(values), expression)
+    return replace(present, values=MappingProxyType(values))
 
 
 def _instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> float:

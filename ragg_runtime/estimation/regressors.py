@@ -85,7 +85,9 @@ def list_base_columns(model: Model, instrument: Instrument) -> list[tuple[Column
             found.append((column, start[q.name] + j))
     for e in model.effects:
         if e.kind in ("deterministic", "step"):
-            own = ((c, s) for c, s in _of_effect(e, known, instrument) if c.label not in instrument.held)
+            setting = instrument.effect(e.id)
+            out = instrument.held | {f"{e.id}.{n}" for n in (setting.fixed if setting else ())}
+            own = ((c, s) for c, s in _of_effect(e, known, instrument) if not {c.name, c.label} & out)
             found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in own]
     return found
 
@@ -97,9 +99,10 @@ def own_columns(columns: Sequence[Column], instrument: Instrument, place: int) -
 
 
 def list_candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
-    """The parameters of the effects that are not in the model, in the order of the signatures' rows."""
+    """The parameters of the effects that are searched for and not in the model, in the order of the signatures' rows."""
     known = units(instrument.g0)
-    return [c for e in model.candidates if e.kind != "output" for c, _ in _of_effect(e, known, instrument)]
+    searched = (e for e in model.candidates if e.kind != "output" and e.searched)
+    return [c for e in searched for c, _ in _of_effect(e, known, instrument)]
 
 
 def tested_columns(model: Model, instrument: Instrument, records: Sequence[Record]) -> tuple[int, ...]:
@@ -111,7 +114,7 @@ def tested_columns(model: Model, instrument: Instrument, records: Sequence[Recor
         e = effects[c.effect or ""]
         q = next(q for q in e.parameters if c.name == f"{e.id}.{q.name}")
         there = q.channel is None or any(q.channel in h for h in have)
-        return there and e.searched and not q.shape and not any(e.missing(h) for h in have)
+        return there and not q.shape and not any(e.missing(h) for h in have)
 
     return tuple(n for n, c in enumerate(list_candidate_columns(model, instrument)) if is_tested(c))
 

@@ -25,6 +25,7 @@ from ragg_runtime.instrument.units import RawQuantity, Units, units
 class EffectSetting:
     """An entry of ``effects`` in model.toml; ``values`` as the user wrote them, with units.
 
+    ``fixed``: parameters that are not fitted.
     ``expression``: ``stage``, ``add`` and ``params`` (name -> at least ``unit``) of an effect that is one line; else
     ``None``.
     """
@@ -32,6 +33,7 @@ class EffectSetting:
     id: str
     values: Mapping[str, RawQuantity] = field(default_factory=lambda: MappingProxyType({}))
     expression: Mapping[str, Any] | None = None
+    fixed: frozenset[str] = frozenset()
 
     def si(
         self,

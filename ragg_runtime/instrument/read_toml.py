@@ -115,10 +115,9 @@ def _accelerometers(
     for name, raw in table.items():
         place = at(path, f"[accelerometers] {name}")
         si_unit = PARAMETER[name].si_unit
-        own = {k: v for k, v in raw.items() if k not in ("sigma", "fixed")} if isinstance(raw, dict) else raw
-        quantity = read_quantity(own, place, count=count)
+        quantity = read_quantity(_without(raw, "sigma", "fixed"), place, count=count)
         found[name] = read_si(quantity, si_unit, g0, place)
-        if isinstance(raw, dict) and check_choice(raw.get("fixed", False), (False, True), f"{place}, fixed"):
+        if _is_fixed(raw, place):
             fixed.add(name)
         if isinstance(raw, dict) and "sigma" in raw:
             where = f"{place}, sigma"
@@ -128,6 +127,15 @@ def _accelerometers(
                 expected = f"one or {'four' if count == 4 else count} above 0, in {quantity.unit}; omit it if unknown"
                 raise UserError("sigma must be positive", where=where, found=raw["sigma"], expected=expected)
     return found, sigmas, frozenset(fixed)
+
+
+def _is_fixed(raw: object, where: str) -> bool:
+    return isinstance(raw, dict) and check_choice(raw.get("fixed", False), (False, True), f"{where}, fixed")
+
+
+def _without(raw: object, *keys: str) -> object:
+    """A quantity as written, less what is said of it besides."""
+    return {k: v for k, v in raw.items() if k not in keys} if isinstance(raw, dict) else raw
 
 
 def _effects(
@@ -176,8 +184,12 @@ def _effect(entry: object, where: str, known: Units, count: int) -> EffectSettin
             for name, parameter in expression["params"].items()
             if "value" in parameter
         }
-    values = {name: known.quantity(raw, f"{where}: {name}", count=count) for name, raw in own.items()}
-    return EffectSetting(effect_id, MappingProxyType(values), expression)
+    fixed = {name for name, raw in own.items() if _is_fixed(raw, f"{where}: {name}")}
+    values = {
+        name: known.quantity(_without(raw, "fixed"), f"{where}: {name}", count=count)
+        for name, raw in own.items()
+    }
+    return EffectSetting(effect_id, MappingProxyType(values), expression, frozenset(fixed))
 
 
 def _expression(entry: Mapping[str, Any], where: str, known: Units) -> Mapping[str, Any] | None:

@@ -46,7 +46,7 @@ def about(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
 
 
 def _at_neutral(model: Model, p: Array) -> Array:
-    neutral = {q.symbol: q.neutral for e in model.effects for q in e.parameters if q.shape}
+    neutral = {q.symbol: q.neutral for e in model.effects if e.memory for q in e.parameters if q.shape}
     rest, places = p.copy(), find_places(model.chain)
     for name, value in neutral.items():
         rest[places[name]] = value

@@ -85,7 +85,7 @@ def gradient_series(time: ArrayLike, tensor: ArrayLike) -> Gradient:
 
 @dataclass(frozen=True)
 class PointMass:
-    """Newton's law for one point mass, kg (Eq. 49); ``position``: (3,) m, or a function of time (N,) s -> (3, N)."""
+    """Newton's law for one point mass, kg (Eq. 49); ``position``: (3,) or (3, N) m, or a function of time (N,) s -> (3, N)."""
 
     mass: float
     position: Sequence[float] | Array | Track
@@ -93,7 +93,7 @@ class PointMass:
     def _at(self, time: Array) -> Array:
         if callable(self.position):
             return np.asarray(self.position(time), dtype=np.float64)
-        return np.repeat(np.asarray(self.position, dtype=np.float64)[:, None], time.size, axis=1)
+        return np.broadcast_to(np.reshape(self.position, (3, -1)), (3, time.size))
 
     def difference(self, time: Array, r: Array) -> Array:
         """a_g(r) - a_g(0), (3, N) m/s^2, to full relative precision."""

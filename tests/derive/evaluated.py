@@ -63,7 +63,9 @@ class Evaluated:
 
 def neutral_values(effects: Sequence[Effect]) -> dict[sp.Symbol, sp.Expr]:
     """Neutral values of what is fitted; an instant of a step stays open."""
-    return {e.symbol(q): sp.nsimplify(q.neutral) for e in effects for q in e.parameters if q.fitted}
+    return {
+        e.symbol(q): sp.nsimplify(q.neutral) for e in effects for q in e.parameters if q.fitted or q.shape
+    }
 
 
 @cache

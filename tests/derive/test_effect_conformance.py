@@ -100,6 +100,7 @@ AUXILIARIES = {
     "vibration_rms": _signal(_RNG, 0.3, 0.05).value,
     "angular_vibration_rms": _signal(_RNG, 3e-4, 5e-5).value,
     "balance_current": _signal(_RNG, 1e-3, 2e-4).value,
+    **{f"mass_{k}": _signal(_RNG, 0.1, 0.2).value for k in "xyz"},
 }
 EOTVOS_VOLTS = float(np.mean(INSTRUMENT.accelerometers["k_VI"] * INSTRUMENT.accelerometers["K1"])) * 1e-10
 """Volts of one accelerometer for a gradient of 1 Eo across a radius of 0.1 m."""
@@ -114,6 +115,9 @@ RESPONSES = {
     "C__heat_start": "1",
 }
 """What is remembered at neutral values, with its unit; its changes beside these are zero here."""
+
+WITH_CONSTANT = {f"near_{n}__M": "m^3/s^2" for n in ("sphere", "cuboid")}
+"""Parameters that Newton's constant, a number in the model, comes with, and the unit of the product."""
 
 SHAPES = ("f_0", "Q", "tau", "w")
 
@@ -136,6 +140,7 @@ CHANNEL_UNIT = {
     "vibration_rms": "m/s^2",
     "angular_vibration_rms": "rad/s",
     "balance_current": "A",
+    **{f"mass_{k}": "m" for k in "xyz"},
     "G_out": "V",
 }
 
@@ -243,9 +248,11 @@ TOLERANCE: Mapping[str, float] = {
     "imu-filter": 1e-4,
     "output-filter": 1e-4,
     "second-order-loop": 3e-4,
+    "near-cuboid": 2e-4,
 }
 """The lag is derived for the input force; the simulator delays the second-order terms (1e-5 of it), too. Filter and loop
-are derived to first order in b; the simulator averages over an interval, and over past and future."""
+are derived to first order in b; the simulator averages over an interval, and over past and future. What the shape of a cuboid adds to a
+point is derived at the disc's centre."""
 
 
 def truth(effect: Effect, values: Mapping[str, float]) -> Record:
@@ -441,7 +448,7 @@ def test_units_are_consistent(effect: Effect) -> None:
     for q in effect.parameters:
         name = effect.symbol(q).name
         # A random process enters as the disc angle itself.
-        constants[name] = 1.0 if effect.kind == "random" else scale(q.unit)
+        constants[name] = 1.0 if effect.kind == "random" else scale(WITH_CONSTANT.get(name, q.unit))
         p[name] = q.neutral if q.shape else reach(effect, q, 1e-3) if q.fitted else STEP_AT
     f = voltage((effect,), PAPER)
     neutral = {n: STEP_SYMBOLS.get(n, 0.0) for n in p} | {
@@ -478,7 +485,11 @@ def test_it_reads_the_channels_that_it_declares(effect: Effect) -> None:
 
 @pytest.mark.parametrize(
     ("effect", "parameter"),
-    [pytest.param(e, q, id=f"{e.id}.{q.name}") for e, q in FITTED if q.channel or e.channels],
+    [
+        pytest.param(e, q, id=f"{e.id}.{q.name}")
+        for e, q in FITTED
+        if (q.channel or e.channels) and e.id not in ("near-sphere", "near-cuboid")  # which attract at rest
+    ],
 )
 def test_without_its_channel_nothing_is_left(effect: Effect, parameter: EffectParameter) -> None:
     """A record in which the declared channels rest at their reference holds nothing of the effect."""

@@ -21,6 +21,7 @@ RATE = 16.0
 GAIN = 1e9 * 1e-2 / 9.8
 GAMMA = Gradient(np.array([300, 120, 50, 200, -80, -500]) * 1e-9)
 AUXILIARIES = {
+    **{f"mass_{k}": (lambda t, n=n: 0.2 * np.sin(0.1 * t + n)) for n, k in enumerate("xyz")},
     "temperature": lambda t: 293.15 + 0.5 + 1e-3 * t,
     "roll": lambda t: 0.1 + 0 * t,
     "pitch": lambda t: -0.2 + 0 * t,
@@ -65,6 +66,7 @@ def force(effects, motion: MotionSignals, instrument=None, **options) -> np.ndar
 
 PLAIN = run()
 SIZES = {
+    "kg": 100.0,
     "1/(m/s^2)^2": 3e-8,
     "1/(m/s^2)": 1e-7,
     "1": 3e-6,

@@ -43,6 +43,7 @@ def _shared(unit: str, *names: str, neutral: float = 0.0) -> dict[str, InjectedP
 _TRACELESS = ("xx", "xy", "xz", "yy", "yz")
 _PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
 _TURNING = tuple(f"G_{c}_{axis}" for axis in ("roll", "pitch") for c in _TRACELESS)
+_PLACE = _shared("m", "x", "y", "z", neutral=1.0)
 _RESONANCE = _shared("Hz", "f_0", neutral=5.0) | _shared("1", "Q", neutral=10.0)
 
 CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
@@ -96,6 +97,8 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
         "1/m^2/s^2",
         *(f"T_{k}" for k in ["xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz"]),
     ),
+    "near-sphere": _shared("kg", "M") | _PLACE,
+    "near-cuboid": _shared("kg", "M") | _PLACE | _shared("m", "l_x", "l_y", "l_z", neutral=0.5),
     "vibration-rectification": _shared("(m/s^2)^2", "P_xx", "P_xy", "P_xz", "P_yy", "P_yz", "P_zz"),
     "vibration-level": _shared("1", "L_xx", "L_xy", "L_xz", "L_yy", "L_yz", "L_zz"),
     "angular-jitter": _shared("1", "W_xx", "W_xy", "W_xz", "W_yy", "W_yz", "W_zz"),
@@ -190,6 +193,8 @@ def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
         "angular-jitter": ("angular_vibration_rms",),
         "fuel-gradient": ("fuel_mass",),
         "self-gradient-yaw": ("yaw",),
+        "near-sphere": ("mass_x", "mass_y", "mass_z"),
+        "near-cuboid": ("mass_x", "mass_y", "mass_z"),
     }.get(effect, ())
 
 

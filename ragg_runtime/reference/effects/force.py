@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected, Values
-from ragg_runtime.reference.gravity import contract
+from ragg_runtime.reference.gravity import PointMass, contract
 
 Array = NDArray[np.float64]
 
@@ -30,9 +30,29 @@ def attraction(r: Array, auxiliaries: Mapping[str, Array], effects: Injected) ->
         total = total + _yawed(carrier, r, auxiliaries["yaw"]) - _yawed(carrier, r, np.zeros(r.shape[1]))
     if rigid := effects.get("carrier-gradient"):
         total = total + _carried(rigid, r, auxiliaries)
+    for body in ("near-sphere", "near-cuboid"):
+        if body in effects:
+            total = total + _of_body(effects[body], r, auxiliaries)
     if near := effects.get("near-mass"):
         total = total + np.einsum("ijk,jn,kn->in", third_order_tensor(near), r, r) / 2
         total = total + np.einsum("ijkl,jn,kn,ln->in", fourth_order_tensor(near), r, r, r) / 6
+    return total
+
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
+
+
+def _of_body(body: Values, r: Array, auxiliaries: Mapping[str, Array]) -> Array:
+    """Attraction (3, N) m/s^2 at r more than at the centre, of a point or, by quadrature over points, of a cuboid that moves."""
+    moved = np.stack([auxiliaries[f"mass_{k}"] for k in "xyz"])
+    centre = moved + np.array([[float(body[k])] for k in "xyz"])
+    edges = np.array([float(body.get(f"l_{k}", 0.0)) for k in "xyz"])
+    points = zip(_NODES, _WEIGHTS / 2, strict=True) if np.any(edges) else [(0.0, 1.0)]
+    total = np.zeros_like(r)
+    for node in itertools.product(list(points), repeat=3):
+        (x, y, z), weights = zip(*node, strict=True)
+        at = np.asarray(centre + (edges * [x, y, z] / 2)[:, None])
+        total += PointMass(float(body["M"] * np.prod(weights)), at).difference(r[0], r)
     return total
 
 
