@@ -141,8 +141,8 @@ class Effect:
         the sheet leaves the side open.
     memory
         What it takes from the record through something with a memory, which its parameters of ``shape`` describe: the motion of
-        a ``mount``, the force on an ``accelerometer``, both through a resonance, the torquer's ``heat``, or a bias that
-        ``slip``s and a mount with ``play`` (:mod:`derive.memory`).
+        a ``mount``, the force on an ``accelerometer``, both through a resonance, the torquer's ``heat``, a bias that ``slip``s and
+        a mount with ``play``, a bias of ``creep`` and a mount that ``flow``s, a ``cycle`` of temperature (:mod:`derive.memory`).
     searched
         Whether a diagnosis looks for it; one that can look like many others is only added by name.
     contains

@@ -33,12 +33,24 @@ HEAT = (
 )
 """A search begins at 40 s: a torquer in its housing takes from ten seconds to ten minutes."""
 
+RELAXATION = (
+    EffectParameter(
+        "tau", r"\tau", "s", "time constant of the creep", 20.0, shared=True, neutral=20.0, shape=True
+    ),
+)
+"""Creep goes on in every decade of time: one that a record of minutes shows is of seconds to minutes."""
+
 SLIP = (
     EffectParameter(
         "w", "w", "m/s^2", "force at which it slips", 0.02, shared=True, neutral=0.01, shape=True
     ),
 )
 """A milli-g; a search begins at a share of what the record's force changes by."""
+
+
+THERMAL_SLIP = (
+    EffectParameter("w", "w", "K", "change at which it slips", 0.1, shared=True, neutral=0.1, shape=True),
+)
 
 
 def response(name: str, p: Values, c: Context, by: Sequence[EffectParameter] = ()) -> sp.Expr:
@@ -53,10 +65,10 @@ def axes_on_disc(c: Context) -> sp.Matrix:
     return axes.T * sp.Matrix([[COS_J, SIN_J, 0], [-SIN_J, COS_J, 0], [0, 0, 1]])
 
 
-def slipping(kind: str, p: Values, c: Context) -> sp.Matrix:
-    """(3,): friction of what slips, by the force along the accelerometer's nominal axes: -1 to 1. ``kind``: that of the memory."""
+def remembered_force(kind: str, p: Values, c: Context, by: Sequence[EffectParameter]) -> sp.Matrix:
+    """(3,): what a memory of this ``kind``, which ``by`` describe, makes of the force along the accelerometer's nominal axes."""
     names = ("radial", "tangential", "axial")
-    return axes_on_disc(c) * sp.Matrix([response(f"{kind}_{n}", p, c, SLIP) for n in names])
+    return axes_on_disc(c) * sp.Matrix([response(f"{kind}_{n}", p, c, by) for n in names])
 
 
 def warmth(p: Values, c: Context) -> sp.Expr:

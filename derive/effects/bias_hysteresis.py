@@ -6,11 +6,11 @@ import sympy as sp
 
 from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-from derive.memory import SLIP, slipping
+from derive.memory import SLIP, remembered_force
 
 
 def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    i, o, p_axis = slipping("slip", p, c)
+    i, o, p_axis = remembered_force("slip", p, c, SLIP)
     return {"K0": k["K0"] + p.h_i * i + p.h_o * o + p.h_p * p_axis}
 
 

@@ -6,11 +6,11 @@ import sympy as sp
 
 from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
-from derive.memory import SLIP, slipping
+from derive.memory import SLIP, remembered_force
 
 
 def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    x, _, z = slipping("play", p, c)
+    x, _, z = remembered_force("play", p, c, SLIP)
     return {
         "vartheta_y": k["vartheta_y"] + p.e_yx * x + p.e_yz * z,
         "vartheta_z": k["vartheta_z"] + p.e_zx * x,

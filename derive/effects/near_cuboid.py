@@ -20,8 +20,7 @@ EFFECT = Effect(
     ),
     source="Newton's law; gradient tensor of a rectangular prism in closed form: Sensors 18, 4386 (2018); Sensors 21, 1925 (2021)",
     equation=(
-        r"\text{as near-sphere, and } \bm\Gamma \mathrel{+}= \nabla\nabla\left(\frac{G M}{l_x l_y l_z}\int \frac{\mathrm d V}{s}"
-        r" - \frac{G M}{s}\right)"
+        r"\text{as near-sphere, and } \bm\Gamma \mathrel{+}= G M\, \nabla\nabla (\int s^{-1}\, \mathrm d V/(l_x l_y l_z) - s^{-1})"
     ),
     limits=(
         "As near-sphere, with the edges l_x, l_y, l_z in model.toml, which are along the measurement axes and not fitted. What the shape "

@@ -21,16 +21,15 @@ EFFECT = Effect(
     ),
     source="Newton's law; calibration by moving masses: Sensors 21, 1925 (2021); Sensors 18, 4386 (2018)",
     equation=(
-        r"\bm f_j \mathrel{-}= G M \nabla_{\bm r}\left(|\bm s - \bm r_j|^{-1} - |\bm s - \bm r|^{-1}_{\bm r = 0}\right),\;"
+        r"\bm f_j \mathrel{-}= G M (\nabla |\bm s - \bm r_j|^{-1} - \nabla |\bm s|^{-1}),\;"
         r" \bm s = (x, y, z) + \bm s_{recorded}"
     ),
     limits=(
-        "Added by name, not searched for, as its place has to be known within half a metre. Record the movement of the body "
-        "along the measurement axes as mass_x, mass_y, mass_z in m (those that are not recorded count as 0); `ragg add near-sphere`; then "
-        "give its entry in effects of model.toml the place at which they are 0, "
-        '`x = { value = 1.2, unit = "m", fixed = true }`, y and z likewise: with fixed = true it stays as it is, without it is fitted; '
-        "M likewise, if it is known. A body that does not move is a gradient-offset and a near-mass; one fixed to a turning carrier is "
-        "carrier-gradient."
+        "Added by name, not searched for: its place has to be known within half a metre. Record its movement along the measurement axes as "
+        "mass_x, mass_y, mass_z, m (what is not recorded counts as 0). List it in effects of model.toml with the place at which these are "
+        '0, { id = "near-sphere", x = { value = 1.2, unit = "m", fixed = true }, y = ..., z = ... }: then `ragg add MODEL near-sphere '
+        "FLIGHT` weighs it. Without fixed its place is fitted, too; a mass M that is known is listed likewise (`ragg calibrate`). A body "
+        "that rests is a gradient-offset and a near-mass, one fixed to a turning carrier carrier-gradient."
     ),
     channels=CHANNELS,
     either=True,

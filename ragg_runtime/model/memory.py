@@ -2,7 +2,8 @@
 
 With b = 1/(2 pi f_0)^2 and d = 1/(2 pi f_0 Q) a ``mount`` adds (H - 1) x to the motion x, H = (1 + d s)/(1 + d s + b s^2); an
 ``accelerometer`` sees s/(1 + d s + b s^2) and s^2/(1 + d s + b s^2) of the force that turns with the disc; ``heat`` are products of
-that force behind 1/(1 + tau s), and exp(-t/tau); ``slip`` and ``play`` are what friction makes of it in a bias and in a mount, -1 to 1.
+that force behind 1/(1 + tau s), and exp(-t/tau), ``creep`` and ``flow``, of a bias and of a mount, the force itself; ``slip`` and
+``play`` are what friction makes of it in a bias and in a mount, -1 to 1, ``cycle`` what it makes of the temperature.
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ from ragg_runtime.model.record import Record
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-SLIPPING = ("slip", "play")
+SLIPPING = ("slip", "play", "cycle")
+RELAXING = ("heat", "creep", "flow")
 """Kinds of memory that are alike, each of one effect."""
 
 FORGOTTEN = 14.0
@@ -30,6 +32,9 @@ FORGOTTEN = 14.0
 
 SLIPPED = 120.0
 """s in which a force has changed so often that it is forgotten where what slips has begun."""
+
+WHOLE = 1e9
+"""s: a temperature may turn but once in a record."""
 
 SETTLED = 3.0
 """s in which a disc has turned the force over, so that what slips in it has slipped."""
@@ -60,13 +65,17 @@ class Memory:
         """For how long, s, it remembers."""
         v = self.values
         if self.kind in SLIPPING:
-            return SLIPPED
-        return FORGOTTEN * (v["tau"] if self.kind == "heat" else v["Q"] / (np.pi * v["f_0"]))
+            return WHOLE if self.kind == "cycle" else SLIPPED
+        return FORGOTTEN * (v["tau"] if self.kind in RELAXING else v["Q"] / (np.pi * v["f_0"]))
 
     @property
     def settles(self) -> float:
-        """After how long, s, it does not matter what was before a record; the state of heat there has parameters."""
-        return {"slip": SETTLED, "play": SETTLED, "heat": 0.0}.get(self.kind, self.lasts)
+        """After how long, s, it does not matter what was before a record; the state of what relaxes there has parameters, that of a
+        temperature's cycle is a bias until it slips.
+        """
+        if self.kind in (*RELAXING, "cycle"):
+            return 0.0
+        return SETTLED if self.kind in SLIPPING else self.lasts
 
 
 def list_memories(model: Model, p: Array) -> Iterator[Memory]:
@@ -109,9 +118,10 @@ def _responses(r: Record, m: Memory, wanted: Container[str]) -> dict[str, Array]
     there = {n: _bridged(x, near.valid) for n, x in _given(m.kind, near).items()}
     slips = m.kind in SLIPPING
     found = _slip(there, m, wanted) if slips else _filtered(there, m, near.rate, reach, wanted)
-    if m.kind == "heat":
+    if m.kind in RELAXING:
         t, tau = near.time, m.values["tau"]
-        found |= {"heat_start": np.exp(-t / tau), "heat_start_by_tau": t / tau**2 * np.exp(-t / tau)}
+        left = np.exp(-t / tau)
+        found |= {f"{m.kind}_start": left, f"{m.kind}_start_by_tau": t / tau**2 * left}
     return {n: x[start - first : stop - first] for n, x in found.items() if n in wanted}
 
 
@@ -120,6 +130,8 @@ def _given(kind: str, r: Record) -> Mapping[str, Array]:
     if kind == "mount":
         motion = (f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
         return {f"mount_{n}": r.channels[n] for n in motion if n in r.channels}
+    if kind == "cycle":
+        return {n: r.channels[n] for n in ("temperature",) if n in r.channels}
     x, y, z = r.along_disc
     force = (x * r.cos_phi + y * r.sin_phi, y * r.cos_phi - x * r.sin_phi, z)
     if kind == "heat":
@@ -128,7 +140,8 @@ def _given(kind: str, r: Record) -> Mapping[str, Array]:
     names = ("radial", "tangential", "axial")
     if kind in SLIPPING and not _stands_at_quarter_turns(r):
         return {}
-    return dict(zip(names, force, strict=True))
+    own = f"{kind}_" if kind in RELAXING else ""
+    return {f"{own}{n}": x for n, x in zip(names, force, strict=True)}
 
 
 def _stands_at_quarter_turns(r: Record) -> bool:
@@ -202,7 +215,7 @@ def _continued(x: Array, before: int, after: int) -> Array:
 
 def _transfer(m: Memory, name: str, s: Complex) -> dict[str, Complex]:
     """Response -> transfer function at s, 1/s, and its derivatives by what describes the memory."""
-    if m.kind == "heat":
+    if m.kind in RELAXING:
         H = 1 / (1 + m.values["tau"] * s)
         return {name: H, f"{name}_by_tau": -s * H**2}
     f_0, Q = m.values["f_0"], m.values["Q"]

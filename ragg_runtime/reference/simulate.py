@@ -159,7 +159,10 @@ def _remembering(chain: Chain, time: Array) -> Chain:
     def currents(t: Array) -> Array:
         return plain.voltages(t, np.zeros(t.size)) / plain.scale(t)
 
-    return replace(chain, auxiliaries={**chain.auxiliaries, **remembered(own, plain.forces, currents, time)})
+    return replace(
+        chain,
+        auxiliaries={**chain.auxiliaries, **remembered(own, plain.forces, currents, chain.auxiliaries, time)},
+    )
 
 
 def _world(given: Mapping[str, Auxiliary] | None, injected: Injected, seed: int) -> Mapping[str, Auxiliary]:

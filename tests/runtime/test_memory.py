@@ -43,6 +43,9 @@ def of_first(effect: str, name: str, size: float, **shape: float) -> EffectValue
         of_first("mount-hysteresis", "e_zx", 1e-7, w=0.03),
         of_first("inner-temperature", "b", 3e-6, tau=30.0),
         of_first("inner-temperature", "s", 3e-6, tau=120.0),
+        of_first("bias-creep", "c_p", 1e-6, tau=30.0),
+        of_first("mount-creep", "e_yx", 1e-6, tau=3.0),
+        of_first("thermal-hysteresis", "h", 1e-7, w=0.05),
     ],
     ids=str,
 )

@@ -67,6 +67,7 @@ def force(effects, motion: MotionSignals, instrument=None, **options) -> np.ndar
 PLAIN = run()
 SIZES = {
     "kg": 100.0,
+    "K": 0.1,
     "1/(m/s^2)^2": 3e-8,
     "1/(m/s^2)": 1e-7,
     "1": 3e-6,

@@ -127,7 +127,7 @@ class Contents:
                     f"a model with the effect {e.id} cannot be exported",
                     where="model.toml, effects",
                     found="its output depends on the motion of many seconds before and after each sample",
-                    expected="effects without memory (resonances, hysteresis and heat have one)",
+                    expected="effects without memory (resonances, hysteresis, creep and heat have one)",
                     remedy=f"ragg remove the effect {e.id}, or use ragg compensate",
                 )
         found = []

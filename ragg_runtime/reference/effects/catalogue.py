@@ -112,6 +112,11 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "accelerometer-resonance": _each("s", "u") | _each("s^2", "v") | _RESONANCE,
     "bias-hysteresis": _each("m/s^2", "h_i", "h_o", "h_p") | _shared("m/s^2", "w", neutral=0.01),
     "mount-hysteresis": _each("rad", "e_yx", "e_yz", "e_zx") | _shared("m/s^2", "w", neutral=0.01),
+    "bias-creep": _each("1", "c_i", "c_o", "c_p") | _each("m/s^2", "c_0") | _shared("s", "tau", neutral=20.0),
+    "mount-creep": _each("rad/(m/s^2)", "e_yx", "e_yz", "e_zx")
+    | _each("rad", "e_y0", "e_z0")
+    | _shared("s", "tau", neutral=20.0),
+    "thermal-hysteresis": _each("m/s^2", "h") | _shared("K", "w", neutral=0.1),
     "inner-temperature": _each("1/(m/s^2)", "b")
     | _each("1/(m/s^2)^2", "s")
     | _each("m/s^2", "b_0")
@@ -181,6 +186,7 @@ def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
         "thermal-bias": ("temperature",),
         "thermal-scale": ("temperature",),
         "thermal-lag": ("temperature",),
+        "thermal-hysteresis": ("temperature",),
         "thermal-misalignment": ("temperature",),
         "thermal-second-order": ("temperature",),
         "imu-thermal": ("temperature",),

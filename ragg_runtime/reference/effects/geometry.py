@@ -140,6 +140,12 @@ def misalignment(
         x, z = (auxiliaries[memory.friction("mount-hysteresis", j, n)] for n in (0, 2))
         about_y = about_y + play["e_yx"][j] * x + play["e_yz"][j] * z
         about_z = about_z + play["e_zx"][j] * x
+    if flow := effects.get("mount-creep"):
+        e = {name: value[j] for name, value in flow.items() if name != "tau"}
+        x, z = (auxiliaries[memory.friction("mount-creep", j, n)] for n in (0, 2))
+        left = auxiliaries[memory.former("mount-creep")]
+        about_y = about_y + e["e_yx"] * x + e["e_yz"] * z + e["e_y0"] * left
+        about_z = about_z + e["e_zx"] * x + e["e_z0"] * left
     if compliance := effects.get("mount-compliance"):
         c = {name: value[j] for name, value in compliance.items()}
         about_y = about_y + c["c_yx"] * f[0] + c["c_yy"] * f[1] + c["c_yz"] * f[2]

@@ -58,16 +58,22 @@ def swallowed(values: Values, voltages: Callable[[Array], Array], time: Array) -
     return np.stack([_integrated(x, [v, u, 0.0], [b, d, 1.0], rate)[::few] for x, u, v in parts])
 
 
-MEMORIES = ("bias-hysteresis", "mount-hysteresis", "inner-temperature")
-"""Effects that depend on the past of a force or current."""
+SLIPPING = ("bias-hysteresis", "mount-hysteresis")
+CREEPING = ("bias-creep", "mount-creep")
+MEMORIES = (*SLIPPING, *CREEPING, "inner-temperature", "thermal-hysteresis")
+"""Effects that depend on the past of a force, current or temperature."""
+
+CYCLE = "thermal friction"
+"""Name of the series, -1 to 1, that slips by the temperature."""
 
 
-FORMER = "former heat"
-"""Name of the series of what is left, 1 to 0, of the heat with which a record begins."""
+def former(effect: str) -> str:
+    """Name of the series of what is left, 1 to 0, of the heat or strain with which a record begins."""
+    return f"former {effect}"
 
 
 def friction(effect: str, j: int, axis: int) -> str:
-    """Name of the series, -1 to 1, that slips by the force along an axis, 0 to 2, of accelerometer j."""
+    """Name of the series that slips, -1 to 1, or creeps by the force along an axis, 0 to 2, of accelerometer j."""
     return f"{effect} {j} {axis}"
 
 
@@ -77,27 +83,31 @@ def heat(j: int) -> str:
 
 
 def remembered(
-    effects: Injected, forces: Callable[[Array], Array], currents: Callable[[Array], Array], time: Array
+    effects: Injected,
+    forces: Callable[[Array], Array],
+    currents: Callable[[Array], Array],
+    auxiliaries: Mapping[str, Callable[[Array], Array]],
+    time: Array,
 ) -> Mapping[str, Callable[[Array], Array]]:
     """Series that no record has, as functions of time, s: of the forces (n, 3, N) along the accelerometers' axes, and of their
-    currents (n, N) for a unit scale factor, m/s^2.
+    currents (n, N) for a unit scale factor, m/s^2; and of the auxiliary channels.
     """
     fine = np.linspace(time[0], time[-1], OVER * (len(time) - 1) + 1)
     found: dict[str, Array] = {}
-    for effect in MEMORIES[:2]:
-        if effect in effects:
-            for j, f in enumerate(forces(fine)):
-                found |= {
-                    friction(effect, j, n): _held(x, float(effects[effect]["w"])) for n, x in enumerate(f)
-                }
+    for effect in (e for e in (*SLIPPING, *CREEPING) if e in effects):
+        for j, f in enumerate(forces(fine)):
+            for n, x in enumerate(f):
+                slips = effect in SLIPPING
+                found[friction(effect, j, n)] = (
+                    _held(x, float(effects[effect]["w"])) if slips else _late(x, _tau(effects, effect), fine)
+                )
     if "inner-temperature" in effects:
-        tau = float(effects["inner-temperature"]["tau"])
-        if not tau > 0:
-            raise UserError("tau of inner-temperature must be positive", found=f"{tau:g} s")
-        found[FORMER] = np.exp((fine[0] - fine) / tau)
         for j, i in enumerate(currents(fine)):
-            power = np.concatenate([[np.mean(i**2)], i**2])  # as on the average before
-            found[heat(j)] = _integrated(power, [1.0], [tau, 1.0], 1 / (fine[1] - fine[0]))[1:]
+            found[heat(j)] = _late(i**2, _tau(effects, "inner-temperature"), fine)
+    for effect in (e for e in (*CREEPING, "inner-temperature") if e in effects):
+        found[former(effect)] = np.exp((fine[0] - fine) / _tau(effects, effect))
+    if "thermal-hysteresis" in effects:
+        found[CYCLE] = _held(auxiliaries["temperature"](fine), float(effects["thermal-hysteresis"]["w"]))
     return {name: partial(_at, fine, x) for name, x in found.items()}
 
 
@@ -105,10 +115,23 @@ def _at(fine: Array, x: Array, time: Array) -> Array:
     return np.asarray(np.interp(time, fine, x))
 
 
+def _tau(effects: Injected, effect: str) -> float:
+    tau = float(effects[effect]["tau"])
+    if not tau > 0:
+        raise UserError(f"tau of {effect} must be positive", found=f"{tau:g} s")
+    return tau
+
+
+def _late(x: Array, tau: float, time: Array) -> Array:
+    """y' = (x - y)/tau at (N,) s, x having been as on the average before."""
+    before = np.concatenate([[np.mean(x)], x])
+    return _integrated(before, [1.0], [tau, 1.0], 1 / (time[1] - time[0]))[1:]
+
+
 def _held(force: Array, w: float) -> Array:
     """Friction (N,), over its greatest size: a spring that slips where the force has moved it by w."""
     if not w > 0:
-        raise UserError("w of a hysteresis must be positive", found=f"{w:g} m/s^2")
+        raise UserError("w of a hysteresis must be positive", found=f"{w:g}")
     found, now = np.zeros_like(force), 0.0
     for n, step in enumerate(np.diff(force), 1):
         now = min(max(now + step / w, -1.0), 1.0)

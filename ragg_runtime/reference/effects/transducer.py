@@ -49,9 +49,15 @@ def bias(
     if slipping := effects.get("bias-hysteresis"):
         for n, axis in enumerate("iop"):
             value = value + slipping[f"h_{axis}"][j] * auxiliaries[memory.friction("bias-hysteresis", j, n)]
+    if creeping := effects.get("bias-creep"):
+        for n, axis in enumerate("iop"):
+            value = value + creeping[f"c_{axis}"][j] * auxiliaries[memory.friction("bias-creep", j, n)]
+        value = value + creeping["c_0"][j] * auxiliaries[memory.former("bias-creep")]
+    if cycling := effects.get("thermal-hysteresis"):
+        value = value + cycling["h"][j] * auxiliaries[memory.CYCLE]
     if heated := effects.get("inner-temperature"):
         value = value + heated["b"][j] * auxiliaries[memory.heat(j)]
-        value = value + heated["b_0"][j] * auxiliaries[memory.FORMER]
+        value = value + heated["b_0"][j] * auxiliaries[memory.former("inner-temperature")]
     return value
 
 
@@ -71,7 +77,7 @@ def gain(j: int, time: Array, auxiliaries: Mapping[str, Array], effects: Injecte
     if warming := effects.get("thermal-lag"):
         factor = factor * (1 + warming["dK1_dTdot"][j] * auxiliaries[RATE_OF_TEMPERATURE])
     if heated := effects.get("inner-temperature"):
-        former = heated["s_0"][j] * auxiliaries[memory.FORMER]
+        former = heated["s_0"][j] * auxiliaries[memory.former("inner-temperature")]
         factor = factor * (1 + heated["s"][j] * auxiliaries[memory.heat(j)] + former)
     return factor
 
