@@ -118,7 +118,7 @@ def diagnose_fitted(
         disagree=apart,
         tests=round(first.field.effective_count, 3),
         explained=outcome.explained,
-        groups=groups(found.claims, ranking, found.steady),
+        groups=groups(found.claims, ranking, found.steady, found.shared),
         credible_set=credence.credible,
         holds=_followed(target, evidence.instants, found.claims),
         staged=bool(evidence.steps),

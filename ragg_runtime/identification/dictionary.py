@@ -73,6 +73,22 @@ class Term:
         """Number of channels, and of functions of them: how much a term asks one to believe."""
         return sum(1 + name.count("(") for name in self.channels)
 
+    @property
+    def words(self) -> str:
+        """What effects of which it is all that a record shows have in common."""
+        kind, _, turns = self.harmonic.partition(" ")
+        if not self.channels:
+            return f"constant term at {name_multiple(int(turns or 0))}"
+        where = "" if kind == "const" else f" at {name_multiple(int(turns))}"
+        return f"something proportional to {self.product}{where}"
+
+
+def name_multiple(turns: int) -> str:
+    """A multiple of the spin rate."""
+    return {0: "rest", 1: "the spin rate", 2: "twice the spin rate"}.get(
+        turns, f"{turns} times the spin rate"
+    )
+
 
 class Dictionary:
     """The terms that a flight allows, and their series over the flight or a part of it.

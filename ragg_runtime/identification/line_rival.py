@@ -84,10 +84,7 @@ class Steady:
     @property
     def name(self) -> str:
         """What it is called."""
-        times = {1: "the spin rate", 2: "twice the spin rate"}.get(
-            self.turns, f"{self.turns} times the spin rate"
-        )
-        return f"constant term at {times}"
+        return Term(f"cos {self.turns}", ()).words
 
     @property
     def words(self) -> str:

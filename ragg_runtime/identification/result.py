@@ -218,7 +218,7 @@ def words(apart: Sequence[Disagreement]) -> str | None:
 
 @dataclass(frozen=True)
 class Group:
-    """Effects that are one finding, the one that would be added first; ``name``: their combination where only that is observable."""
+    """Effects that are one finding, the one that would be added first; ``name``: what they share, where only that is observable."""
 
     effects: tuple[str, ...]
     name: str | None
@@ -227,8 +227,11 @@ class Group:
         return {"name": self.name, "effects": list(self.effects)}
 
 
-def groups(found: Sequence[str], ranking: Sequence[Ranked], steady: Sequence[Steady]) -> tuple[Group, ...]:
-    """One group of each effect that is found."""
+def groups(
+    found: Sequence[str], ranking: Sequence[Ranked], steady: Sequence[Steady], shared: ResidualTerm | None
+) -> tuple[Group, ...]:
+    """One group of each effect that is found; ``shared``: a generic term that explains as much as the only one."""
     others = {r.effect: r.indistinguishable_from for r in ranking}
-    names = {s.effect: s.name for s in steady}
+    names = {e: shared.term.words for e in found if shared and others.get(e)}
+    names |= {s.effect: s.name for s in steady}
     return tuple(Group(effects=(e, *others.get(e, ())), name=names.get(e)) for e in found)

@@ -13,7 +13,7 @@ from ragg_runtime.identification import claims, comparison, omnibus, selection, 
 from ragg_runtime.identification.claims import Significance
 from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.line_rival import LineAlternative, Steady, line_rival
-from ragg_runtime.identification.omnibus import Remainder
+from ragg_runtime.identification.omnibus import Remainder, ResidualTerm
 from ragg_runtime.identification.result import Reason, name_verdict
 from ragg_runtime.identification.search import Evidence, Outcome
 from ragg_runtime.identification.strong import Stage
@@ -25,7 +25,7 @@ class Conclusion:
 
     ``open``: effects that the record speaks for, but not surely enough; ``line``, ``steady``: see ``line_rival``; ``share``: probability
     of what the search chose against generic terms; ``rival``: these do as well; ``one``: the effect of which what it chose are special
-    cases.
+    cases; ``shared``: the generic term that explains as much as the one claimed effect.
     """
 
     verdict: str
@@ -38,6 +38,7 @@ class Conclusion:
     share: float = 1.0
     rival: bool = False
     one: str | None = None
+    shared: ResidualTerm | None = None
 
     @property
     def remains(self) -> bool:
@@ -100,6 +101,9 @@ class Conclusion:
             share=share,
             rival=rival,
             one=None if claimed else one,
+            shared=_shared(found, outcome, base or ())
+            if len(claimed) == 1 and claimed == outcome.effects
+            else None,
         )
 
     @property
@@ -226,6 +230,16 @@ def _of_one_kind(found: Evidence, effects: Sequence[str]) -> str | None:
     # those that are searched for have been compared themselves
     kinds = {e.id: {e.id, *e.contains} for e in found.first.fitted.model.candidates if not e.searched}
     return next((k for k, own in kinds.items() if sum(bool(own & g) for g in groups) > 1), None)
+
+
+def _shared(found: Evidence, o: Outcome, base: Sequence[Remainder]) -> ResidualTerm | None:
+    """The generic term, cosine and sine of it, that explains what an outcome's effect does, up to what the filter of such terms changes."""
+    enough = (1.0 - claims.SECOND_ORDER) * found.explained(o)[0]
+    for s in (s for b in base for s in b.searches if s.steady):
+        both = [t.chi2 for t in s.steady[:2] if t.term.words == s.steady[0].term.words]
+        if sum(both) >= enough:
+            return s.steady[0]
+    return None
 
 
 def _ahead(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> float:

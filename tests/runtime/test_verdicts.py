@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +15,8 @@ from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification import selection
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.identification.diagnose import diagnose
+from ragg_runtime.identification.dictionary import Term
+from ragg_runtime.identification.result import groups
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import packaged
@@ -81,6 +85,18 @@ def test_a_line_beside_a_multiple_of_the_spin_rate_accuses_nothing(frequency: fl
     assert said is not None
     assert abs(float(said[1]) - frequency) < 0.2 / 300.0
     assert [t.kind for r in d.remainder.searches for t in r.terms] == ["line"]
+
+
+def test_effects_that_look_alike_are_named_by_what_they_share() -> None:
+    alike: Any = [SimpleNamespace(effect="spin-axis-tilt", indistinguishable_from=("imu-misalignment",))]
+    shared: Any = SimpleNamespace(term=Term("cos 1", ("a_z",)))
+    (group,) = groups(("spin-axis-tilt",), alike, (), shared)
+    assert group.as_json() == {
+        "name": "something proportional to a_z at the spin rate",
+        "effects": ["spin-axis-tilt", "imu-misalignment"],
+    }
+    (alone,) = groups(("bias-drift",), alike, (), shared)
+    assert alone.name is None
 
 
 @pytest.mark.parametrize(
