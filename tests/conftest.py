@@ -63,7 +63,7 @@ def no_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pages without figures, which take nearly all of a page's time: for what is about its words."""
     from ragg_runtime.report import plots
 
-    monkeypatch.setattr(plots, "draw_both", lambda _: "<svg></svg>")
+    monkeypatch.setattr(plots, "draw_plot", lambda _: "<svg></svg>")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -35,8 +35,8 @@ class Column:
     """One scalar parameter as a column of a fit: the derivative times ``scale``, the width of its prior, SI.
 
     ``accelerometer`` is 1 ... n, or ``None`` if shared; ``unit_factor`` the display unit's SI value; ``effect`` the id of the
-    effect that brings it, ``None`` for the paper's instrument. What a calibration file does not hold (``symbol`` in LaTeX,
-    ``meaning``, ``accelerometer_name``) is empty.
+    effect that brings it, ``None`` for the paper's instrument. ``accelerometer_name`` is empty where it is
+    read from a calibration file.
     """
 
     name: str
@@ -45,8 +45,6 @@ class Column:
     unit: str
     unit_factor: float
     effect: str | None
-    symbol: str = ""
-    meaning: str = ""
     accelerometer_name: str = ""
 
     @property
@@ -78,8 +76,6 @@ def list_base_columns(model: Model, instrument: Instrument) -> list[tuple[Column
                 unit=q.display_unit,
                 unit_factor=factor,
                 effect=None,
-                symbol=q.symbol,
-                meaning=q.description,
                 accelerometer_name=places[j],
             )
             found.append((column, start[q.name] + j))
@@ -136,8 +132,6 @@ def _of_effect(e: DerivedEffect, known: Units, instrument: Instrument) -> list[t
                 unit=q.unit,
                 unit_factor=factor,
                 effect=e.id,
-                symbol=q.latex,
-                meaning=q.meaning,
                 accelerometer_name="" if j is None else places[j - 1],
             )
             columns.append((column, q.symbol))

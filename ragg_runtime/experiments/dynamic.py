@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.page import Cell, Experiment, Variation, judge
+from ragg_runtime.experiments.page import Experiment, judge
 from ragg_runtime.experiments.runs import (
     DERIVED,
     LARGEST,
@@ -21,7 +21,6 @@ from ragg_runtime.experiments.runs import (
     find_error,
     largest,
     respond,
-    with_angles,
 )
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS
@@ -90,39 +89,7 @@ def dynamic() -> Experiment:
         "model error": "numerical minus model; first-order rotations; no mass near",
     }
     title = "Dynamic experiment (Section III.B, Tables V and VI)"
-    return Experiment(title, settings, tuple(rows), (_vary_conventions(),))
-
-
-def _vary_conventions() -> Variation:
-    """Model errors with one convention changed at a time: what they consist of."""
-    straight = table_v().replace(vartheta_y=np.zeros(4), vartheta_z=np.zeros(4))
-    mounted = table_v().replace(beta_x=np.zeros(4), beta_z=np.zeros(4))
-    runs = {
-        "as set up": run_regular(),
-        "second-order terms without angles (Eq. 5)": run_regular(effects=ANGLES_DROPPED),
-        "vartheta = 0: second-order terms times beta alone": run_regular(straight),
-        "beta = 0: second-order terms times vartheta alone": run_regular(mounted),
-        "exact rotations": run_regular(rotations="exact"),
-        "vartheta_x = 20 arcsec, all four": run_regular(with_angles(np.full(4, 20.0))),
-        "the mass of Section III.A at rest": run_regular(gravity=WITH_MASS),
-    }
-    rows: list[tuple[Cell, ...]] = []
-    for label, run in runs.items():
-        errors = [find_error(name, run) for name in DERIVED]
-        # What is zero but for rounding (1e-9 V) must not show its last digits.
-        eotvos = [v if abs(v) > 1e-4 else 0.0 for e in errors for v in average_turns(e, run)]
-        volts = [v if v > 1e-7 else 0.0 for v in map(largest, errors)]
-        rows.append((label, *eotvos, *volts))
-    return Variation(
-        "Model errors after demodulation (Eo) and the largest before it (V)",
-        ("condition", "an. inline", "an. cross", "si. inline", "si. cross", "an. V", "si. V"),
-        tuple(rows),
-        "With second-order terms as in Eq. 5 the analytical model is the numerical one, to rounding: its error is "
-        "products of second-order coefficients and angles, and nothing else. They are of two kinds, which add up: "
-        "with the misalignments vartheta, which the paper drops below Eq. 5b, and, larger and opposite here, with the "
-        "mounting errors beta_x and beta_z, which Eq. 18 drops silently. Exact rotations would put it at "
-        "1e-2 V, not the 1e-3 V printed: the paper's numerical model has first-order ones, too.",
-    )
+    return Experiment(title, settings, tuple(rows))
 
 
 def measure_analytical(instrument: Instrument) -> Array:

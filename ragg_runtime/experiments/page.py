@@ -58,27 +58,16 @@ def judge(
 
 
 @dataclass(frozen=True)
-class Variation:
-    """Runs with something changed, which show what a number hangs on; ``finding`` says what they show."""
-
-    title: str
-    columns: tuple[str, ...]
-    rows: tuple[tuple[Cell, ...], ...]
-    finding: str
-
-
-@dataclass(frozen=True)
 class Experiment:
-    """An experiment: its title, settings, the printed numbers beside ours, and what they hang on."""
+    """An experiment: its title, settings, and the printed numbers beside ours."""
 
     title: str
     settings: Mapping[str, str]
     rows: tuple[PrintedEntry, ...]
-    checks: tuple[Variation, ...]
 
     def as_json(self) -> dict[str, object]:
-        own = {"title": self.title, "settings": dict(self.settings)}
-        return own | {"rows": [r.as_json() for r in self.rows], "checks": [asdict(t) for t in self.checks]}
+        rows = [r.as_json() for r in self.rows]
+        return {"title": self.title, "settings": dict(self.settings), "rows": rows}
 
 
 def _format(value: Cell) -> str:
@@ -139,6 +128,4 @@ def _write_section(e: Experiment) -> str:
     parts = [f"## {e.title}", "\n".join(f"- {name}: {value}" for name, value in e.settings.items())]
     parts += [_write_table(heads, rows)]
     parts += [f"- {'; '.join(quantities)}: {reason}" for reason, quantities in reasons.items()]
-    for t in e.checks:
-        parts += [f"### {t.title}", _write_table(t.columns, t.rows), t.finding]
     return "\n\n".join(parts) + "\n"

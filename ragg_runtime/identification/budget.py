@@ -66,9 +66,8 @@ def list_groups(model: Model, instrument: Instrument, p: Array) -> list[Paramete
         without = p.copy()
         # of a gain the mean carries the gradient itself: what disturbs is that the four differ
         without[places[q.name]] = np.mean(p[places[q.name]]) if q.relative else 0.0
-        symbol = "".join(f"_{piece}" if lowered else piece for piece, lowered in numbers.symbol(q.symbol))
         imbalance = "imbalance of the " if q.relative else ""
-        label = f"{symbol}  {imbalance}{numbers.unit(q.description)}"
+        label = f"{q.name}  {imbalance}{numbers.unit(q.description)}"
         name = f"imbalance of {q.name}" if q.relative else q.name
         found.append(ParameterGroup(name, label, None, without))
     for e in model.effects:

@@ -27,13 +27,13 @@ class Origin:
 def _find_renderer() -> Callable[[Plot], str]:
     """The function that draws a plot as SVG; without matplotlib it returns a line that names the extra."""
     try:
-        from ragg_runtime.report.plots import draw_both
+        from ragg_runtime.report.plots import draw_plot
     except ModuleNotFoundError as error:
         missing = missing_package(error)
         if missing is None:
             raise
         return lambda plot: f"<p>no figure: {escape(missing.what)} ({escape(missing.remedy or '')})</p>"
-    return draw_both
+    return draw_plot
 
 
 def render_page(

@@ -167,16 +167,7 @@ def write_calibration(said: Sequence[Section], f: Fitted, origin: Origin) -> str
 
 def write_compensation(said: Sequence[Section], made: Sequence[Mapping[str, Array]], origin: Origin) -> str:
     """The report of ``compensate``: ``said`` and the compensated channels of every flight."""
-    axes = []
-    for columns in made[: panels.FLIGHTS]:
-        time = np.asarray(columns["time"], dtype=np.float64)
-        step = max(1, len(time) // panels.MOST_POINTS)
-        for name in (n for n in columns if f"{n}_std" in columns):
-            x, std = (np.asarray(columns[k], dtype=np.float64)[::step] for k in (name, f"{name}_std"))
-            band = Curve("± 1 sigma", time[::step], x - std, "envelope", "band", x + std)
-            axes.append(Axes((band, Curve(name, time[::step], x, width=0.8)), f"{name}, Eo"))
-    caption = "Compensated channels with their uncertainty."
-    plot = Curves("compensated", caption, tuple(axes), "time, s") if axes else None
+    plot = panels.plot_compensated(made)
     return render_page("Compensation", [*said, *_figure("Channels", plot)], origin)
 
 

@@ -182,7 +182,7 @@ def plot_harmonics(f: Fitted, coefficients: Array, key: str) -> Bars | None:
         "Residual by harmonic of the spin, multiplied by 1, 2 cos kΩt or 2 sin kΩt and low-passed at 0.2 Hz as the"
         " demodulator does; the demodulator reads harmonic 2 as gradient. Grey: not above the noise."
     )
-    return Bars(f"{key}-harmonic", caption, bars, "slow error, Eo", upright=True)
+    return Bars(f"{key}-harmonic", caption, bars, "slow error, Eo")
 
 
 def list_error_steps(steps: Sequence[Mapping[str, Any]], now: float | None = None) -> list[Bar]:
@@ -221,7 +221,6 @@ def plot_history(steps: Sequence[Mapping[str, Any]], noise: float) -> Bars | Non
         caption,
         tuple(bars),
         "calibrated error, Eo rms",
-        upright=True,
         log=bool(known and top > 8.0 * noise > 0.0),
         threshold=(noise, f"noise floor {numbers.number(noise)} Eo") if known else None,
         dots=("held out",),
@@ -238,6 +237,20 @@ def plot_budget(f: Fitted, noise: float) -> Bars:
     )
     threshold, dots = (noise, "noise before demodulation"), ("inline", "cross")
     return Bars("budget", caption, bars, "contribution, Eo", log=True, threshold=threshold, dots=dots)
+
+
+def plot_compensated(made: Sequence[Mapping[str, Array]]) -> Curves | None:
+    """The compensated channels (N,) of flights with their uncertainty; ``None`` where there are none."""
+    axes = []
+    for columns in made[:FLIGHTS]:
+        time = np.asarray(columns["time"], dtype=np.float64)
+        step = max(1, len(time) // MOST_POINTS)
+        for name in (n for n in columns if f"{n}_std" in columns):
+            x, std = (np.asarray(columns[k], dtype=np.float64)[::step] for k in (name, f"{name}_std"))
+            band = Curve("± 1 sigma", time[::step], x - std, "envelope", "band", x + std)
+            axes.append(Axes((band, Curve(name, time[::step], x, width=0.8)), f"{name}, Eo"))
+    caption = "Compensated channels with their uncertainty."
+    return Curves("compensated", caption, tuple(axes), "time, s") if axes else None
 
 
 def describe_record(f: Fitted) -> list[tuple[str, str]]:

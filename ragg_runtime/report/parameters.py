@@ -43,15 +43,15 @@ MOST_LABELS = 60
 
 
 class Direction(NamedTuple):
-    """A named direction of the parameters, ``D12 β_z``: its coordinate is ``weight`` * pattern(p / scale of ``column``)."""
+    """A named direction of the parameters, ``D12 beta_z``: its coordinate is ``weight`` * pattern(p / scale of ``column``)."""
 
     pattern: str
-    symbol: str
+    name: str
     column: Column
     weight: float
 
     def __str__(self) -> str:
-        return f"{self.pattern} {self.symbol}".strip()
+        return f"{self.pattern} {self.name}".strip()
 
 
 class Visibility(NamedTuple):
@@ -84,17 +84,9 @@ def find_directions(f: Fitted) -> tuple[list[Direction], Array]:
             row = np.zeros(len(columns))
             row[places if together else [n]] = np.array(signs) / np.linalg.norm(signs)
             size = float(np.linalg.norm(signs))
-            directions.append(
-                Direction(name.replace("Sigma", "Σ"), write_symbol(columns[n]), columns[n], 1.0 / size)
-            )
+            directions.append(Direction(name, numbers.parameter(columns[n].name), columns[n], 1.0 / size))
             rows.append(row)
     return directions, np.array(rows)
-
-
-def write_symbol(c: Column) -> str:
-    """The symbol of a column's parameter: ``β_z``."""
-    pieces = numbers.symbol(c.symbol) if c.symbol else ((numbers.clean(c.name), False),)
-    return "".join(f"_{text}" if lowered else text for text, lowered in pieces)
 
 
 def find_visibility(f: Fitted) -> Visibility:
@@ -134,7 +126,7 @@ def _simplify(seen: Array) -> list[Array]:
 
 
 def _write_sum(directions: Sequence[Direction], v: Array) -> str:
-    """A determined combination over the parameters in display units, its first term with factor one: ``Σ K_2 − Σ K_5``."""
+    """A determined combination over the parameters in display units, its first term with factor one: ``Sigma K2 − Sigma K5``."""
     text = ""
     first: tuple[float, str] | None = None
     for d, x in ((d, float(x)) for d, x in zip(directions, v, strict=True) if x):
@@ -160,7 +152,7 @@ def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...
     text = [f"{known}; the others stay at their test-sheet values."]
     unseen: dict[str, list[str]] = {}
     for d in v.unseen:
-        unseen.setdefault(f"{d.pattern} of " if d.pattern else "", []).append(d.symbol)
+        unseen.setdefault(f"{d.pattern} of " if d.pattern else "", []).append(d.name)
     if unseen:
         text.append(f"Not observable: {'; '.join(p + ', '.join(x) for p, x in unseen.items())}.")
     for group, seen in v.groups:

@@ -8,7 +8,6 @@ import re
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from importlib import resources
 from typing import Any
 
@@ -37,33 +36,27 @@ distinguishable in black and white."""
 
 NAMES = {colour: name for name, colour in COLOURS.items()}
 
-WIDTH, NARROW = 9.6, 4.6
-"""Widths of a figure, inches, on a page and on a narrow one: on either a point is a little more than a pixel."""
+WIDTH = 4.8
+"""Width of a figure, inches: its text is 12 pixels on a page of 500, and 14 where the page is wide (style.css ends its growth there)."""
 
 MARKS_APART = 1.8
-"""Ratio of frequencies whose names do not touch on a narrow page."""
+"""Ratio of frequencies whose names do not touch."""
 
 HALO = {"facecolor": COLOURS["paper"], "edgecolor": "none", "pad": 0.6}
 """Behind a value that may lie on a line."""
 
 
-def draw_plot(plot: Plot, width: float = WIDTH) -> str:
-    """The plot as an inline ``<svg>`` element, so many inches wide."""
+def draw_plot(plot: Plot) -> str:
+    """The plot as an inline ``<svg>`` element."""
     with _style():
         if isinstance(plot, Matrix):
-            return _draw_matrix(plot, width)
-        return _draw_curves(plot, width) if isinstance(plot, Curves) else _draw_bars(plot, width)
+            return _draw_matrix(plot)
+        return _draw_curves(plot) if isinstance(plot, Curves) else _draw_bars(plot)
 
 
-def draw_both(plot: Plot) -> str:
-    """The plot for a page, and again for a narrow one; the style sheet shows one of them."""
-    narrow = draw_plot(replace(plot, key=f"{plot.key}-n"), NARROW)
-    return draw_plot(plot) + narrow.replace("<svg ", '<svg class="narrow" ', 1)
-
-
-def draw_file(plot: Plot, width: float = WIDTH) -> str:
+def draw_file(plot: Plot) -> str:
     """The plot as an SVG document of its own, in light colours."""
-    text = draw_plot(plot, width)
+    text = draw_plot(plot)
     for name, colour in COLOURS.items():
         text = text.replace(f"var(--{name})", colour)
     own = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
@@ -84,9 +77,9 @@ def _style() -> Iterator[None]:
         yield
 
 
-def _make_figure(width: float, height: float) -> Figure:
-    """A figure of so many inches, in constrained layout."""
-    made = Figure(figsize=(width, height), layout="constrained")
+def _make_figure(height: float) -> Figure:
+    """A figure so many inches high, in constrained layout."""
+    made = Figure(figsize=(WIDTH, height), layout="constrained")
     FigureCanvasSVG(made)
     return made
 
@@ -94,10 +87,10 @@ def _make_figure(width: float, height: float) -> Figure:
 # --- curves --------------------------------------------------------------------------------------------
 
 
-def _draw_curves(plot: Curves, width: float) -> str:
+def _draw_curves(plot: Curves) -> str:
     """Axes below each other, each with its curves, the noise dashed."""
     shares = [a.share for a in plot.axes]
-    fig = _make_figure(width, plot.height * sum(shares) + 0.3)
+    fig = _make_figure(plot.height * sum(shares) + 0.3)
     found = fig.subplots(len(plot.axes), 1, squeeze=False, height_ratios=shares)[:, 0]
     noise: dict[str, Any] = {"color": COLOURS["noise"], "linestyle": "--", "linewidth": 1.0, "zorder": 3}
     named_before: list[str] = []
@@ -114,16 +107,18 @@ def _draw_curves(plot: Curves, width: float) -> str:
             ax.axvline(x, color=COLOURS["quiet"], linewidth=0.9, linestyle=(0, (1.5, 3.5)), zorder=0.5)
             at = blended_transform_factory(ax.transData, ax.transAxes)
             away: dict[str, Any] = {"xytext": (3, -2), "textcoords": "offset points", "va": "top"}
-            if width == WIDTH or x >= MARKS_APART * named:
+            if x >= MARKS_APART * named:
                 ax.annotate(text, (x, 1.0), xycoords=at, fontsize=9, color=COLOURS["quiet"], **away)
                 named = x
         if axes.frame is not None:
             ax.axvspan(*axes.frame, facecolor="none", edgecolor=COLOURS["noise"], linewidth=0.9)
         ax.set_ylabel(axes.y_label)
-        ax.set_title(numbers.short(axes.title, 70), pad=6.0 if width == WIDTH else 20.0)  # above the legend
         labels = ax.get_legend_handles_labels()[1]
         if labels != named_before:
             _add_legend(ax, 3)
+        ax.set_title(
+            numbers.short(axes.title, 60), pad=6.0 if labels == named_before else 20.0
+        )  # above the legend
         named_before = labels
     found[-1].set_xlabel(plot.x_label)
     return _write_svg(fig, plot.key, plot.caption)
@@ -194,45 +189,33 @@ def _add_legend(ax: Drawn, columns: int) -> None:
 # --- bars and matrices ---------------------------------------------------------------------------------
 
 
-def _draw_bars(plot: Bars, width: float) -> str:
-    """Bars with their values beside them, a dashed line or dashed ticks where the noise is."""
+def _draw_bars(plot: Bars) -> str:
+    """Lying bars with their values beside them, a dashed line or dashed ticks where the noise is."""
     count = len(plot.bars)
-    plot = replace(plot, upright=plot.upright and (width == WIDTH or count < 4))
-    up = plot.upright
-    fig = _make_figure(width, 2.4 if up else 0.75 + 0.245 * count)
+    fig = _make_figure(0.75 + 0.245 * count)
     ax = fig.subplots()
     place = np.arange(count, dtype=np.float64)
     low, shown = _scale_bars(plot)
     colours = [COLOURS["residual" if b.strong else "before"] for b in plot.bars]
-    if up:
-        ax.bar(place, shown - low, 0.56, bottom=low, color=colours)
-    else:
-        ax.barh(place, shown - low, 0.6, left=low, color=colours)
+    ax.barh(place, shown - low, 0.6, left=low, color=colours)
     for k, b in enumerate(plot.bars):
         text = numbers.number(b.value) if np.isfinite(b.value) else "certain"
-        # next to a horizontal bar nothing may lie below the value
-        end = shown[k] if up else max([shown[k], *(d for d in b.dots if np.isfinite(d))])
-        at = (place[k], end) if up else (end, place[k])
-        away: dict[str, Any] = (
-            {"xytext": (0, 4), "ha": "center"} if up else {"xytext": (4, 0), "va": "center"}
-        )
-        ax.annotate(text, at, textcoords="offset points", fontsize=9, bbox=HALO, **away)
+        end = max([shown[k], *(d for d in b.dots if np.isfinite(d))])  # nothing may lie below the value
+        beside: dict[str, Any] = {"xytext": (4, 0), "textcoords": "offset points", "va": "center"}
+        ax.annotate(text, (end, place[k]), fontsize=9, bbox=HALO, **beside)
     known = np.array([n for n, b in enumerate(plot.bars) if np.isfinite(b.noise)], dtype=np.intp)
+    dashed: dict[str, Any] = {"color": COLOURS["noise"], "linestyle": "--"}
     if len(known):
-        level, line = [plot.bars[n].noise for n in known], ax.hlines if up else ax.vlines
-        ends = place[known] - 0.4, place[known] + 0.4
-        line(level, *ends, color=COLOURS["noise"], linestyle="--", label="noise alone")
+        level = [plot.bars[n].noise for n in known]
+        ax.vlines(level, place[known] - 0.4, place[known] + 0.4, label="noise alone", **dashed)
     if plot.threshold is not None:
-        value, text = plot.threshold
-        across = ax.axhline if up else ax.axvline
-        across(value, color=COLOURS["noise"], linestyle="--", linewidth=1.0, label=text)
+        ax.axvline(plot.threshold[0], linewidth=1.0, label=plot.threshold[1], **dashed)
     for j, (name, marker) in enumerate(zip(plot.dots, "oD", strict=False)):
         dots = np.array([b.dots[j] if j < len(b.dots) else np.nan for b in plot.bars])
         kept = np.isfinite(dots) & (dots > low)
-        x, y = (place[kept] + 0.35, dots[kept]) if up else (dots[kept], place[kept])
         look: dict[str, Any] = {"color": COLOURS["ink"], "markerfacecolor": COLOURS["paper"]}
-        ax.plot(x, y, marker, markersize=4.5, label=name, **look)
-    _label_bars(ax, plot, low, float(np.max(shown, initial=1e-12)), narrow=width < WIDTH)
+        ax.plot(dots[kept], place[kept], marker, markersize=4.5, label=name, **look)
+    _label_bars(ax, plot, low, float(np.max(shown, initial=1e-12)))
     return _write_svg(fig, plot.key, plot.caption)
 
 
@@ -247,36 +230,29 @@ def _scale_bars(plot: Bars) -> tuple[float, Array]:
     return low, np.maximum(shown, low)
 
 
-def _label_bars(ax: Drawn, plot: Bars, low: float, top: float, *, narrow: bool) -> None:
-    count, up = len(plot.bars), plot.upright
-    limit, scale = (ax.set_ylim, ax.set_yscale) if up else (ax.set_xlim, ax.set_xscale)
+def _label_bars(ax: Drawn, plot: Bars, low: float, top: float) -> None:
+    count = len(plot.bars)
     if plot.log:
-        scale("log")
-        limit(low, top * (top / low) ** 0.14)
-        _set_log_ticks(ax, "y" if up else "x")
+        ax.set_xscale("log")
+        ax.set_xlim(low, top * (top / low) ** 0.14)
+        _set_log_ticks(ax, "x")
     else:
-        limit(0.0, 1.18 * max(top, plot.threshold[0] if plot.threshold else 0.0))
-    length = 56 if not up else 28 if count < 6 else 16
-    length = length // 2 if narrow else length
-    texts = ["\n".join(numbers.short(part, length) for part in b.label.split("\n")) for b in plot.bars]
-    if up:
-        ax.set_xticks(range(count), texts)
-        ax.set_xlim(-0.6, max(count, 4) - 0.4)
-        ax.set_ylabel(plot.axis)
-    else:
-        ax.set_yticks(range(count), texts)
-        ax.set_ylim(count - 0.4, -0.6)
-        ax.set_xlabel(plot.axis)
-    ax.tick_params(axis="x" if up else "y", length=0)  # labels of categories need no tick marks and no grid
-    (ax.xaxis if up else ax.yaxis).grid(False)
+        ax.set_xlim(0.0, 1.18 * max(top, plot.threshold[0] if plot.threshold else 0.0))
+    ax.set_yticks(
+        range(count), ["\n".join(numbers.short(x, 28) for x in b.label.split("\n")) for b in plot.bars]
+    )
+    ax.set_ylim(count - 0.4, -0.6)
+    ax.set_xlabel(plot.axis)
+    ax.tick_params(axis="y", length=0)  # labels of categories need no tick marks and no grid
+    ax.yaxis.grid(False)
     if ax.get_legend_handles_labels()[1]:
         _add_legend(ax, 3)
 
 
-def _draw_matrix(plot: Matrix, width: float) -> str:
+def _draw_matrix(plot: Matrix) -> str:
     """Squares below the diagonal whose areas are the sizes of the entries; those of less than 0.1 are left out."""
     count = len(plot.names)
-    fig = _make_figure(width, max(2.0, 0.17 * count + 1.4))
+    fig = _make_figure(max(2.0, 0.17 * count + 1.4))
     ax = fig.subplots()
     for sign, colour, words in ((1.0, "residual", "positive"), (-1.0, "noise", "negative")):
         found = [(i, j, float(plot.values[i, j]) * sign) for i in range(count) for j in range(i)]

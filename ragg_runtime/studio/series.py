@@ -15,10 +15,11 @@ from ragg_runtime.compensation.calibrate import information, invert_root
 from ragg_runtime.identification import comparison, heat, predict
 from ragg_runtime.identification import series as reported
 from ragg_runtime.io.record import DEMODULATED
-from ragg_runtime.report import parameters, whiteness
-from ragg_runtime.report.plots import NARROW, WIDTH, draw_file
+from ragg_runtime.report import panels, parameters, whiteness
+from ragg_runtime.report.plots import draw_file
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
+from ragg_runtime.wording.sections import Plot
 
 Array = NDArray[np.float64]
 
@@ -44,10 +45,6 @@ LEAST = 0.9
 
 MODELS = 12
 """Models that are drawn from the posterior."""
-
-
-SMALL = 700
-"""Points of a panel below which its narrow form is drawn."""
 
 
 @dataclass(frozen=True)
@@ -114,11 +111,8 @@ def sample_grid(time: Array, x: Array, step: float) -> Sampled:
 
 def draw_series(s: State, a: Asked) -> bytes:
     """The window of a series that is asked for."""
-    kind, _, name = a.what.partition(":")
-    if s.compared is None and kind == "measured" and 0 <= a.flight < len(s.flights):
+    if s.compared is None and a.what == "measured" and 0 <= a.flight < len(s.flights):
         made = _read_unexamined(s, a.flight)
-    elif kind == "compensated":
-        made = _find_compensated(s, name, a.flight)
     else:
         made = View(s, a).sample()
     return made.window(a.first, a.last, a.points)
@@ -130,19 +124,6 @@ def _read_unexamined(s: State, flight: int) -> Sampled:
     if not x.outputs or not len(x):
         raise UserError("the flight has no output", where=x.name)
     return sample(0.0, 1.0 / x.rate, next(iter(x.outputs.values())))
-
-
-def _find_compensated(s: State, what: str, flight: int) -> Sampled:
-    """``inline`` and such, or ``inline:low`` and ``inline:high``: one standard uncertainty below and above it, Eo."""
-    c = s.require("compensated")
-    name, _, edge = what.partition(":")
-    signs = {"": 0.0, "low": -1.0, "high": 1.0}
-    if not (0 <= flight < len(c.series) and f"{name}_std" in c.units and edge in signs):
-        raise UserError("there is no such compensated channel", found=what[:40])
-    x = c.series[flight]
-    start, end = (float(x["time"][k]) for k in (0, -1))
-    y = x[name] + signs[edge] * x[f"{name}_std"] if edge else x[name]
-    return sample(start, (end - start) / max(1, len(y) - 1), y)
 
 
 class View:
@@ -223,8 +204,8 @@ class View:
         """(rows,) V of any series; zero where a sample is not valid.
 
         ``effect`` is what the ticked effects would take out of the residual, ``left`` what they would leave; ``term:h:p`` a generic
-        term fitted alone; ``band:low:high`` (Hz) the part of the residual there; ``before`` the residual of the
-        last step, ``beside`` that of the other model.
+        term fitted alone; ``band:low:high`` (Hz) the part of the residual there; ``before`` the residual before the
+        last step.
         """
         kind, _, of = name.partition(":")
         match kind:
@@ -240,8 +221,8 @@ class View:
                 x = self.residual
             case "modelled":
                 x = reported.measured(self.prepared) - self.residual
-            case "before" | "beside":
-                x = self._find_other(kind)
+            case "before":
+                x = self._find_previous()
             case "term":
                 x = self._fit_term(of)
             case "band":
@@ -258,12 +239,11 @@ class View:
         z = np.random.default_rng(0).standard_normal((MODELS, self.f.n_base))
         return [self.f.residuals(root @ x)[self.n] for x in z]
 
-    def _find_other(self, kind: str) -> Array:
-        other = self.s.previous if kind == "before" else self.s.beside[1] if self.s.beside else None
+    def _find_previous(self) -> Array:
+        """The residual (N,), V, of the model before the last step."""
+        other = self.s.previous
         if other is None or len(other.fitted.prepared) != len(self.f.prepared):
-            raise UserError(
-                "there is no step before this one" if kind == "before" else "no model is beside it"
-            )
+            raise UserError("there is no step before this one")
         return other.residual[self.n]
 
     def terms(self, effects: tuple[str, ...]) -> heat.Heat:
@@ -327,7 +307,7 @@ def draw_spectra(s: State, a: Asked) -> dict[str, Any]:
     v = View(s, a)
     r, rows, lines = v.record, v.rows(), {}
     ticked = a.effects and s.diagnosed is not None
-    wanted = {"beside": s.beside, "before": s.previous, "residual": True, "left": ticked}
+    wanted = {"before": s.previous, "residual": True, "left": ticked}
     for name in (k for k, there in wanted.items() if there):
         try:
             x = v.volts(name, rows)
@@ -409,16 +389,22 @@ def draw_heat(s: State, a: Asked) -> dict[str, Any]:
 
 
 def draw_panel(s: State, a: Asked) -> bytes:
-    """A panel of the reports as SVG: ``correlations``, ``whiteness``, or ``against:CHANNEL`` of a flight."""
-    v = View(s, a)
+    """A panel of the reports as SVG: ``correlations``, ``compensated``, or of a flight ``whiteness`` or ``against:CHANNEL``."""
     kind, _, channel = a.what.partition(":")
+    plot: Plot | None
     match kind:
+        case "compensated":
+            plot = panels.plot_compensated(s.require("compensated").series)
         case "correlations":
-            plot: Any = parameters.correlate_parameters(v.f)[0]
+            plot = parameters.correlate_parameters(View(s, a).f)[0]
         case "whiteness":
+            v = View(s, a)
             plot = whiteness.plot_whiteness(v.f, v.n, v.residual)
         case "against":
+            v = View(s, a)
             plot = whiteness.plot_against(v.f, v.n, v.residual, channel)
         case _:
-            raise UserError("there is no such panel", found=repr(kind[:40]))
-    return draw_file(plot, NARROW if a.points < SMALL else WIDTH).encode()
+            plot = None
+    if plot is None:
+        raise UserError("there is no such panel", found=repr(kind[:40]))
+    return draw_file(plot).encode()

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime import api
-from ragg_runtime.api import Loaded, errors_of
+from ragg_runtime.api import Loaded
 from ragg_runtime.base import false_alarms
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.identification.comparison import Comparison
@@ -125,7 +125,6 @@ def show_sheet(i: Instrument) -> Json:
         rows.append(
             {
                 "name": q.name,
-                "symbol": [list(p) for p in numbers.symbol(q.symbol)],
                 "meaning": q.description,
                 "unit": q.display_unit,
                 "unit_shown": numbers.unit(q.display_unit),
@@ -331,25 +330,21 @@ def _show_compensation(s: State) -> Json:
     return {
         "calibration": c.result["calibration"],
         "demodulator": c.result["demodulator"]["name"],
-        "channels": [n for n, unit in c.units.items() if unit == "Eo" and f"{n}_std" in c.units],
         "sections": show_sections(describe_other.describe_compensation(c.as_json(), "")),
     }
 
 
 def _show_beside(step: int, c: Comparison) -> Json:
-    effects = [e.id for e in c.fitted.model.effects]
-    return {"step": step, "effects": effects, "errors": errors_of(c), "noise_Eo": c.noise_floor}
+    names = [x.name for x in c.fitted.observations]
+    return {"step": step, "sections": show_sections(describe.describe_comparison(c.as_json(), names)[:2])}
 
 
 def _show_trial(s: State) -> Json:
     effect, _, _, a = s.require("trial")
-    before, after = ({} if c is None else errors_of(c) or {} for c in (a.before, a.after))
+    effects = [e.id for e in s.model.model.effects]
     return {
         "id": effect,
-        "before": before,
-        "after": after,
-        "noise_Eo": None if a.after is None else a.after.noise_floor,
-        "values": [describe.write_parameter(p.as_json()) for p in (a.combinations or a.parameters)],
+        "sections": show_sections(describe.describe_addition(a.as_json(), [*effects, effect])),
     }
 
 

@@ -11,11 +11,10 @@ import signal
 import sys
 import threading
 import time
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Callable, Generator, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -159,6 +158,22 @@ def _examine_all(
     yield from examine_here(job, files, jobs or own)
 
 
+def _run(pool: Executor, job: Job, waiting: deque[str], most: int) -> Generator[tuple[str, Future[Record]]]:
+    """(file, future) of flights as they are done, ``most`` at a time: all that wait, or until a worker's death breaks the pool."""
+    running: dict[Future[Record], str] = {}
+    broken = False
+    while not broken:
+        while waiting and len(running) < most:
+            file = waiting.popleft()
+            running[pool.submit(examine, job, file)] = file
+        if not running:
+            return
+        done = wait(running, return_when=FIRST_COMPLETED).done
+        broken = any(not f.cancelled() and isinstance(f.exception(), BrokenProcessPool) for f in done)
+        for future in wait(running).done if broken else done:
+            yield running.pop(future), future
+
+
 def _give_up(file: str, error: BaseException) -> Record:
     """The record of a flight on which every attempt failed."""
     what = f"{type(error).__name__}: {error}"
@@ -176,40 +191,26 @@ def examine_here(job: Job, files: Sequence[str], jobs: int) -> Generator[tuple[s
 
     Flights at which a worker died are tried again at the end, each alone: so it is plain which of them it was.
     """
-    again: dict[str, BaseException] = {}
-    yield from _run_pool(job, files, min(jobs, len(files)), again)
-    for file in list(again):
-        for _ in range(ATTEMPTS - 1):
-            failed: dict[str, BaseException] = {}
-            yield from _run_pool(job, [file], 1, failed)
-            if not failed:
-                break
-        else:
-            yield file, _give_up(file, failed[file])
+    failed: dict[str, BaseException] = {}
 
-
-def _run_pool(
-    job: Job, files: Sequence[str], jobs: int, failed: dict[str, BaseException]
-) -> Generator[tuple[str, Record]]:
-    """The flights that a pool gets done; ``failed`` takes the others. A pool that breaks is replaced."""
-    waiting = iter(files)
-    while True:
-        running: dict[Future[Record], str] = {}
-        broken = False
-        with _open_pool(jobs) as pool:
-            while not broken:
+    def attempt(waiting: deque[str], most: int) -> Generator[tuple[str, Record]]:
+        while waiting:  # a pool that breaks is replaced
+            with _open_pool(most) as pool:
                 # no more than there are workers: what is running when one dies is what it may have died of
-                running |= {pool.submit(examine, job, f): f for f in islice(waiting, jobs - len(running))}
-                if not running:
-                    return
-                done = wait(running, return_when=FIRST_COMPLETED).done
-                broken = any(isinstance(f.exception(), BrokenProcessPool) for f in done)
-                for future in wait(running).done if broken else done:
-                    file, error = running.pop(future), future.exception()
+                for file, future in _run(pool, job, waiting, most):
+                    error = future.exception()
                     if error is None:
+                        failed.pop(file, None)
                         yield file, future.result()
                     else:
                         failed[file] = error
+
+    yield from attempt(deque(files), min(jobs, len(files)))
+    for _ in range(ATTEMPTS - 1):
+        for file in list(failed):
+            yield from attempt(deque([file]), 1)
+    for file, error in failed.items():
+        yield file, _give_up(file, error)
 
 
 @contextlib.contextmanager
@@ -255,7 +256,7 @@ def _begin() -> None:
 
 def examine_on_cluster(job: Job, files: Sequence[str], address: str) -> Generator[tuple[str, Record]]:
     """(file, record) of every flight as it is done. Raises UserError if the cluster cannot be used, or is lost."""
-    with _connect(address) as (distributed, client):
+    with _connect(address) as client:
         with contextlib.suppress(Exception):
             client.wait_for_workers(1, timeout=PATIENCE)
         threads = sum(client.nthreads().values())
@@ -263,15 +264,8 @@ def examine_on_cluster(job: Job, files: Sequence[str], address: str) -> Generato
             raise UserError(
                 "the cluster has no workers", where=address, remedy="start some: dask worker ADDRESS"
             )
-
-        def ask(file: str) -> Any:
-            return client.submit(examine, job, file, pure=False, retries=ATTEMPTS - 1)
-
-        waiting = iter(files)
-        asked = {ask(f): f for f in islice(waiting, AHEAD * threads)}
-        done = distributed.as_completed(list(asked), loop=client.loop)
-        for future in done:
-            file = asked.pop(future)
+        pool = client.get_executor(pure=False, retries=ATTEMPTS - 1)
+        for file, future in _run(pool, job, deque(files), AHEAD * threads):
             if future.cancelled():
                 raise UserError(
                     "the connection to the scheduler is lost",
@@ -280,16 +274,11 @@ def examine_on_cluster(job: Job, files: Sequence[str], address: str) -> Generato
                 )
             error = future.exception()
             yield file, future.result() if error is None else _give_up(file, error)
-            future.release()
-            for following in islice(waiting, 1):
-                new = ask(following)
-                asked[new] = following
-                done.add(new)
 
 
 @contextlib.contextmanager
-def _connect(address: str) -> Iterator[tuple[Any, Any]]:
-    """Dask, and its client of the scheduler; what Dask logs is reported here, in one message."""
+def _connect(address: str) -> Iterator[Any]:
+    """Dask's client of the scheduler; what Dask logs is reported here, in one message."""
     try:
         distributed: Any = importlib.import_module("distributed")
     except ImportError:
@@ -313,7 +302,7 @@ def _connect(address: str) -> Iterator[tuple[Any, Any]]:
                 expected="a dask.distributed scheduler, tcp://host:port or tls://host:port, as it prints its address",
                 remedy="check the address and that the scheduler runs; Dask must be of the same version there",
             ) from None
-        yield distributed, client
+        yield client
     finally:
         if client is not None:
             with contextlib.suppress(Exception):

@@ -233,27 +233,6 @@ def parameter(name: str) -> str:
     return re.sub(r"^(d[A-Za-z0-9]+)_(d[A-Za-z])", r"\1/\2", clean(name))
 
 
-_GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "Gamma": "Γ", "delta": "δ", "Delta": "Δ", "kappa": "κ",
-    "lambda": "λ", "phi": "φ", "varphi": "φ", "psi": "ψ", "sigma": "σ", "Sigma": "Σ", "tau": "τ",
-    "theta": "θ", "vartheta": "ϑ", "omega": "ω", "Omega": "Ω", "epsilon": "ε", "varepsilon": "ε",
-    "partial": "∂",
-}  # fmt: skip
-
-
-def symbol(latex: str) -> tuple[tuple[str, bool], ...]:
-    r"""A simple LaTeX symbol such as ``\partial_t K_{0}`` in pieces: (text, whether it is a subscript)."""
-    text = re.sub(r"\\(?:mathrm|text|mathit|rm)\b", "", clean(latex))
-    text = re.sub(r"\\([A-Za-z]+)", lambda m: _GREEK.get(m[1], m[1]), text)
-    pieces = []
-    for found in re.finditer(r"_\s*\{([^}]*)\}|_\s*([^\s_{}])|([^_]+)", text):
-        lowered = found[1] or found[2]
-        plain = (lowered or found[3]).translate(str.maketrans("", "", "{}\\ $^"))
-        if plain:
-            pieces.append((plain, lowered is not None))
-    return tuple(pieces)
-
-
 _OPERATORS = {
     "leftarrow": " <- ", "times": " x ", "cdot": " . ", "ge": " >= ", "to": " -> ", "partial": "d", "langle": "<", "rangle": ">",
 }  # fmt: skip

@@ -90,13 +90,12 @@ class Bar:
 
 @dataclass(frozen=True)
 class Bars:
-    """A figure of bars, upright or lying; ``threshold`` is a dashed line with a text, ``dots`` names the marks."""
+    """A figure of lying bars; ``threshold`` is a dashed line with a text, ``dots`` names the marks."""
 
     key: str
     caption: str
     bars: tuple[Bar, ...]
     axis: str
-    upright: bool = False
     log: bool = False
     threshold: tuple[float, str] | None = None
     dots: tuple[str, ...] = ()
@@ -207,8 +206,9 @@ def _html_section(s: Section, draw: Callable[[Plot], str]) -> str:
 def _html_body(s: Section, draw: Callable[[Plot], str]) -> str:
     drawn = [(draw(p), p.caption) for p in s.plots]
     figures = [f"<figure>{svg}<figcaption>{escape(text)}</figcaption></figure>" for svg, text in drawn if svg]
+    shown = [f'<div class="figures">{"".join(figures)}</div>'] if figures else []
     table = "" if s.table is None else _html_table(s.table)
-    return "".join([*figures, table, *(f"<pre>{escape(line)}</pre>" for line in s.code)])
+    return "".join([*shown, table, *(f"<pre>{escape(line)}</pre>" for line in s.code)])
 
 
 def _html_table(t: Table) -> str:

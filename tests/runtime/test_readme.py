@@ -44,7 +44,7 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     pq.write_table(whole.slice(0, SAMPLES), place / "examples" / "demo-flight.parquet")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(place)
-        patch.setattr(plots, "draw_both", lambda _: "<svg></svg>")  # test_report.py has figures
+        patch.setattr(plots, "draw_plot", lambda _: "<svg></svg>")  # test_report.py has figures
         patch.setattr(next_motion, "proposals", lambda *_: ())  # and test_next_motion.py these
         yield place
 

@@ -203,10 +203,8 @@ def test_05_by_keyboard_alone_an_effect_is_added_undone_and_redone(page: Page, s
     idle(page)
     page.keyboard.press("4")
     page.get_by_role("button", name="Compare the state after step 1 beside the present one").click()
-    table = page.locator("section", has_text="Two models side by side").locator("table")
-    expect(table.locator("tr", has_text="calibrated").first).to_contain_text(
-        f"{before:.2f}", timeout=PATIENCE
-    )
+    two = page.locator("section", has_text="Two models side by side").locator(".pair > div").first
+    expect(two.locator("tr", has_text="calibrated").first).to_contain_text(f"{before:.2f}", timeout=PATIENCE)
     expect(page.locator(".history .badge")).to_have_count(1)
     page.keyboard.press("1")
     page.get_by_text("Is the residual noise?").click()
@@ -239,7 +237,8 @@ def test_06_the_test_sheet_is_edited_and_what_is_no_number_is_not_saved(page: Pa
 def test_07_compensated_channels_and_files(page: Page) -> None:
     page.keyboard.press("6")
     page.get_by_role("button", name="Compensate", exact=True).click()
-    expect(page.locator(".channels .u-over")).to_have_count(2, timeout=PATIENCE)
+    expect(page.get_by_alt_text("compensated")).to_have_js_property("complete", True, timeout=PATIENCE)
+    assert page.get_by_alt_text("compensated").evaluate("x => x.naturalWidth") > 100
     expect(page.locator(".view-apply tbody tr", has_text="inline").first).to_be_visible()
     with page.expect_download() as got:
         page.get_by_role("link", name="Save as CSV").click()

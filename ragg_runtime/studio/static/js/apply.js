@@ -1,10 +1,7 @@
 // What a model is for: compensated channels with their band, and as files.
-import { choose } from "./figures.js";
-import { fill, h, sectionNode, tableNode } from "./dom.js";
-import { frame } from "./drawings.js";
-import { doing, Refused, series } from "./api.js";
-import { look, on, server, view } from "./store.js";
-import { timePlot } from "./curves.js";
+import { fill, h, pictureNode, sectionNode, tableNode } from "./dom.js";
+import { doing } from "./api.js";
+import { on, server } from "./store.js";
 
 const KINDS = [
   ["self", "fitted to these flights"],
@@ -22,7 +19,7 @@ const choice = (id, label, options) => [
 export function applyView(main) {
   const box = h("section.card"), figures = h("section.card.channels", { hidden: true });
   fill(main, box, figures);
-  let plots = [], shown = "", window_ = null;
+  let shown = "";
 
   const flown = (state) => state.flights.length > 0;
   const compensation = (state) => {
@@ -38,43 +35,12 @@ export function applyView(main) {
       c ? h("p.row", {}, ["csv", "parquet"].map((e) => h("a", { href: `/api/take/compensated.${e}`, download: `compensated.${e}` }, `Save as ${e === "csv" ? "CSV" : "Parquet"}`))) : null);
   };
 
-  const drop = () => (plots.forEach((p) => p.made.gone()), (plots = []));
-  const draw = () => plots.forEach(async ({ name, made, box: place }) => {
-    const [a, b] = limits(), width = b - a;
-    const common = { flight: view.flight, unit: "Eo", from: a - width, to: b + width, points: 3 * Math.max(300, place.clientWidth) };
-    try {
-      const [value, low, high] = await Promise.all(["", ":low", ":high"].map((edge) => series({ ...common, what: `compensated:${name}${edge}` })));
-      made.show([{ ...value, low: low.low, high: high.high }, value]);
-    } catch (error) {
-      if (!(error instanceof Refused)) throw error;
-    }
-  });
-  const whole = () => [0, server.state.flights[view.flight] ? server.state.flights[view.flight].duration_s : 1];
-  const limits = () => window_ || whole();
-  const moved = (from, to) => {
-    const [a, b] = whole();
-    window_ = from === null || to - from >= b - a ? null : [Math.max(a, from), Math.min(b, Math.max(to, from + 1))];
-    plots.forEach((p) => p.made.zoomed());
-    draw();
-  };
   const curves = (state) => {
-    const c = state.compensated;
-    const key = JSON.stringify([c && [c.calibration, c.demodulator, c.channels, c.sections], view.flight]);
+    const c = state.compensated, key = JSON.stringify(c);
     if (key === shown) return;
     shown = key;
-    window_ = null;
-    drop();
     figures.hidden = !c;
-    if (!c) return;
-    const panels = c.channels.map((name) => frame({ id: name, title: `${name}, Eo`, kind: "figure" }));
-    panels.forEach((p) => p.keys([["value", "residual"], ["± one standard uncertainty", "band"]]));
-    const names = server.state.flights.map((f) => f.name);
-    fill(figures, names.length > 1 ? h("div.row.choices", {}, choose("Flight", names, view.flight, (flight) => look({ flight }))) : null, panels.map((p) => p.element));
-    plots = panels.map(({ body }, k) => ({ name: c.channels[k], box: body, made: timePlot(body, {
-      limits, moved, unit: () => "Eo", label: k === panels.length - 1 ? "time since the first sample, s" : undefined,
-      lines: [{ name: "±", colour: "before", band: true, alpha: "80" }, { name: "value", colour: "residual" }],
-    }) }));
-    draw();
+    if (c) fill(figures, pictureNode("compensated", { of: key }));
   };
 
   const known = () => {
@@ -85,8 +51,7 @@ export function applyView(main) {
     curves(state);
   };
   known();
-  const offs = [on("server", known), on("flight", known)];
-  return () => (offs.forEach((f) => f()), drop());
+  return on("server", known);
 }
 
 // What one takes along: reports, results, the model, and the commands that do the same in a shell.

@@ -278,7 +278,6 @@ function noise(u, level) {
 // Amplitude densities on logarithmic axes, the multiples of the spin marked; a band can be brushed.
 
 const LINES = [
-  { id: "beside", name: "model beside it", colour: "beside", width: 1.6 },
   { id: "before", name: "before the last step", short: "before", colour: "before", width: 1.6 },
   { id: "residual", name: "residual", colour: "residual", width: 1.4 },
   { id: "left", name: "with what is ticked", short: "ticked", colour: "effect", width: 1.4 },

@@ -42,11 +42,10 @@ export function sectionNode(s) {
 
 /** A panel of the reports as a picture, with a link to its file. */
 export function pictureNode(what, values) {
-  const panel = (points) => `/api/panel?${new URLSearchParams({ what, ...values, points })}`;
-  const source = panel(1000);
+  const source = `/api/panel?${new URLSearchParams({ what, ...values })}`;
   const note = h("p.note", { hidden: true });
   const image = h("img.picture", { src: source, alt: what, onerror: () => fetch(source).then((r) => r.json()).then((e) => { image.hidden = true; note.hidden = false; note.textContent = e.error.what; }) });
-  return h("div", {}, h("picture", {}, h("source", { media: "(max-width: 600px)", srcset: panel(500) }), image), note);
+  return h("div", {}, image, note);
 }
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -68,8 +67,6 @@ export function maths(text) {
   return root.localName === "code" ? h("code", {}, root.textContent) : document.createTextNode(root.textContent.slice(0, 500));
 }
 
-/** A symbol in pieces [text, lowered]. */
-export const symbol = (pieces) => h("i.symbol", {}, pieces.map(([text, low]) => (low ? h("sub", {}, text) : text)));
 
 /** Three significant digits, a true minus sign. */
 export function number(x, digits = 3) {

@@ -97,17 +97,13 @@ export function unexplainedPane(box) {
     fill(
       trial,
       t ? h("div.trial", {},
-        h("p", {}, h("code", {}, t.id), `: ${error(t.before.calibrated)} → `, h("b", {}, error(t.after.calibrated)), ` Eo (held out ${error(t.before.holdout)} → ${error(t.after.holdout)}, noise ${number(t.noise_Eo)})`),
-        t.after.holdout && t.after.holdout.rms_Eo > t.before.holdout.rms_Eo ? h("p.note", {}, "Held out, the error does not fall: this record does not confirm it.") : null,
-        h("ul.terms", {}, t.values.map((v) => h("li", {}, v))),
+        t.sections.map(sectionNode),
         h("button.main", { type: "button", disabled: Boolean(state.status.job), onclick: () => doing("keep") }, `Keep ${t.id} in the model`)) : null,
     );
     form.known();
   };
   return { known };
 }
-
-const error = (e) => number(e && e.rms_Eo);
 
 // How the model that is calibrated on the other flights holds on those kept for validation.
 

@@ -1,9 +1,7 @@
 // What the record determines of the parameters, the test sheet, and the history.
-import { ask, doing, Refused } from "./api.js";
-import { frame } from "./drawings.js";
-import { fill, h, number, pictureNode, sectionNode, symbol, tableNode } from "./dom.js";
-import { on, server, view } from "./store.js";
-import { spectrumLines, spectrumPlot } from "./curves.js";
+import { doing } from "./api.js";
+import { fill, h, number, pictureNode, sectionNode, tableNode } from "./dom.js";
+import { on, server } from "./store.js";
 
 export function parametersView(main) {
   let shown = "";
@@ -59,7 +57,7 @@ export function sheetView(main) {
         h("div.wide", { tabindex: "0", role: "group", "aria-label": "Values of the test sheet" }, h("table.numbers.sheet", { class: names.length > 4 ? "many" : "" },
           h("thead", {}, h("tr", {}, h("th", {}, "parameter"), h("th", {}, "unit"), names.map((a) => h("th.n", {}, a)), h("th.n", {}, "1 sigma"), h("th", {}, "fixed"), h("th.n", {}, "default prior"))),
           h("tbody", {}, rows.map((row) => h("tr", {},
-            h("th", { scope: "row" }, symbol(row.symbol), h("small", {}, ` ${row.meaning}`)), h("td", {}, row.unit_shown),
+            h("th", { scope: "row" }, h("b", {}, row.name), h("small", {}, ` ${row.meaning}`)), h("td", {}, row.unit_shown),
             row.values.map((v, k) => h("td.n", {}, h("input", { type: "text", inputmode: "decimal", value: plain(v), "aria-label": `${row.name} of ${names[k]}, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.value[k] = parsed(e.target.value))) }))),
             h("td.n", {}, h("input", { type: "text", value: sure(row), placeholder: plain(row.plausible[0]), "aria-label": `${row.name}: 1 sigma of the sheet, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.sigma = sigmas(e.target.value, names.length))) })),
             h("td", {}, h("input", { type: "checkbox", checked: row.fixed, "aria-label": `${row.name} is not fitted`, onchange: (e) => edit(row, e.target, (now) => (now.fixed = e.target.checked)) })),
@@ -108,20 +106,13 @@ const SAID = { new: "made from a test sheet", add: "added", remove: "removed", e
 export function historyView(main) {
   const steps = h("section.card"), two = h("section.card", { hidden: true });
   fill(main, steps, two);
-  let drawn = null, shown = "";
-  const drop = () => (drawn && drawn.gone(), (drawn = null));
-
   const known = () => {
     const { state } = server;
     if (!state || !state.history) return void fill(main, h("p.empty-note", {}, "Open a model directory to see its history."));
     if (!steps.isConnected) fill(main, steps, two);
     listed(state);
-    const key = JSON.stringify([state.beside, state.banner && state.banner.errors, view.flight]);
-    if (key === shown) return;
-    shown = key;
-    drop();
     two.hidden = !(state.beside && state.banner);
-    if (!two.hidden) drawn = beside(two, state);
+    if (!two.hidden) beside(two, state);
   };
 
   const listed = (state) => {
@@ -145,36 +136,15 @@ export function historyView(main) {
             s.kept && s.n !== history.now && state.flights.length ? h("button", { type: "button", disabled: busy, onclick: () => doing("beside", { step: s.n }), "aria-label": `Compare the state after step ${s.n + 1} beside the present one` }, "beside") : null)))))));
   };
   known();
-  const offs = [on("server", known), on("flight", known)];
-  return () => (offs.forEach((f) => f()), drop());
+  return on("server", known);
 }
 
 function beside(box, state) {
-  const b = state.beside, now = state.banner, old = `after step ${b.step + 1}`;
-  const errors = (label, pick) => h("tr", {}, h("th", { scope: "row" }, label), h("td.n", {}, number(pick(0))), h("td.n", {}, number(pick(1))));
-  const rows = [["nominal", "nominal"], ["calibrated", "calibrated"], ["held out", "holdout"]];
-  const figure = frame({ id: "spectrum", title: "Spectrum of the residual", kind: "figure" });
+  const b = state.beside, effects = state.model.effects.map((e) => e.id).join(", ") || "none";
+  const part = (title, ...nodes) => h("div", {}, h("h3", {}, title), nodes);
   fill(box,
     h("h2", {}, "Two models side by side"),
     h("p.note", {}, "Both calibrated on the flights that are open."),
-    h("div.pair", {},
-      h("div.wide", {}, h("table.numbers", {},
-        h("thead", {}, h("tr", {}, h("th", {}, "error before demodulation, Eo"), h("th.n", {}, old), h("th.n", {}, "now"))),
-        h("tbody", {},
-          h("tr", {}, h("th", { scope: "row" }, "effects"), h("td.n", {}, b.effects.join(", ") || "none"), h("td.n", {}, state.model.effects.map((e) => e.id).join(", ") || "none")),
-          rows.map(([label, key]) => errors(label, (which) => (which ? now.errors[key].json : b.errors[key]).rms_Eo)),
-          rows.slice(1).map(([label, key]) => ["inline", "cross"].map((c) => errors(`${label}, ${c}, Eo/√Hz`, (which) => (which ? now.errors[key].json : b.errors[key])[`${c}_Eo_per_rtHz`]))),
-          errors("noise floor", (which) => (which ? now.noise.rms_Eo : b.noise_Eo))))),
-      figure.element),
+    h("div.pair", {}, part(`after step ${b.step + 1}`, b.sections.map(sectionNode)), part("now", h("p", {}, state.banner.sentences[0]), h("p", {}, `effects in the model: ${effects}`), tableNode(state.banner.table))),
     h("div.row", {}, h("button", { type: "button", onclick: () => doing("beside", { step: null }) }, "Close")));
-  const plot = spectrumPlot(figure.body, { band: () => [null, null], banded: () => {}, harmonic: () => null });
-  ask("spectrum", { flight: view.flight, output: view.output }).then((found) => {
-    delete found.lines.before;
-    plot.show(found);
-    figure.keys(spectrumLines.filter((l) => l.id === "noise" || found.lines[l.id]).map((l) => [l.id === "beside" ? old : l.id === "residual" ? "now" : l.name, l.colour, l.dash ? "dashed" : ""]));
-  }).catch((error) => {
-    if (!(error instanceof Refused)) throw error;
-    figure.say(error.facts.what);
-  });
-  return plot;
 }
