@@ -73,7 +73,7 @@ def _made(app: Sphinx, config: Any) -> None:
     from docs import made as build
     from ragg_runtime.experiments.dynamic import dynamic
     from ragg_runtime.experiments.multifrequency import multifrequency
-    from ragg_runtime.experiments.page import write_page
+    from ragg_runtime.experiments.paper import write_page
     from ragg_runtime.experiments.turbulence import turbulence
 
     made = HERE / "_made"

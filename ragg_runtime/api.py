@@ -30,7 +30,7 @@ from ragg_runtime.compensation.drift import Drift, smooth_drift
 from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.compensation.export.forms import FORMS, write_export
 from ragg_runtime.compensation.frozen import Held
-from ragg_runtime.compensation.result import QUALITY, Compensation
+from ragg_runtime.compensation.result import Compensation
 from ragg_runtime.compensation.saved import Saved, add_entry, load_saved
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
@@ -82,7 +82,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FORMS",
-    "QUALITY",
     "Added",
     "Catalogue",
     "Compensation",

@@ -33,19 +33,12 @@ extern "C" {
 
 #define RAGG_FOLDED_INPUTS 15
 #define RAGG_FOLDED_PARAMETERS 62
-#define RAGG_FOLDED_BLOCK 128 /* samples that are evaluated together */
 
 /* G_out over n instants t, s: the same bits for a sample wherever it stands (as long as the compiler contracts
  * no products on its own). angle is the disc angle, rad,
  * or NULL for 2 pi spin_frequency t. */
 void ragg_folded_output(size_t n, const double *t, const double *const *in, const double *p, const double *angle,
                         double *G);
-
-/* What changes of the parameters make of G_out, weighted and averaged over few <= 128 neighbours: of each of
- * `count` <= 16 vectors p + k RAGG_FOLDED_PARAMETERS, k = 1 ... count, against p, means of the difference times two
- * series of weights (2, n): found (count, 2, n / few). */
-void ragg_folded_changes(size_t n, const double *t, const double *const *in, size_t count, const double *p,
-                         const double *angle, size_t few, const double *weights, double *found);
 
 #ifdef __cplusplus
 }

@@ -24,7 +24,7 @@ GROUPS: Mapping[str, Mapping[str, str]] = MappingProxyType(
         "After": dict.fromkeys(("calibrate", "compensate", "export"), "cli.flight_commands"),
         "Tools": {
             "survey": "cli.flight_commands",
-            "studio": "studio.command",
+            "studio": "cli.model_commands",
             "simulate": "cli.model_commands",
             "demo": "cli.model_commands",
             "derive": "cli.model_commands",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
@@ -32,7 +31,6 @@ from ragg_runtime.compensation.segment import (
     OutputChannel,
     Quality,
     compensate_segment,
-    keep_directions,
     make_block,
 )
 from ragg_runtime.estimation.calibration import Calibration
@@ -43,9 +41,12 @@ from ragg_runtime.estimation.observation import (
     BLOCKS,
     ROWS,
     Observation,
+    Segment,
     as_output,
     block_edges,
     observations_of,
+    segments,
+    spread,
 )
 from ragg_runtime.estimation.scores import error, finite
 from ragg_runtime.estimation.spectrum import periodogram
@@ -75,12 +76,6 @@ GRID = 4001
 
 Kind = Literal["frozen", "self", "crossed", "smoothed"]
 KINDS: tuple[Kind, ...] = ("self", "crossed", "smoothed", "frozen")
-
-NEGLECTED = 0.01
-"""Share of the noise's variance that directions of the parameters may add which are left out of the uncertainty."""
-
-SEARCHED = 4
-"""Segments of a flight, of some minutes, on which the directions that matter are sought."""
 
 
 # --- parameters ----------------------------------------------------------------------------------------
@@ -227,7 +222,7 @@ def make_channel(p: PreparedFlights, k: int, name: str) -> OutputChannel:
     if o.recorded.demodulated:  # by its recorder: put right for the calibrated scale factor
         known: Complex = flight.outputs["inline"] + 1j * flight.outputs["cross"]
         recorded = known * (p.instrument.scale_factor / k_ggi)
-    channel = OutputChannel(
+    return OutputChannel(
         model=p.model,
         instrument=p.instrument,
         evaluator=p.model.compiled("auto" if len(flight.time) >= MANY else "numpy"),
@@ -236,14 +231,13 @@ def make_channel(p: PreparedFlights, k: int, name: str) -> OutputChannel:
         recorded=recorded,
         blocks=p.blocks[k],
         about=c.p,
+        columns=c.columns,
         k_ggi=k_ggi,
         spectrum=c.noise[k],
         noise=predict_noise(o, c.noise[k], d, k_ggi),
         validity={} if p.saved is None else p.saved.validity,
         flags=0 if p.change is None or p.change.holds else int(Quality.CALIBRATION),
     )
-    sought = divide(len(flight.time), max(4096, 2 * len(d.taps)))
-    return keep_directions(channel, _spread(sought, SEARCHED), NEGLECTED)
 
 
 def predict_noise(o: Observation, noise: NoiseModel, d: Demodulator, k_ggi: float) -> tuple[float, float]:
@@ -255,28 +249,16 @@ def predict_noise(o: Observation, noise: NoiseModel, d: Demodulator, k_ggi: floa
     return 2 * cross, cross
 
 
-def divide(n: int, most: int) -> list[slice]:
-    """n samples in parts of about the same length, at most so many each."""
-    edges = np.linspace(0, n, max(1, -(-n // most)) + 1).astype(int)
-    return [slice(int(a), int(b)) for a, b in pairwise(edges)]
-
-
-def _spread(parts: Sequence[slice], most: int) -> list[slice]:
-    """At most so many of them, evenly spread."""
-    count = min(most, len(parts))
-    return [parts[k] for k in np.linspace(0, len(parts) - 1, count).round().astype(int)]
-
-
-def _segments(c: OutputChannel) -> list[slice]:
-    return divide(len(c.observation.record.time), max(ROWS, 4 * len(c.demodulator.taps)))
+def _segments(c: OutputChannel) -> list[Segment]:
+    return segments(len(c.observation.record.time), max(ROWS, 4 * len(c.demodulator.taps)))
 
 
 def compensate_channel(c: OutputChannel) -> Compensated:
     """Compensate a channel, segment after segment."""
     holes, parts = not bool(np.all(c.observation.record.valid)), []
-    for rows in _segments(c):
-        parts.append(compensate_segment(c, rows, holes=holes))
-        progress.step(float(rows.stop - rows.start))
+    for s in _segments(c):
+        parts.append(compensate_segment(c, s.rows, holes=holes))
+        progress.step(float(s.rows.stop - s.rows.start))
     return Compensated(
         *(np.concatenate([getattr(x, q.name) for x in parts], axis=-1) for q in fields(Compensated))
     )
@@ -310,7 +292,6 @@ def describe_channel(c: OutputChannel, x: Compensated) -> dict[str, Any]:
         "std": {
             "noise": {n: finite(s) for n, s in zip(names, c.noise, strict=True)},
             "parameters": {n: finite(s) for n, s in zip(names, rms, strict=True)},
-            "directions": len(c.blocks[0].directions),
         },
         "contributions": list_contributions(c),
     }
@@ -355,7 +336,7 @@ def list_contributions(c: OutputChannel) -> list[dict[str, Any]]:
     totals: dict[tuple[str, str | None], Array] = {}
     count = 0
     whole = replace(c, blocks=(replace(c.blocks[0], rows=slice(0, len(c.observation.record.time))),))
-    for rows in _spread(_segments(c), 2):
+    for rows in (x.rows for x in spread(_segments(c), 2)):
         s = ChannelSegment(whole, rows)
         good = (s.quality()[s.own] & NO_VALUE) == 0
         count += int(np.sum(good))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -18,9 +17,6 @@ from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.sections import render_notebook
-
-QUALITY: Mapping[str, str] = MappingProxyType({str(q.name): text for q, text in MEANING.items()})
-"""What the marks of samples mean, by the name under which a compensation counts them."""
 
 
 def without_gradients(flight: Flight) -> Flight:

@@ -6,7 +6,7 @@ k_ggi. The model's own response to that first estimate then replaces the ideal o
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import IntFlag
 
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation, as_output
+from ragg_runtime.estimation.regressors import Column, put_derivatives
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
 from ragg_runtime.instrument.units import EOTVOS
@@ -38,11 +39,6 @@ FELT = 1e-4
 
 BRIDGES = 2
 """Times that holes are filled with the gradient found: what remains is the share of the holes to this power + 1."""
-
-STEP = 1e-4
-"""Standard deviations of a difference that is a derivative: what is of second order (up to 1000 Eo a standard deviation
-of the sheet, few of what a record leaves of it) stays below 0.1 Eo. A smaller one loses digits of the parameters: at 1e-5 it
-was 0.016 Eo of 0.2, at 1e-4 0.002, of the example."""
 
 FINE = 4.0
 """Rate, Hz, at which the uncertainty is followed: what the low-pass lets through does not change faster than 0.25 Hz."""
@@ -78,21 +74,18 @@ MEANING = {
 
 @dataclass(frozen=True)
 class Block:
-    """Samples of a flight with parameters ``p`` (size,), SI; ``directions`` (k, size): independent steps of one standard deviation."""
+    """Samples of a flight with parameters ``p`` (size,), SI; ``root`` (n, k): of the covariance of those fitted, in scales."""
 
     rows: slice
     p: Array
-    directions: Array
+    root: Array
 
 
 def make_block(c: Calibration, rows: slice, step: Array | float, root: Array) -> Block:
-    """Samples with parameters a ``step`` (n,) from the calibrated ones; ``root`` (n, k) of their covariance, both in scales."""
-    scale = np.array([q.scale for q in c.columns])
+    """Samples with parameters a ``step`` (n,) from the calibrated ones, in scales."""
     p = c.p.copy()
-    p[c.index] += step * scale
-    directions = np.zeros((root.shape[1], len(p)))
-    directions[:, c.index] = root.T * scale
-    return Block(rows, p, directions)
+    p[c.index] += step * np.array([q.scale for q in c.columns])
+    return Block(rows, p, root)
 
 
 @dataclass(frozen=True)
@@ -100,9 +93,9 @@ class OutputChannel:
     """One output of a flight, with what compensates it.
 
     ``observation``: the whole flight, without recorded gradients. ``recorded``: inline + i cross (N,), Eo, if the flight was
-    demodulated by its recorder. ``about`` (size,): the calibrated parameters, SI. ``k_ggi``: V/Eo. ``spectrum``: the noise, and
-    ``noise`` the standard deviations of inline and cross that it causes, Eo. ``validity``: channel -> range, SI; empty: not flagged.
-    ``flags``: bits of the quality of all samples. ``rest``: variance, Eo^2, by directions that are not followed.
+    demodulated by its recorder. ``about`` (size,): the calibrated parameters, SI, of which ``columns`` are fitted. ``k_ggi``: V/Eo.
+    ``spectrum``: the noise, and ``noise`` the standard deviations of inline and cross that it causes, Eo. ``validity``: channel ->
+    range, SI; empty: not flagged. ``flags``: bits of the quality of all samples.
     """
 
     model: Model
@@ -113,12 +106,12 @@ class OutputChannel:
     recorded: Complex | None
     blocks: tuple[Block, ...]
     about: Array
+    columns: tuple[Column, ...]
     k_ggi: float
     spectrum: NoiseModel
     noise: tuple[float, float]
     validity: Mapping[str, tuple[float, float]]
     flags: int = 0
-    rest: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -153,7 +146,8 @@ class ChannelSegment:
         self.G = as_output(part, part.data)
         moved, rest = lateness.about(c.model, self.record, c.about)
         self.late = c.about - rest
-        self.x = [None if n in GRADIENT else moved.series(n) for n in c.model.chain.INPUTS]
+        self.x = moved.inputs(c.model.chain)
+        self.x[[n in GRADIENT for n in c.model.chain.INPUTS]] = 0.0
         phi = self.record.demodulation_angle
         self.sine, self.cosine = np.sin(2 * phi), np.cos(2 * phi)
         self.parts = [
@@ -178,12 +172,8 @@ class ChannelSegment:
         """G_out (n,), V, of some samples by parameters p (size,), SI."""
         r = self.record
         return self.c.evaluator.output(
-            r.time[some], self._inputs(some), p - self.late, r.phi[some], which=self.c.observation.place
+            r.time[some], self.x[:, some], p - self.late, r.phi[some], which=self.c.observation.place
         )
-
-    def _inputs(self, some: slice) -> list[Array | None]:
-        """The model's inputs of some samples; ``None``: zero."""
-        return [None if x is None else x[some] for x in self.x]
 
     def mix(self, e: Array) -> Complex:
         """inline + i cross (N,), Eo, of residuals (N,), V, before the low-pass."""
@@ -224,44 +214,31 @@ class ChannelSegment:
         off = self.mix(self.predict() - self.bare - self.ideal_response(g)).astype(np.complex64)
         return np.asarray(g - self.c.demodulator.low_passed(off))
 
-    @property
-    def coarse(self) -> tuple[int, Demodulator]:
-        """Samples of which the mean enters the uncertainty, and the low-pass at that rate."""
-        d = self.c.demodulator
-        few = max(1, int(d.rate // FINE))
-        return few, demodulator(d.name, d.rate / few)
-
-    def by_parameters(self) -> NDArray[np.complex64]:
-        """(directions, N / few): how the gradient changes, to first order, a standard deviation along each direction, Eo; means."""
-        few, d = self.coarse
-        count = len(self.k) // few
-        mixed = np.empty((len(self.parts[0][1].directions), count), dtype=np.complex64)
-        for some, b in self.parts:
-            # a mean that two blocks share is that of the first
-            first, last = -(-some.start // few), min(-(-some.stop // few), count)
-            own = slice(first * few, last * few)
-            if first >= last:
-                continue
-            found = self.c.evaluator.changes(
-                self.record.time[own],
-                self._inputs(own),
-                self.c.about - self.late,
-                STEP * b.directions,
-                self.record.phi[own],
-                few,
-                self.mixer[:, own] / STEP,
-                self.c.observation.place,
-            )
-            mixed[:, first:last].real = found[:, 0]
-            mixed[:, first:last].imag = found[:, 1]
-        return d.low_passed(mixed)
+    def change_by_parameters(self, few: int) -> Array:
+        """(n, 2, N // few) Eo: inline and cross, before the low-pass, by the fitted parameters, each times its scale; means of ``few``."""
+        c, count = self.c, len(self.k) // few
+        columns = np.zeros((len(c.columns), len(c.observation.series), len(self.k)))
+        chain = c.model.evaluators("chain")
+        put_derivatives(columns, chain, c.columns, self.x, self.record, c.observation, c.about - self.late)
+        J = as_output(c.observation, columns)[:, : count * few].reshape(len(columns), count, few)
+        mixer = self.mixer[:, : count * few].reshape(2, count, few) / few
+        return np.asarray(np.einsum("wcf,ncf->nwc", mixer, J))
 
     def variance(self) -> Array:
         """(2, N) Eo^2: of inline and cross, by the parameters."""
-        found = self.by_parameters()
-        total = np.stack([np.sum(found.real**2, axis=0), np.sum(found.imag**2, axis=0)])
-        few = self.coarse[0]  # means of so many samples each, linear between their centres
-        centres = few * np.arange(total.shape[1]) + (few - 1) / 2
+        few = max(1, int(self.c.demodulator.rate // FINE))
+        low_pass = demodulator(self.c.demodulator.name, self.c.demodulator.rate / few)
+        change = self.change_by_parameters(few)
+        count = change.shape[-1]
+        along = np.empty(
+            (self.parts[0][1].root.shape[1], 2, count)
+        )  # independent steps of one standard deviation
+        for some, b in self.parts:
+            # a mean that two blocks share is that of the first
+            own = slice(-(-some.start // few), min(-(-some.stop // few), count))
+            along[..., own] = np.tensordot(b.root.T, change[..., own], 1)
+        total = np.sum(low_pass.low_passed(along) ** 2, axis=0)
+        centres = few * np.arange(count) + (few - 1) / 2  # the variance is linear between them
         return np.stack([np.interp(np.arange(len(self.k)), centres, x) for x in total])
 
     def nominal(self) -> Array:
@@ -303,41 +280,10 @@ def compensate_segment(c: OutputChannel, rows: slice, *, holes: bool) -> Compens
     s = ChannelSegment(c, rows, holes=holes)
     nominal = s.nominal()[s.own]
     g = np.array(s.gradient()[s.own])
-    variance = s.variance()[:, s.own] + np.array(c.rest)[:, None]
+    variance = s.variance()[:, s.own]
     bits = s.quality()[s.own]
     parameters, std = np.sqrt(variance), np.sqrt(variance + np.array(c.noise)[:, None] ** 2)
     none = (bits & NO_VALUE) != 0
     g[none] = complex(np.nan, np.nan)
     parameters[:, none] = std[:, none] = np.nan
     return Compensated(g, nominal, parameters, std, bits)
-
-
-def keep_directions(c: OutputChannel, samples: Sequence[slice], neglected: float) -> OutputChannel:
-    """The channel with those directions of the parameters that matter, found on some segments of it.
-
-    What the others add on the average to the variance of inline and cross is its ``rest``: less than ``neglected`` of the noise's.
-    """
-    inline, cross = [], []
-    for rows in samples:
-        s = ChannelSegment(c, rows)
-        s.gradient()
-        few, coarse = s.coarse
-        step = max(1, int(coarse.rate))  # the channels do not change within a second
-        inside = slice(-(-s.own.start // few), s.own.stop // few, step)
-        valued = (s.quality() & NO_VALUE) == 0
-        found = s.by_parameters()[:, inside]
-        there = valued[few // 2 :: few][inside][: found.shape[1]]
-        if there.any():
-            found = found[:, there]
-        inline.append(found.real / c.noise[0])
-        cross.append(found.imag / c.noise[1])
-    D = np.concatenate([*inline, *cross], axis=1)
-    U, _, _ = np.linalg.svd(D, full_matrices=False)
-    share = np.cumsum((U.T @ D) ** 2, axis=0)
-    left = share[-1] - share
-    kept = int(np.argmax(np.max(left, axis=1) <= neglected))
-    halves = np.split(left[kept], 2)  # as many instants of inline and of cross
-    rest = tuple(float(np.mean(x) * std**2) for x, std in zip(halves, c.noise, strict=True))
-    some = U[:, : kept + 1]
-    blocks = tuple(replace(b, directions=some.T @ b.directions) for b in c.blocks)
-    return replace(c, blocks=blocks, rest=(rest[0], rest[1]))

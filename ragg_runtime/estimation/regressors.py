@@ -235,12 +235,14 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
         r = replace(r, reading=np.pad(o.output.combined(V), r.halo, mode="edge"))
     n_base = len(at.base)
     columns = np.zeros((n_base + len(at.candidates) + 1, len(o.series), len(r.time)))
-    _put_derivatives(columns, at.model.evaluators("chain"), at.base, r, o, p)
+    chain = at.model.evaluators("chain")
+    put_derivatives(columns, chain, at.base, r.inputs(chain.chain), r, o, p)
     if at.candidates:
         searched = (m for _, m in first_memories((e for e in at.model.candidates if e.searched), r))
         r = with_responses(r, searched, at.model.signatures.INPUTS)
         q = np.concatenate([p, np.zeros(at.model.signatures.SIZE - len(p))])
-        _put_derivatives(columns[n_base:], at.model.evaluators("signatures"), at.candidates, r, o, q)
+        module = at.model.evaluators("signatures")
+        put_derivatives(columns[n_base:], module, at.candidates, r.inputs(module.chain), r, o, q)
     for column in columns[:-1] if o.recorded.demodulated else ():
         column[:] = o.recorded.through(column, r)
     if o.thin is None:
@@ -256,11 +258,13 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
     return columns
 
 
-def _put_derivatives(
-    columns: Array, e: Evaluator, parameters: Sequence[Column], r: Record, o: Observation, p: Array
+def put_derivatives(
+    columns: Array, e: Evaluator, parameters: Sequence[Column], x: Array, r: Record, o: Observation, p: Array
 ) -> None:
-    """Put the derivatives by parameters into the first of the columns (n, m, N), which are zero, before any demodulation."""
-    x = r.inputs(e.chain)
+    """Put the derivatives by parameters into the first of the columns (n, m, N), which are zero, before any demodulation.
+
+    ``x`` (n_inputs, N): the inputs of the record ``r``; each derivative is times its parameter's scale.
+    """
     row = {name: k for k, (name, _) in enumerate(e.chain.ROWS)}
     for k, (j, sign) in enumerate(zip(o.output.members, o.output.signs, strict=True)):
         series, weight = (k, 1) if o.recorded.separate else (0, sign)

@@ -14,7 +14,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
 from ragg_runtime.experiments.dynamic import dynamic
 from ragg_runtime.experiments.multifrequency import multifrequency
-from ragg_runtime.experiments.page import Experiment, write_page
+from ragg_runtime.experiments.paper import Experiment, write_page
 from ragg_runtime.experiments.turbulence import turbulence
 
 EXPERIMENTS: Mapping[str, Callable[[], Experiment]] = {

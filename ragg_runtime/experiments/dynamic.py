@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.page import Experiment, judge
+from ragg_runtime.experiments.paper import Experiment, judge
 from ragg_runtime.experiments.runs import (
     DERIVED,
     LARGEST,

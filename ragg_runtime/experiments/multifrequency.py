@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.page import Experiment, judge
+from ragg_runtime.experiments.paper import Experiment, judge
 from ragg_runtime.experiments.runs import DERIVED, Channels, bounds, demodulate_run, largest, predict
 from ragg_runtime.reference import Simulation, simulate, still
 from ragg_runtime.reference.gravity import PointMass

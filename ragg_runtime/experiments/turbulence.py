@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.page import Experiment, PrintedEntry, judge
-from ragg_runtime.experiments.paper import Printed
+from ragg_runtime.experiments.paper import Experiment, Printed, PrintedEntry, judge
 from ragg_runtime.experiments.runs import (
     LARGEST,
     bounds,

@@ -55,9 +55,6 @@ Backend = Literal["auto", "c", "numpy"]
 BLOCK = 4096
 """Samples that NumPy evaluates at a time, in cache."""
 
-TOGETHER, LONGEST = 16, 128
-"""Parameter vectors that the generated C takes at a time for :meth:`Evaluator.changes`, and samples of a mean at most."""
-
 
 class NativeWarning(UserWarning):
     """There is no machine code; the NumPy model serves."""
@@ -146,55 +143,6 @@ class Evaluator:
                 D[:, some] = self.chain.derivatives(j, *block)
         return D
 
-    def changes(
-        self,
-        t: Array,
-        inputs: Inputs,
-        p: Array,
-        steps: Array,
-        angle: Array,
-        few: int,
-        weights: Array,
-        which: int = 0,
-    ) -> Array:
-        """Means over ``few`` samples of what small changes of the parameters make of an output, weighted.
-
-        Parameters
-        ----------
-        t, inputs, angle
-            (N,) s, inputs as of :meth:`output`, (N,) rad.
-        p, steps
-            (size,) and (k, size), SI.
-        weights
-            (2, N).
-
-        Returns
-        -------
-        Array
-            (k, 2, N // few), V: means of G_out(p + step) - G_out(p) times the weights.
-        """
-        count = len(t) // few
-        made = np.empty((len(steps), 2, count))
-        if (
-            self.library is not None
-            and hasattr(self.library, "ragg_folded_changes")
-            and self.layout.like_paper
-            and few <= LONGEST
-        ):
-            weights, case = np.ascontiguousarray(weights), self._case(t, inputs, p, angle)
-            for some in split_range(len(steps), TOGETHER):
-                vectors = np.concatenate([p[None], p + steps[some]])
-                sizes = (_SIZE(len(vectors) - 1),)
-                arguments = _pointers((case[0], case[1], vectors, case[3]), sizes)
-                self.library.ragg_folded_changes(*arguments, _SIZE(few), _at(weights), _at(made[some]))
-            return made
-        reference = self.output(t, inputs, p, angle, which)
-        grouped = weights[:, : count * few].reshape(2, count, few) / few
-        for row, step in zip(made, steps, strict=True):
-            change = (self.output(t, inputs, p + step, angle, which) - reference)[: count * few]
-            row[:] = np.einsum("nf,wnf->wn", change.reshape(count, few), grouped)
-        return made
-
     def _call(self, function: str, leading: tuple[int, ...], case: _Case, result: Array) -> None:
         call = getattr(self.library, f"ragg_{function}")
         call(*map(_SIZE, leading), *_pointers(case), _at(result))
@@ -249,11 +197,11 @@ def _at(x: Array | None) -> ctypes.c_void_p:
     return ctypes.c_void_p(None if x is None else x.ctypes.data)
 
 
-def _pointers(case: _Case, before_p: Sequence[object] = ()) -> list[object]:
+def _pointers(case: _Case) -> list[object]:
     """A case as the generated C takes it: n, t, in, p, angle."""
     t, x, p, angle = case
     rows = (ctypes.c_void_p * len(x))(*(v.ctypes.data for v in x))
-    return [_SIZE(len(t)), _at(t), rows, *before_p, _at(p), _at(angle)]
+    return [_SIZE(len(t)), _at(t), rows, _at(p), _at(angle)]
 
 
 def compile_or_interpret(

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import json
-import math
 import tomllib
 from collections.abc import Mapping, Sequence
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
 
 from ragg_runtime.api import Loaded, keep_mapping, mapping_of
 from ragg_runtime.base.errors import UserError
@@ -69,38 +70,35 @@ def _show(data: Json, held: Sequence[DataColumn], sure: Mapping[str, str], *, ke
 def write(given: Mapping[str, Any]) -> str:
     """``mapping.toml`` from the page's entries; rows without a column are left out."""
 
-    def table(values: Mapping[str, Any], names: tuple[str, ...]) -> list[str]:
-        return [f"{k} = {_toml(values[k])}" for k in names if values.get(k) not in (None, "", [])]
+    def table(values: Mapping[str, Any], *names: str) -> dict[str, Any]:
+        return {k: values[k] for k in names if values.get(k) not in (None, "", [])}
 
-    time = given.get("time", {})
-    lines = ["[time]", *table(time, ("column", "format"))]
-    if time.get("format", "seconds") == "seconds":
-        lines += [f"unit = {_toml(time.get('unit', 's'))}"]
-        lines += [f"origin = {time['origin']}"] if _instant(time.get("origin")) else []
-    if given.get("file"):
-        lines += ["", "[file]", *table(given["file"], ("line", "lines", "part"))]
-    lines += ["", "[columns]"]
+    time, columns = given.get("time", {}), tomlkit.table()
+    seconds = time.get("format", "seconds") == "seconds"
     for row in given.get("rows", []):
         if row.get("column") and row["column"] != UNKNOWN:
-            parts = [f"{k} = {_toml(row[k])}" for k in ("column", "unit") if row.get(k)]
-            parts += [f"{k} = {_toml(row[k])}" for k in ("sign", "scale") if row.get(k, 1) != 1]
-            parts += [f"offset = {_toml(row['offset'])}"] if row.get("offset") else []
-            lines.append(f"{json.dumps(row['channel'])} = {{ {', '.join(parts)} }}")
-    axes = given.get("axes", {})
-    if any(axes.get(a, a) != a for a in "xyz"):
-        lines += ["", "[axes]", *(f"{a} = {_toml(axes.get(a, a))}" for a in "xyz")]
-    return "\n".join(lines) + "\n"
+            entry = {k: v for k, v in row.items() if v != {"sign": 1, "scale": 1, "offset": 0}.get(k)}
+            columns[row["channel"]] = tomlkit.inline_table()
+            columns[row["channel"]].update(table(entry, "column", "unit", "sign", "scale", "offset"))
+    whole: dict[str, Any] = {
+        "time": table(time, "column", "format") | (table({"unit": "s", **time}, "unit") if seconds else {})
+    }
+    if seconds and (origin := _read_instant(time.get("origin"))):
+        whole["time"]["origin"] = origin
+    whole |= {"file": table(given.get("file", {}), "line", "lines", "part"), "columns": columns}
+    axes = {a: given.get("axes", {}).get(a, a) for a in "xyz"}
+    whole |= {"axes": axes} if any(v != a for a, v in axes.items()) else {}
+    try:
+        return tomlkit.dumps({k: v for k, v in whole.items() if v or k == "columns"})
+    except (TypeError, ValueError, TOMLKitError):
+        raise UserError("a text or a number is needed", where="the mapping") from None
 
 
-def _toml(value: Any) -> str:
-    """Texts, numbers and lists of them are written alike in JSON and TOML."""
-    if value is None or (isinstance(value, float) and not math.isfinite(value)):
-        raise UserError("a number is needed", where="the mapping")
-    return json.dumps(value, ensure_ascii=False)
-
-
-def _instant(value: Any) -> bool:
-    return isinstance(value, str) and bool(value) and all(c in "0123456789-:.TZ+ " for c in value)
+def _read_instant(value: Any) -> datetime | None:
+    try:
+        return datetime.fromisoformat(value)
+    except (TypeError, ValueError):
+        return None
 
 
 def try_mapping(m: Loaded, path: Path, given: Mapping[str, Any]) -> Json:

@@ -146,7 +146,7 @@ def test_the_division_into_segments_leaves_no_trace(monkeypatch: pytest.MonkeyPa
     assert len(compensate._segments(c)) > 3
     assert np.array_equal(whole.quality, parts.quality)
     assert np.nanmax(np.abs(whole.gradient - parts.gradient)) < 1e-6
-    assert np.nanmax(np.abs(whole.std / parts.std - 1)) < 0.02  # the directions are sought on other segments
+    assert np.nanmax(np.abs(whole.std / parts.std - 1)) < 0.02
 
 
 def test_holes_are_bridged_or_flagged() -> None:

@@ -17,8 +17,7 @@ from ragg_runtime.experiments.dynamic import (
     run_regular,
 )
 from ragg_runtime.experiments.multifrequency import find_centre, multifrequency, run_mass, subtract_centre
-from ragg_runtime.experiments.page import Experiment, PrintedEntry, judge, write_page
-from ragg_runtime.experiments.paper import Printed
+from ragg_runtime.experiments.paper import Experiment, Printed, PrintedEntry, judge, write_page
 from ragg_runtime.experiments.runs import (
     Channels,
     find_error,

@@ -68,25 +68,6 @@ def test_base_model_is_that_of_numpy(case: tuple[Array, Array, Array]) -> None:
 
 
 @needs_compiler
-@pytest.mark.parametrize("few", [1, 5, 200])
-def test_changes_of_parameters_are_those_of_numpy(few: int, case: tuple[Array, Array, Array]) -> None:
-    """More vectors than go together, means that fill no block, weights of which some are left over."""
-    t, inputs, p = case
-    draw = np.random.default_rng(few)
-    steps = 1e-3 * p * draw.standard_normal((18, len(p)))
-    weights, angle = draw.standard_normal((2, LENGTH)), np.mod(t, 7.0)
-    found, expected = (
-        packaged().compiled(kind).changes(t, inputs, p, steps, angle, few, weights) for kind in ("c", "numpy")
-    )
-    assert found.shape == (18, 2, LENGTH // few)
-    rows = np.max(np.abs(expected), axis=2, keepdims=True)
-    assert np.all(np.abs(found - expected) <= 1e-9 * rows)
-    G = [packaged().compiled("numpy").output(t, inputs, q, angle) for q in (p, p + steps[17])]
-    by_hand = np.mean((weights[1] * (G[1] - G[0]))[: 2 * few].reshape(2, few), axis=1)
-    assert found[17, 1, :2] == pytest.approx(by_hand, rel=1e-9, abs=1e-9 * float(rows[17, 1, 0]))
-
-
-@needs_compiler
 def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
     """But for rounding; NumPy serves without a note."""
     s = scenario(63, duration=60.0)
