@@ -10,9 +10,9 @@ change, so that its couplings with misalignment and second-order coefficients ar
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import sympy as sp
 
@@ -73,6 +73,36 @@ class EffectParameter:
     late: tuple[str, ...] = ()
     growing: bool = False
     shape: bool = False
+
+
+def shared_components(
+    letter: str, components: Iterable[str], unit: str, meaning: str, plausible: float, **further: Any
+) -> tuple[EffectParameter, ...]:
+    """A shared parameter for each component of a vector or tensor.
+
+    Parameters
+    ----------
+    letter
+        What all are called: ``G`` gives ``G_xx`` ...
+    components
+        Names of the components, ``x`` or ``xy`` ...
+    meaning
+        With ``{k}`` for the component, ``{0}``, ``{1}`` for its letters.
+    further
+        Of all parameters alike, as :class:`EffectParameter` has them.
+    """
+    return tuple(
+        EffectParameter(
+            f"{letter}_{k}",
+            f"{letter}_{k}" if len(k) == 1 else f"{letter}_{{{k}}}",
+            unit,
+            meaning.format(*k, k=k),
+            plausible,
+            shared=True,
+            **further,
+        )
+        for k in components
+    )
 
 
 class Values(Mapping[str, sp.Expr]):

@@ -66,6 +66,15 @@ _AXES = "xyz"
 COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
 """Of a symmetric tensor, as the names of its columns and parameters end."""
 
+TRACELESS = COMPONENTS[:-1]
+"""Those of one without trace that determine it."""
+
+
+def traceless(values: Mapping[str, sp.Expr], name: str) -> sp.Matrix:
+    """(3 x 3) of ``name`` with a component for ``{}``, ``G_{}`` say: a gradient outside its masses is free of trace."""
+    xx, xy, xz, yy, yz = (values[name.format(k)] for k in TRACELESS)
+    return sp.Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, -(xx + yy)]])
+
 
 def symmetric(values: Mapping[str, sp.Expr], name: str) -> sp.Matrix:
     """(3 x 3) of ``name_xx``, ``name_xy`` ... ``name_zz``."""

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.stages import Motion
 from derive.symbols import COMPONENTS, symmetric
 
@@ -28,16 +28,8 @@ EFFECT = Effect(
         "not change looks like gradient-offset."
     ),
     channels=("angular_vibration_rms",),
-    parameters=tuple(
-        EffectParameter(
-            f"W_{k}",
-            f"W_{{{k}}}",
-            "1",
-            f"covariance {k} of the rate over the square of the level",
-            1.0,
-            shared=True,
-        )
-        for k in COMPONENTS
+    parameters=shared_components(
+        "W", COMPONENTS, "1", "covariance {k} of the rate over the square of the level", 1.0
     ),
     sensing=sensing,
 )

@@ -3,10 +3,9 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.stages import Motion, turn
-
-COMPONENTS = ("xx", "xy", "xz", "yy", "yz")
+from derive.symbols import TRACELESS, traceless
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -15,11 +14,7 @@ def sensing(m: Motion, p: Values, c: Context) -> Motion:
         attitude = attitude * turn(sp.eye(3)[:, n], c.channel(angle), None)
     R = sp.Matrix(3, 3, lambda i, k: c.tape.let(f"attitude_{'xyz'[i]}{'xyz'[k]}", attitude[i, k]))
 
-    def of_mass(name: str) -> sp.Matrix:
-        xx, xy, xz, yy, yz = (p[f"{name}_{k}"] for k in COMPONENTS)
-        return sp.Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, -(xx + yy)]])
-
-    level, fuel = of_mass("G"), of_mass("F") * c.channel("fuel_mass")
+    level, fuel = traceless(p, "G_{}"), traceless(p, "F_{}") * c.channel("fuel_mass")
     return m._replace(Gamma=m.Gamma + R * (level + fuel) * R.T - level)
 
 
@@ -42,15 +37,11 @@ EFFECT = Effect(
     ),
     channels=("roll", "pitch", "yaw"),
     either=True,
-    parameters=tuple(
-        EffectParameter(
-            f"{n}_{k}", f"{n}_{{{k}}}", unit, f"gradient {k} of {of}", size, shared=True, channel=channel
-        )
-        for n, unit, of, size, channel in (
-            ("G", "Eo", "the level carrier", 100.0, None),
-            ("F", "Eo/kg", "fuel, per mass", 0.01, "fuel_mass"),
-        )
-        for k in COMPONENTS
+    parameters=(
+        *shared_components("G", TRACELESS, "Eo", "gradient {k} of the level carrier", 100.0),
+        *shared_components(
+            "F", TRACELESS, "Eo/kg", "gradient {k} of fuel, per mass", 0.01, channel="fuel_mass"
+        ),
     ),
     sensing=sensing,
 )

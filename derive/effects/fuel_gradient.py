@@ -1,17 +1,13 @@
 """Gradient of fuel that is burnt."""
 
-import sympy as sp
-
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.stages import Motion
+from derive.symbols import TRACELESS, traceless
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
-    xx, xy, xz, yy, yz = (p[f"G_{k}"] for k in ("xx", "xy", "xz", "yy", "yz"))
-    # Outside the masses the gradient is free of trace.
-    of_mass = sp.Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, -(xx + yy)]])
-    return m._replace(Gamma=m.Gamma + c.channel("fuel_mass") * of_mass)
+    return m._replace(Gamma=m.Gamma + c.channel("fuel_mass") * traceless(p, "G_{}"))
 
 
 EFFECT = Effect(
@@ -25,9 +21,6 @@ EFFECT = Effect(
         "that does not change looks like gradient-offset."
     ),
     channels=("fuel_mass",),
-    parameters=tuple(
-        EffectParameter(f"G_{k}", f"G_{{{k}}}", "Eo/kg", f"gradient {k} per mass of fuel", 0.01, shared=True)
-        for k in ("xx", "xy", "xz", "yy", "yz")
-    ),
+    parameters=shared_components("G", TRACELESS, "Eo/kg", "gradient {k} per mass of fuel", 0.01),
     sensing=sensing,
 )

@@ -1,18 +1,13 @@
 """A constant gradient of masses at rest around the disc."""
 
-import sympy as sp
-
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.stages import Motion
-
-COMPONENTS = ("xx", "xy", "xz", "yy", "yz")
+from derive.symbols import TRACELESS, traceless
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
-    xx, xy, xz, yy, yz = (p[f"G_{k}"] for k in COMPONENTS)
-    # Outside the masses the gradient is free of trace.
-    return m._replace(Gamma=m.Gamma + sp.Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, -(xx + yy)]]))
+    return m._replace(Gamma=m.Gamma + traceless(p, "G_{}"))
 
 
 EFFECT = Effect(
@@ -28,9 +23,6 @@ EFFECT = Effect(
         "Constant, at rest in the measurement frame. A well-made instrument responds only to G_xx - G_yy and G_xy; any other constant "
         "signal at twice the spin rate looks the same, for example that of rectified vibration."
     ),
-    parameters=tuple(
-        EffectParameter(f"G_{k}", f"G_{{{k}}}", "Eo", f"constant gradient {k}", 100.0, shared=True)
-        for k in COMPONENTS
-    ),
+    parameters=shared_components("G", TRACELESS, "Eo", "constant gradient {k}", 100.0),
     sensing=sensing,
 )

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.stages import Motion
 
 
@@ -21,11 +21,6 @@ EFFECT = Effect(
         "Constant over the record. It acts through the product with the rate, and in full kinematics with the spin; null biases absorb "
         "the constant part."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"b_{k}", f"b_{k}", "deg/h", f"bias of the gyroscope about {k}", 1.0, shared=True, like="K0"
-        )
-        for k in "xyz"
-    ),
+    parameters=shared_components("b", "xyz", "deg/h", "bias of the gyroscope about {k}", 1.0, like="K0"),
     sensing=sensing,
 )

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.effects.imu_acceleration_misalignment import PAIRS
 from derive.stages import Motion
 
@@ -30,17 +30,13 @@ EFFECT = Effect(
         "To second order in m. A common rotation of gyroscopes and accelerometers is imu-misalignment, of the accelerometers only "
         "imu-acceleration-misalignment; the force distinguishes them."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"m_{k}",
-            f"m_{{{k}}}",
-            "rad",
-            f"share of the rate about {k[1]} in what is reported about {k[0]}",
-            1e-4,
-            shared=True,
-            like="vartheta_z",
-        )
-        for k in PAIRS
+    parameters=shared_components(
+        "m",
+        PAIRS,
+        "rad",
+        "share of the rate about {1} in what is reported about {0}",
+        1e-4,
+        like="vartheta_z",
     ),
     sensing=sensing,
 )

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.stages import Motion
 
 
@@ -21,17 +21,8 @@ EFFECT = Effect(
     source="IEEE Std 528, scale-factor error of a gyroscope",
     equation=r"\omega_k = \omega_{k,rec}/(1 + s_k),\; \dot\omega_k = \dot\omega_{k,rec}/(1 + s_k)",
     limits="Exact in s; one scale an axis, no asymmetry between the senses of turning.",
-    parameters=tuple(
-        EffectParameter(
-            f"s_{k}",
-            f"s_{k}",
-            "1",
-            f"relative scale error of the gyroscope about {k}",
-            1e-4,
-            shared=True,
-            like="K1",
-        )
-        for k in "xyz"
+    parameters=shared_components(
+        "s", "xyz", "1", "relative scale error of the gyroscope about {k}", 1e-4, like="K1"
     ),
     sensing=sensing,
 )

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.stages import Motion
 
 
@@ -21,11 +21,6 @@ EFFECT = Effect(
         "Constant over the record. Horizontal biases look like a constant force that turns in the disc's frame; b_z is "
         "absorbed by null biases."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"b_{k}", f"b_{k}", "ug", f"bias of the accelerometer along {k}", 50.0, shared=True, like="K0"
-        )
-        for k in "xyz"
-    ),
+    parameters=shared_components("b", "xyz", "ug", "bias of the accelerometer along {k}", 50.0, like="K0"),
     sensing=sensing,
 )

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.stages import Motion
 
 PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
@@ -27,17 +27,13 @@ EFFECT = Effect(
         "To second order in m. A common rotation of the three accelerometers is imu-misalignment without the gyroscopes; only the "
         "angular rate distinguishes the two."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"m_{k}",
-            f"m_{{{k}}}",
-            "rad",
-            f"share of the force along {k[1]} in what is reported along {k[0]}",
-            1e-4,
-            shared=True,
-            like="vartheta_z",
-        )
-        for k in PAIRS
+    parameters=shared_components(
+        "m",
+        PAIRS,
+        "rad",
+        "share of the force along {1} in what is reported along {0}",
+        1e-4,
+        like="vartheta_z",
     ),
     sensing=sensing,
 )

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.stages import Motion
 
 
@@ -22,17 +22,8 @@ EFFECT = Effect(
         "It does not turn with the disc: the square of a horizontal force appears at the spin frequency, where the instrument's K2 ... "
         "K8 have no term. For a_z, which hardly changes, it is a bias, and neglected."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"q_{k}",
-            f"q_{k}",
-            "ug/g^2",
-            f"curvature of the accelerometer along {k}",
-            20.0,
-            shared=True,
-            like="K2",
-        )
-        for k in "xy"
+    parameters=shared_components(
+        "q", "xy", "ug/g^2", "curvature of the accelerometer along {k}", 20.0, like="K2"
     ),
     sensing=sensing,
 )

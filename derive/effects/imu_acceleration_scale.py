@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.stages import Motion
 
 
@@ -18,17 +18,8 @@ EFFECT = Effect(
     source="IEEE Std 1293, scale-factor error: 50 ppm (navigation grade) to 1000 ppm (tactical grade)",
     equation=r"a_k = a_{k,rec}/(1 + s_k)",
     limits="Exact in s; one scale an axis, the same for both signs.",
-    parameters=tuple(
-        EffectParameter(
-            f"s_{k}",
-            f"s_{k}",
-            "1",
-            f"relative scale error of the accelerometer along {k}",
-            1e-4,
-            shared=True,
-            like="K1",
-        )
-        for k in "xyz"
+    parameters=shared_components(
+        "s", "xyz", "1", "relative scale error of the accelerometer along {k}", 1e-4, like="K1"
     ),
     sensing=sensing,
 )

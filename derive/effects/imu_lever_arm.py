@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.stages import Motion
 
 
@@ -25,9 +25,6 @@ EFFECT = Effect(
         "The gradient between the two places, Gamma l (3e-7 m/s^2 for 0.1 m), is neglected: it is constant and below any "
         "accelerometer's bias."
     ),
-    parameters=tuple(
-        EffectParameter(f"l_{k}", f"l_{k}", "m", f"position of the motion sensor, {k}", 0.01, shared=True)
-        for k in "xyz"
-    ),
+    parameters=shared_components("l", "xyz", "m", "position of the motion sensor, {k}", 0.01),
     sensing=sensing,
 )

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.rotation import small_rotation
 from derive.stages import Motion
 
@@ -27,17 +27,8 @@ EFFECT = Effect(
         "Rotation to second order in e, one for accelerometers and gyroscopes; gradients are not turned. "
         "only gradients distinguish e_x, e_y from spin-axis-tilt, and e_z from spin-phase-offset."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"e_{k}",
-            f"e_{k}",
-            "rad",
-            f"turn of the motion sensor about {k}",
-            1e-4,
-            shared=True,
-            like="vartheta_z",
-        )
-        for k in "xyz"
+    parameters=shared_components(
+        "e", "xyz", "rad", "turn of the motion sensor about {k}", 1e-4, like="vartheta_z"
     ),
     sensing=sensing,
 )

@@ -5,7 +5,7 @@ from functools import cache
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 
 INDEPENDENT = ("xxx", "xxy", "xxz", "xyy", "xyz", "yyy", "yyz")
 FOURTH = ("xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz")
@@ -49,18 +49,8 @@ EFFECT = Effect(
         "the second adds up, at twice the spin rate, where it looks like a constant gradient, and at four times it."
     ),
     parameters=(
-        *(
-            EffectParameter(
-                f"T_{k}", f"T_{{{k}}}", "Eo/m", f"third derivative {k} of the potential", 10.0, shared=True
-            )
-            for k in INDEPENDENT
-        ),
-        *(
-            EffectParameter(
-                f"T_{k}", f"T_{{{k}}}", "Eo/m^2", f"fourth derivative {k} of the potential", 30.0, shared=True
-            )
-            for k in FOURTH
-        ),
+        *shared_components("T", INDEPENDENT, "Eo/m", "third derivative {k} of the potential", 10.0),
+        *shared_components("T", FOURTH, "Eo/m^2", "fourth derivative {k} of the potential", 30.0),
     ),
     field=field,
 )

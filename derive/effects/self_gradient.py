@@ -5,18 +5,14 @@ import sympy as sp
 from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
+from derive.symbols import TRACELESS, traceless
 
 ATTITUDE = ("roll", "pitch")
-COMPONENTS = ("xx", "xy", "xz", "yy", "yz")
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
-    own = sp.zeros(3)
-    for angle in ATTITUDE:
-        xx, xy, xz, yy, yz = (p[f"G_{k}_{angle}"] for k in COMPONENTS)
-        # Outside the masses the gradient is free of trace.
-        own += sp.sin(c.channel(angle)) * sp.Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, -(xx + yy)]])
-    return m._replace(Gamma=m.Gamma + own)
+    own = (sp.sin(c.channel(angle)) * traceless(p, f"G_{{}}_{angle}") for angle in ATTITUDE)
+    return m._replace(Gamma=sum(own, m.Gamma))
 
 
 EFFECT = Effect(
@@ -46,7 +42,7 @@ EFFECT = Effect(
             channel=angle,
         )
         for angle in ATTITUDE
-        for k in COMPONENTS
+        for k in TRACELESS
     ),
     sensing=sensing,
 )

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.rotation import lean
 from derive.stages import Geometry
 
@@ -26,12 +26,7 @@ EFFECT = Effect(
         "Rotation to second order in w; the shaft about which the disc turns is unchanged. To first order it "
         "is a pattern of the mounting angles of the four accelerometers, which beta_x and vartheta_y absorb."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"w_{k}", f"w_{k}", "rad", f"lean of the disc about its own {k} axis", 1e-5, shared=True
-        )
-        for k in "xy"
-    ),
+    parameters=shared_components("w", "xy", "rad", "lean of the disc about its own {k} axis", 1e-5),
     geometry=geometry,
     turning=True,
 )

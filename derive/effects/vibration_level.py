@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.rectified import rectified
 from derive.stages import SensedForce
 from derive.symbols import COMPONENTS, symmetric
@@ -29,11 +29,6 @@ EFFECT = Effect(
         "constant is vibration-rectification."
     ),
     channels=("vibration_rms",),
-    parameters=tuple(
-        EffectParameter(
-            f"L_{k}", f"L_{{{k}}}", "1", f"covariance {k} over the square of the level", 1.0, shared=True
-        )
-        for k in COMPONENTS
-    ),
+    parameters=shared_components("L", COMPONENTS, "1", "covariance {k} over the square of the level", 1.0),
     transducer=transducer,
 )

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Effect, Values, shared_components
 from derive.rectified import rectified
 from derive.stages import SensedForce
 from derive.symbols import COMPONENTS, symmetric
@@ -30,11 +30,6 @@ EFFECT = Effect(
         "Covariance constant over the record (else vibration-level), zero mean, fast against the turn of the disc; exact for Eq. 1, "
         "rectification by third-order terms is neglected. P must be positive semidefinite."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"P_{k}", f"P_{{{k}}}", "g^2", f"covariance {k} of the unrecorded vibration", 1e-4, shared=True
-        )
-        for k in COMPONENTS
-    ),
+    parameters=shared_components("P", COMPONENTS, "g^2", "covariance {k} of the unrecorded vibration", 1e-4),
     transducer=transducer,
 )
