@@ -3,35 +3,26 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from pathlib import Path
 
 import sympy
 
 from derive import pipeline, tree
-from derive.pipeline import derive_base
 
 GENERATED, MANIFEST = "generated", "manifest.json"
 
 
-def folders() -> Mapping[str, Mapping[str, str]]:
-    """Folder of the project -> path in it -> text."""
-    return {GENERATED: derive_base()}
-
-
 def difference(root: Path) -> str:
-    """Empty if everything below ``root`` is as derived; else the diff.
+    """Empty if ``generated/`` below ``root`` is as derived; else the diff.
 
     The version of SymPy in the manifest does not count: another one may well yield the same code.
     """
-    parts = []
-    for folder, files in folders().items():
-        version = committed_with(root)
-        same = {n: _with_version(t, version) if n.endswith(MANIFEST) else t for n, t in files.items()}
-        found = tree.difference(same, root / folder, exclusive=True)
-        if found:
-            parts.append(f"{folder}/ differs from the derivation:\n{found}")
-    return "\n".join(parts)
+    version = committed_with(root)
+    files = {
+        n: _with_version(t, version) if n.endswith(MANIFEST) else t for n, t in pipeline.derive_base().items()
+    }
+    found = tree.difference(files, root / GENERATED)
+    return f"{GENERATED}/ differs from the derivation:\n{found}" if found else ""
 
 
 def committed_with(root: Path) -> str:

@@ -26,7 +26,7 @@ from derive.context import RECORDED_SPIN
 from derive.harmonics import NotHarmonic, Series, constant, rotating, series, split
 from derive.layout import AXES, SymbolicLayout, instrument_parameters
 from derive.layout import PAPER as FOUR
-from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS
+from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS, part, readable
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import (
     COS_J,
@@ -143,9 +143,9 @@ def _in_parts(name: str, title: str, kinematics: Kinematics, inputs: tuple[Chann
         for j, (sign, quarter) in enumerate(zip(SIGNS, QUARTER_TURNS, strict=True)):
             for powers, coefficient in own.items():
                 target, turned_sign = _turned(powers, quarter)
-                part = _part(coefficient, nominal)
-                if part:
-                    number = expressions.setdefault(_readable(part), len(expressions))
+                found = part(coefficient, nominal)
+                if found:
+                    number = expressions.setdefault(readable(found), len(expressions))
                     sums.setdefault(target, []).append(AccelerometerTerm(sign * turned_sign, number, j))
     keys = sorted(sums, key=lambda m: (sum(m), tuple(-k for k in m)))
     value = _nested({m: symbol(f"c[{n}]") for n, m in enumerate(keys)}, 0)
@@ -204,19 +204,6 @@ def _turned(powers: tuple[int, ...], quarter: int) -> tuple[tuple[int, ...], int
         sign *= sp.prod(to[d][1] for d in directions) ** power
         found[TURNED.index(f"{letter}_{''.join(to[d][0] for d in directions)}")] += power
     return tuple(found), int(sign)
-
-
-def _part(p: PolyElement, nominal: bool) -> PolyElement:
-    """Of a coefficient the part k1^m R^n that all accelerometers share but for scale, or the rest."""
-    return p.ring.from_dict({m: c for m, c in p.terms() if nominal != any(m[2:])})
-
-
-def _readable(p: PolyElement) -> sp.Expr:
-    content, primitive = p.primitive()
-    lowest = tuple(min(m[n] for m in primitive.monoms()) for n in range(len(p.ring.gens)))
-    divided = {tuple(a - b for a, b in zip(m, lowest, strict=True)): c for m, c in primitive.terms()}
-    common = p.ring.from_dict({lowest: content}).as_expr()
-    return sp.Mul(common, p.ring.from_dict(divided).as_expr(), evaluate=len(divided) == 1)
 
 
 def _nested(

@@ -12,14 +12,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
-from sympy.polys.rings import PolyElement
 
 from derive.chain import accelerometer, auxiliary_channel
 from derive.effect import Effect, EffectParameter
 from derive.folded import Folded
 from derive.layout import PAPER as FOUR
 from derive.layout import SymbolicLayout, instrument_parameters
-from derive.propagation import COEFFICIENT_PARAMETERS, Collected, monomial, motion_numbers
+from derive.propagation import COEFFICIENT_PARAMETERS, Collected, monomial, motion_numbers, part, readable
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of
 from derive.tape import Program, settled
@@ -101,7 +100,9 @@ def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
         grouped: dict[tuple[int, ...], list[Coefficient]] = {}
         for t in terms:
             grouped.setdefault(t.motion, []).extend(
-                Coefficient(t.combination, _readable(part)) for part in _nominal_apart(t.coefficient)
+                Coefficient(t.combination, readable(p))
+                for p in (part(t.coefficient, nominal) for nominal in (True, False))
+                if p
             )
         amplitudes.append(
             (amplitude, tuple(AmplitudeTerm(tuple(c), monomial(m)) for m, c in grouped.items()))
@@ -113,7 +114,7 @@ def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
             for p, generator in zip(COEFFICIENT_PARAMETERS, collected.ring.gens, strict=True):
                 slope = terms_of[motion].diff(generator)
                 if slope:
-                    slopes[p].append((len(basis), _readable(slope)))
+                    slopes[p].append((len(basis), readable(slope)))
             basis.append((n, phase, monomial(motion)))
     used = {s.name for _, terms in amplitudes for t in terms for s in t.motion.free_symbols}
     numbers = tuple((k, v) for k, v in motion_numbers().items() if k in used)
@@ -125,27 +126,6 @@ def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
         basis=tuple(basis),
         slopes=tuple((p, tuple(s)) for p, s in slopes.items()),
     )
-
-
-def _nominal_apart(p: PolyElement) -> tuple[PolyElement, ...]:
-    """A coefficient as its nominal part k1^m R^n, if it has one, and the rest.
-
-    D^12[k1 (1 + small)] would round 1 + small, and its product with k1, before nearly equal numbers are
-    subtracted; D^12[k1] + D^12[k1 small] does not. It halves the round-off of the whole model.
-    """
-    nominal = p.ring.from_dict({m: c for m, c in p.terms() if not any(m[2:])})
-    return tuple(part for part in (nominal, p - nominal) if part)
-
-
-def _readable(p: PolyElement) -> sp.Expr:
-    """k1 R (...): the common factor first, as the paper writes it."""
-    content, primitive = p.primitive()
-    lowest = tuple(min(m[n] for m in primitive.monoms()) for n in range(len(p.ring.gens)))
-    divided = p.ring.from_dict(
-        {tuple(a - b for a, b in zip(m, lowest, strict=True)): c for m, c in primitive.terms()}
-    )
-    common = p.ring.from_dict({lowest: content}).as_expr()
-    return sp.Mul(common, divided.as_expr(), evaluate=len(divided) == 1)
 
 
 def effect_parameters(effects: Sequence[Effect], count: int = FOUR.size) -> tuple[Parameter, ...]:

@@ -214,6 +214,24 @@ def amplitude_name(n: int, phase: str) -> str:
     return "A_0" if n == 0 else f"A_{n}{phase}"
 
 
+def part(p: PolyElement, nominal: bool) -> PolyElement:
+    """Of a coefficient the part k1^m R^n that all accelerometers share but for scale, or the rest.
+
+    D^12[k1 (1 + small)] would round 1 + small, and its product with k1, before nearly equal numbers are
+    subtracted; D^12[k1] + D^12[k1 small] does not. It halves the round-off of the whole model.
+    """
+    return p.ring.from_dict({m: c for m, c in p.terms() if nominal != any(m[2:])})
+
+
+def readable(p: PolyElement) -> sp.Expr:
+    """k1 R (...): the common factor first, as the paper writes it."""
+    content, primitive = p.primitive()
+    lowest = tuple(min(m[n] for m in primitive.monoms()) for n in range(len(p.ring.gens)))
+    divided = {tuple(a - b for a, b in zip(m, lowest, strict=True)): c for m, c in primitive.terms()}
+    common = p.ring.from_dict({lowest: content}).as_expr()
+    return sp.Mul(common, p.ring.from_dict(divided).as_expr(), evaluate=len(divided) == 1)
+
+
 def _reading_order(motion: tuple[int, ...]) -> tuple[object, ...]:
     """Terms without T, S and a first; then by degree and by the first motion number."""
     return (sum(motion), tuple(-p for p in motion))

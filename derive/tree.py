@@ -9,11 +9,11 @@ from collections.abc import Mapping
 from pathlib import Path
 
 
-def write(files: Mapping[str, str], folder: Path, *, exclusive: bool = True) -> list[str]:
+def write(files: Mapping[str, str], folder: Path) -> list[str]:
     """Make ``folder`` hold these files; returns the paths that changed.
 
-    Each file is replaced by a rename, so that none is ever half-written. If ``exclusive``, files that are
-    not derived are removed; caches (``__pycache__``) are left alone.
+    Each file is replaced by a rename, so that none is ever half-written. Files that are not derived are removed; caches
+    (``__pycache__``) are left alone.
     """
     changed = []
     for name, text in files.items():
@@ -29,18 +29,18 @@ def write(files: Mapping[str, str], folder: Path, *, exclusive: bool = True) -> 
         os.replace(temporary, path)
         changed.append(name)
     for name in _present(folder):
-        if exclusive and name not in files:
+        if name not in files:
             (folder / name).unlink()
             changed.append(name)
     return changed
 
 
-def difference(files: Mapping[str, str], folder: Path, *, exclusive: bool = True, lines: int = 40) -> str:
-    """Empty if ``folder`` holds these files (only them, if ``exclusive``), byte for byte; else a diff."""
+def difference(files: Mapping[str, str], folder: Path, lines: int = 40) -> str:
+    """Empty if ``folder`` holds these files and only them, byte for byte; else a diff."""
     report: list[str] = []
     present = _present(folder)
     report += [f"missing: {n}" for n in files if n not in present]
-    report += [f"not derived: {n}" for n in present if exclusive and n not in files]
+    report += [f"not derived: {n}" for n in present if n not in files]
     for name in files:
         if name not in present:
             continue

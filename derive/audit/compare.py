@@ -67,17 +67,13 @@ class Mistake:
 
 @dataclass(frozen=True)
 class EquationComparison:
-    """The outcome for one equation. ``missing`` are derived terms without a printed counterpart."""
+    """The outcome for one equation of so many ``printed`` atoms. ``missing`` are derived terms without a printed counterpart."""
 
     equation: Equation
+    printed: int
     confirmed: int
     mistakes: tuple[Mistake, ...]
     missing: tuple[Change, ...]
-
-    @property
-    def wrong(self) -> int:
-        """Number of printed atoms that are wrong."""
-        return sum(1 for m in self.mistakes for c in m.changes if c.printed)
 
 
 @dataclass(frozen=True)
@@ -119,7 +115,8 @@ def compare(printed: Reading, derived: PolyElement) -> EquationComparison:
     wrong += [(a, QQ(0)) for a in unexplained]
     touched = {m for a in atoms for m in meaning[a.monomial]}
     missing = [Change(m, QQ(0), v) for m, v in rest.items() if m not in touched]
-    return EquationComparison(printed.equation, len(atoms) - len(wrong), *_grouped(printed, wrong, missing))
+    confirmed = len(atoms) - len(wrong)
+    return EquationComparison(printed.equation, len(atoms), confirmed, *_grouped(printed, wrong, missing))
 
 
 def monomial(ring: PolyRing, powers: Monomial) -> PolyElement:

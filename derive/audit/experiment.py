@@ -7,14 +7,19 @@ that radius times gradient is in g.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 
+import numpy as np
+from numpy.typing import NDArray
 from sympy.polys.rings import PolyElement
 
-from derive.audit.reading import MODEL_RING
-from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS
+from derive.audit.compare import derived_motion
+from derive.audit.proof import amplitude_value, value
+from derive.symbols import COMPONENTS
+
+Array = NDArray[np.float64]
 
 G0 = 9.8
 """m/s^2 per g: the value with which the paper's k_ggi = 4.54e-4 V/Eo comes out."""
@@ -23,6 +28,7 @@ SPIN_FREQUENCY = 0.25
 EOTVOS = 1e-9
 SAMPLES = 32
 """Per revolution. The motion repeats with the disc, no product goes beyond the 8th harmonic: exact means."""
+ANGLES = 2 * np.pi * np.arange(SAMPLES) / SAMPLES
 
 ARCSEC = math.pi / 648000
 TABLE_V: Mapping[str, tuple[float, ...]] = {
@@ -80,88 +86,27 @@ def scale_factor() -> float:
     return sum(k * R for k, R in zip(p["k1"], p["R"], strict=True))
 
 
-def angle(n: int) -> float:
-    """Disc angle of sample n."""
-    return 2 * math.pi * n / SAMPLES
-
-
 @cache
-def motion() -> Mapping[str, tuple[float, ...]]:
+def motion() -> Mapping[str, Array]:
     """Table VI over one revolution, by the names of :data:`MODEL_RING` (g, s^-2); no gravity gradient."""
-    sine, cosine = ([f(angle(n)) for n in range(SAMPLES)] for f in (math.sin, math.cos))
-    per_hour = math.pi / 648000
-    a = {n: tuple(m + v * s for s in sine) for n, (m, v) in TABLE_VI.items() if n[0] == "a"}
-    rate = [[per_hour * (m + v * s) for s in sine] for m, v in (TABLE_VI[f"omega_{k}"] for k in "xyz")]
+    sine, cosine = np.sin(ANGLES), np.cos(ANGLES)
     spin = 2 * math.pi * SPIN_FREQUENCY
-    turn = [[per_hour * v * spin * c for c in cosine] for _, v in (TABLE_VI[f"omega_{k}"] for k in "xyz")]
-    w = list(zip(*rate, strict=True))
-    d = list(zip(*turn, strict=True))
-
-    def each(f: Callable[[Sequence[float], Sequence[float]], float]) -> tuple[float, ...]:
-        return tuple(f(x, y) for x, y in zip(w, d, strict=True))
-
-    return {
-        **a,
-        "T_1": each(lambda w, d: (w[1] ** 2 - w[0] ** 2) / 2),
-        "T_2": each(lambda w, d: w[0] * w[1]),
-        "T_3": each(lambda w, d: -w[1] * w[2] - d[0]),
-        "T_4": each(lambda w, d: -w[0] * w[2] + d[1]),
-        "T_5": each(lambda w, d: (w[0] ** 2 + w[1] ** 2) / 2 + w[2] ** 2),
-        "T_6": each(lambda w, d: d[2]),
-        "S_1": each(lambda w, d: -w[0] * w[2] - d[1]),
-        "S_2": each(lambda w, d: -w[1] * w[2] + d[0]),
-        "S_4": each(lambda w, d: w[0] ** 2 + w[1] ** 2),
-    }
-
-
-_NAMES = tuple(s.name for s in MODEL_RING.symbols)
-MOTION_PLACES = slice(len(COEFFICIENT_PARAMETERS), len(COEFFICIENT_PARAMETERS) + len(MOTION_NUMBERS))
-_WEIGHTS = {"D12": (1, -1, 0, 0), "D34": (0, 0, 1, -1), "D1234": (1, 1, -1, -1), "Sigma": (1, 1, 1, 1)}
-
-
-def series(p: PolyElement) -> tuple[float, ...]:
-    """One revolution of a polynomial of :data:`MODEL_RING` in the twelve motion numbers, V."""
-    instrument = accelerometers()
-    constants: dict[tuple[int, ...], float] = {}
-    for powers, value in p.terms():
-        named = [(n, k) for n, k in zip(_NAMES, powers, strict=True) if k]
-        weights = next(_WEIGHTS[n] for n, _ in named if n in _WEIGHTS)
-        inner = [(instrument[n], k) for n, k in named if n in instrument]
-        products = (w * math.prod(v[j] ** k for v, k in inner) for j, w in enumerate(weights) if w)
-        outer = powers[MOTION_PLACES]
-        constants[outer] = constants.get(outer, 0.0) + float(value) * sum(products)
-    total = [0.0] * SAMPLES
-    for outer, c in constants.items():
-        for n, v in enumerate(_moving(outer)):
-            total[n] += c * v
-    return tuple(total)
-
-
-@cache
-def _moving(powers: tuple[int, ...]) -> tuple[float, ...]:
-    """One revolution of a product of motion numbers."""
-    columns = [(motion()[n], k) for n, k in zip(_NAMES[MOTION_PLACES], powers, strict=True) if k]
-    return tuple(math.prod(v[n] ** k for v, k in columns) for n in range(SAMPLES))
-
-
-def output(amplitudes: Mapping[str, PolyElement]) -> tuple[float, ...]:
-    """One revolution of G_out with these amplitudes (A_0, A_1c, A_1s ...), V (Eq. 17)."""
-    total = [0.0] * SAMPLES
-    for name, p in amplitudes.items():
-        h = int(name[2])
-        wave = math.sin if name.endswith("s") else math.cos
-        for n, v in enumerate(series(p)):
-            total[n] += v * wave(h * angle(n))
-    return tuple(total)
+    unit = {"a": 1.0, "o": math.pi / 648000}
+    numbers = {n: unit[n[0]] * (m + v * sine) for n, (m, v) in TABLE_VI.items()}
+    numbers |= {f"omegadot_{k}": unit["o"] * TABLE_VI[f"omega_{k}"][1] * spin * cosine for k in "xyz"}
+    numbers |= {f"Gamma_{k}": np.zeros(SAMPLES) for k in COMPONENTS}
+    return numbers | {n: value(p, numbers, float) for n, p in derived_motion().items()}
 
 
 def cost(amplitudes: Mapping[str, PolyElement]) -> Cost:
-    """What a difference in the amplitudes costs."""
-    unit = scale_factor() * EOTVOS
-    G = [v / unit for v in output(amplitudes)]
-    rms = math.sqrt(sum(v * v for v in G) / SAMPLES)
-    T1 = sum(2 * v * math.sin(2 * angle(n)) for n, v in enumerate(G)) / SAMPLES
-    T2 = sum(2 * v * math.cos(2 * angle(n)) for n, v in enumerate(G)) / SAMPLES
+    """What a difference in the amplitudes (A_0, A_1c, A_1s ...) costs (Eq. 17)."""
+    G = np.zeros(SAMPLES)
+    for name, p in amplitudes.items():
+        wave = np.sin if name.endswith("s") else np.cos
+        G += amplitude_value(p, accelerometers(), motion(), float) * wave(int(name[2]) * ANGLES)
+    G /= scale_factor() * EOTVOS
+    rms = math.sqrt(float(np.mean(G**2)))
+    T1, T2 = (float(np.mean(2 * G * f(2 * ANGLES))) for f in (np.sin, np.cos))
     # Rounding must not show: what is zero but for the last digits is zero.
     floor = 1e-9 * rms
     return Cost(rms, 2 * T1 if abs(T1) > floor else 0.0, -T2 if abs(T2) > floor else 0.0)

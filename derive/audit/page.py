@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-import jinja2
 import sympy as sp
 from sympy.polys.rings import PolyElement
 
@@ -14,6 +13,7 @@ from derive.audit.compare import Rational
 from derive.audit.experiment import Cost
 from derive.audit.reading import COMBINATIONS, MODEL_RING
 from derive.audit.result import PROOF_POINTS, Audit, Erratum, audit
+from derive.emit.render import number, render_page
 from derive.propagation import COEFFICIENT_PARAMETERS
 
 Row = tuple[str, ...]
@@ -21,15 +21,7 @@ Row = tuple[str, ...]
 
 def page() -> str:
     """The page of errata, Markdown."""
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("derive.audit", "templates"),
-        undefined=jinja2.StrictUndefined,
-        autoescape=False,
-        keep_trailing_newline=True,
-        trim_blocks=False,
-    )
-    rendered = environment.get_template("errata.md.j2").render(_context(audit()))
-    return rendered.rstrip() + "\n"
+    return render_page("derive.audit", "errata.md.j2", _context(audit()))
 
 
 def _context(a: Audit) -> dict[str, Any]:
@@ -39,7 +31,7 @@ def _context(a: Audit) -> dict[str, Any]:
         "confirmed": str(a.confirmed),
         "printed": str(a.printed),
         "wrong": str(a.wrong),
-        "worst_erratum": _number(max(costs, default=0.0)),
+        "worst_erratum": number(max(costs, default=0.0)),
         "neglected": _cost(a.neglected),
         "proof_points": str(PROOF_POINTS),
         "proof_verdict": "All differences are exactly 0." if a.proved else "**A difference is not 0.**",
@@ -51,23 +43,15 @@ def _context(a: Audit) -> dict[str, Any]:
     }
 
 
-def _number(x: float, digits: int = 3) -> str:
-    """Significant digits; 4e6, not 4e+06; 0 for zero."""
-    if x == 0:
-        return "0"
-    mantissa, e, exponent = f"{x:.{digits}g}".partition("e")
-    return f"{mantissa}e{int(exponent)}" if e else mantissa
-
-
 def _cost(c: Cost | None) -> dict[str, str]:
-    return {} if c is None else {n: _number(getattr(c, n)) for n in ("rms", "inline", "cross")}
+    return {} if c is None else {n: number(getattr(c, n)) for n in ("rms", "inline", "cross")}
 
 
 def _summary(a: Audit) -> list[Row]:
     groups: dict[str, list[int]] = {}
-    for c in a.counts:
-        row = groups.setdefault(c.number, [0, 0, 0, 0])
-        for n, v in enumerate((c.printed, c.confirmed, c.printed - c.confirmed, c.missing)):
+    for c in a.comparisons:
+        row = groups.setdefault(c.equation.number, [0, 0, 0, 0])
+        for n, v in enumerate((c.printed, c.confirmed, c.printed - c.confirmed, len(c.missing))):
             row[n] += v
     total = [sum(r[n] for r in groups.values()) for n in range(4)]
     return [
@@ -77,21 +61,22 @@ def _summary(a: Audit) -> list[Row]:
 
 
 def _erratum(e: Erratum) -> dict[str, Any]:
-    one = e.right.ring.domain.one
+    right = e.mistake.right
+    one = right.ring.domain.one
     return {
-        "number": e.number,
-        "left": e.left,
-        "printed": e.printed,
-        "right": latex(e.right),
-        "residual": "" if e.residual is None else _number(e.residual, 6),
+        "number": e.equation.number,
+        "left": e.equation.left,
+        "printed": e.equation.terms[e.mistake.term],
+        "right": latex(right),
+        "residual": "" if e.residual is None else number(e.residual, 6),
         "cost": _cost(e.cost),
         "changes": [
             (
-                f"${latex(e.right.ring.from_dict({c.monomial: one}))}$",
+                f"${latex(right.ring.from_dict({c.monomial: one}))}$",
                 f"${rational(c.printed)}$",
                 f"${rational(c.right)}$",
             )
-            for c in e.changes
+            for c in e.mistake.changes
         ],
     }
 

@@ -14,7 +14,8 @@ from derive.audit.compare import (
     MOTION,
     SIMPLIFIED,
     TRANSDUCER,
-    Change,
+    Equation,
+    EquationComparison,
     Mistake,
     Rational,
     Reading,
@@ -31,7 +32,7 @@ from derive.audit.compare import (
 )
 from derive.audit.experiment import Cost
 from derive.audit.reading import MODEL_RING, model_reader, motion_reader, transducer_reader
-from derive.propagation import collect
+from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, collect
 from derive.simplify.terms import simplified as simplified_model
 
 PROOF_POINTS = 10
@@ -40,32 +41,21 @@ PROOF_SEED = 2018
 
 Amplitudes = Mapping[str, PolyElement]
 
-
-@dataclass(frozen=True)
-class Count:
-    """Printed atoms of one equation: how many are confirmed, and how many derived terms are missing."""
-
-    number: str
-    left: str
-    printed: int
-    confirmed: int
-    missing: int
+MOTION_PLACES = slice(len(COEFFICIENT_PARAMETERS), len(COEFFICIENT_PARAMETERS) + len(MOTION_NUMBERS))
+"""Of the motion numbers in :data:`MODEL_RING`."""
 
 
 @dataclass(frozen=True)
 class Erratum:
     """A printed term that is wrong.
 
-    ``right`` is the term as it should be; ``residual`` is what G_out is off by, at the first proof point, if
-    this term alone is left as printed (exactly 0 with the right one); ``cost`` is that of printed minus right
-    in the dynamic experiment. Both are None for Eq. 5b and 16, whose terms are no terms of G_out.
+    ``residual`` is what G_out is off by, at the first proof point, if this term alone is left as printed (exactly 0 with the
+    right one); ``cost`` is that of printed minus right in the dynamic experiment. Both are None for Eq. 5b and 16, whose terms
+    are no terms of G_out.
     """
 
-    number: str
-    left: str
-    printed: str
-    right: PolyElement
-    changes: tuple[Change, ...]
+    equation: Equation
+    mistake: Mistake
     residual: float | None
     cost: Cost | None
 
@@ -87,7 +77,7 @@ class Audit:
     ``simplified_amplitudes``: those Eq. 42 must have.
     """
 
-    counts: tuple[Count, ...]
+    comparisons: tuple[EquationComparison, ...]
     errata: tuple[Erratum, ...]
     beyond: tuple[Beyond, ...]
     neglected: Cost
@@ -97,12 +87,12 @@ class Audit:
     @property
     def printed(self) -> int:
         """Number of printed atoms audited."""
-        return sum(c.printed for c in self.counts)
+        return sum(c.printed for c in self.comparisons)
 
     @property
     def confirmed(self) -> int:
         """Number of printed atoms that come out."""
-        return sum(c.confirmed for c in self.counts)
+        return sum(c.confirmed for c in self.comparisons)
 
     @property
     def wrong(self) -> int:
@@ -121,10 +111,7 @@ def audit() -> Audit:
     outcomes = [(r, compare(r, p)) for r, p in readings(analytical, simplified, transducer)]
     points = direct.points(PROOF_POINTS, PROOF_SEED)
     return Audit(
-        counts=tuple(
-            Count(r.equation.number, r.equation.left, len(r.atoms), o.confirmed, len(o.missing))
-            for r, o in outcomes
-        ),
+        comparisons=tuple(o for _, o in outcomes),
         errata=tuple(_erratum(r, m, points[0]) for r, o in outcomes for m in o.mistakes),
         beyond=tuple(_beyond(full, analytical)),
         neglected=experiment.cost(
@@ -161,8 +148,7 @@ def _erratum(r: Reading, m: Mistake, point: direct.NumericPoint) -> Erratum:
     if r.ring is MODEL_RING:
         difference = {amplitude(r.equation.left): printed_minus_right(m)}
         residual, cost = float(proof.output(difference, point)), experiment.cost(difference)
-    printed = r.equation.terms[m.term]
-    return Erratum(r.equation.number, r.equation.left, printed, m.right, m.changes, residual, cost)
+    return Erratum(r.equation, m, residual, cost)
 
 
 def printed_minus_right(m: Mistake) -> PolyElement:
@@ -176,7 +162,7 @@ def _beyond(full: Amplitudes, kept: Amplitudes) -> list[Beyond]:
     for name in full:
         motions: dict[tuple[int, ...], dict[tuple[int, ...], Rational]] = {}
         for powers, value in (full[name] - kept[name]).terms():
-            motions.setdefault(powers[experiment.MOTION_PLACES], {})[powers] = value
+            motions.setdefault(powers[MOTION_PLACES], {})[powers] = value
         for terms in motions.values():
             p = MODEL_RING.from_dict(terms)
             rows.append(Beyond(name, p, experiment.cost({name: p})))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from fractions import Fraction
 from functools import cache
 
 import jinja2
@@ -36,6 +38,23 @@ def environment(package: str) -> jinja2.Environment:
         "trig": _trig,
     }
     return env
+
+
+def render_page(package: str, template: str, values: Mapping[str, object]) -> str:
+    """A page of Markdown from a template in the folder ``templates`` of a package."""
+    env = jinja2.Environment(
+        loader=jinja2.PackageLoader(package, "templates"),
+        undefined=jinja2.StrictUndefined,
+        autoescape=False,
+        keep_trailing_newline=True,
+    )
+    return env.get_template(template).render(values).rstrip() + "\n"
+
+
+def number(x: float | Fraction, digits: int = 3) -> str:
+    """Significant digits; 4e6, not 4e+06."""
+    mantissa, e, exponent = f"{float(x):.{digits}g}".partition("e")
+    return f"{mantissa}e{int(exponent)}" if e else mantissa
 
 
 def _trig(n: int, phase: str) -> str:

@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-import jinja2
-
+from derive.emit.render import number, render_page
 from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected
 from derive.simplify.envelope import DYNAMIC_EXPERIMENT, EOTVOS, G0, PAPER_ENVELOPE, Envelope, ranges
 from derive.simplify.terms import Size, certified_bound, simplified, sizes
@@ -34,13 +33,7 @@ _PRINTED: dict[str, tuple[str, ...]] = {
 
 def page() -> str:
     """The page on the simplified model, Markdown."""
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("derive.simplify", "templates"),
-        undefined=jinja2.StrictUndefined,
-        autoescape=False,
-        keep_trailing_newline=True,
-    )
-    return environment.get_template("simplified.md.j2").render(_context()).rstrip() + "\n"
+    return render_page("derive.simplify", "simplified.md.j2", _context())
 
 
 def _context() -> dict[str, Any]:
@@ -71,12 +64,6 @@ def _context() -> dict[str, Any]:
         "paper_bound": number(certified_bound(PAPER_ENVELOPE, simplified()).exact),
         "conditions": [r for c in critical_conditions(PAPER_ENVELOPE) for r in _condition(c)],
     }
-
-
-def number(x: float | Fraction, digits: int = 3) -> str:
-    """Significant digits; 4e6, not 4e+06."""
-    mantissa, e, exponent = f"{float(x):.{digits}g}".partition("e")
-    return f"{mantissa}e{int(exponent)}" if e else mantissa
 
 
 def _terms(among: Iterable[Size]) -> list[Row]:

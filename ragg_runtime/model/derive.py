@@ -418,13 +418,10 @@ def rederive(root: Path) -> list[str]:
 
     Cut off, it leaves whole files; the next one writes the others.
     """
-    from derive import everything, tree
+    from derive import everything, pipeline, tree
 
-    return [
-        f"{folder}/{name}"
-        for folder, files in everything.folders().items()
-        for name in tree.write(files, root / folder, exclusive=folder == everything.GENERATED)
-    ]
+    changed = tree.write(pipeline.derive_base(), root / everything.GENERATED)
+    return [f"{everything.GENERATED}/{name}" for name in changed]
 
 
 def check(root: Path) -> str | None:

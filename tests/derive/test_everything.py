@@ -24,7 +24,7 @@ def project(root: Path, version: str, code: str) -> Path:
 def derived(monkeypatch: pytest.MonkeyPatch) -> None:
     manifest = pipeline.manifest_text({"sympy": sympy.__version__, "digest": "1"})
     files = {"chain.py": "a + b\n", "manifest.json": manifest}
-    monkeypatch.setattr(everything, "folders", lambda **_: {"generated": files})
+    monkeypatch.setattr(pipeline, "derive_base", lambda: files)
 
 
 def test_the_same_code_of_another_sympy_is_the_same(

@@ -17,12 +17,11 @@ import numpy as np
 import pytest
 
 import generated
-from derive import everything, tree
+from derive import pipeline, tree
 from derive.propagation import collect, motion_numbers
 from derive.symbols import MOTION, symbol
 from generated import analytical, chain, folded
 from ragg_runtime.cli.main import main
-from tests.derived import derived
 from tests.generated import compiled, draws
 from tests.generated import fifty_digits as fifty
 
@@ -38,7 +37,10 @@ def copy_of_generated(folder: Path) -> Path:
 def test_check_shows_the_difference_and_the_command_that_mends_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(everything, "folders", derived)
+    committed = {
+        n: (COMMITTED / n).read_text() for n in json.loads((COMMITTED / "manifest.json").read_text())["files"]
+    }
+    monkeypatch.setattr(pipeline, "derive_base", lambda: committed)  # which the test below holds to it
     root = copy_of_generated(tmp_path)
     changed = root / "generated" / "simplified.py"
     changed.write_text(changed.read_text().replace("D1234(K0*k1)", "D1234(-K0*k1)"))
@@ -60,9 +62,6 @@ def test_check_shows_the_difference_and_the_command_that_mends_it(
     main(["derive", "--out", str(root)])
     mended = capsys.readouterr().out
     assert {"simplified.py", "chain.h", "by_hand.py"} <= {Path(n).name for n in mended.split()}
-    committed = {
-        n: (COMMITTED / n).read_text() for n in json.loads((COMMITTED / "manifest.json").read_text())["files"]
-    }
     assert not tree.difference(committed, root / "generated")
 
 
