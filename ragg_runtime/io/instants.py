@@ -73,7 +73,13 @@ class Stamps:
 
 
 def _match(text: str) -> re.Match[str] | None:
-    """A stamp taken apart; 20260301T132850.4 is 2026-03-01T13:28:50.4, and 28:50.4 (as Excel shows times) 0:28:50.4."""
+    """A stamp taken apart; 20260301T132850.4 is 2026-03-01T13:28:50.4, 28:50.4 (as Excel shows times) 0:28:50.4, and colons may
+    stand before milliseconds (13:28:50:400) and in dates (2026:060:13:28:50 of the day of the year).
+    """
+    text = re.sub(r"(:\d\d:\d\d):(\d{3,9})(?!\d)", r"\1.\2", text)
+    text = re.sub(
+        r"^(\d{4}):(\d{3}|\d\d:\d\d)[:T ](?=\d\d:\d\d:)", lambda m: f"{m[1]}-{m[2].replace(':', '-')}T", text
+    )
     text = re.sub(r"^(\d\d:\d\d[.,]\d+)$", rf"{_NO_HOUR}:\1", text)
     if _PACKED.fullmatch(text):
         text = re.sub(r"^(\d{8})(\d\d)(\d\d)(\d\d)\.?", r"\1T\2:\3:\4.", text)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +38,18 @@ BESIDE = 16
 
 SET = 5e-3
 """Part of a step by which a clock must have been set for it to be said: an angle of 0.5 mrad at 0.25 Hz and 16 Hz."""
+
+COUNTERS: Mapping[float, str] = MappingProxyType(
+    {
+        2.0**bits * second: f"2^{bits} {unit}"
+        for bits in (16, 24, 31, 32)
+        for unit, second in (("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9))
+    }
+)
+"""Periods, s, after which a counter of a recorder's clock begins anew (millis() and micros() of microcontrollers have 32 bits)."""
+
+NEAR_END = 0.01
+"""Part of such a period within which the stamps about its end lie, where some are missing there."""
 
 MOST_SET = 20
 """Places at which a clock may have been set in a record; more of them are jitter."""
@@ -113,17 +127,28 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
 
 
 def _unroll(time: Array) -> tuple[Array, list[str]]:
-    """Seconds of the day or of the GPS week that go on over its end, and a note of it."""
-    back = np.diff(time, prepend=time[:1])
+    """Seconds of the day or of the GPS week, or a counter of a recorder, that go on over their end, and a note of it."""
+    steps = np.diff(time, prepend=time[:1])
+    falls = steps[steps < 0]
+    if not len(falls) or len(falls) == len(time) - 1:
+        return time, []
     for period, name in ((86400.0, "day"), (604800.0, "week")):
-        if (
-            np.any(back < 0)
-            and np.min(time) >= 0
-            and np.max(time) <= period
-            and np.max(back[back < 0]) < -0.9 * period
-        ):
+        if np.min(time) >= 0 and np.max(time) <= period and np.max(falls) < -0.9 * period:
             note = f"the seconds of the {name} restart during the record; they are continued"
-            return time + period * np.cumsum(back < 0), [note]
+            return time + period * np.cumsum(steps < 0), [note]
+    step, fell = _typical_step(steps[steps > 0]), np.flatnonzero(steps < 0)
+    for period, name in COUNTERS.items():
+        low = 0.0 if np.min(time) >= 0 else -period / 2
+        beside = max(NEAR_END * period, 2 * step)
+        if (
+            period > 4 * beside
+            and np.min(time) >= low
+            and np.max(time) <= low + period
+            and np.all(time[fell - 1] > low + period - beside)
+            and np.all(time[fell] < low + beside)
+        ):
+            note = f"the counter of time starts anew at {name} ({period:.10g} s) during the record; it is continued"
+            return time + period * np.cumsum(steps < 0), [note]
     return time, []
 
 

@@ -218,10 +218,12 @@ def make_table(
             other += [f"{name!r} ({why})"] if name not in lists else []
             continue
         title, unit = read_heading(name)
-        said = next(filter(None, (_read_text(v) for k, v in attributes.items() if _is_unit_key(k))), unit)
-        said = "1" if x.dtype == np.bool_ and not said else said
+        said = [
+            t for k, v in attributes.items() if k.casefold() in ("units", "unit") and (t := _read_text(v))
+        ]
+        said = said or [unit or ("1" if x.dtype == np.bool_ else "")]
         for own, unit, part in _spread(title, values, length, {**lists, **attributes}):
-            unit_of = given.get(own) or given.get(name) or given.get(title) or unit or said
+            unit_of = given.get(own) or given.get(name) or given.get(title) or unit or said[0]
             columns.append(DataColumn(own, unit_of.strip(), part))
     notes = list(about.pop("notes", ()))
     if other:
@@ -242,10 +244,6 @@ def _read_array(x: Any) -> NDArray[Any]:
 
 def _is_narrow(shape: tuple[int, ...]) -> bool:
     return len(shape) == 1 or (len(shape) == 2 and min(shape) <= WIDEST)
-
-
-def _is_unit_key(name: str) -> bool:
-    return name.casefold() in ("units", "unit")
 
 
 def _spread(
@@ -312,19 +310,12 @@ def decode_values(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArra
     if packed:
         factor, offset = (numbers.get(n, ()) for n in ("scale_factor", "add_offset"))
         result = result * next(iter(factor), 1.0) + next(iter(offset), 0.0)
-    for name, low in (
-        ("valid_range", True),
-        ("valid_min", True),
-        ("valid_range", False),
-        ("valid_max", False),
-    ):
-        bound = numbers.get(name, [])[:1] if low else numbers.get(name, [])[-1:]
+    both = numbers.get("valid_range", [])
+    low, high = (*both[:1], *numbers.get("valid_min", ())), (*both[-1:], *numbers.get("valid_max", ()))
+    for limit, is_beyond in (*((x, np.less) for x in low), *((x, np.greater) for x in high)):
         # of packed whole numbers the range is one of whole numbers, or of what they encode (NUG, appendix A)
-        own = (
-            result if bound and packed and kind in "iu" and np.asarray(bound[0]).dtype.kind == "f" else values
-        )
-        for limit in bound:
-            missing |= own < limit if low else own > limit
+        encoded = packed and kind in "iu" and np.asarray(limit).dtype.kind == "f"
+        missing |= is_beyond(result if encoded else values, limit)
     result[missing] = np.nan
     return result
 

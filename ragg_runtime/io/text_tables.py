@@ -66,6 +66,10 @@ _EXPONENT = re.compile(r"([\d.])[dD]([+-]?\d)")
 _GROUPED = re.compile(r"(?<=\d)['\u2019 \u00a0\u202f](?=\d{3}(?:\D|$))")
 _COMMA = re.compile(r"\s*[+-]?\d+,\d+(?:[eE][+-]?\d+)?\s*")
 
+THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?\s*")
+POINTED = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:\.\d{3})+,\d*\s*")
+"""Numbers with commas between thousands (1,234.5), and with points (1.234,5)."""
+
 _NO_NUMBER = re.compile(r"In CSV column #(\d+): .*CSV conversion error", re.DOTALL)
 _OTHER_WIDTH = re.compile(r"CSV parse error: (?:Row #(\d+): )?Expected (\d+) columns, got (\d+)")
 """How Arrow says that a cell is no number, and that a line has too few cells or too many."""
@@ -158,8 +162,9 @@ def _is_data(row: Sequence[Any]) -> bool:
 
 
 def is_number(text: str) -> bool:
-    """Whether a cell is a number, with a decimal point or a decimal comma."""
-    found = _is_float(text) or is_comma(text) or _is_float(write_plain(text))
+    """Whether a cell is a number, however its thousands and decimals are divided."""
+    found = _is_float(text) or _is_float(write_plain(text))
+    found = found or any(x.fullmatch(text) for x in (_COMMA, THOUSANDS, POINTED))
     return found and text.strip() not in MISSING
 
 
@@ -284,7 +289,7 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
             expected="a whole file of text: a header of `name [unit]`, then numbers",
             remedy="copy it again, or save it as CSV, Parquet or NetCDF-4",
         ) from None
-    return data.removeprefix(b"\xef\xbb\xbf"), []
+    return data.removeprefix(b"\xef\xbb\xbf").rstrip(b"\0"), []  # recorders reserve room ahead
 
 
 def _look(data: bytes, path: Path) -> _Dialect:
@@ -361,13 +366,15 @@ def _drop_headers(data: bytes, d: _Dialect, notes: list[str]) -> bytes:
 def _parse(data: bytes, d: _Dialect, passed: list[str]) -> pa.Table:
     """The columns as Arrow reads them; ArrowInvalid where a cell is no number or a line with data has another width.
 
-    Lines of another width that hold no data, such as remarks, go into ``passed``.
+    Lines of another width that hold no data, such as remarks, go into ``passed``, and a last one that was cut off.
     """
+    last = data.rstrip().rpartition(b"\n")[2].decode()
 
     def judge(row: pyarrow.csv.InvalidRow) -> str:
-        if not _REMARK.match(row.text) and _is_data(row.text.split(d.delimiter)):
+        is_data = not _REMARK.match(row.text) and _is_data(row.text.split(d.delimiter))
+        if is_data and (row.text.rstrip() != last or row.actual_columns > row.expected_columns):
             return "error"
-        passed.append(f"line {row.number} ({row.text[:40]!r})")
+        passed.append(f"line {row.number} ({'the last, cut off: ' * is_data}{row.text[:40]!r})")
         return "skip"
 
     kinds = {str(k): pa.string() if k in d.texts else pa.float64() for k in range(len(d.header.names))}

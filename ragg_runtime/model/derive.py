@@ -12,7 +12,6 @@ import json
 import os
 import threading
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from importlib import metadata, resources
 from importlib.metadata import entry_points
@@ -39,34 +38,12 @@ if TYPE_CHECKING:
     from derive.pipeline import SymbolicForm
 
 
-@dataclass(frozen=True)
-class Known:
-    """The effects that a model directory can use: the catalogue's, the user's in Python, its one-line ones."""
-
-    effects: tuple[SymbolicEffect, ...]
-
-    def get(self, identifier: str, where: str | None = None) -> SymbolicEffect:
-        """The effect of this id; UserError if there is none."""
-        for e in self.effects:
-            if e.id == identifier:
-                return e
-        names = [e.id for e in self.effects]
-        near = did_you_mean(identifier, names)
-        raise UserError(
-            "unknown effect",
-            where=where,
-            found=repr(identifier),
-            expected="an id listed by `ragg effects`",
-            remedy=near or f"one of {', '.join(names)}",
-        )
-
-
 _SYMPY = threading.RLock()
 """One thread at a time derives: SymPy's caches are not made for several."""
 
 
-def known(instrument: Instrument) -> Known:
-    """Every effect that this instrument's model directory can use."""
+def known(instrument: Instrument) -> Mapping[str, SymbolicEffect]:
+    """The effects that this instrument's model directory can use, by id: the catalogue's, the user's in Python, its one-line ones."""
     from derive.effects import catalogue
 
     with _SYMPY:
@@ -80,7 +57,22 @@ def known(instrument: Instrument) -> Known:
             found=repr(twice),
             remedy="choose another id",
         )
-    return Known(tuple(found))
+    return {e.id: e for e in found}
+
+
+def find_effect(
+    effects: Mapping[str, SymbolicEffect], identifier: str, where: str | None = None
+) -> SymbolicEffect:
+    """The effect of this id; UserError if there is none."""
+    if identifier in effects:
+        return effects[identifier]
+    raise UserError(
+        "unknown effect",
+        where=where,
+        found=repr(identifier),
+        expected="an id listed by `ragg effects`",
+        remedy=did_you_mean(identifier, effects) or f"one of {', '.join(effects)}",
+    )
 
 
 def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
@@ -115,9 +107,10 @@ def _derived(
     asked = request(instrument, ids, candidates=candidates)
     files = kept(asked)
     if files is None:
-        k = known(instrument)
-        chosen = tuple(_chosen(instrument, k) if ids is None else map(k.get, ids))
-        _, files = derived(chosen, k.effects if candidates else (), instrument.form, instrument.layout)
+        every = known(instrument)
+        chosen = _chosen(instrument, every) if ids is None else [find_effect(every, i) for i in ids]
+        others = tuple(every.values()) if candidates else ()
+        _, files = derived(tuple(chosen), others, instrument.form, instrument.layout)
         keep(asked, files)
     return files
 
@@ -158,9 +151,9 @@ def _symbolic(form: Form, layout: Layout) -> SymbolicForm:
     return SymbolicForm(order=order, kinematics=form.kinematics, layout=_placed(layout))
 
 
-def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
+def _chosen(instrument: Instrument, every: Mapping[str, SymbolicEffect]) -> list[SymbolicEffect]:
     form = _symbolic(instrument.form, instrument.layout)
-    found = [k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects]
+    found = [find_effect(every, s.id, at(instrument.path, "effects")) for s in instrument.effects]
     for e in found:
         _check_needed(e, form, instrument)
     return found
@@ -168,7 +161,7 @@ def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
 
 def offered(instrument: Instrument, identifier: str) -> SymbolicEffect:
     """The effect of this id, which the instrument's model does not hold already; UserError if it does."""
-    e = known(instrument).get(identifier, at(instrument.path))
+    e = find_effect(known(instrument), identifier, at(instrument.path))
     _check_needed(e, _symbolic(instrument.form, instrument.layout), instrument)
     return e
 
@@ -234,9 +227,8 @@ def files_of(instrument: Instrument) -> Mapping[str, str]:
 
 def without_signatures(instrument: Instrument, form: Form) -> Model:
     """The instrument's model in another form, with those of its effects that this form does not hold already."""
-    k = known(instrument)
-    symbolic = _symbolic(form, instrument.layout)
-    chosen = (k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects)
+    every, symbolic = known(instrument), _symbolic(form, instrument.layout)
+    chosen = (find_effect(every, s.id, at(instrument.path, "effects")) for s in instrument.effects)
     kept = tuple(e for e in chosen if not e.moot(symbolic.order, symbolic.kinematics))
     return derived(kept, (), form, instrument.layout)[0]
 

@@ -204,24 +204,31 @@ def _pointers(case: _Case) -> list[object]:
     return [_SIZE(len(t)), _at(t), rows, _at(p), _at(angle)]
 
 
-def compile_or_interpret(
+def make_evaluator(
     chain: ChainModule,
     layout: Layout,
     sources: Mapping[str, str],
+    name: str = "chain",
+    *,
     backend: Backend = "auto",
     folded: ModuleType | None = None,
+    quick: bool = False,
+    quiet: bool = False,
 ) -> Evaluator:
-    """The evaluator of C ``sources``, name -> text, or, of ``auto``, NumPy with a note where it cannot be made (``c``: UserError)."""
+    """The evaluator of a module by its C ``sources``, name -> text; where that cannot be made in NumPy, with a note unless ``quiet``
+    (backend ``c``: UserError). ``quick``: compiled for one fit.
+    """
     if backend not in ("auto", "c", "numpy"):
         raise UserError("unknown backend", found=repr(backend), expected="auto, c or numpy")
-    if backend != "numpy":
+    if backend != "numpy" and sources:
         try:
-            return Evaluator(chain, layout, load(build(sources)))
+            return Evaluator(chain, layout, load(build(sources, quick=quick)), name=name)
         except BuildError as error:
             if backend == "c":
                 raise UserError("the model cannot be compiled", found=str(error)) from None
-            _warn_once(str(error))
-    return Evaluator(chain, layout, folded=folded)
+            if not quiet:
+                _warn_once(str(error))
+    return Evaluator(chain, layout, folded=folded, name=name)
 
 
 @cache
@@ -229,14 +236,3 @@ def _warn_once(why: str) -> None:
     warnings.warn(
         f"the model is not compiled, the slower NumPy code is used: {why}", NativeWarning, stacklevel=4
     )
-
-
-def compile_quietly(
-    chain: ChainModule, layout: Layout, sources: Mapping[str, str], name: str, *, quick: bool
-) -> Evaluator:
-    """The evaluator of the module ``name`` for fits: in NumPy, without a note, where there is no machine code."""
-    try:
-        library = load(build(sources, quick=quick)) if sources else None
-    except BuildError:
-        library = None
-    return Evaluator(chain, layout, library, name=name)

@@ -16,13 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.layout import PAPER, Layout
-from ragg_runtime.model.evaluator import (
-    Backend,
-    ChainModule,
-    Evaluator,
-    compile_or_interpret,
-    compile_quietly,
-)
+from ragg_runtime.model.evaluator import Backend, ChainModule, Evaluator, make_evaluator
 
 Array = NDArray[np.float64]
 
@@ -153,13 +147,15 @@ class Model:
         def compiled(name: str) -> Evaluator:
             own = {n: text for n, text in self.c.items() if n.partition(".")[0] == name}
             # what comes with the program is compiled once for all flights, a derived model for one fit
-            return compile_quietly(getattr(self, name), self.layout, own, name, quick=not self.lasting)
+            return make_evaluator(
+                getattr(self, name), self.layout, own, name, quick=not self.lasting, quiet=True
+            )
 
         return compiled
 
     def compiled(self, backend: Backend = "auto") -> Evaluator:
         """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
-        return compile_or_interpret(self.chain, self.layout, self.sources, backend, self.folded)
+        return make_evaluator(self.chain, self.layout, self.sources, backend=backend, folded=self.folded)
 
     def effect(self, identifier: str) -> DerivedEffect | None:
         """The effect of this id, in the model or not; ``None`` if unknown."""

@@ -108,7 +108,7 @@ class Hypothesis:
         What orders hypotheses that explain as much, the plainest first: far below ``mistakes.AS_GOOD``.
     kind
         ``record`` (units, signs, axes, clock: the record is refused), ``shift`` (motion and output apart in time), ``origin``
-        (the disc angle counts from elsewhere) or ``sheet`` (its priors are too narrow).
+        (the disc angle counts from elsewhere), ``losses`` (rows are missing all along) or ``sheet`` (its priors are too narrow).
     effects
         Ids of effects that describe the same.
     calming

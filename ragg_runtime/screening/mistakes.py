@@ -32,6 +32,9 @@ SURPRISING = 150.0
 FEW, MOST_TRIED = 400, 24
 """Rows on which all mistakes of unit, sign and axis are tried, and how many of the best are tried on more."""
 
+LARGE = 0.2
+"""Share of the output that the model leaves from which a record may be two: effects, a step of the gain too, leave a hundredth."""
+
 NAMED = INDEPENDENT * float(np.log(5.0))
 """Gain in log evidence from which a hypothesis is named: a residual five times smaller. No missing effect looks like that."""
 
@@ -73,6 +76,8 @@ def find_mistake(model: Model, instrument: Instrument, s: Sampler) -> Finding | 
         return None
     tried = [*_sheets(model, instrument, rows), *_wrong(model, instrument, s, rows)]
     tried += timing.propose_times(model, instrument, s)
+    if before.share > LARGE and not s.recorded.demodulated:
+        tried += timing.propose_parts(model, instrument, s)
     found = _chosen(before, tried)
     if not s.recorded.demodulated or (found is not None and found.factor > 5.0):
         return found

@@ -87,6 +87,13 @@ def leave_out_repeated(flight: Flight) -> Flight:
             channels[name] = _interpolated(np.array(x), there & ~r.left_out, r.how != "stuck", name in angles)
             if r.how == "stuck" or name not in angles:  # a disc turns smoothly between two angles
                 valid &= ~r.left_out
+    for sensor in (SPECIFIC_FORCE, ANGULAR_RATE):
+        names = [n for n in sensor if n in channels and n not in dict(found)]
+        lost = _find_lost_packets([channels[n] for n in names], flight.valid)
+        if lost.any():
+            found += [(n, _Repeated("not renewed", lost, 0.0)) for n in names]
+            channels |= {n: _interpolated(channels[n], flight.valid & ~lost, True) for n in names}
+            valid &= ~lost
     if not found:
         return flight
     changed = replace(flight, outputs=outputs, channels=channels, valid=valid)
@@ -114,7 +121,9 @@ def derive_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
 
 @dataclass(frozen=True)
 class _Repeated:
-    """Samples (N,) that repeat others: ``repeated``, ``joined by straight lines`` (every so many samples) or ``stuck``."""
+    """Samples (N,) that repeat others: ``repeated``, ``joined by straight lines`` (``every`` so many samples, else 0), ``stuck``,
+    or ``not renewed``, all axes of a sensor at once.
+    """
 
     how: str
     left_out: Mask
@@ -142,6 +151,22 @@ def _repeated(x: Array, there: Mask, turning: bool = False) -> _Repeated | None:
         return joined
     stuck = _stuck(x, there, equal, 0.0 if step is None else step)
     return _Repeated("stuck", stuck, 0.0) if stuck.any() else None
+
+
+def _find_lost_packets(axes: Sequence[Array], there: Mask) -> Mask:
+    """(N,): samples at which all axes of a sensor repeat their values, or are zero: more than chance makes, each axis by itself."""
+    lost = np.zeros(len(there), dtype=np.bool_)
+    changing = [x for x in axes if np.any(x[there] != x[there][0])] if there.any() else []
+    if len(changing) < 2:
+        return lost
+    before = there & np.r_[False, there[:-1]]
+    repeats = [before & np.r_[False, x[1:] == x[:-1]] for x in changing]
+    for marks in (np.array(repeats), np.array([there & (x == 0.0) for x in changing])):
+        together = np.all(marks, axis=0)
+        alone = (np.sum(marks & ~together, axis=1) + 1) / (len(there) + 2)
+        if len(there) * np.prod(alone) < RARE_ZEROS and np.mean(together) < HELD:
+            lost |= together
+    return lost
 
 
 def _joined(x: Array, there: Mask) -> _Repeated | None:
@@ -207,7 +232,7 @@ def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]
     groups: dict[str, list[tuple[str, _Repeated]]] = {}
     for name, r in found:
         places = np.flatnonzero(r.left_out)
-        key = f"{r.how} {r.every} {'' if r.how != 'stuck' else (places[0], len(places))}"
+        key = f"{r.how} {r.every or (places[0], len(places))}"
         groups.setdefault(key, []).append((name, r))
     return [_flag([n for n, _ in group], group[0][1], flight) for group in groups.values()]
 
@@ -216,7 +241,7 @@ def _flag(names: Sequence[str], r: _Repeated, flight: Flight) -> Flag:
     at = np.flatnonzero(r.left_out)
     what = f"{', '.join(names)}: recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
     lost = (
-        r.how != "stuck"
+        r.every > 0.0
         and ANGULAR_ACCELERATION[0] not in flight.written
         and any(_is_lost(n, r, flight) for n in names)
     )
@@ -233,6 +258,10 @@ def _flag(names: Sequence[str], r: _Repeated, flight: Flight) -> Flag:
         what = (
             f"{', '.join(names)}: the value is stuck: {some}{more}, unlike noise; {len(at)} samples not used"
         )
+    if r.how == "not renewed":
+        where = ", ".join(f"{t:.6g}" for t in flight.time[at[:3]]) + " ..." * (len(at) > 3)
+        what = f"{', '.join(names)}: all repeat their values, or are zero, at {len(at)} sample{'s' * (len(at) > 1)} (t = {where} s)"
+        what += ": readings that did not arrive? not used"
     return Flag(tuple(names), what, open=lost)
 
 

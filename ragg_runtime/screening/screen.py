@@ -96,8 +96,8 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
 
 def _is_senseless(f: Finding, instrument: Instrument) -> bool:
     """Whether going on with a record makes no sense: a mistake explains it, and nothing else does."""
-    if f.best.kind == "origin" and instrument.angle_origin is None:
-        return True  # nobody has answered yet
+    if f.best.kind == "losses" or (f.best.kind == "origin" and instrument.angle_origin is None):
+        return True  # its times are wrong throughout; nobody has answered yet
     if f.best.kind in ("sheet", "shift", "origin"):
         return False
     return f.factor > SENSELESS
@@ -120,7 +120,7 @@ def _others(f: Finding) -> str:
 
 def _left(e: LinearFit) -> str:
     if e.share < 1:
-        return f"the model leaves {100 * e.share:.2g} % of the output unexplained"
+        return f"the model leaves {100 * e.share:.3g} % of the output unexplained"
     return f"the model misses the output by {e.share:.2g} times its size"
 
 

@@ -14,7 +14,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.sampling import find_clock_steps
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import disc_angle, start_of
-from ragg_runtime.screening.linear_fit import Hypothesis, fit_each, fit_rows
+from ragg_runtime.screening.linear_fit import Hypothesis, LinearFit, fit_each, fit_rows
 from ragg_runtime.screening.sampler import Index, Rows, Sampler
 from ragg_runtime.signals.demodulate import demodulable, low_pass
 
@@ -47,6 +47,18 @@ INSTANTS = 16
 TELLING_PHASE = 3e-5
 """Angle, rad, that an error of the spin rate may add up to over a record and stay unseen: of a gradient of 3000 Eo that is
 0.1 Eo. Further digits of a rate are noise of the search."""
+
+TURNS, FEWEST_BLOCKS = 2, 8
+"""Turns of the disc over which its angle is estimated, to a tenth of a radian, and how many such estimates there must be."""
+
+BACK = 1.0
+"""Angle, rad, by which an estimate may lie behind the one before: four times its error; beyond it the disc has run ahead."""
+
+ALIKE = 3.0
+"""Factor of what they leave within which both are said: a gap of a third of a turn looks nearly like two thirds twice."""
+
+LEAST_TURN = 0.5
+"""Angle, rad, from which rows are said to be missing here and there: a disc's own unsteadiness (spin-rate-jitter) is far less."""
 
 COST = 3.0
 """What orders a mistake of timing after one of columns that explains as much."""
@@ -90,7 +102,7 @@ def propose_times(model: Model, instrument: Instrument, s: Sampler) -> list[Hypo
         found += _propose_phase(t)
     if not s.has_encoder:
         found += _propose_origin(t)
-        found += [] if s.recorded.demodulated else _propose_jump(t)
+        found += [] if s.recorded.demodulated else [*_propose_jump(t), *_propose_losses(t)]
     return found
 
 
@@ -236,6 +248,71 @@ def _describe_jump(s: Sampler, at: int, jump: float) -> tuple[str, str]:
     )
 
 
+def _propose_losses(t: _Trial) -> list[Hypothesis]:
+    """Rows are missing all along, or doubled, while the stamps go on evenly: the disc runs ahead of them, or behind.
+
+    Its angle is followed by the phase of the output at the spin rate against that of the specific force in its plane, which differ by
+    a constant; what runs one way only is taken of it.
+    """
+    s, f, rate = t.s, t.s.disc.spin_frequency, t.s.flight.rate
+    turn = max(1, round(rate / abs(f)))
+    blocks = len(s.flight) // (turn * TURNS)
+    if blocks < FEWEST_BLOCKS:
+        return []
+    whole = s.take(np.arange(blocks * turn * TURNS))
+    output, motion = (np.mean(x.reshape(-1, turn), axis=1) for x in _mix(s, whole))
+    steps = -np.diff(np.angle(np.sum((output * np.conj(motion)).reshape(-1, TURNS), axis=1)))
+    rows, at = s.rows(), (np.arange(blocks) + 0.5) * turn * TURNS
+    found = []
+    for kind, way in (("missing", np.sign(f)), ("doubled", -np.sign(f))):
+        rises = np.cumsum(np.mod(way * steps + BACK, 2 * np.pi) - BACK)
+        angle = way * optimize.isotonic_regression(np.r_[0.0, rises]).x
+        turned = abs(float(angle[-1] - angle[0]))
+        count = round(turned / abs(2 * np.pi * f) * rate)
+        if turned > LEAST_TURN:
+            taken = s.take(rows, phase=np.interp(rows, at, angle - angle[0]))
+            found.append(
+                (fit_rows(t.model, t.instrument, taken), f"{kind} (about {count} of {len(s.flight)})")
+            )
+    if not found:
+        return []
+    best = min((x for x, _ in found), key=lambda x: x.share)
+    words = " or ".join(text for x, text in found if x.share < ALIKE * best.share)
+    what = f"rows are {words} all along the record, while its stamps go on evenly"
+    remedy = "use the recorder's time, not the row number; or record spin_angle"
+    return [Hypothesis(what, remedy, best, COST + 1.0, kind="losses", calming=False)]
+
+
+def propose_parts(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
+    """The record is two: what comes before some instant and what comes after are each explained alone, with parameters of their own."""
+    rows, spacing = s.rows(most=800), len(s.flight) / (INSTANTS + 1)
+
+    def judge(at: float) -> LinearFit:
+        both = [rows[rows < at], rows[rows >= at]]
+        share = np.array([len(x) for x in both]) / len(rows)
+        one, two = fits = fit_each(model, instrument, (s.take(x) for x in both))
+        return LinearFit(
+            rms=float(np.sqrt(share @ [x.rms**2 for x in fits])),
+            size=float(np.sqrt(share @ [x.size**2 for x in fits])),
+            p=one.p,
+            surprise=one.surprise + two.surprise,
+            volume=one.volume + two.volume,
+            kept=float(share @ [x.kept for x in fits]),
+        )
+
+    tried = {float(at): judge(float(at)) for at in spacing * np.arange(1, INSTANTS + 1)}
+    for step in spacing / 2.0 ** np.arange(1, 7):
+        at = min(tried, key=lambda k: tried[k].misfit)
+        tried |= {k: judge(k) for k in (at - step, at + step)}
+    at = min(tried, key=lambda k: tried[k].misfit)
+    what = (
+        f"the record is two: the model explains what comes before t = {s.flight.time[int(at)]:.4g} s, and what comes after, but not"
+        " both together (another instrument, wiring or axis from there on?)"
+    )
+    remedy = "cut the record there into two flights, and diagnose each by itself"
+    return [Hypothesis(what, remedy, tried[at], COST + 1.0, effects=("gain-step",), calming=False)]
+
+
 _SHIFTED: tuple[tuple[str, str, str, Callable[[int], dict[str, Any]]], ...] = (
     ("the motion record is", "motion columns", "the output", lambda k: {"motion_later": k}),
     ("a_x, a_y, a_z are", "columns", "the output", lambda k: {"motion_later": k, "of": ("a",)}),
@@ -286,8 +363,7 @@ def _lags(s: Sampler) -> Sequence[int]:
         return ()
     n = min(len(x), LONGEST)
     whole = s.take(np.arange(n))
-    data = whole.data[0] if len(whole.data) == 1 else whole.data[0] - whole.data[1]
-    carried = np.where(s.usable[:n], data, 0.0) * np.exp(1j * whole.phi)
+    carried, in_plane = _mix(s, whole)
     taps = low_pass(x.rate)
     narrow = fft.next_fast_len(n + len(taps))
     response = fft.fft(taps, narrow)
@@ -298,13 +374,19 @@ def _lags(s: Sampler) -> Sequence[int]:
         low = np.diff(low)  # slow drifts resemble each other at any lag
         return np.asarray(fft.fft(low - np.mean(low), size))
 
-    x_axis, y_axis = (whole.channels[n].astype(np.complex128) for n in ("a_x", "a_y"))
-    output = np.conj(prepared(np.asarray(carried)))
+    output = np.conj(prepared(carried))
     reach = min(n // 4, int(FARTHEST * x.rate))
     found: list[int] = []
-    for motion in map(prepared, (x_axis + 1j * y_axis, x_axis, y_axis)):
+    for motion in map(prepared, (in_plane, in_plane.real.astype(complex), in_plane.imag.astype(complex))):
         for other in (motion, np.conj(np.roll(motion[::-1], 1))):
             like = np.abs(fft.ifft(other * output))
             top = int(np.argmax(np.concatenate([like[-reach:], like[: reach + 1]]))) - reach
             found += [k for k in range(top - 2, top + 3) if k not in found]
     return found
+
+
+def _mix(s: Sampler, whole: Rows) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    """The output at the spin rate, and the specific force in the disc's plane, of the first rows of a record, (n,) each."""
+    data = whole.data[0] if len(whole.data) == 1 else whole.data[0] - whole.data[1]
+    output = np.where(s.usable[: len(data)], data, 0.0) * np.exp(1j * whole.phi)
+    return np.asarray(output), np.asarray(whole.channels["a_x"] + 1j * whole.channels["a_y"])

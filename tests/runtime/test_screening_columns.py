@@ -10,7 +10,7 @@ import pytest
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.io import Flight
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.io.sampling import find_clock_steps, fit_even_clock, make_grid
 from ragg_runtime.screening.checks import _encoder
 from ragg_runtime.screening.repeated import derive_acceleration, leave_out_repeated
@@ -190,6 +190,20 @@ def test_glitches_of_smooth_motion_are_interpolated() -> None:
     assert find_glitches(SMOOTH, ALL)[1] is SMOOTH
 
 
+def test_readings_that_did_not_arrive_are_left_out() -> None:
+    """All axes of a sensor repeat their values at once, or are zero; coarse axes do so by chance."""
+    rng, lost = np.random.default_rng(8), np.arange(9, N, 50)
+    for zero in (0.0, 1.0):
+        motion = {n: rng.standard_normal(N) for n in SPECIFIC_FORCE}
+        for x in motion.values():
+            x[lost] = zero * x[lost - 1]
+        found = leave_out_repeated(Flight(TIME, motion, {}))
+        assert np.flatnonzero(~found.valid).tolist() == lost.tolist()
+        assert f"at {len(lost)} samples (t = 0.5625" in found.flags[0].reason
+    coarse = {n: np.round(rng.standard_normal(N)) for n in SPECIFIC_FORCE}
+    assert leave_out_repeated(Flight(TIME, coarse, {})).valid.all()
+
+
 # --- the clock -----------------------------------------------------------------------------------------
 
 
@@ -261,3 +275,9 @@ def test_rows_that_an_encoder_misses_are_counted() -> None:
     (note,) = _encoder(disc, x)
     assert note.startswith(f"{4000 - 3920 - (3999 - kept[-1]) - kept[0]} rows are missing by spin_angle")
     assert _encoder(disc, replace(x, channels={"spin_angle": np.pi / 2 * x.time})) == []
+
+
+@pytest.mark.parametrize(("period", "low"), [(2.0**32 * 1e-6, 0.0), (2.0**32 * 1e-6, -0.5), (65.536, 0.0)])
+def test_a_counter_of_time_that_begins_anew_is_continued(period: float, low: float) -> None:
+    g = make_grid(np.mod(TIME + period - 50.0, period) + low * period, None)
+    assert np.allclose(g.time - g.time[0], TIME, atol=1e-6) and "starts anew at 2^" in g.notes[0]

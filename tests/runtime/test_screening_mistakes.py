@@ -133,19 +133,43 @@ def test_what_is_late_is_measured_and_flagged(samples: int, of: tuple[str, ...])
     assert ("the motion record" if len(of) == 2 else words[of[0]]) in flag.reason
 
 
+def counted(x: Flight, rows: np.ndarray) -> Flight:
+    """Some of the rows of a flight, with stamps that are made of their numbers."""
+    return replace(
+        x,
+        time=x.time[0] + np.arange(len(rows)) / x.rate,
+        valid=x.valid[rows],
+        channels={n: v[rows] for n, v in x.channels.items()},
+        outputs={n: v[rows] for n, v in x.outputs.items()},
+    )
+
+
 def test_a_lost_row_is_said_before_the_disc_is_blamed() -> None:
     x = flown(12)
-    kept = np.r_[0:1088, 1089 : len(x)]
-    lost = replace(
-        x,
-        time=x.time[: len(kept)],
-        valid=x.valid[kept],
-        channels={n: v[kept] for n, v in x.channels.items()},
-        outputs={n: v[kept] for n, v in x.outputs.items()},
-    )
+    lost = counted(x, np.r_[0:1088, 1089 : len(x)])
     with pytest.raises(UserError, match=r"rows are missing at t = 6[78](\.\d+)? s: 1 row is") as caught:
         screen(MODEL, drawn(12).sheet, lost)
     assert "write spin_frequency" not in str(caught.value)
+
+
+def test_rows_that_lack_or_are_doubled_all_along_are_said() -> None:
+    x, rng = flown(12), np.random.default_rng(1)
+    few = rng.random(len(x)) < 0.02
+    for rows, word in (
+        (np.flatnonzero(~few), "missing"),
+        (np.repeat(np.arange(len(x)), 1 + few), "doubled"),
+    ):
+        with pytest.raises(UserError, match=rf"rows are {word} \(about (\d+) of \d+\) all along") as caught:
+            screen(MODEL, drawn(12).sheet, counted(x, rows))
+        count = int(str(caught.value).partition("(about ")[2].split()[0])
+        assert count == pytest.approx(np.sum(few), rel=0.15)
+
+
+def test_a_record_of_two_instruments_is_said_with_the_time() -> None:
+    x, other = flown(12), replace(drawn(12), instrument=drawn(13).instrument).simulate({}).flight()
+    G = np.where(x.time < 110.0, x.outputs["G_out"], other.outputs["G_out"])
+    with pytest.raises(UserError, match=r"the record is two: .* before t = 1(09|10)(\.\d+)? s"):
+        screen(MODEL, drawn(12).sheet, replace(x, outputs={"G_out": G}))
 
 
 @pytest.mark.parametrize("size", [0.025, 1.0])

@@ -117,6 +117,10 @@ CSV = {
     "blanks between thousands": text(
         "time [ms];" + ";".join(HEADER[1:]), rows([f"{1000 * t:,.1f}".replace(",", "\u202f") for t in VALUES["time"]]), ";"
     ),
+    "commas between thousands below a header": text(
+        "time [ms];" + ";".join(HEADER[1:]), rows([f"{1000 * t + 5000:,.1f}" for t in VALUES["time"]]), ";"
+    ),
+    "room reserved ahead": text(PLAIN, rows()) + 300 * "\0",
     "row numbers in front": text("," + PLAIN, [[k, *r] for k, r in enumerate(rows())]),
 }  # fmt: skip
 
@@ -147,6 +151,8 @@ DATES: dict[str, tuple[list[Any], bool]] = {
     "more than a day": ([f"{23 + k // 32}:{59 - k // 32 * 59:02d}:{k % 32 / 16 + 58 - k // 32 * 58:09.6f}" for k in range(N)], False),
     "without marks": ([t[:-3] for t in stamps("2026-03-01 23:59:58", "%Y%m%d%H%M%S.%f")], True),
     "minutes and seconds": ([f"{int((t + 3598) % 3600) // 60:02d}:{(t + 58) % 60:07.4f}" for t in VALUES["time"]], True),
+    "a colon before the milliseconds": ([t[:-3] for t in stamps("2026-03-01 10:00:00", "%Y-%m-%d %H:%M:%S:%f")], True),
+    "colons throughout": (stamps("2026-03-01 10:00:00", "%Y:%j:%H:%M:%S.%f"), True),
     "days of Python": ([f"1 days 0:00:{k / 16:09.6f}" for k in range(N)], False),
     "a leap second": (
         [f"2016-12-31T23:59:{59 + k / 16:07.4f}Z" if k < 32 else f"2017-01-01T00:00:{(k - 32) / 16:07.4f}Z" for k in range(N)],
@@ -165,6 +171,12 @@ def test_dates_as_people_write_them(tmp_path: Path, kind: str) -> None:
     assert not made.questions, made.text
     if "days" not in kind:
         same(read_flight(tmp_path / "x.csv", G0, mapping=parse_mapping(made.text, tmp_path)), instants)
+
+
+def test_a_last_line_that_was_cut_off_is_left_out(tmp_path: Path) -> None:
+    (tmp_path / "x.csv").write_text(text(PLAIN, rows())[:-30])
+    x = read_flight(tmp_path / "x.csv", G0)
+    assert len(x) == N - 1 and any("the last, cut off" in n for n in x.notes)
 
 
 def test_a_date_of_two_meanings_is_asked_for(tmp_path: Path) -> None:
