@@ -23,6 +23,9 @@ from derive.symbols import symbol
 if TYPE_CHECKING:
     from derive.context import Context
 
+STAGES = ("sensing", "disc_angle", "geometry", "field", "instrument", "second_order", "transducer")
+"""Those that an effect may change, in their order."""
+
 Kind = Literal["deterministic", "step", "random", "output"]
 
 
@@ -224,22 +227,11 @@ class Effect:
             raise ValueError(f"{self.id}: parameter names must differ, found {names}")
         if not names:
             raise ValueError(f"{self.id}: an effect needs at least one parameter")
-        if self.kind == "output" and any(self.hooks()):
+        hooked = any(getattr(self, stage) for stage in STAGES)
+        if self.kind == "output" and hooked:
             raise ValueError(f"{self.id}: an effect of the output channel has no hook")
-        if self.kind != "output" and not any(self.hooks()):
+        if self.kind != "output" and not hooked:
             raise ValueError(f"{self.id}: no stage is changed; give at least one hook")
-
-    def hooks(self) -> tuple[object, ...]:
-        """The stage functions, in the order of the stages (``None`` where the stage is unchanged)."""
-        return (
-            self.sensing,
-            self.disc_angle,
-            self.geometry,
-            self.field,
-            self.instrument,
-            self.second_order,
-            self.transducer,
-        )
 
     @property
     def at_zero(self) -> bool:

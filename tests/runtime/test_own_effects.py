@@ -57,6 +57,20 @@ def test_effects_of_the_folder_that_the_user_names(tmp_path: Path, monkeypatch: 
         api.load(tmp_path / "model")
 
 
+def test_an_effect_is_added_to_what_model_toml_states_of_it(tmp_path: Path) -> None:
+    """Of a body beside the instrument its place, which stays."""
+    place = 'effects = [{ id = "near-sphere", x = { value = 1.2, unit = "m", fixed = true } }]'
+    text = api.new(tmp_path / "model").directory.text
+    toml = tmp_path / "model" / "model.toml"
+    toml.write_text(text.replace("effects = []", place))
+    m = api.add(api.load(tmp_path / "model"), "near-sphere").loaded
+    assert [e.id for e in m.model.effects] == ["near-sphere"]
+    assert m.instrument.effects[0].fixed == {"x"}
+    toml.write_text(text.replace("effects = []", place.replace(" }]", ', M = "60 kg" }]')))
+    with pytest.raises(UserError, match="already in the model"):
+        api.add(api.load(tmp_path / "model"), "near-sphere")
+
+
 def test_effects_of_an_installed_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     package = tmp_path / "site" / "ragg_theirs"
     package.mkdir(parents=True)
