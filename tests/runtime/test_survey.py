@@ -1,14 +1,18 @@
-"""Surveys on this machine: same figures for any number of workers, workers that die, interruption, resumption."""
+"""Surveys on this machine and on a real dask.distributed cluster on loopback: the same figures, bit for bit; workers that die."""
 
 from __future__ import annotations
 
+import contextlib
 import io
 import json
 import os
+import signal
+import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +28,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.simulate import simulated
 from ragg_runtime.survey import run
-from ragg_runtime.survey.examine import Record, examine, expand_lines, make_job, split_line
+from ragg_runtime.survey.examine import Job, Record, examine, expand_lines, make_job, split_line
 from ragg_runtime.survey.journal import digest_file
 from ragg_runtime.survey.result import Survey, make_parquet
 from ragg_runtime.survey.run import name_flights, order_files
@@ -47,9 +51,9 @@ def whole(flights: Flights) -> Survey:
         return api.survey(api.load(flights[0]), flights[1])
 
 
-def records_of(whole: Survey, files: list[Path]) -> str:
-    """What the whole survey says of some flights."""
-    return json.dumps([r for r in whole.records if r["flight"] in [p.name for p in files]])
+def of_some(whole: Survey, files: list[Path]) -> Survey:
+    """The survey of some of the flights."""
+    return Survey(tuple(r for r in whole.records if r["flight"] in [p.name for p in files]))
 
 
 @pytest.fixture
@@ -70,12 +74,10 @@ def test_every_flight_has_its_own_figures(flights: Flights, whole: Survey) -> No
     record = next(r for r in whole.done if r["flight"] == WITH_EFFECT[0])
     assert record["error"]["after"]["rms_Eo"] < 0.5 * record["error"]["calibrated"]["rms_Eo"]
     record = next(r for r in whole.done if r["flight"] == "flight-1.parquet")
-    x = api.read_flights(m, [flights[1][1]])
-    c = api.compare(m, x)
-    d = api.diagnose(m, x, compared=c)
-    assert (record["verdict"], record["found"]) == (d.verdict, list(d.found))
+    c = api.compare(m, api.read_flights(m, [flights[1][1]]))
+    assert (record["verdict"], record["found"]) == ("adequate", [])
     found = {k: record["error"][k]["rms_Eo"] for k in ("after", "nominal", "holdout")}
-    expected = {"after": d.after.rms_Eo, "nominal": c.nominal.rms_Eo, "holdout": c.holdout.rms_Eo}
+    expected = {"after": c.calibrated.rms_Eo, "nominal": c.nominal.rms_Eo, "holdout": c.holdout.rms_Eo}
     assert found == pytest.approx(expected, rel=1e-9)
 
 
@@ -151,7 +153,7 @@ def test_a_survey_that_is_cut_short_continues(flights: Flights, whole: Survey, t
     assert (done.returncode, "1 in error" in done.stdout, "done before" in done.stderr) == (0, True, True)
     assert kept.read_bytes().startswith(before)
     again = json.loads((tmp_path / "again.json").read_text())
-    assert json.dumps(again["flights"]) == records_of(whole, files)
+    assert json.dumps(again["flights"]) == json.dumps(of_some(whole, files).records)
 
 
 def test_results_of_something_else_are_refused(flights: Flights, whole: Survey, tmp_path: Path) -> None:
@@ -170,10 +172,16 @@ def test_results_of_something_else_are_refused(flights: Flights, whole: Survey, 
         api.survey(m, flights[1], jobs=1, resume=tmp_path / "no-folder" / "x.jsonl")
 
 
-@pytest.mark.usefixtures("here")
 def test_only_flights_that_have_not_changed_are_taken_from_the_results(
-    flights: Flights, tmp_path: Path
+    flights: Flights, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    def glance(_: Job, files: Sequence[str], jobs: int) -> Iterator[tuple[str, Record]]:
+        """Stands in for a diagnosis, to which a file that is cut off is an error."""
+        for f in files:
+            done = record("", {}) if Path(f).stat().st_size > 5000 else {"error": {"message": "damaged"}}
+            yield f, done | {"file": f, "sha256": digest_file(f)}
+
+    monkeypatch.setattr(run, "examine_here", glance)
     m = api.load(flights[0])
     kept, one, two = (tmp_path / n for n in ("kept.jsonl", "a/line.parquet", "b/line.parquet"))
     one.parent.mkdir()
@@ -329,3 +337,138 @@ def test_flights_of_one_file_name_are_named_with_their_folders_and_in_order() ->
     )
     many = [f"/s/{n}/flight.csv" for n in range(3000)]
     assert name_flights(many)[many[7]] == "7/flight.csv"
+
+
+# --- on a cluster ----------------------------------------------------------------------------------------
+
+
+def summary(s: Survey) -> str:
+    return json.dumps({k: v for k, v in s.as_json().items() if k != "flights"})
+
+
+HERE = "127.0.0.1"
+
+
+class Cluster:
+    """A scheduler and workers, each a process of its own, without nannies: a killed worker stays dead."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.processes: list[subprocess.Popen[bytes]] = []
+        file = folder / "scheduler.json"
+        words = ("--host", HERE, "--port", "0", "--no-dashboard", "--scheduler-file", file)
+        self.scheduler = self._start("dask_scheduler", *words)
+        self.address = str(self._wait(lambda: json.loads(file.read_text())["address"]))
+
+    def _start(self, module: str, *arguments: object) -> subprocess.Popen[bytes]:
+        words = [sys.executable, "-m", f"distributed.cli.{module}", *map(str, arguments)]
+        paths = [str(Path(api.__file__).parents[1]), os.environ.get("PYTHONPATH", "")]
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join(p for p in paths if p)}
+        with (self.folder / f"{len(self.processes)}.log").open("wb") as log:
+            process = subprocess.Popen(
+                words, cwd=self.folder, stdout=log, stderr=subprocess.STDOUT, env=environment
+            )
+        self.processes.append(process)
+        return process
+
+    def worker(self) -> subprocess.Popen[bytes]:
+        return self._start(
+            *("dask_worker", self.address, "--host", HERE, "--no-nanny", "--nthreads", "1", "--no-dashboard"),
+        )
+
+    @staticmethod
+    def _wait(get: Any) -> Any:
+        deadline = time.monotonic() + 60
+        while True:
+            with contextlib.suppress(OSError, ValueError):
+                return get()
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+
+    def wait_for_workers(self, count: int) -> None:
+        import distributed
+
+        with distributed.Client(self.address, set_as_default=False, timeout=30) as client:
+            client.wait_for_workers(count, timeout=90)
+
+    def end(self) -> None:
+        for p in reversed(self.processes):
+            p.kill()
+            p.wait(30)
+
+
+@contextlib.contextmanager
+def running(folder: Path, workers: int) -> Iterator[Cluster]:
+    pytest.importorskip("distributed", reason="Dask is an optional extra: pip install 'ragg[cluster]'")
+    c = Cluster(folder)
+    try:
+        for _ in range(workers):
+            c.worker()
+        if workers:
+            c.wait_for_workers(workers)
+        yield c
+    finally:
+        c.end()
+
+
+def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
+    flights: Flights, whole: Survey, tmp_path: Path
+) -> None:
+    """And once the scheduler is lost that is one message, and what is done is kept."""
+    killed: list[int] = []
+    m, kept, files = api.load(flights[0]), tmp_path / "kept.jsonl", without_effect(flights[1])
+    expected = of_some(whole, files)
+    with running(tmp_path, 2) as c:
+
+        def kill_one(done: int, total: int, record: Record | None) -> None:
+            if record is not None and not killed:
+                killed.append(c.processes[1].pid)
+                c.processes[1].send_signal(signal.SIGKILL)
+                c.processes[1].wait(30)
+
+        found = api.survey(m, files, scheduler=c.address, progress=kill_one)
+        assert killed
+        assert summary(found) == summary(expected)
+        for there, here in zip(found.records, expected.records, strict=True):
+            if "verdict" in here:
+                assert json.dumps(there) == json.dumps(here)
+        assert [r["flight"] for r in found.records if "verdict" not in r] == ["flight-2b.parquet"]
+
+        # A file that the workers do not see; the survey is done all the same.
+        (lost,) = api.survey(m, ["elsewhere.parquet"], scheduler=c.address).records
+        assert "does not see the flight file" in lost["error"]["message"]
+
+        def kill_scheduler(done: int, total: int, record: Record | None) -> None:
+            if done == 1:
+                c.scheduler.kill()
+
+        with pytest.raises(UserError, match="connection to the scheduler is lost"):
+            api.survey(m, files, scheduler=c.address, resume=kept, progress=kill_scheduler)
+    assert 2 <= len(lines_of(kept)) < len(files) + 1
+
+
+def test_a_record_of_another_program_is_not_taken(flights: Flights) -> None:
+    toml = flights[0] / "model.toml"
+    asked = replace(make_job(toml.read_text(), toml), program=(("numpy", "1.0"),))
+    record = examine(asked, str(flights[1][0]))
+    assert "another version of the program" in record["error"]["message"]
+
+
+@pytest.mark.parametrize("address", ["free", "127.0.0.1", "tcp://", "", "scheduler.json"])
+def test_a_scheduler_that_is_not_there_is_one_message(
+    flights: Flights, address: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("distributed", reason="Dask is an optional extra: pip install 'ragg[cluster]'")
+    if address == "free":
+        with socket.socket() as s:
+            s.bind((HERE, 0))
+            address = f"tcp://{HERE}:{s.getsockname()[1]}"
+    monkeypatch.setattr(run, "PATIENCE", 1.0)
+    with pytest.raises(UserError, match="cannot be reached"):
+        api.survey(api.load(flights[0]), flights[1], scheduler=address)
+
+
+def test_without_the_extra_it_is_one_message(flights: Flights, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(UserError, match=r"ragg\[cluster\]"):
+        api.survey(api.load(flights[0]), flights[1], scheduler=f"tcp://{HERE}:8786")
