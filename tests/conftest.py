@@ -36,7 +36,6 @@ DEAREST = (
     "test_bad_input_messages.py",
     "test_effect_conformance.py",
     "test_readme.py",
-    "test_survey_cluster.py",
     "test_terms.py",
     "test_next_motion.py",
     "test_c.py",

@@ -46,7 +46,6 @@ def test_bad_input(name: str, tmp_path: Path) -> None:
 
 AWKWARD: dict[str, Callable[[Flight], Flight]] = {
     "1 % spikes, blanks in the motion": lambda x: motion(blank)(outputs(struck)(x)),
-    "jittering stamps": timed(jittered(0.2)),
     "gaps, and jittering stamps": lambda x: timed(jittered(0.2))(kept(lambda k: k[k // 100 % 12 != 5])(x)),
 }
 

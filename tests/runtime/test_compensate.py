@@ -150,7 +150,7 @@ def test_the_division_into_segments_leaves_no_trace(monkeypatch: pytest.MonkeyPa
 
 
 def test_holes_are_bridged_or_flagged() -> None:
-    s = scenario(11, duration=DURATION, rate=16.0, gradient_rms=50e-9)  # three samples are brief
+    s = scenario(11, duration=600.0, rate=16.0, gradient_rms=50e-9)  # three samples are brief
     x = s.simulate({}).flight()
     valid = np.ones(len(x.time), dtype=bool)
     valid[5000] = valid[6000:6003] = False  # short ones

@@ -180,6 +180,7 @@ def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
         np.testing.assert_array_equal(plain.series(name), value)
 
 
+@pytest.mark.usefixtures("no_next_motion")
 def test_a_paper_model_lacks_the_spin_and_with_it_the_error_is_the_noise(tmp_path: Path) -> None:
     (tmp_path / "sheet.toml").write_text(sheet("[model]"))
     m = api.new(tmp_path / "paper", tmp_path / "sheet.toml")

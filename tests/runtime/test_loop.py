@@ -58,27 +58,19 @@ HIDDEN: dict[str, dict[str, Any]] = {
     "thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]},
     "imu-lever-arm": {"l_x": 3e-3, "l_y": -2e-3},
     "bias-drift": {"dK0_dt": [2e-9 * G0, 0, 0, 0]},
-    "gain-step": {"dK1": [0, 2e-7, 0, 0], "t_step": 175.0},
 }
 
 
-@pytest.mark.parametrize("effect", ["imu-lever-arm", "gain-step"])
-def test_a_hidden_effect_is_found_and_the_error_falls_to_the_noise(effect: str) -> None:
-    s, flight = flown(
-        42, {effect: HIDDEN[effect]}, duration=640.0
-    )  # its noise is known to less than a per cent
+def test_a_hidden_effect_is_found_and_the_error_falls_to_the_noise() -> None:
+    hidden = {"imu-lever-arm": HIDDEN["imu-lever-arm"]}
+    s, flight = flown(42, hidden, duration=640.0)  # its noise is known to less than a per cent
     d = diagnosed(s, flight)
     assert d.verdict == "missing-effect"
-    assert effect in claimed(d)
+    assert "imu-lever-arm" in claimed(d)
     assert d.after.rms_Eo < d.before.rms_Eo
     assert d.after.rms_Eo == pytest.approx(d.noise_floor, rel=0.02)
     truth = noise_of(s) / d.fitted.k_ggi
     assert d.noise_floor == pytest.approx(truth, rel=0.02)  # the effect is no part of the noise
-    if effect == "gain-step":
-        instants = [
-            p.value for r in d.ranking if r.effect == effect for p in r.parameters if p.name == "t_step"
-        ]
-        assert instants == [pytest.approx(175.0, abs=0.1)]
 
 
 def test_two_effects_are_both_found() -> None:
@@ -87,20 +79,6 @@ def test_two_effects_are_both_found() -> None:
     )
     d = diagnosed(s, flight)
     assert set(d.found) == {"odd-quadratic", "bias-drift"}
-
-
-def test_what_no_effect_explains_is_called_unexplained_and_named() -> None:
-    s = scenario(44, duration=DURATION, rate=RATE)
-    run = s.simulate({})
-    k1 = s.instrument.accelerometers["K1"][0] * s.instrument.accelerometers["k_VI"][0]
-    strange = k1 * 3e-7 * run.channels["omega_z"]  # a sensitivity to rate, in A1
-    flight = dataclasses.replace(run.flight(), outputs={"G_out": run.G_out + strange})
-    d = diagnosed(s, flight)
-    assert d.verdict == "unexplained"
-    assert d.found == ()
-    term = max((t for r in d.remainder.searches for t in r.terms), key=lambda t: abs(t.z)).term
-    assert (term.harmonic, term.product) == ("const", "omega_z")
-    assert "omega_z" in str(d.expression())
 
 
 def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
@@ -114,19 +92,6 @@ def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
     assert scored.whole.rms_Eo == pytest.approx(d.before.rms_Eo, rel=1e-3)
     hidden = s.simulate({"thermal-scale": HIDDEN["thermal-scale"]}, record_gradient=False).flight()
     assert "thermal-scale" in claimed(diagnosed(s, hidden))
-
-
-def test_voltages_gaps_and_several_flights() -> None:
-    s = scenario(46, duration=DURATION, rate=RATE)
-    run = s.simulate({"cubic-input": HIDDEN["cubic-input"]})
-    whole = run.flight(voltages=True)
-    valid = np.ones(len(whole.time), dtype=bool)
-    valid[1000:1050] = False
-    outputs = {n: np.where(valid, v, np.nan) for n, v in whole.outputs.items()}
-    broken = dataclasses.replace(whole, outputs=outputs, valid=valid)
-    assert diagnosed(s, broken).found == ("cubic-input",)
-    halves = [run.flight().part(slice(0, 1200)), run.flight().part(slice(1200, 2400))]
-    assert "cubic-input" in claimed(diagnosed(s, *halves))
 
 
 def test_demodulated_channels_alone_tell_as_much_as_they_can() -> None:

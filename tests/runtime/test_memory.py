@@ -36,12 +36,8 @@ def of_first(effect: str, name: str, size: float, **shape: float) -> EffectValue
     [
         resonance("mount-resonance", 1.3, 4.0, 1.0),
         resonance("accelerometer-resonance", 3.0, 15.0, 1e-5),
-        resonance("accelerometer-resonance", 1.5, 6.0, 3e-7),
-        of_first("bias-hysteresis", "h_i", 1e-8, w=0.04),
         of_first("bias-hysteresis", "h_p", 1e-8, w=0.2),
-        of_first("mount-hysteresis", "e_yx", 1e-8, w=0.03),
         of_first("mount-hysteresis", "e_zx", 1e-7, w=0.03),
-        of_first("inner-temperature", "b", 3e-6, tau=30.0),
         of_first("inner-temperature", "s", 3e-6, tau=120.0),
         of_first("bias-creep", "c_p", 1e-6, tau=30.0),
         of_first("mount-creep", "e_yx", 1e-6, tau=3.0),

@@ -103,8 +103,6 @@ def test_promises_are_kept_when_the_motion_is_flown(weak: tuple[Scenario, Fitted
     alone = flown(s, [best.sinusoid], LAG)
     then = best.separation.then
     assert alone("time-offset") == pytest.approx(then * np.sqrt(s.duration / best.duration), rel=0.3)
-    small = next_motion.proposals(f, field, PAIRS[:1], {"a": 0.05, "omega": 1e-4})
-    assert all(then > p.separation.then for p in small)
 
 
 def test_what_the_flight_does_not_determine_is_not_promised(weak: tuple[Scenario, Fitted, Field]) -> None:

@@ -11,7 +11,7 @@ from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.screening import screen
+from ragg_runtime.screening import screen, timing
 from tests.rate import RATE
 
 pytestmark = pytest.mark.usefixtures("no_next_motion")
@@ -20,7 +20,10 @@ STEP = 32 / 65536 * 9.8
 """m/s^2: 16 bits over +-16 g."""
 
 
-def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect() -> None:
+def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(timing, "propose_times", lambda *_: [])  # test_screening_mistakes.py has these
     s, model = scenario(3, duration=150.0, rate=RATE, trim="table-v"), packaged()
     x = s.simulate().flight()
     rng = np.random.default_rng(1)

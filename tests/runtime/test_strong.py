@@ -31,10 +31,6 @@ DURATION = 250.0
 
 STRONG: dict[str, tuple[dict[str, Any], set[str]]] = {
     "time-offset": ({"time-offset": {"delta_t": 8e-4}}, {"time-offset"}),
-    "a converter's step": (
-        {"adc-nonlinearity": {"h": [-6.6e-8, -1.3e-7, -3.3e-8, 1.2e-7]}},
-        {"adc-nonlinearity"},
-    ),
     "unequal pair": (
         {"thermal-scale": {"dK1_dT": [0, 0, 2e-5, 0]}, "cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]}},
         {"thermal-scale", "cubic-input"},
@@ -128,6 +124,8 @@ def test_a_line_that_the_motion_does_not_make_is_said_and_bars_nothing() -> None
     line = size * np.sin(2 * np.pi * 3.3 * x.time)
     d = diagnosed(s, dataclasses.replace(x, outputs={"G_out": x.outputs["G_out"] + line}))
     assert d.found == tuple(GAIN_STEP)
+    instants = [p.value for p in d.ranking[0].parameters if p.name == "t_step"]
+    assert instants == [pytest.approx(240.0, abs=0.1)]
     assert d.noise_floor == pytest.approx(size / d.target.k_ggi / 5.0, rel=0.03)
     assert d.verdict == "missing-effect"
     assert "the output has lines at 3.3 Hz" in str(d.remark)

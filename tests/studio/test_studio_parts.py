@@ -19,7 +19,7 @@ from serving import brief, foreign, new
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.identification import heat, predict
+from ragg_runtime.identification import heat, next_motion, predict
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import field_of
 from ragg_runtime.instrument.read_toml import parse_instrument
@@ -42,7 +42,9 @@ def diagnosis(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
     new(folder / "model")
     brief(folder / "flight.parquet")
     m = api.load(folder / "model")
-    return api.diagnose(m, api.read_flights(m, [folder / "flight.parquet"]))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(next_motion, "proposals", lambda *_: ())
+        return api.diagnose(m, api.read_flights(m, [folder / "flight.parquet"]))
 
 
 @pytest.mark.parametrize(
