@@ -241,9 +241,8 @@ def _take_by_unit(
     """Channels that no usual name gives, in any language: the only columns with such a unit, with axes at their ends."""
     found: dict[str, tuple[DataColumn, Role]] = {}
     for names in (SPECIFIC_FORCE, ANGULAR_RATE):
-        alike = _of_unit(columns, SI_UNITS[names[0]])
         by_stem: dict[str, dict[str, DataColumn]] = {}
-        for c in alike:
+        for c in _of_unit(columns, SI_UNITS[names[0]]):
             by_stem.setdefault(c.name[:-1], {})[c.name[-1].lower()] = c
         triads = [t for t in by_stem.values() if set(t) == set("xyz")]
         if len(triads) == 1 and not taken.keys() & {*names}:
@@ -259,7 +258,7 @@ def _take_by_unit(
 
 def _of_unit(columns: Sequence[DataColumn], si_unit: str) -> list[DataColumn]:
     """The columns in a unit of this dimension."""
-    return [c for c in columns if c.unit and is_unit(c.unit) and units(9.8).fits(c.unit, si_unit)]
+    return [c for c in columns if c.unit and units(9.8).fits(c.unit, si_unit)]
 
 
 def _draft_channel(

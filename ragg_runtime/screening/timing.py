@@ -17,6 +17,7 @@ from ragg_runtime.model.record import disc_angle, start_of
 from ragg_runtime.screening.linear_fit import Hypothesis, LinearFit, fit_each, fit_rows
 from ragg_runtime.screening.sampler import Index, Rows, Sampler
 from ragg_runtime.signals.demodulate import demodulable, low_pass
+from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
 
@@ -47,6 +48,9 @@ INSTANTS = 16
 TELLING_PHASE = 3e-5
 """Angle, rad, that an error of the spin rate may add up to over a record and stay unseen: of a gradient of 3000 Eo that is
 0.1 Eo. Further digits of a rate are noise of the search."""
+
+COARSE_ANGLE = 1e-4
+"""Step of an encoder, rad, from which it may be what the model leaves: of an output of 100,000 Eo it makes 3 Eo, about the noise."""
 
 TURNS, FEWEST_BLOCKS = 2, 8
 """Turns of the disc over which its angle is estimated, to a tenth of a radian, and how many such estimates there must be."""
@@ -134,8 +138,12 @@ def _propose_spin(t: _Trial) -> list[Hypothesis]:
     shown, remedy = write_rate(best, x.duration), "record spin_angle"
     what = f"the spin rate is {shown} Hz, not the model's {f0:.9g} Hz ({100 * (best / f0 - 1):+.2g} %)"
     if s.has_encoder:
-        what = f"{s.disc.angle_column} is not the angle of the disc, which turns at {shown} Hz from angle 0 at the first sample"
-        remedy = f"check the encoder and its zero, or leave {s.disc.angle_column} out"
+        column, step = s.disc.angle_column, find_step(x.channels[s.disc.angle_column]) or 0.0
+        wrong = "is not the angle of the disc, which"
+        if step > COARSE_ANGLE:
+            wrong = f"is recorded in steps of {np.rad2deg(step):.3g} degrees, too coarse for this output; the disc"
+        what = f"{column} {wrong} turns at {shown} Hz from angle 0 at the first sample"
+        remedy = f"check the encoder and its zero, or leave {column} out"
     if float(shown) != float(write_rate(f0, x.duration)):
         remedy = f'write spin_frequency = "{shown} Hz" in model.toml, or {remedy}'
         if not s.has_encoder:
