@@ -13,6 +13,7 @@ this, too, is what Eq. 19 requires (see the audit for the proof of both).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, NamedTuple, TypeAlias
 
@@ -58,6 +59,12 @@ class Motion(NamedTuple):
     omega: Vector
     omegadot: Vector
     Gamma: sp.Matrix
+
+    def with_each(self, f: Callable[[sp.Expr], sp.Expr]) -> Motion:
+        """The motion with each component of a, omega and omegadot as ``f`` makes it."""
+        return self._replace(
+            a=self.a.applyfunc(f), omega=self.omega.applyfunc(f), omegadot=self.omegadot.applyfunc(f)
+        )
 
 
 class Spin(NamedTuple):

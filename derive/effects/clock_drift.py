@@ -1,19 +1,12 @@
 """The clock of the motion record runs at another rate than that of the output."""
 
-import sympy as sp
-
 from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
-    def at_true_instant(v: sp.Matrix) -> sp.Matrix:
-        return v.applyfunc(lambda e: c.shifted(e, p.epsilon * c.time))
-
-    return m._replace(
-        a=at_true_instant(m.a), omega=at_true_instant(m.omega), omegadot=at_true_instant(m.omegadot)
-    )
+    return m.with_each(lambda e: c.shifted(e, p.epsilon * c.time))
 
 
 EFFECT = Effect(

@@ -1,19 +1,12 @@
 """Motion record and output misaligned in time."""
 
-import sympy as sp
-
 from derive.context import Context
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
-    def at_true_instant(v: sp.Matrix) -> sp.Matrix:
-        return v.applyfunc(lambda e: c.shifted(e, p.delta_t))
-
-    return m._replace(
-        a=at_true_instant(m.a), omega=at_true_instant(m.omega), omegadot=at_true_instant(m.omegadot)
-    )
+    return m.with_each(lambda e: c.shifted(e, p.delta_t))
 
 
 EFFECT = Effect(

@@ -410,9 +410,9 @@ def rederive(root: Path) -> list[str]:
 
     Cut off, it leaves whole files; the next one writes the others.
     """
-    from derive import everything, pipeline, tree
+    from derive import everything, pipeline
 
-    changed = tree.write(pipeline.derive_base(), root / everything.GENERATED)
+    changed = everything.write(pipeline.derive_base(), root / everything.GENERATED)
     return [f"{everything.GENERATED}/{name}" for name in changed]
 
 

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 import generated
-from derive import pipeline, tree
+from derive import everything, pipeline
 from derive.propagation import collect, motion_numbers
 from derive.symbols import MOTION, symbol
 from generated import analytical, chain, folded
@@ -62,7 +62,7 @@ def test_check_shows_the_difference_and_the_command_that_mends_it(
     main(["derive", "--out", str(root)])
     mended = capsys.readouterr().out
     assert {"simplified.py", "chain.h", "by_hand.py"} <= {Path(n).name for n in mended.split()}
-    assert not tree.difference(committed, root / "generated")
+    assert not everything.diff_files(committed, root / "generated")
 
 
 @pytest.mark.parametrize(
@@ -71,11 +71,11 @@ def test_check_shows_the_difference_and_the_command_that_mends_it(
 )
 def test_every_byte_counts(tmp_path: Path, old: str, new: str, message: str) -> None:
     (tmp_path / "x.py").write_bytes(new.encode())
-    found = tree.difference({"x.py": old}, tmp_path)
+    found = everything.diff_files({"x.py": old}, tmp_path)
     assert found
     assert message in found
-    tree.write({"x.py": old}, tmp_path)
-    assert not tree.difference({"x.py": old}, tmp_path)
+    everything.write({"x.py": old}, tmp_path)
+    assert not everything.diff_files({"x.py": old}, tmp_path)
 
 
 def test_committed_files_are_what_the_derivation_yields_under_any_hash_seed() -> None:
