@@ -25,12 +25,11 @@ from ragg_runtime.compensation import compensate as _compensate
 from ragg_runtime.compensation import frozen as _frozen
 from ragg_runtime.compensation import recursive as _recursive
 from ragg_runtime.compensation.calibrate import Calibrated
-from ragg_runtime.compensation.compensate import Kind
+from ragg_runtime.compensation.compensate import Compensation, Kind
 from ragg_runtime.compensation.drift import Drift, smooth_drift
 from ragg_runtime.compensation.export.contents import Contents
-from ragg_runtime.compensation.export.forms import FORMS, write_export
+from ragg_runtime.compensation.export.program import FORMS, write_export
 from ragg_runtime.compensation.frozen import Held
-from ragg_runtime.compensation.result import Compensation
 from ragg_runtime.compensation.saved import Saved, add_entry, load_saved
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
@@ -461,7 +460,7 @@ def survey(
 
 def of_survey(m: Loaded, s: Survey, command: str) -> tuple[dict[str, object], dict[str, Any]]:
     """As :func:`origin`, of a survey made with ``m``, including the files that could not be read; and the same for its page."""
-    from ragg_runtime.survey.journal import digest_file
+    from ragg_runtime.survey.run import digest_file
 
     files = [(r["file"], r["sha256"] if "sha256" in r else digest_file(r["file"])) for r in s.records]
     read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]

@@ -349,9 +349,8 @@ def survey(
     mapping: Path | None,
 ) -> None:
     """Diagnose many flights, one by one."""
-    from ragg_runtime.survey.journal import keep_results
     from ragg_runtime.survey.result import make_parquet, require_table_place
-    from ragg_runtime.survey.run import show_progress
+    from ragg_runtime.survey.run import keep_results, show_progress
 
     m = load(model_dir)
     if table_file is not None:

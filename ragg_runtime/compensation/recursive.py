@@ -18,8 +18,7 @@ from scipy import linalg
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread, split_range
-from ragg_runtime.compensation.compensate import find_seeing
-from ragg_runtime.compensation.result import Compensation, without_gradients
+from ragg_runtime.compensation.compensate import Compensation, find_seeing, without_gradients
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.compensation.segment import Quality
 from ragg_runtime.estimation.least_squares import of_some

@@ -15,7 +15,7 @@ import pytest
 from ragg_runtime import api
 from ragg_runtime.api import Loaded
 from ragg_runtime.compensation.export.contents import Contents, unit_of
-from ragg_runtime.compensation.export.forms import format_csv
+from ragg_runtime.compensation.export.program import format_csv
 from ragg_runtime.compensation.recursive import Online, Tuning
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.io import Flight, read_flight, write_flight

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import split_range
-from ragg_runtime.compensation.export.forms import format_csv
+from ragg_runtime.compensation.export.program import format_csv
 from ragg_runtime.compensation.recursive import UNKNOWN_EO, UPDATE, Online, Tuning
 from ragg_runtime.estimation.observation import Observation, observe
 from ragg_runtime.io import write_flight

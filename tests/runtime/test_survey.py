@@ -29,9 +29,8 @@ from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.simulate import simulated
 from ragg_runtime.survey import run
 from ragg_runtime.survey.examine import Job, Record, examine, expand_lines, make_job, split_line
-from ragg_runtime.survey.journal import digest_file
 from ragg_runtime.survey.result import Survey, make_parquet
-from ragg_runtime.survey.run import name_flights, order_files
+from ragg_runtime.survey.run import digest_file, name_flights, order_files
 from ragg_runtime.wording.sections import render_text
 from tests.runtime.foreign_files import write
 
