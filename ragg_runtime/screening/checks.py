@@ -31,6 +31,10 @@ NEAR = 1.25
 FEWEST = 64
 """Samples from which two series can be compared."""
 
+LEAP, SIDE, SMOOTH = 0.8, 4, 0.05
+"""Share of its range by which a column leaps where its numbers overflow; samples on either side in which it moves on by more than two
+usual steps (a platform that is set from one attitude to another rests there); share of the range of a usual step, at most."""
+
 SAME_SPIN = 2e-3
 """Relative distance of the encoder's rate from the model's spin rate that a disc's own slowness may have."""
 
@@ -111,7 +115,7 @@ def list_remarks(instrument: Instrument, flight: Flight) -> list[Flag]:
     """Columns that are constant or contradict each other, with the likely mistake."""
     encoders = (x for d in instrument.layout.discs for x in _encoder(d, flight))
     noted = (*_rates(flight), *encoders, *_angle_origin(instrument, flight))
-    return [*_still(flight), *(Flag((), text) for text in noted)]
+    return [*_still(flight), *_overflown(flight), *(Flag((), text) for text in noted)]
 
 
 def _still(flight: Flight) -> list[Flag]:
@@ -124,6 +128,29 @@ def _still(flight: Flight) -> list[Flag]:
     if len(still) < len(names):
         text = f"{', '.join(still)} {'does' if len(still) == 1 else 'do'} not change at all: a stuck sensor?"
     return [Flag(tuple(still), text, open=True, kind="still" if len(still) == len(names) else "")]
+
+
+def _overflown(flight: Flight) -> list[Flag]:
+    """Motion columns that leap from one end of their range to the other and move on there, as whole numbers do that overflow."""
+    found = []
+    for name in (n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE) if n in flight.channels):
+        x, time = flight.channels[name][flight.valid], flight.time[flight.valid]
+        steps = np.diff(x)
+        usual, span = (float(np.median(np.abs(steps))), float(np.ptp(x))) if len(steps) else (0.0, 0.0)
+        leaps = np.flatnonzero(np.abs(steps) > LEAP * span)
+        leaps = leaps[(leaps >= SIDE) & (leaps < len(steps) - SIDE)]
+        if not len(leaps) or usual > SMOOTH * span:
+            continue
+        on = -np.sign(steps[leaps])  # the way in which it moves, before and after
+        moves = np.r_[on * (x[leaps] - x[leaps - SIDE]), on * (x[leaps + 1 + SIDE] - x[leaps + 1])]
+        moves = moves[moves < LEAP * span]  # not over another leap
+        if len(moves) and np.median(moves) > 2 * usual and np.min(moves) > -2 * usual:
+            text = (
+                f"{name} leaps from one end of its range to the other and moves on there, {len(leaps)} time{'s' * (len(leaps) > 1)}, first"
+                f" at t = {time[leaps[0] + 1]:.6g} s: did the numbers of a converter overflow?"
+            )
+            found.append(Flag((name,), text, open=True))
+    return found
 
 
 def _find_one_value(x: Array) -> float | None:

@@ -315,7 +315,7 @@ def propose_parts(model: Model, instrument: Instrument, s: Sampler) -> list[Hypo
     at = min(tried, key=lambda k: tried[k].misfit)
     what = (
         f"the record is two: the model explains what comes before t = {s.flight.time[int(at)]:.4g} s, and what comes after, but not"
-        " both together (another instrument, wiring or axis from there on?)"
+        " both together (another instrument, range, sign or wiring from there on?)"
     )
     remedy = "cut the record there into two flights, and diagnose each by itself"
     return [Hypothesis(what, remedy, tried[at], COST + 1.0, effects=("gain-step",), calming=False)]

@@ -12,7 +12,7 @@ from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.io.sampling import find_clock_steps, fit_even_clock, make_grid
-from ragg_runtime.screening.checks import _encoder
+from ragg_runtime.screening.checks import _encoder, _overflown
 from ragg_runtime.screening.repeated import derive_acceleration, leave_out_repeated
 from ragg_runtime.screening.spikes import find_glitches, find_spikes, leave_out_glitches
 from ragg_runtime.signals.resolution import find_step
@@ -202,6 +202,16 @@ def test_readings_that_did_not_arrive_are_left_out() -> None:
         assert f"at {len(lost)} samples (t = 0.5625" in found.flags[0].reason
     coarse = {n: np.round(rng.standard_normal(N)) for n in SPECIFIC_FORCE}
     assert leave_out_repeated(Flight(TIME, coarse, {})).valid.all()
+
+
+def test_numbers_that_overflow_are_said() -> None:
+    full = 0.9 * np.max(SMOOTH)
+    wrapped = (SMOOTH + full) % (2 * full) - full
+    (flag,) = _overflown(Flight(TIME, {"a_x": wrapped}, {}))
+    assert flag.open and flag.columns == ("a_x",) and "did the numbers of a converter overflow" in flag.reason
+    spiked = np.where(np.arange(N) % 1000 == 7, -9.0, SMOOTH)
+    for x in (SMOOTH, spiked, NOISE, np.sign(np.sin(TIME / 7)) + 0.01 * NOISE):
+        assert _overflown(Flight(TIME, {"a_x": x}, {})) == []
 
 
 # --- the clock -----------------------------------------------------------------------------------------
