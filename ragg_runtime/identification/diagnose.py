@@ -148,7 +148,8 @@ def complete_ranking(
             else []
         )
         ranking = staged(steps, later, ranking, found.outcome.target)
-    if found.verdict != "partly-explained":
+    # beside a rival only what the recorder did is claimed, which has no columns
+    if found.verdict != "partly-explained" or found.rival:
         return list(ranking)
     o = found.outcome
     free = with_held(o.target, candidates=bool(o.given))

@@ -1,6 +1,7 @@
 """The record as a model with certain parameters takes it: motion shifted in time, and what an instrument remembers of it.
 
-A Taylor series in a lateness fails at half a sample: so it is taken about the lateness that a fit has come to.
+A Taylor series in a lateness fails at half a sample: so it is taken about the lateness that a fit has come to, exactly. Moved in
+steps, with the rest left to the series, chi-square would jump from step to step.
 """
 
 from __future__ import annotations
@@ -17,31 +18,24 @@ from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]
 
-STEP = 1 / 32
-"""Samples between the latenesses to which motion is moved: by the series the rest of at most half of it is described to 1e-6 of
-the change, as well as derivatives are known (up to 42 % of the Nyquist frequency)."""
-
 
 def about(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
-    """The record with its motion shifted, and the remaining parts of the parameters p (size,), SI, for the series of derivatives.
+    """The record with its motion shifted, and the parameters p (size,), SI, without what moved it.
 
     What describes a memory is left at its neutral values, about which the chain has its series.
     """
     memories = [*list_memories(model, p)]
     if memories:
         r, p = with_responses(r, memories, model.chain.INPUTS), _at_neutral(model, p)
-    rest = p
+    rest = p.copy()
     moves: dict[str, tuple[float, float]] = {}
-    end = float((r.whole or r).time[-1])
     for k, q in late(model):
-        span = end if q.growing else 1.0
-        steps = np.rint(p[k] * span * r.rate / STEP) if span > 0.0 else 0.0
-        if steps:
-            by = float(steps) * STEP / (r.rate * span)
-            rest = rest - by * (np.arange(len(p)) == k)
-            for quantity in q.late:
-                offset, drift = moves.get(quantity, (0.0, 0.0))
-                moves[quantity] = (offset, drift + by) if q.growing else (offset + by, drift)
+        if not p[k]:
+            continue
+        rest[k] = 0.0
+        for quantity in q.late:
+            offset, drift = moves.get(quantity, (0.0, 0.0))
+            moves[quantity] = (offset, drift + p[k]) if q.growing else (offset + p[k], drift)
     return (r.moved(moves) if moves else r), rest
 
 

@@ -222,14 +222,27 @@ class Record:
         )
 
     def moved(self, moves: Mapping[str, tuple[float, float]]) -> Record:
-        """The record with motion taken from later in it: quantity (``a`` ...) -> lateness, s, at time 0 and per second."""
+        """The record with motion taken from later in it: quantity (``a`` ...) -> lateness, s, at time 0 and per second.
+
+        An angular rate changes by what the recorded angular acceleration says, as in the chain's series: where that is less noisy than
+        the rate's own slope, a fit would else find another optimum from where it begins than from where it ends.
+        """
         wide, samples = dict(self.wide), len(self.time) + sum(self.halo)
         at = np.arange(samples, dtype=np.float64)
         time = float(self.time[0]) + (at - self.halo[0]) / self.rate
-        for quantity, (offset, drift) in moves.items():
+        later = {q: (offset + drift * time) * self.rate for q, (offset, drift) in moves.items()}
+        for quantity, by in later.items():
             names = [n for n in (quantity, *(f"{quantity}_{k}" for k in "xyz")) if n in wide]
-            there = np.clip(at + (offset + drift * time) * self.rate, -1.0, samples)
-            wide |= dict(zip(names, interpolated([wide[n] for n in names], there), strict=True))
+            own = [self.wide[n] for n in names]
+            if quantity == "omega" and all(f"omegadot_{n[-1]}" in wide for n in names):
+                slopes = [self.wide[f"omegadot_{n[-1]}"] / self.rate for n in names]
+                there = at + later.get("omegadot", 0.0)
+                ends = [np.clip(x, -1.0, samples) for x in (there, there - by)]
+                upper, lower = (interpolated(slopes, x, integral=True) for x in ends)
+                moved = np.stack(own) + upper - lower
+            else:
+                moved = interpolated(own, np.clip(at + by, -1.0, samples))
+            wide |= dict(zip(names, moved, strict=True))
         return replace(self, wide=wide)
 
     def carried(self, rows: slice) -> tuple[Array, Array, Array]:

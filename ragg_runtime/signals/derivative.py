@@ -123,8 +123,8 @@ SPLINE = 9
 """Degree of the spline that interpolates: at 42 % of the Nyquist frequency it is as good as the derivative, 2e-6."""
 
 
-def interpolated(x: Sequence[Array], at: Array) -> Array:
-    """Evenly sampled series (N,) at places between their samples, (n,), counted in samples: (series, n).
+def interpolated(x: Sequence[Array], at: Array, *, integral: bool = False) -> Array:
+    """Evenly sampled series (N,), or their integrals, at places between their samples, (n,), counted in samples: (series, n).
 
     Of an N too short for the spline, by a polynomial.
     """
@@ -132,7 +132,8 @@ def interpolated(x: Sequence[Array], at: Array) -> Array:
     degree = min(SPLINE, (len(rows) - 1) // 2 * 2 - 1)
     first = rows[:1]  # a large constant would cost digits
     spline = interpolate.make_interp_spline(np.arange(len(rows), dtype=np.float64), rows - first, k=degree)
-    return np.asarray((spline(at) + first).T)
+    found = spline(at) + first if not integral else spline.antiderivative()(at) + first * at[:, None]
+    return np.asarray(found.T)
 
 
 DEGREES = (5, 7, 9, 11, 13)

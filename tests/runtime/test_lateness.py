@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,7 +13,7 @@ from ragg_runtime.estimation.thinning import certain
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model.lateness import STEP, about, late
+from ragg_runtime.model.lateness import about, late
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.scenario import Scenario, scenario
 
@@ -49,13 +51,23 @@ def test_motion_is_moved_to_where_it_was_true(world: tuple[Scenario, load.Model]
     assert np.max(np.abs(of_part - whole[1000:1400])) < 1e-6 * np.std(whole)
 
 
-def test_nothing_is_moved_by_less_than_the_series_describes(world: tuple[Scenario, load.Model]) -> None:
+def test_noise_of_the_motion_makes_no_jumps(world: tuple[Scenario, load.Model]) -> None:
     s, model = world
     r = record(s.simulate().flight(), s.sheet)
-    p = _parameters(s, model, {"epsilon": 1e-6, "delta_t": 0.4 * STEP / r.rate})
-    same, rest = about(model, r, p)
+    noise = np.random.default_rng(1).normal(size=len(r.wide["a_x"]))
+    r = replace(r, wide={**r.wide, "a_x": noise})
+    (offset,) = (k for k, q in late(model) if q.name == "delta_t")
+
+    def at(delta: float) -> np.ndarray:
+        moved, rest = about(model, r, _parameters(s, model, {"epsilon": 0.0, "delta_t": delta}))
+        assert rest[offset] == 0.0
+        return moved.wide["a_x"][20:-20]
+
+    tick = 1e-6 / r.rate
+    for delta in np.arange(1.0, 33.0) / (64 * r.rate):
+        assert np.max(np.abs(at(delta + tick) - at(delta - tick))) < 1e-4
+    same, _ = about(model, r, _parameters(s, model, {"epsilon": 0.0, "delta_t": 0.0}))
     assert same is r
-    assert rest is p
 
 
 def test_a_drift_of_half_a_sample_and_more_is_fitted_down_to_noise() -> None:

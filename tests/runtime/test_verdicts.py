@@ -14,7 +14,7 @@ from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification import selection
 from ragg_runtime.identification.comparison import compare
-from ragg_runtime.identification.diagnose import diagnose
+from ragg_runtime.identification.diagnose import complete_ranking, diagnose
 from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.result import groups
 from ragg_runtime.instrument.instrument import Instrument
@@ -115,3 +115,11 @@ def test_an_effect_is_tested_with_the_channels_that_are_there(
     x = replace(x, channels={n: v for n, v in x.channels.items() if n not in lost})
     found = selection.testable_effects(fit(packaged(), sheet, observations_of([x], sheet)))
     assert {"magnetic-bias", "self-gradient"} & set(found) == testable
+
+
+def test_what_the_recorder_did_is_claimed_where_generic_terms_do_as_well_as_effects() -> None:
+    """What remains is then that of the model without effects, which has other columns than the last fit."""
+    evidence: Any = SimpleNamespace(steps=(), last=None)
+    rival: Any = SimpleNamespace(verdict="partly-explained", rival=True, remains=True, claims=("saturation",))
+    row: Any = SimpleNamespace(effect="saturation")
+    assert complete_ranking([row], 0.0, evidence, rival) == [row]  # type: ignore[arg-type]
