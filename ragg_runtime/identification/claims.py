@@ -52,28 +52,38 @@ class Regression:
     """A fit of some flights, block of time by block: R factors [columns | residual], and the prior's ``centre`` (n,) of unit width.
 
     ``absent`` (n,): the coefficients where no effect acts, which the prior of one with a physical size is not centred on; ``effects``:
-    the effect of every column, ``None`` of the instrument's own.
+    the effect of every column, ``None`` of the instrument's own; ``shapes``: the columns that but shape what others of the effect cause.
     """
 
     flights: tuple[tuple[Array, ...], ...]
     centre: Array
     absent: Array
     effects: tuple[str | None, ...]
+    shapes: frozenset[int] = frozenset()
 
     @staticmethod
     def of(f: Fitted, extra: Sequence[int] = ()) -> Regression:
         """Of the base columns of a fit and ``extra`` candidates."""
         picked = [*range(f.n_base), *(f.n_base + k for k in extra), -1]
         effects = [c.effect for c in f.calibration.columns] + [f.candidates[k].effect for k in extra]
+        names = {f"{e.id}.{q.name}" for e in f.model.effects for q in e.parameters if q.shape}
+        shapes = [n for n, c in enumerate(f.calibration.columns) if c.name in names]
+        absent = _absent(f)
+        absent[shapes] = 0.0  # of what is not there any shape will do
         return Regression(
             flights=tuple(tuple(t[:, picked] for t in own) for own in f.r_factors),
             centre=np.concatenate([f.to_nominal, np.zeros(len(extra))]),
-            absent=np.concatenate([_absent(f), np.zeros(len(extra))]),
+            absent=np.concatenate([absent, np.zeros(len(extra))]),
             effects=tuple(effects),
+            shapes=frozenset(shapes),
         )
 
     def columns(self, effect: str) -> list[int]:
         return [k for k, e in enumerate(self.effects) if e == effect]
+
+    def amplitudes(self, effect: str) -> list[int]:
+        """The columns of an effect that are at rest, with all others, where it is absent."""
+        return [k for k in self.columns(effect) if k not in self.shapes]
 
     def blocks(self, some: Sequence[int] | None = None) -> list[Array]:
         """R factors of the blocks, or of some of each flight, that hold any sample."""
@@ -149,7 +159,7 @@ class Robust:
 
     def significance(self, effect: str) -> Significance:
         """Of an effect fitted jointly with all others."""
-        E = self.regression.columns(effect)
+        E = self.regression.amplitudes(effect)
         own = np.ix_(E, E)
         sizes, U = np.linalg.eigh(self.covariance[own])
         told = sizes < SEEN

@@ -67,6 +67,7 @@ class Conclusion:
             if e is None:
                 break
             weak.append(e)
+            needed = []  # beside that effect
             outcome = found.without(outcome, e)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         # next to the noise model, whose level has shapes of its own
