@@ -38,7 +38,7 @@ LIKE_ONE = 0.05
 LISTED = 16
 """Pairs that are listed, the most correlated first."""
 
-MOST_LABELS = 60
+MOST_LABELS = 32
 """Directions of a matrix of correlations: beyond these nobody reads it."""
 
 
@@ -84,7 +84,9 @@ def find_directions(f: Fitted) -> tuple[list[Direction], Array]:
             row = np.zeros(len(columns))
             row[places if together else [n]] = np.array(signs) / np.linalg.norm(signs)
             size = float(np.linalg.norm(signs))
-            directions.append(Direction(name, numbers.parameter(columns[n].name), columns[n], 1.0 / size))
+            directions.append(
+                Direction(name, numbers.parameter(combinations.own_name(columns[n])), columns[n], 1.0 / size)
+            )
             rows.append(row)
     return directions, np.array(rows)
 

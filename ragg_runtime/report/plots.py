@@ -77,9 +77,9 @@ def _style() -> Iterator[None]:
         yield
 
 
-def _make_figure(height: float) -> Figure:
-    """A figure so many inches high, in constrained layout."""
-    made = Figure(figsize=(WIDTH, height), layout="constrained")
+def _make_figure(height: float, width: float = WIDTH) -> Figure:
+    """A figure so many inches high and wide, in constrained layout."""
+    made = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasSVG(made)
     return made
 
@@ -252,7 +252,8 @@ def _label_bars(ax: Drawn, plot: Bars, low: float, top: float) -> None:
 def _draw_matrix(plot: Matrix) -> str:
     """Squares below the diagonal whose areas are the sizes of the entries; those of less than 0.1 are left out."""
     count = len(plot.names)
-    fig = _make_figure(max(2.0, 0.17 * count + 1.4))
+    side = max(WIDTH, 0.14 * count + 1.2)
+    fig = _make_figure(side, side)
     ax = fig.subplots()
     for sign, colour, words in ((1.0, "residual", "positive"), (-1.0, "noise", "negative")):
         found = [(i, j, float(plot.values[i, j]) * sign) for i in range(count) for j in range(i)]
