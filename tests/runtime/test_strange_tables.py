@@ -173,12 +173,6 @@ def test_dates_as_people_write_them(tmp_path: Path, kind: str) -> None:
         same(read_flight(tmp_path / "x.csv", G0, mapping=parse_mapping(made.text, tmp_path)), instants)
 
 
-def test_a_last_line_that_was_cut_off_is_left_out(tmp_path: Path) -> None:
-    (tmp_path / "x.csv").write_text(text(PLAIN, rows())[:-30])
-    x = read_flight(tmp_path / "x.csv", G0)
-    assert len(x) == N - 1 and any("the last, cut off" in n for n in x.notes)
-
-
 def test_a_date_of_two_meanings_is_asked_for(tmp_path: Path) -> None:
     path = tmp_path / "x.csv"
     path.write_text(
