@@ -26,25 +26,28 @@ os.environ.pop("RAGG_EFFECTS", None)
 
 
 DEAREST = (
-    "test_studio_server.py",
     "test_studio_browser.py",
-    "test_screening_mistakes.py",
-    "test_compensate.py",
+    "test_studio_server.py",
     "test_strong.py",
-    "test_loop.py",
+    "test_memory.py",
+    "test_screening_mistakes.py",
     "test_survey.py",
-    "test_bad_input_messages.py",
+    "test_contradiction.py",
     "test_effect_conformance.py",
-    "test_readme.py",
+    "test_loop.py",
     "test_terms.py",
     "test_next_motion.py",
-    "test_c.py",
-    "test_real_measurements.py",
     "test_segments.py",
-    "test_contradiction.py",
+    "test_real_measurements.py",
+    "test_compensate.py",
+    "test_bad_input_messages.py",
+    "test_readme.py",
+    "test_c.py",
+    "test_catalogue.py",
     "test_thinning.py",
-    "test_quality.py",
+    "test_compensated_layouts.py",
     "test_report.py",
+    "test_quality.py",
 )
 """Files that take ten seconds and more, the longest first: what one worker begins last the other waits for."""
 
