@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import io
 import re
+import threading
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -42,6 +43,9 @@ WIDTH = 4.8
 MARKS_APART = 1.8
 """Ratio of frequencies whose names do not touch."""
 
+ONE_AT_A_TIME = threading.Lock()
+"""Matplotlib's settings are the whole process's: the studio is asked for two figures at once."""
+
 HALO = {"facecolor": COLOURS["paper"], "edgecolor": "none", "pad": 0.6}
 """Behind a value that may lie on a line."""
 
@@ -69,7 +73,7 @@ def draw_file(plot: Plot) -> str:
 def _style() -> Iterator[None]:
     """Matplotlib's defaults with the report's look, whatever the user's own settings; names in any script."""
     sheet = resources.files("ragg_runtime.report").joinpath("templates", "report.mplstyle")
-    with warnings.catch_warnings(), matplotlib.rc_context():
+    with ONE_AT_A_TIME, warnings.catch_warnings(), matplotlib.rc_context():
         # a glyph missing from the font used for measuring is still drawn by the reader's browser
         warnings.filterwarnings("ignore", message=r"Glyph .* missing from")
         matplotlib.rcdefaults()

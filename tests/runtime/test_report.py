@@ -6,6 +6,7 @@ import html
 import math
 import re
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
 from html.parser import HTMLParser
@@ -220,6 +221,13 @@ def test_same_input_same_bytes(cubic: Case) -> None:
     assert write_diagnosis(cubic.diagnosis, ORIGIN) == write_diagnosis(cubic.diagnosis, ORIGIN)
     plot = whiteness.plot_whiteness(cubic.comparison.fitted, 0, cubic.diagnosis.residual[0], ("a_x",))
     assert draw_plot(plot) == draw_plot(plot)
+
+
+def test_two_figures_at_once_keep_their_text() -> None:
+    """The studio draws in threads, and Matplotlib's settings are the whole process's."""
+    figures = [Bars(f"{n}", "title", (Bar("a", n + 1.0),), "Eo") for n in range(6)]
+    with ThreadPoolExecutor(6) as pool:
+        assert [*pool.map(draw_plot, figures)] == [draw_plot(x) for x in figures]
 
 
 # --- what they say ------------------------------------------------------------------------------------------
