@@ -87,7 +87,7 @@ def _discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, float]:
     """The layout of [disc] (the paper's) or of [[disc]] tables, and g0."""
     if not isinstance(table.get("disc"), list):
         if "g0" in table:
-            raise UserError("g0 belongs into the table [disc]", where=at(path, "g0"))
+            raise UserError("g0 belongs in the table [disc]", where=at(path, "g0"))
         disc, where = _table(table, "disc", path), at(path, "[disc]")
         check_keys(disc, DISC_UNITS, where)
         radius, spin_frequency, g0 = (_number(disc, name, unit, where) for name, unit in DISC_UNITS.items())

@@ -92,7 +92,7 @@ class Units:
 
         if text in DIMENSIONLESS:
             return self._registry.dimensionless
-        remedy = "join names of units by * or /, with exponents up to 12; a number belongs into the value"
+        remedy = "join names of units by * or /, with exponents up to 12; a number belongs in the value"
         for spelling in spellings(text) if len(text) <= _LONGEST else ():
             if _UNIT.fullmatch(spelling) is None:
                 continue

@@ -136,7 +136,7 @@ def _read_null(raw: Any, where: str) -> Null:
     """One or several numbers or texts."""
     values = raw if isinstance(raw, list) else [] if raw is None else [raw]
     if any(isinstance(v, bool) or not isinstance(v, int | float | str) for v in values):
-        raise _refuse("null is no list of numbers and texts", where, raw, "null = [-9999]")
+        raise _refuse("null is not a list of numbers and texts", where, raw, "null = [-9999]")
     return tuple(v.strip() if isinstance(v, str) else float(v) for v in values)
 
 

@@ -413,7 +413,7 @@ def _describe_coarse(time: Array, steps: Array, single: float | None) -> tuple[s
     """What was found and the remedy where several rows share each stamp: whole seconds, or single precision."""
     edges = np.flatnonzero(steps != 0) + 1
     rows = len(time) / (len(edges) + 1)
-    found = f"{len(edges) + 1} different stamp{'s' * bool(len(edges))} in {len(time)} rows, each of some {rows:.4g} rows"
+    found = f"{len(edges) + 1} different stamp{'s' * bool(len(edges))} in {len(time)} rows, each in about {rows:.4g} rows"
     rate = "rate"
     if single is not None:
         found += f"; single precision has steps of {single:.3g} s there"

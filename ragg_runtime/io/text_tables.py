@@ -52,7 +52,7 @@ QUANTITY = re.compile(
 )
 """A number with its unit in one cell."""
 
-TWO_ROWS = "the header stands over two rows, which are joined"
+TWO_ROWS = "the header spans two rows; they are joined"
 """A note: of merged cells, for example."""
 
 _LOOKED_AT = 600  # lines that are looked at to find the header and to separate numbers from text
@@ -283,10 +283,10 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
             return data.decode("cp1252").encode(), ["the file is not UTF-8; read as Windows text (cp1252)"]
     except (OSError, EOFError, zlib.error, UnicodeError) as error:
         raise UserError(
-            "the file is damaged or cut off, or no text",
+            "the file is damaged, cut off, or not text",
             where=path,
             found=str(error)[:200],
-            expected="a whole file of text: a header of `name [unit]`, then numbers",
+            expected="a complete text file: a header of `name [unit]`, then numbers",
             remedy="copy it again, or save it as CSV, Parquet or NetCDF-4",
         ) from None
     return data.removeprefix(b"\xef\xbb\xbf").rstrip(b"\0"), []  # recorders reserve room ahead
@@ -359,7 +359,7 @@ def _drop_headers(data: bytes, d: _Dialect, notes: list[str]) -> bytes:
             count += body.count(b"\n" + heading)
             data = data[: begins - 1] + body.replace(b"\n" + heading, b"\n\n")
     if count:
-        notes.append(f"the header is repeated ({count} line{'s' * (count > 1)}): passed over")
+        notes.append(f"the header is repeated ({count} line{'s' * (count > 1)}): skipped")
     return data
 
 

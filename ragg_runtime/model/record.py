@@ -422,7 +422,7 @@ def kernel(d: Demodulation, rate: float) -> Demodulator:
     every = 1 if d.rate is None else round(d.rate / rate)
     if d.rate is not None and (every < 1 or abs(d.rate / (every * rate) - 1) > UNEVEN):
         raise UserError(
-            "the demodulator's rate is no multiple of the record's",
+            "the demodulator's rate is not a multiple of the record's",
             where="[demodulator] rate",
             found=f"{d.rate:.6g} Hz, the record at {rate:.6g} Hz",
             expected="the rate at which the channels were made, of which the record keeps every second, third ... sample",

@@ -166,7 +166,7 @@ def causal(rate: float, order: int = ORDER, cutoff: float = CUTOFF) -> Demodulat
     h = _impulse(rate, order, cutoff)
     return Demodulator(
         name="causal",
-        description=f"Butterworth of order {order} at {cutoff:g} Hz, forward alone",
+        description=f"Butterworth of order {order} at {cutoff:g} Hz, forward only",
         rate=rate,
         taps=h,
         ahead=0,

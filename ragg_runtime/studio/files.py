@@ -139,7 +139,7 @@ async def receive_flight(m: Loaded, name: str, request: Request) -> Path:
     except BaseException as error:
         path.unlink(missing_ok=True)
         if isinstance(error, ClientDisconnect):
-            raise UserError("the upload was broken off; nothing was kept", where=wanted) from None
+            raise UserError("the upload was interrupted; nothing was kept", where=wanted) from None
         raise
     return path
 
