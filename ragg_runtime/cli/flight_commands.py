@@ -113,7 +113,9 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
     """Add an effect: derive again, calibrate, show the error."""
     m = load(model_dir)
     if find_wanted().report_file is not None and not flights:
-        raise UserError("a report of `add` needs a flight", remedy="give a flight: ragg add MODEL EFFECT FLIGHT")
+        raise UserError(
+            "a report of `add` needs a flight", remedy="give a flight: ragg add MODEL EFFECT FLIGHT"
+        )
     records = read(m, flights, mapping) if flights else []
     check = next_command("diagnose", model_dir, records, mapping)
     use = next_command("calibrate", model_dir, records, mapping) + " --save"

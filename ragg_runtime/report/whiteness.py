@@ -115,7 +115,7 @@ def plot_against(f: Fitted, n: int, residual: Array, channel: str) -> Curves:
         Axes((_bounds(at, 1.0, half / np.sqrt(2.0)), Curve("rms", at, rms)), "rms, σ"),
     )
     caption = (
-        f"The whitened residual against {name}: mean and rms of {BINS} bins with equal numbers of samples, in standard deviations of the noise."
+        f"The whitened residual against {name}: mean and rms of {BINS} bins of equal counts, in standard deviations of the noise."
         " Pale: 99 % of noise lies inside. A mean outside: a missing term; an rms outside: noise that depends on the channel."
     )
     label = f"{name}{f', {unit}' if unit else ''}"
