@@ -261,7 +261,8 @@ def _judged(c: Comparison | None) -> dict[str, object] | None:
     """The errors of a comparison with its noise floor, and whether the model is adequate."""
     if c is None:
         return None
-    return {**(errors_of(c) or {}), "noise_floor": noise_floor_json(c.fitted), "adequate": c.adequate}
+    floor = noise_floor_json(c.fitted, c.noise_floor)
+    return {**(errors_of(c) or {}), "noise_floor": floor, "adequate": c.adequate}
 
 
 def add(

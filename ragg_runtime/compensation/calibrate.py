@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation.fitted import Fitted, fit, noise_floor
 from ragg_runtime.estimation.least_squares import Linear, join, with_prior
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.estimation.scores import Error
@@ -56,7 +56,7 @@ class Calibrated:
             "converged": f.calibration.converged,
             "effects": [e.id for e in f.model.effects],
             "error": self.errors_json(),
-            "noise_floor": noise_floor_json(f),
+            "noise_floor": noise_floor_json(f, noise_floor(f)),
             "directions": dict(zip(("seen", "fitted"), self.directions, strict=True)),
             "parameters": list_parameters(f),
             "combinations": list_combinations(f),

@@ -103,7 +103,7 @@ class Comparison:
                 "calibrated": self.calibrated.as_json(),
                 "holdout": self.holdout.as_json(),
             },
-            "noise_floor": series.noise_floor_json(f),
+            "noise_floor": series.noise_floor_json(f, self.noise_floor),
             "explained": None if self.explained is None else {"share": self.explained.share},
             "converged": self.converged,
             "reason": self.complaint or self.remark,

@@ -103,7 +103,7 @@ def diagnose_fitted(
         remainder_share=_share(outcome, left) if found.remains else 0.0,
         before=ranked[1],
         scored=outcome.scored,
-        compared=f,
+        noise_floor=outcome.noise_floor,
         sizes=tuple(list_detectable(first.fitted, first.field)),
         target=target,
         coefficients=outcome.coefficients,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.calibration import OffSheet
-from ragg_runtime.estimation.fitted import Fitted, Scored, noise_floor
+from ragg_runtime.estimation.fitted import Fitted, Scored
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.identification import as_effect, series
 from ragg_runtime.identification.comparison import Explained
@@ -46,8 +46,7 @@ class Diagnosis:
     remainder_share: float
     before: Error
     scored: Scored
-    compared: Fitted
-    """The fit without any effect, as ``compare`` makes it: that of the noise floor."""
+    noise_floor: float
     sizes: tuple[Detectable, ...]
     target: Fitted
     coefficients: Array
@@ -90,11 +89,6 @@ class Diagnosis:
     def change(self) -> ChangePoint | None:
         """Where the model ceased to hold, if it held in the beginning."""
         return None if self.holds is None else self.holds.change
-
-    @cached_property
-    def noise_floor(self) -> float:
-        """rms of the noise before demodulation, Eo."""
-        return noise_floor(self.compared)
 
     @property
     def after(self) -> Error:
@@ -174,7 +168,7 @@ class Diagnosis:
                 "needs": self.needs(),
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
-            "noise_floor": series.noise_floor_json(self.compared),
+            "noise_floor": series.noise_floor_json(self.target, self.noise_floor),
             "explained": None if self.explained is None else {"share": self.explained.share},
             "credible_set": [list(s) for s in self.credible_set],
             "holds_until_s": None if self.change is None else self.change.until,

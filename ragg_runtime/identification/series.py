@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import series_name
-from ragg_runtime.estimation.fitted import Fitted, estimated, noise_floor
+from ragg_runtime.estimation.fitted import Fitted, estimated
 from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.scores import finite
 from ragg_runtime.estimation.whitening import PreparedFlight
@@ -152,10 +152,10 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
     return float(inline), float(cross)
 
 
-def noise_floor_json(f: Fitted) -> dict[str, float | None]:
+def noise_floor_json(f: Fitted, rms_Eo: float) -> dict[str, float | None]:
     """The noise floor as JSON: before demodulation (Eo), and what the noise alone would give in the channels."""
     inline, cross = channel_noise(f)
-    return {"rms_Eo": noise_floor(f), "inline_Eo": finite(inline), "cross_Eo": finite(cross)}
+    return {"rms_Eo": rms_Eo, "inline_Eo": finite(inline), "cross_Eo": finite(cross)}
 
 
 def harmonic_noise(f: Fitted, harmonics: Iterable[str]) -> dict[str, float]:
