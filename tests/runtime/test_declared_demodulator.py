@@ -158,5 +158,5 @@ def test_what_cannot_be_a_demodulator_is_told(table: object, words: str) -> None
 
 
 def test_a_rate_that_is_no_multiple_is_told() -> None:
-    with pytest.raises(UserError, match="no multiple of the record's"):
+    with pytest.raises(UserError, match="not a multiple of the record's"):
         kernel(Demodulation(rate=10.0), 4.0)

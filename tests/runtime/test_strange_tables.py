@@ -500,5 +500,5 @@ def test_a_decimal_comma_in_a_quantity() -> None:
 def test_a_header_over_two_rows_is_named_where_its_names_are_not_known(tmp_path: Path) -> None:
     rows_above = "time [s],force [g],,,rate [deg/h],,,G_out [V]\n,x,y,z,x,y,z,"
     (tmp_path / "x.csv").write_text(text(rows_above, rows()))
-    with pytest.raises(UserError, match=r"columns time, force_x.*G_out; the header stands over two rows"):
+    with pytest.raises(UserError, match=r"columns time, force_x.*G_out; the header spans two rows"):
         read_flight(tmp_path / "x.csv", G0)
