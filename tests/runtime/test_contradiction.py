@@ -38,7 +38,7 @@ def test_a_strong_effect_between_flights_is_no_contradiction() -> None:
 
 
 def test_what_each_flight_alone_lacks_is_said_where_all_together_are_not_explained() -> None:
-    one, other = (scenario(k, duration=150.0, rate=RATE) for k in (57, 58))
+    one, other = (scenario(k, duration=100.0, rate=RATE) for k in (57, 58))
     other = dataclasses.replace(other, instrument=one.instrument)
     hidden = {"cubic-input": {"K_iii": [4e-8, 0.0, 0.0, 0.0]}}
     d = diagnosed(one, flown(one, "monday", hidden), flown(other, "tuesday"))

@@ -73,14 +73,6 @@ def test_a_hidden_effect_is_found_and_the_error_falls_to_the_noise() -> None:
     assert d.noise_floor == pytest.approx(truth, rel=0.02)  # the effect is no part of the noise
 
 
-def test_two_effects_are_both_found() -> None:
-    s, flight = flown(
-        43, {"odd-quadratic": {"K_oq": [0, 0, 0, 2e-6 / G0]}, "bias-drift": HIDDEN["bias-drift"]}
-    )
-    d = diagnosed(s, flight)
-    assert set(d.found) == {"odd-quadratic", "bias-drift"}
-
-
 def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
     s = scenario(45, duration=DURATION, rate=RATE, gradient_rms=20e-9)
     clean = s.simulate({}, record_gradient=False).flight()

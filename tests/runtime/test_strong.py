@@ -117,7 +117,7 @@ GAIN_STEP = {"gain-step": {"dK1": [0, 1e-5, 0, 0], "t_step": 240.0}}
 
 
 def test_a_line_that_the_motion_does_not_make_is_said_and_bars_nothing() -> None:
-    s = scenario(57, duration=400.0, rate=RATE)
+    s = scenario(57, duration=300.0, rate=RATE)
     run = s.simulate(GAIN_STEP)
     size = 5.0 * np.std(run.G_out - run.G_out_noise_free)
     x = run.flight()

@@ -17,6 +17,7 @@ from ragg_runtime.identification.comparison import compare
 from ragg_runtime.identification.diagnose import complete_ranking, diagnose
 from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.result import groups
+from ragg_runtime.identification.verdict import _of_one_kind
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import packaged
@@ -123,3 +124,13 @@ def test_what_the_recorder_did_is_claimed_where_generic_terms_do_as_well_as_effe
     rival: Any = SimpleNamespace(verdict="partly-explained", rival=True, remains=True, claims=("saturation",))
     row: Any = SimpleNamespace(effect="saturation")
     assert complete_ranking([row], 0.0, evidence, rival) == [row]  # type: ignore[arg-type]
+
+
+def test_the_low_frequencies_of_an_accelerometers_resonance_are_not_two_effects() -> None:
+    fitted = SimpleNamespace(model=packaged())
+    found: Any = SimpleNamespace(
+        first=SimpleNamespace(fitted=fitted), alternatives=lambda: {"arm-sag": ("second-order-loop",)}
+    )
+    assert _of_one_kind(found, ("lag", "second-order-loop")) == "accelerometer-resonance"
+    assert _of_one_kind(found, ("lag", "arm-sag")) == "accelerometer-resonance"
+    assert _of_one_kind(found, ("lag", "thermal-scale")) is None
