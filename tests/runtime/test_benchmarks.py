@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from benchmarks import Row, bounds, timing
+from benchmarks import Row, bounds, evaluation, timing
 from benchmarks.__main__ import main, modules, page
 from benchmarks.evaluation import instrument_and_motion
 from benchmarks.rivals import lambdify, numpy_blocks, program
@@ -55,3 +55,10 @@ def test_rivals_evaluate_the_same_model() -> None:
 
 def test_operations_of_the_generated_c_are_counted() -> None:
     assert 120 < bounds.instructions() < 200  # 49 coefficients, twelve turned numbers, one sine and cosine
+
+
+def test_what_is_timed_is_what_fifty_digits_say() -> None:
+    _, _, p = evaluation.instrument_and_motion(40)
+    functions, _ = evaluation.contenders(p)
+    ours = {name: functions[name] for name in (evaluation.OURS, evaluation.OURS_NUMPY)}
+    assert max(evaluation.errors(p, ours).values()) < 2e-7
