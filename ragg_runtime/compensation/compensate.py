@@ -215,7 +215,8 @@ def prepare(
         blocks = _whole_blocks(c, observations, root)
         change = retest_change(model, instrument, observations, saved, c)
     else:
-        f = fit(model, instrument, observations)
+        # constant parameters leave the drift, which is no noise: it is followed from where they leave the smallest rms
+        f = fit(model, instrument, observations, unweighted=kind == "smoothed")
         c, blocks = f.calibration, _fitted_blocks(f, flights, kind)
     return PreparedFlights(
         model=model,

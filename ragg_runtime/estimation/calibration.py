@@ -26,20 +26,10 @@ from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
 
-MISFIT = 1.1
-"""Chi-square over the number of samples from which what is left is more than noise: then how the noise is coloured says nothing of
-what is left, and all samples weigh the same, so that the rms is as small as it can be. It is that of whitened samples: the rms of a
-noise that drifts is mostly that of periods longer than the record, of which no spectrum tells."""
-
 LEAN = 10.0
-"""There the noise counts as no less than what is left over this: the prior then weighs little, but keeps parameters from drifting.
+"""In an unweighted fit the noise counts as no less than what is left over this: the prior then weighs little, but keeps parameters from
+drifting.
 """
-
-ROUNDS = 3
-"""Most times that a fit of what is loud is made, each with what the one before has left and the noise estimated there."""
-
-FALLING = 0.9
-"""Factor below which one of both must have fallen for another one."""
 
 
 @dataclass(frozen=True)
@@ -237,42 +227,22 @@ def fit(
 ) -> Calibration:
     """Least squares on all flights at once, from the nominal values or from ``start``.
 
-    First every sample weighs the same; from what is left the noise is estimated, and the fit goes on whitened, unless much more
-    than noise is left or ``unweighted`` is asked for. Long flights begin on an excerpt.
+    First every sample weighs the same; from what is left the noise is estimated, and the fit goes on whitened, unless ``unweighted``
+    is asked for, so that the rms is as small as it can be. Long flights begin on an excerpt.
     """
     task = _Task(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
-    loud, whole, some = unweighted, _Unweighted(task), task.take_excerpt()
+    whole, some = _Unweighted(task), task.take_excerpt()
     if noise is None:
         begun = whole if some is task else _Unweighted(some)
         x = begun.fit(x, begun.promised(x)).x
         noise = task.noise(x)
-        loud = loud or task.at(x, noise).unheld > MISFIT
-    if not loud:
-        if start is None and some is not task:
-            x = minimise(lambda at: some.at(at, noise), x).x
-        windows = task.windows(noise)
-        found = minimise(lambda at: task.at(at, noise, windows), x)
-        return _calibration(task, found, noise)
-    return _loud(whole, x, noise, fixed=unweighted)
-
-
-def _loud(p: _Unweighted, x: Array, noise: Sequence[NoiseModel], fixed: bool) -> Calibration:
-    """The unwhitened fit from x of what leaves more than ``noise``, which is estimated anew at its end unless it is ``fixed``."""
-    for _ in range(ROUNDS):
-        left = p.left(x)
-        found = p.fit(x, max(p.task.size(noise), left / LEAN))
-        if fixed or np.array_equal(found.x, x):
-            break
-        x, before, noise = found.x, noise, p.task.noise(found.x)
-        if noise_rms(noise) > FALLING * noise_rms(before) and p.left(x) > FALLING * left:
-            break
-    return _calibration(p.task, found, noise)
-
-
-def noise_rms(noise: Sequence[NoiseModel]) -> float:
-    """Root of the mean power of the outputs' noise over all flights, V."""
-    return float(np.sqrt(np.mean([n.power for n in noise])))
+    if unweighted:
+        return _calibration(task, whole.fit(x, max(task.size(noise), whole.left(x) / LEAN)), noise)
+    if start is None and some is not task:
+        x = minimise(lambda at: some.at(at, noise), x).x
+    windows = task.windows(noise)
+    return _calibration(task, minimise(lambda at: task.at(at, noise, windows), x), noise)
 
 
 def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[NoiseModel]) -> Calibration:
