@@ -176,15 +176,11 @@ def diagnose(
     flights = read_flights(m, flights)
     distinct(flights)
     extended = partial(derive.with_effects, m.instrument)
-
-    def again(others: Sequence[Flight]) -> Diagnosis:
-        return _diagnose.diagnose(m.model, m.instrument, others, extended, limits)
-
     if compared is None:
-        d = again(flights)
+        d = _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
     else:
         d = _diagnose.diagnose_fitted(compared.fitted, flights, extended, limits)
-    return heed_flags(d, flights, again)
+    return heed_flags(d, flights)
 
 
 LIMIT_UNITS = {"a": "m/s^2", "omega": "rad/s", "jerk": "m/s^3", "alpha": "rad/s^2"}

@@ -95,8 +95,7 @@ class Flight:
     ``G_out`` and ``V_1`` ... in V, ``inline`` and ``cross`` in s^-2; NaN where the file has none. ``valid`` (N,): False
     where a sample is missing or incomplete. ``units``: SI, of every column; ``written``: those of the file. ``digest``:
     SHA-256 of the file. ``demodulation``: how ``inline`` and ``cross`` were made, by the mapping. ``flags``: what
-    was found odd (each is among the ``notes``, too). ``motion_noise``: column -> standard deviation, SI, of the noise with which it was
-    measured, where that matters in the output.
+    was found odd (each is among the ``notes``, too).
     ``instants``: whether the file's stamps are instants (dates, GPS time), not seconds. ``began``: time, s, of the first
     sample of the record that this is, or is a part of. ``lacking`` (N,): where the file has no angular rates (``None``:
     nowhere).
@@ -114,7 +113,6 @@ class Flight:
     written: Mapping[str, str] = field(default_factory=dict)
     demodulation: Demodulation | None = None
     flags: tuple[Flag, ...] = ()
-    motion_noise: Mapping[str, float] = field(default_factory=dict)
     instants: bool = False
     began: float | None = None
     lacking: Mask | None = None

@@ -1,38 +1,48 @@
-"""The noise with which motion is measured, what it makes of the output, and by how much it weakens coefficients.
+"""The noise with which motion and gradients are measured: found, and smoothed where that explains the output better.
 
 A model sees the measured motion, x = true + noise (errors in variables: W. Fuller, Measurement Error Models, 1987). The noise goes through
-the model into what is left of the output, and a coefficient of x comes out too small by var(noise) / var(x).
+the model into the residual, coefficients of x come out too small, and filters and delays of x are feigned, because they smooth it. All
+that ends if the model sees the best linear prediction of the true motion instead: what noise is left of that does not correlate with it
+(regression calibration: R. Carroll, D. Ruppert, L. Stefanski, C. Crainiceanu, Measurement Error in Nonlinear Models, 2006, chapter 4).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
+from scipy import fft, signal
+from scipy.sparse.linalg import LinearOperator, cg
 
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS, Units
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT, SPECIFIC_FORCE, Flag
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
-from ragg_runtime.screening.linear_fit import LinearFit
-from ragg_runtime.screening.sampler import Rows, Sampler
-from ragg_runtime.signals.angular_acceleration import wide_weights
+from ragg_runtime.screening.linear_fit import LinearFit, fit_rows
+from ragg_runtime.screening.repeated import derive_acceleration
+from ragg_runtime.screening.sampler import make_sampler
+from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
-MATTERS = 0.1
-"""Share of what a model leaves from which motion noise may feign an effect: below, ten thousand samples tell no such correlation."""
+FALLS = 0.99
+"""Factor by which the residual must fall. Of noise that makes less than a seventh of it ten thousand samples tell no more than
+two sigma."""
 
-TOLD = 0.5
-"""Share from which it is told."""
+NOTICED = float(np.sqrt(1.0 - FALLS**2))
+"""Share of the residual that noise must make for that."""
 
-MOST = 1.5
-"""Share above which a floor is none of the sensors: their noise cannot make more than what is left, but for how both are known."""
+MOSTLY = 0.5
+"""Factor by which the residual falls from which noise of a recorded gradient is most of it: what smoothing leaves of that is seen."""
+
+LONGEST = 1 << 18
+"""Samples from which it is told whether smoothing helps."""
 
 WINDOW, BANDS = 256, 8
 """Samples of a window of the spectrum, and bands whose mean densities are compared: the least is the floor."""
@@ -40,113 +50,189 @@ WINDOW, BANDS = 256, 8
 FLAT = 1.2
 """Ratio of the two lowest bands below which they are white noise; motion falls off. Of 4,800 samples a band is known to 3 %."""
 
+SURE = 6.0
+"""Standard deviations of the spectrum by which motion must be above the noise to be kept. With 3, what passed in single bands was
+filtered out by effects again: of five effect-free flights one had a false claim and one was unexplained."""
+
+BLOCK = 1 << 16
+"""Samples that are smoothed together: at its ends a prediction is 1.5 times less sure."""
+
+CLOSE, MOST = 1e-3, 400
+"""Error of the smoothed motion, in standard deviations of its noise, at which the conjugate gradients end, and their largest number."""
+
+TRIANGLE = np.array([0.25, 0.5, 0.25])
+"""Weights that smooth a spectrum over neighbouring frequencies."""
+
+SCATTER = 0.56
+"""Relative standard deviation of that of one window per record: sqrt(0.53 x 0.6), of Hann windows that overlap by half, whose neighbouring
+frequencies have a correlation of 0.44 (P. Welch, IEEE Trans. AU 15, 1967, 70)."""
+
 
 @dataclass(frozen=True)
 class MotionNoise:
-    """White noise of a motion column: its standard deviation, SI, the ``step`` in which it is recorded (0: none), and the share
-    ``weaker`` by which coefficients of it come out too small.
-    """
+    """White noise of a column: its standard deviation, SI, and the ``step`` in which it is recorded (0: none)."""
 
     std: float
     step: float
-    weaker: float
 
 
-def measure_noise(flight: Flight) -> dict[str, MotionNoise]:
-    """Of every recorded motion column; of the angular acceleration only where the file has it.
+def measure_noise(x: Array) -> MotionNoise:
+    """What the steps of a converter make of a column (N,), or the floor of its spectrum, if it has a flat one, whichever is more.
 
-    The noise is what the steps of a converter make, or the floor of the spectrum, if it has a flat one, whichever is more; the
-    floor is an upper bound, as motion may have one, too.
+    The floor is an upper bound, as motion may have one, too.
     """
-    names = [*SPECIFIC_FORCE, *ANGULAR_RATE]
-    names += [n for n in ANGULAR_ACCELERATION if n in flight.written]
-    found = {}
-    for n in (n for n in names if n in flight.channels):
-        x = flight.channels[n][flight.valid]
-        power = float(np.var(x)) if len(x) else 0.0
-        if power > 0.0:
-            step = find_step(x) or 0.0
-            std = max(step / float(np.sqrt(12.0)), _floor(x))
-            found[n] = MotionNoise(std, step, min(1.0, std**2 / power))
+    step = find_step(x) or 0.0
+    lowest, next_one = sorted(
+        float(np.mean(b)) for b in np.array_split(_measure_spectrum(x).density[2:-1], BANDS) if len(b)
+    )[:2]
+    floor = float(np.sqrt(0.5 * lowest)) if next_one < FLAT * lowest else 0.0
+    return MotionNoise(max(step / float(np.sqrt(12.0)), floor), step)
+
+
+@dataclass(frozen=True)
+class _Spectrum:
+    """One-sided density (m,) at frequencies ``f`` (m,), 1/sample, smoothed, and its relative standard deviation."""
+
+    f: Array
+    density: Array
+    scatter: float
+
+
+def _measure_spectrum(x: Array) -> _Spectrum:
+    """Of a column (N,)."""
+    window = min(WINDOW, max(8, len(x) // 8))
+    f, density = signal.welch(x, nperseg=window, detrend=signal.detrend)
+    smoothed = np.convolve(np.pad(density, 1, mode="edge"), TRIANGLE, mode="valid")
+    return _Spectrum(f, smoothed, SCATTER * float(np.sqrt(window / len(x))))
+
+
+def smooth_noisy_motion(model: Model, instrument: Instrument, flight: Flight, place: int) -> Flight:
+    """The flight with its noisy sensors smoothed, one after the other, and flagged.
+
+    That a floor is noise is a hypothesis: with motion smoothed that is none, the model explains less of the output ``place``.
+    """
+    start = flight.part(slice(LONGEST))
+    some = _longest(start.valid)
+    left = _fit(model, instrument, start, place)
+    for names in (SPECIFIC_FORCE, ANGULAR_RATE, ANGULAR_ACCELERATION, GRADIENT):
+        if names is ANGULAR_ACCELERATION and names[0] not in flight.written:
+            continue  # derived from the rates
+        noise = {n: measure_noise(flight.channels[n][some]) for n in names if n in flight.channels}
+        noise = {n: q for n, q in noise.items() if q.std > 0.0}
+        if not noise:
+            continue
+        stds = {n: q.std for n, q in noise.items()}
+        if _made_of(model, instrument, start, stds, left, place) < NOTICED * left.rms:
+            continue
+        after = _fit(model, instrument, smoothed := smooth(start, stds), place)
+        if after.rms >= FALLS * left.rms:
+            continue
+        flag = _describe(flight, instrument.units, noise, left.rms, after.rms)
+        if names is GRADIENT and after.rms < MOSTLY * left.rms:
+            known = {n: x for n, x in flight.channels.items() if n not in GRADIENT}
+            text = f"{flag.reason}; it is not used but taken to be unknown and to vary slowly"
+            return replace(flight, channels=known).flagged([replace(flag, reason=text)])
+        flight, start, left = smooth(flight, stds).flagged([flag]), smoothed, after
+    return flight
+
+
+def _fit(model: Model, instrument: Instrument, flight: Flight, place: int) -> LinearFit:
+    s = make_sampler(flight, instrument, tuple(model.chain.INPUTS), place)
+    return fit_rows(model, instrument, s.take(s.rows()))
+
+
+def _made_of(
+    model: Model,
+    instrument: Instrument,
+    flight: Flight,
+    noise: Mapping[str, float],
+    fitted: LinearFit,
+    place: int,
+) -> float:
+    """Eo rms: what as much noise, SI, makes of the output."""
+    rng = np.random.default_rng(0)
+    noisy = {n: flight.channels[n] + std * rng.standard_normal(len(flight)) for n, std in noise.items()}
+    changed = replace(flight, channels={**flight.channels, **noisy})
+    if any(n in noise for n in ANGULAR_RATE):
+        changed = derive_acceleration(changed)
+    evaluate, inputs = model.compiled("numpy").output, tuple(model.chain.INPUTS)
+    both = []
+    for x in (flight, changed):
+        s = make_sampler(x, instrument, inputs, place)
+        rows = s.take(s.rows())
+        both.append(evaluate(rows.time, rows.inputs(model.chain), fitted.p, rows.phi, which=place))
+    return float(np.std(both[1] - both[0])) / abs(scale_factor(model, fitted.p, place))
+
+
+def smooth(flight: Flight, noise: Mapping[str, float]) -> Flight:
+    """The flight with Wiener's prediction of columns that have white noise of these standard deviations, SI."""
+    channels = {n: predict_true(flight.channels[n], flight.valid, std) for n, std in noise.items()}
+    smoothed = replace(flight, channels={**flight.channels, **channels})
+    return derive_acceleration(smoothed) if any(n in channels for n in ANGULAR_RATE) else smoothed
+
+
+def predict_true(x: Array, there: Mask, std: float) -> Array:
+    """The best linear prediction of a column (N,) without its white noise, from its samples that are ``there`` (N,).
+
+    It is x - std^2 C^-1 x, C the covariance of the measured column: with the ends and gaps that the record has.
+    """
+    found = np.array(x)
+    spectrum = _measure_spectrum(x[_longest(there)])
+    for block in np.array_split(np.arange(len(x)), -(-len(x) // BLOCK)):
+        rows = block[there[block]]
+        if len(rows) > 2:
+            found[rows] -= std * _noise_of(x[rows], rows - block[0], std, spectrum)
     return found
 
 
-def _floor(x: Array) -> float:
-    """Standard deviation of white noise as dense as the lowest band of the spectrum of x (N,); 0 where no two bands are alike."""
-    _, density = signal.welch(x, nperseg=min(WINDOW, max(8, len(x) // 8)))
-    lowest, next_one = sorted(float(np.mean(b)) for b in np.array_split(density[2:-1], BANDS) if len(b))[:2]
-    return float(np.sqrt(0.5 * lowest)) if next_one < FLAT * lowest else 0.0
+def _noise_of(x: Array, at: NDArray[np.intp], std: float, q: _Spectrum) -> Array:
+    """(n,): the noise that samples x (n,) at some rows of a block have, in standard deviations."""
+    white = 2.0 * std**2  # one-sided, per cycle per sample
+    surely = q.density > white * (1.0 + SURE * q.scatter)
+    size = fft.next_fast_len(2 * int(at[-1] + 1), real=True)
+    S = np.interp(fft.rfftfreq(size), q.f, np.where(surely, q.density / white, 1.0))
 
+    def filtered(gain: Array) -> LinearOperator:
+        def apply(v: Array) -> Array:
+            whole = np.zeros(size)
+            whole[at] = v
+            return np.asarray(fft.irfft(fft.rfft(whole) * gain, size)[at])
 
-def leave_out_noisy_gradient(model: Model, s: Sampler, fitted: LinearFit) -> Flight:
-    """The flight without its gravity gradient if noise of that makes a good part of what is left: unknown, it varies slowly."""
-    recorded = [n for n in GRADIENT if n in s.flight.channels]
-    errors = {n: e for n in recorded if (e := _floor(s.flight.channels[n][s.flight.valid])) > 0.0}
-    if s.recorded.demodulated or not errors:
-        return s.flight
-    made = _made_of(model, s, s.take(s.rows()), errors, fitted)
-    if not TOLD * fitted.rms < made < MOST * fitted.rms:
-        return s.flight
-    text = (
-        f"{', '.join(errors)} have a noise floor of {max(errors.values()) / EOTVOS:.2g} Eo rms, which causes about {made:.2g} Eo of the"
-        " output: the recorded gradient is not used; it is taken to be unknown and to vary slowly"
+        return LinearOperator((len(at), len(at)), apply, dtype=np.float64)
+
+    trend = np.polynomial.Polynomial.fit(at, x, 1)(at)
+    whitened, _ = cg(
+        filtered(S),
+        (x - trend) / std,
+        rtol=0.0,
+        atol=CLOSE * np.sqrt(len(at)),
+        M=filtered(1.0 / S),
+        maxiter=MOST,
     )
-    channels = {n: x for n, x in s.flight.channels.items() if n not in GRADIENT}
-    return replace(s.flight, channels=channels).flagged([Flag((), text)])
+    return np.asarray(whitened)
 
 
-def flag_noise(
-    model: Model, known: Units, s: Sampler, fitted: LinearFit
-) -> tuple[dict[str, float], list[Flag]]:
-    """Standard deviations, SI, of the motion noise that matters in the output, and flags where it is a good part of what is left."""
-    if s.recorded.demodulated:
-        return {}, []
-    rows, noise = s.take(s.rows()), measure_noise(s.flight)
-    matters: dict[str, float] = {}
-    flags = []
-    for stem in ("a", "omega", "omegadot"):
-        names = [n for n in noise if n.rsplit("_", 1)[0] == stem]
-        errors = {n: noise[n].std for n in names}
-        if (
-            stem == "omega" and ANGULAR_ACCELERATION[0] not in s.flight.written
-        ):  # derived from the rate, with its noise
-            gain = float(np.linalg.norm(wide_weights())) * s.flight.rate
-            errors |= {n.replace("omega", "omegadot"): gain * e for n, e in errors.items()}
-        made = _made_of(model, s, rows, errors, fitted) if names else 0.0
-        if MATTERS * fitted.rms < made < MOST * fitted.rms:
-            matters |= {n: noise[n].std for n in names}
-            if made > TOLD * fitted.rms:
-                flags.append(_describe(s.flight, known, names, noise, made))
-    return matters, flags
+def _longest(there: Mask) -> slice:
+    """The longest segment without a gap."""
+    return max(runs(there), key=lambda r: r.stop - r.start, default=slice(None))
 
 
-def _describe(
-    x: Flight, known: Units, names: Sequence[str], noise: Mapping[str, MotionNoise], made: float
-) -> Flag:
-    loudest = max(names, key=lambda n: noise[n].std)
-    q, unit = noise[loudest], x.written.get(loudest, x.units[loudest])
+def _describe(x: Flight, known: Units, noise: Mapping[str, MotionNoise], before: float, after: float) -> Flag:
+    loudest = max(noise, key=lambda n: noise[n].std)
+    q = noise[loudest]
     stepped = q.step / np.sqrt(12.0) > 0.5 * q.std
-    size = (q.step if stepped else q.std) / float(known.to_si(1.0, unit, x.units[loudest]))
+    size = q.step if stepped else q.std
+    unit = x.written.get(loudest, x.units[loudest])
+    if loudest in GRADIENT:
+        size, unit = size / EOTVOS, "Eo"
+    else:
+        size /= float(known.to_si(1.0, unit, x.units[loudest]))
     size, unit = (1e3 * size, f"m{unit}") if unit == "g" else (size, unit)
-    weaker = 100.0 * max(noise[n].weaker for n in names)
-    effect = f", and makes their coefficients up to {weaker:.2g} % too small" if weaker > 0.01 else ""
-    verb, have = ("is", "has") if len(names) == 1 else ("are", "have")
-    who, makes = ", ".join(names), f"about {made:.2g} Eo of the output{effect}"
-    text = (
-        f"{who} {verb} recorded in steps of {size:.3g} {unit}, which causes {makes}"
+    verb, have = ("is", "has") if len(noise) == 1 else ("are", "have")
+    what = (
+        f"{verb} recorded in steps of {size:.3g} {unit}"
         if stepped
-        else f"{who} {have} a noise floor of {size:.2g} {unit} rms; as sensor noise it causes {makes}"
+        else f"{have} a noise floor of {size:.2g} {unit} rms"
     )
-    return Flag(tuple(names), text, kind="motion-noise")
-
-
-def _made_of(model: Model, s: Sampler, rows: Rows, errors: Mapping[str, float], fitted: LinearFit) -> float:
-    """Eo rms: what random errors of this size, SI, of some channels make of the output."""
-    rng = np.random.default_rng(0)
-    moved = {n: rows.channels[n] + e * rng.standard_normal(len(rows.time)) for n, e in errors.items()}
-    evaluate = model.compiled("numpy").output
-    both = [
-        evaluate(r.time, r.inputs(model.chain), fitted.p, r.phi, which=s.place)
-        for r in (rows, replace(rows, channels={**rows.channels, **moved}))
-    ]
-    return float(np.std(both[1] - both[0])) / abs(scale_factor(model, fitted.p, s.place))
+    text = f"{', '.join(noise)} {what}: the noise is smoothed, and the model leaves {after:.3g} instead of {before:.3g} Eo"
+    return Flag(tuple(noise), text, kind="motion-noise")

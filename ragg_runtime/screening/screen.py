@@ -21,7 +21,7 @@ from ragg_runtime.model.recorded import recorded
 from ragg_runtime.screening import checks
 from ragg_runtime.screening.linear_fit import INDEPENDENT, LinearFit, fit_rows
 from ragg_runtime.screening.mistakes import Finding, find_mistake
-from ragg_runtime.screening.motion_noise import flag_noise, leave_out_noisy_gradient
+from ragg_runtime.screening.motion_noise import smooth_noisy_motion
 from ragg_runtime.screening.repeated import derive_acceleration, leave_out_repeated
 from ragg_runtime.screening.sampler import Sampler, make_sampler
 from ragg_runtime.screening.spikes import describe_spikes, find_spikes, leave_out_glitches
@@ -80,13 +80,7 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
         if _is_senseless(finding, instrument):
             raise _refuse(flight, finding)
         flight = flight.flagged([_remark(finding)])
-    fitted = fit_rows(model, instrument, s.take(s.rows()))
-    flight = leave_out_noisy_gradient(model, s := replace(s, flight=flight), fitted)
-    if flight is not s.flight:
-        s = make_sampler(flight, instrument, inputs, places[0])
-        fitted = fit_rows(model, instrument, s.take(s.rows()))
-    noise, flags = flag_noise(model, instrument.units, s, fitted)
-    flight = replace(flight, motion_noise=noise).flagged(flags)
+    flight = smooth_noisy_motion(model, instrument, flight, places[0])
     for place in places:
         s = make_sampler(flight, instrument, inputs, place)
         flight = flight.flagged(_saturated(s))

@@ -26,7 +26,7 @@ from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.estimation.scores import finite
 from ragg_runtime.identification import comparison
-from ragg_runtime.identification.diagnose import diagnose, diagnose_fitted
+from ragg_runtime.identification.diagnose import diagnose_fitted
 from ragg_runtime.identification.parameters import SEEN, parameter_values, visible_combinations
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.identification.result import Diagnosis
@@ -169,8 +169,7 @@ def _require_same_program(job: Job) -> None:
 def _make_record(f: Fitted, flight: Flight) -> Record:
     held_out, nominal = f.score([_held_out(f)], lambda x: comparison.nominal_residual(f, f.sheet, x)[None], 1)
     extend = partial(derive.with_effects, f.instrument)
-    again = partial(diagnose, f.model, f.instrument, extend=extend)
-    d = heed_flags(diagnose_fitted(f, [flight], extend), [flight], again)
+    d = heed_flags(diagnose_fitted(f, [flight], extend), [flight])
     held = held_out.held_out.as_json()
     ranking = [
         {"effect": r.effect, "log10_p": finite(r.log_p / np.log(10.0)), "delta_bic": finite(r.delta_bic)}
