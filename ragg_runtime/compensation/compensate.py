@@ -14,7 +14,7 @@ from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation.calibrate import fit_some, information, invert_root, list_base_r_factors
-from ragg_runtime.compensation.drift import smooth_drift
+from ragg_runtime.compensation.drift import find_starts, smooth_drift
 from ragg_runtime.compensation.frozen import (
     CalibrationChange,
     as_calibration,
@@ -496,6 +496,8 @@ def compensate(
         result["frozen"] = describe_saved(p.saved) | p.change.as_json()
         if not p.change.holds:
             result["notes"] = [warn_of_change(p.saved.time, p.change)]
+    if kind == "smoothed" and not find_starts(p.flights)[1]:
+        result["notes"] = [describe_other.UNTIMED]
     return Compensation.of(name, result, series)
 
 

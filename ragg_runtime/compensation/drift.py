@@ -35,11 +35,12 @@ HOUR = 3600.0
 
 
 class Epoch(NamedTuple):
-    """A block of time: its flight, its samples, and its middle, s."""
+    """A block of time: its flight, its samples, and its middle, s, in the flight and since the first flight began."""
 
     flight: int
     rows: slice
     middle: float
+    elapsed: float
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,8 @@ class Drift:
     """Parameters in blocks of time.
 
     ``rates``: name -> standard deviation of its walk after an hour, over the sheet's error. ``steps`` (epochs, n): the smoothed
-    parameters less the calibrated ones, and ``roots`` (epochs, n, n) of their covariance, in scales.
+    parameters less the calibrated ones, and ``roots`` (epochs, n, n) of their covariance, in scales. ``epochs`` are in order of time;
+    ``timed``: whether the flights' stamps say how much lies between them.
     """
 
     f: Fitted
@@ -55,6 +57,7 @@ class Drift:
     epochs: tuple[Epoch, ...]
     steps: Array
     roots: Array
+    timed: bool
 
     def as_json(self) -> dict[str, Any]:
         """The rates of those that walk, and their values in every block."""
@@ -73,6 +76,7 @@ class Drift:
                     {
                         "flight": names[epoch.flight],
                         "time_s": epoch.middle,
+                        "elapsed_s": epoch.elapsed,
                         "name": q.name,
                         "accelerometer": q.accelerometer,
                         "value": float(values[k, n]) * factor,
@@ -80,7 +84,7 @@ class Drift:
                         "unit": q.unit,
                     }
                 )
-        return {"rates": rates, "states": states}
+        return {"timed": self.timed, "rates": rates, "states": states}
 
 
 def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
@@ -91,26 +95,29 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
     f
         A fit of constant parameters to the flights, about which everything is linear.
     flights
-        The same flights, for their times: where their stamps are instants of one day these give the time between flights; else
-        one flight follows the other at once.
+        The same flights, in any order, for their times: the parameters walk on between them (:func:`find_starts`).
 
     Returns
     -------
     Drift
         The parameters in each block of time.
     """
-    epochs, measured, elapsed = [], [], []
-    for n, start in _starts(flights):
+    starts, timed = find_starts(flights)
+    blocks = []
+    for n, start in enumerate(starts):
         own = [k for k, o in enumerate(f.observations) if o.flight == n]
         t = f.observations[own[0]].record.time
         edges = block_edges(len(t))
         for b in range(BLOCKS):
             rows = slice(int(edges[b]), int(edges[b + 1]))
             if rows.start < rows.stop:
-                epochs.append(Epoch(n, rows, float(t[rows.start] + t[rows.stop - 1]) / 2))
-                measured.append(join([list_base_r_factors(f, k)[b] for k in own]))
-                elapsed.append(start + epochs[-1].middle)
-    hours = np.maximum(np.diff(elapsed), 0.0) / HOUR
+                middle = float(t[rows.start] + t[rows.stop - 1]) / 2
+                known = join([list_base_r_factors(f, k)[b] for k in own])
+                blocks.append((Epoch(n, rows, middle, start + middle), known))
+    blocks.sort(key=lambda x: x[0].elapsed)
+    epochs, measured = zip(*blocks, strict=True)
+    elapsed = [e.elapsed for e in epochs]
+    hours = np.diff(elapsed) / HOUR
     prior = np.column_stack([np.eye(f.n_base), f.to_nominal])
     names = [q.name for q in f.calibration.columns]
     rates = _find_rates(prior, measured, hours, names)
@@ -122,20 +129,25 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
         for both in zip(forward, backward[::-1], strict=True)
     ]
     steps = np.array([np.linalg.solve(R[:, :-1], R[:, -1]) for R in whole])
-    return Drift(f, rates, tuple(epochs), steps, np.array([invert_root(R[:, :-1]) for R in whole]))
+    return Drift(f, rates, epochs, steps, np.array([invert_root(R[:, :-1]) for R in whole]), timed)
 
 
-def _starts(flights: Sequence[Flight]) -> list[tuple[int, float]]:
-    """Flights in order of time, each with when it begins, s.
+def find_starts(flights: Sequence[Flight]) -> tuple[list[float], bool]:
+    """When each flight begins, s after the first, and whether their stamps say so.
 
-    Instants count from a midnight: flights that overlap by them are of several days, of which nothing more is known.
+    Dates do, and times of a day as long as no two flights overlap: then they are of several days. Else one flight follows the other
+    without a gap.
     """
-    by_clock = sorted(enumerate(flights), key=lambda x: float(x[1].time[0]))
-    overlap = any(a.time[-1] > b.time[0] for (_, a), (_, b) in pairwise(by_clock))
-    if all(x.instants for x in flights) and not overlap:
-        return [(n, float(x.time[0])) for n, x in by_clock]
+    first = [float(x.time[0]) for x in flights]
+    days = [x.origin for x in flights]
+    if all(days):
+        first = [t + (day - days[0]).total_seconds() for t, day in zip(first, days, strict=True)]  # type: ignore[operator]
+    ordered = sorted(zip(first, flights, strict=True), key=lambda x: x[0])
+    overlap = any(a + x.duration > b for (a, x), (b, _) in pairwise(ordered))
+    if all(days) or (all(x.instants for x in flights) and not overlap):
+        return [t - ordered[0][0] for t in first], True
     ends = np.cumsum([0.0, *(x.duration for x in flights)])
-    return [(n, float(end)) for n, end in enumerate(ends[:-1])]
+    return [float(end) for end in ends[:-1]], len(flights) == 1
 
 
 def _find_rates(

@@ -108,6 +108,7 @@ def make_flight(
         written={c.name: c.unit for c in made.columns},
         demodulation=made.demodulation,
         instants=made.instants,
+        origin=made.origin,
         lacking=np.any([np.isnan(placed[n]) for n in ANGULAR_RATE], axis=0),
     )
 

@@ -6,6 +6,7 @@ import dataclasses
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import datetime
 from pathlib import Path
 from types import MappingProxyType
 
@@ -96,9 +97,9 @@ class Flight:
     where a sample is missing or incomplete. ``units``: SI, of every column; ``written``: those of the file. ``digest``:
     SHA-256 of the file. ``demodulation``: how ``inline`` and ``cross`` were made, by the mapping. ``flags``: what
     was found odd (each is among the ``notes``, too).
-    ``instants``: whether the file's stamps are instants (dates, GPS time), not seconds. ``began``: time, s, of the first
-    sample of the record that this is, or is a part of. ``lacking`` (N,): where the file has no angular rates (``None``:
-    nowhere).
+    ``instants``: whether the file's stamps are instants (dates, GPS time), not seconds. ``origin``: the instant at which ``time`` is
+    0, if it is known. ``began``: time, s, of the first sample of the record that this is, or is a part of. ``lacking`` (N,): where
+    the file has no angular rates (``None``: nowhere).
     """
 
     time: Array
@@ -114,6 +115,7 @@ class Flight:
     demodulation: Demodulation | None = None
     flags: tuple[Flag, ...] = ()
     instants: bool = False
+    origin: datetime | None = None
     began: float | None = None
     lacking: Mask | None = None
 

@@ -42,6 +42,12 @@ FROM = {
 """Where the parameters of a compensation come from."""
 
 
+UNTIMED = (
+    "The time stamps do not say how much time lies between the flights: they are taken to follow one another without a gap. With dates, "
+    "or an origin in a mapping, parameters drift on between them."
+)
+
+
 def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sections:
     """The result of ``calibrate``."""
     e, seen = c["error"], c["directions"]
@@ -95,9 +101,10 @@ def tabulate_parameters(
 
 def _drifting(d: Json) -> list[Section]:
     """Which kinds of parameter drift, and how fast; those of each accelerometer in detail."""
+    note = () if d["timed"] else (UNTIMED,)
     if not d["rates"]:
         text = "No parameter drifts by as much as these flights could show."
-        return [Section(title="Drift", sentences=(text,))]
+        return [Section(title="Drift", sentences=(text, *note))]
     rates = tuple(
         (str(r["name"]), numbers.with_unit(number(r["per_root_hour"], 2), f"{r['unit']}/√h"))
         for r in d["rates"]
@@ -111,6 +118,7 @@ def _drifting(d: Json) -> list[Section]:
             title="Drift",
             sentences=(
                 "These kinds of parameter follow random walks, of this standard deviation after an hour.",
+                *note,
             ),
             table=Table(("parameter", "walk"), rates),
         ),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from datetime import UTC, datetime, timedelta
 
 import numpy as np
 import pytest
@@ -36,13 +37,36 @@ def test_the_walk_is_the_sum_of_its_steps() -> None:
     assert np.linalg.inv(R[:, :3].T @ R[:, :3])[1, 1] == pytest.approx(C[3, 3])
 
 
-def test_flights_follow_one_another_by_the_clock_where_they_have_one() -> None:
+def test_gaps_between_flights_are_those_of_their_stamps() -> None:
+    """Of dates, in any order; of times of a day unless two flights overlap; of seconds nothing is known."""
     x = scenario(3, duration=60.0, rate=RATE).simulate({}).flight()
     late = dataclasses.replace(x, time=x.time + 7200.0)
-    for instants, overlap, expected in ((True, False, 7200.0), (True, True, 60.0), (False, False, 60.0)):
-        both = [dataclasses.replace(y, instants=instants) for y in (x, x if overlap else late)]
-        (_, first), (_, second) = drift._starts(both)
+    for instants, other, expected in ((True, late, 7200.0), (True, x, 60.0), (False, late, 60.0)):
+        both = [dataclasses.replace(y, instants=instants) for y in (x, other)]
+        (first, second), timed = drift.find_starts(both)
         assert second - first == pytest.approx(expected, abs=1.0)
+        assert timed == (expected == 7200.0)
+    days = [dataclasses.replace(x, origin=datetime(2026, 3, n, tzinfo=UTC)) for n in (2, 1)]
+    assert drift.find_starts(days) == ([86400.0, 0.0], True)
+
+
+def test_parameters_walk_on_between_flights(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A gain that changed from one flight to the next, an hour later; given in the wrong order."""
+    s = scenario(3, duration=120.0, rate=RATE)
+    i, day = s.instrument, datetime(2026, 3, 1, tzinfo=UTC)
+    later = i.replace(K1=i.accelerometers["K1"] * (1 + 1e-7 * np.array([1.0, -1.0, 1.0, 0.0])))
+    flights = [
+        dataclasses.replace(dataclasses.replace(s, instrument=k).simulate({}).flight(), origin=at)
+        for k, at in ((later, day + timedelta(hours=1)), (i, day))
+    ]
+    f = fit(packaged(), s.sheet, observations_of(flights, s.sheet), candidates=False)
+    monkeypatch.setattr(drift, "_find_rates", lambda *_: {"K1": 1e-4})  # the search takes most of the time
+    d = drift.smooth_drift(f, flights)
+    assert [e.flight for e in d.epochs] == [1] * 24 + [0] * 24
+    assert d.epochs[24].elapsed - d.epochs[0].elapsed == pytest.approx(3600.0)
+    assert d.timed
+    jump = np.linalg.norm(np.diff(d.steps, axis=0), axis=1)
+    assert np.argmax(jump) == 23
 
 
 def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
