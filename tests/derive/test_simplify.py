@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 from collections.abc import Mapping
 from fractions import Fraction
+from pathlib import Path
 from random import Random
 
 import numpy as np
@@ -13,7 +15,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected
+from derive.effects import catalogue
+from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, collect
 from derive.simplify import (
     DYNAMIC_EXPERIMENT,
     PAPER_ENVELOPE,
@@ -24,6 +27,9 @@ from derive.simplify import (
 )
 from derive.simplify.page import Condition
 from derive.symbols import ANGLES, SECOND_ORDER
+from ragg_runtime.estimation.regressors import list_base_columns
+from ragg_runtime.model.model import packaged
+from ragg_runtime.reference.instruments import table_v
 
 G = 9.8
 Key = tuple[int, tuple[int, ...], tuple[int, ...]]
@@ -291,3 +297,22 @@ def test_at_the_critical_acceleration_the_term_has_the_error_allotted() -> None:
         a = condition(where).critical
         envelope = dataclasses.replace(PAPER_ENVELOPE, a=(a, a, a))
         assert size_of(envelope, 1, motion, parameters) == pytest.approx(0.1, rel=1e-9)
+
+
+def test_the_page_counts_parameters_as_the_code_does() -> None:
+    """52 of accelerometers, two of the disc; the combinations of both models; and each effect that it names is one."""
+    page = (Path(__file__).parents[2] / "docs" / "explanation" / "instrument.md").read_text("utf-8")
+    text = page[page.index("## How many parameters") :]
+
+    def combinations(model: Collected) -> int:
+        terms = (t for of_harmonic in model.amplitudes.values() for t in of_harmonic)
+        return len({(t.combination, t.coefficient.monic()) for t in terms})
+
+    assert f"{len(list_base_columns(packaged(), table_v()))} |" in text
+    assert f"in {combinations(simplified())} combinations" in text
+    assert f"instead of {combinations(collect())}," in text
+    there = {COEFFICIENT_PARAMETERS[k] for *_, powers in keys(collect()) for k, n in enumerate(powers) if n}
+    assert "vartheta_x" not in there
+    named = set(re.findall(r"`([a-z]+(?:-[a-z]+)+)`", text))
+    assert len(named) > 10
+    assert named <= {e.id for e in catalogue()}

@@ -52,7 +52,7 @@ def test_gaps_between_flights_are_those_of_their_stamps() -> None:
 
 def test_parameters_walk_on_between_flights(monkeypatch: pytest.MonkeyPatch) -> None:
     """A gain that changed from one flight to the next, an hour later; given in the wrong order."""
-    s = scenario(3, duration=120.0, rate=RATE)
+    s = scenario(3, duration=60.0, rate=RATE)
     i, day = s.instrument, datetime(2026, 3, 1, tzinfo=UTC)
     later = i.replace(K1=i.accelerometers["K1"] * (1 + 1e-7 * np.array([1.0, -1.0, 1.0, 0.0])))
     flights = [
