@@ -3,6 +3,7 @@
 python -m benchmarks.diagnosis [--seed N ...] [--jobs N] [--only KIND] [--real FOLDER] [--save FILE] [--against FILE]
 python -m benchmarks.diagnosis --ablate [--rule ID ...] [--jobs N]
 python -m benchmarks.diagnosis --catalogue [--jobs N]      each effect in turn, 30 sigma
+python -m benchmarks.diagnosis --grammar [--jobs N]        terms drawn from a grammar
 python -m benchmarks.diagnosis --flight ID      one flight, shown
 """
 
@@ -32,7 +33,7 @@ from ragg_runtime.model.model import packaged
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CACHE = ROOT / "build" / "bench-diagnosis.jsonl"
-RESULTS = {n: HERE / f"{n}.csv" for n in ("reference", "ablation", "array")}
+RESULTS = {n: HERE / f"{n}.csv" for n in ("reference", "grammar", "ablation", "array")}
 
 ASIDE = ("report", "studio", "cli", "wording", "survey", "experiments", "compensation")
 """Of the runtime: what no diagnosis depends on; a change there flies nothing anew."""
@@ -170,6 +171,15 @@ def _catalogue(options: argparse.Namespace, source: str, pool: Executor | None) 
     return rows
 
 
+def _grammar(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
+    cache = Cache(options.cache.with_stem(f"{options.cache.stem}-grammar"), source)
+    specs = plan.grammar()
+    run({s.id: partial(fly, s) for s in specs}, cache, pool)
+    rows = [score.row(cache.lines[s.id]) for s in specs]
+    print("\n" + "\n".join(table.grammar(rows)))
+    return rows
+
+
 def _array(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
     cache = Cache(options.cache.with_stem(f"{options.cache.stem}-array"), source)
     tasks = {f"{r}/{c}": partial(array.asked, path, c) for r, path, c in array.cases(options.real)}
@@ -187,6 +197,7 @@ def main(arguments: Sequence[str]) -> int:
     ask("--flight", action="append", default=[], metavar="ID", help="show one flight")
     ask("--array", action="store_true", help="ask the real array instead")
     ask("--catalogue", action="store_true", help="hide each effect of the catalogue in turn")
+    ask("--grammar", action="store_true", help="hide terms drawn from a grammar")
     ask("--real", type=Path, metavar="FOLDER", help="its recordings, *.bin.gz (default: what is shipped)")
     ask("--ablate", action="store_true", help="fly with one rule after the other switched off")
     ask("--rule", action="append", choices=[r.id for r in ablation.RULES], help="of the ablation")
@@ -201,7 +212,13 @@ def main(arguments: Sequence[str]) -> int:
     if options.flight:
         return 0
     what = _fly
-    for asked, other in ((options.ablate, _ablate), (options.array, _array), (options.catalogue, _catalogue)):
+    others = (
+        (options.ablate, _ablate),
+        (options.array, _array),
+        (options.catalogue, _catalogue),
+        (options.grammar, _grammar),
+    )
+    for asked, other in others:
         what = other if asked else what
     try:
         with pool_of(options.jobs) as pool:

@@ -53,6 +53,7 @@ class Prepared:
     table: Table
     hidden: tuple[Hidden, ...]
     term: Outside | None
+    oracle: Oracle | None
 
 
 def fly(spec: Spec) -> dict[str, Any]:
@@ -69,6 +70,8 @@ def fly(spec: Spec) -> dict[str, Any]:
             ready = time.process_time()
             found |= diagnosed(p)
             found["cpu"] = round(time.process_time() - ready, 2)
+            if p.term is not None and p.oracle is not None and not found["found"]:
+                found["formula"] = outside.share_explained(p.oracle, p.term.change, found["terms"])
     except Exception:
         found["crash"] = traceback.format_exc()
     found["seconds"] = round(time.perf_counter() - begin, 2)
@@ -99,7 +102,7 @@ def prepared(spec: Spec) -> Prepared:
     channels = _table(plain, plain.voltages_noise_free)
     noise_rms = kind.noise(channels, spec.rng(2))
     hidden: tuple[Hidden, ...] = ()
-    term = None
+    term = oracle = None
     if spec.kind != "quiet":
         changed = kind.change(
             channels, CleanOutput(plain.G_out_noise_free, 1.0, w.scenario.rate), spec.rng(4)
@@ -108,7 +111,7 @@ def prepared(spec: Spec) -> Prepared:
         flight = plain.flight("plain", voltages=w.output == "voltages")
         oracle = Oracle(w, flight, noise_rms, lost, spec.catalogue)
         hidden = _hidden(spec, oracle)
-        if spec.kind == "outside":
+        if spec.kind in ("outside", "grammar"):
             at = outside.Surroundings(
                 time=plain.time,
                 phi=2 * np.pi * w.scenario.sheet.spin_frequency * plain.time,
@@ -118,11 +121,14 @@ def prepared(spec: Spec) -> Prepared:
                 duration=w.scenario.duration,
                 scenario=w.scenario,
             )
-            term = outside.drawn(oracle, at, outside.name_of(spec), 10.0)
+            if spec.kind == "grammar":
+                term = outside.drawn_from_grammar(oracle, at, 10.0, spec.rng(5))
+            else:
+                term = outside.drawn(oracle, at, outside.name_of(spec), 10.0)
     values = {h.effect: h.values for h in hidden}
     recorder = {e: values.pop(e) for e in ("output-curve", "quantisation", "saturation") if e in values}
     sim = _simulated(w, values) if values else plain
-    return Prepared(w, _recorded(spec, w, sim, noise_rms, term, recorder), hidden, term)
+    return Prepared(w, _recorded(spec, w, sim, noise_rms, term, recorder), hidden, term, oracle)
 
 
 def _simulated(w: World, effects: EffectValues) -> Simulation:
@@ -191,7 +197,7 @@ def _hidden(spec: Spec, o: Oracle) -> tuple[Hidden, ...]:
     known = list(o.kinds)
     if spec.kind == "pair":
         return _pair(spec, o, rng)
-    if spec.kind == "outside" or (spec.kind == "off-sheet" and spec.index % 3 == 2):
+    if spec.kind in ("outside", "grammar") or (spec.kind == "off-sheet" and spec.index % 3 == 2):
         return ()
     if spec.kind == "each":
         effect = sorted(e.id for e in o.model.candidates if e.searched and e.id in o.kinds)[spec.index]
@@ -266,7 +272,10 @@ def essence(d: Mapping[str, Any]) -> dict[str, Any]:
         "credible_set": [list(s) for s in d["credible_set"][:50]],
         "tested": d["tests"],
         "terms_log10_p": d["unexplained"]["log10_p"],
-        "terms": [[t["harmonic"], t["term"], round(t["z"], 1)] for t in d["unexplained"]["terms"][:3]],
+        "terms": [
+            {n: t[n] for n in ("harmonic", "term", "kind")} | {"z": round(t["z"], 1)}
+            for t in d["unexplained"]["terms"][:3]
+        ],
         "before": d["error"]["before"]["rms_Eo"],
         "after": d["error"]["after"]["rms_Eo"],
         "noise_floor": d["noise_floor"]["rms_Eo"],

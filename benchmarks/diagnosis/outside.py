@@ -7,8 +7,9 @@ for. (What a catalogue effect could mimic comes on top.)
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,8 @@ from scipy import signal
 from benchmarks.diagnosis.plan import COUNTS, Spec
 from benchmarks.diagnosis.records import QUARTERS
 from benchmarks.diagnosis.strength import Oracle
+from ragg_runtime.identification.dictionary import Dictionary, Term
+from ragg_runtime.identification.features import OUTPUT
 from ragg_runtime.reference.scenario import Scenario
 from ragg_runtime.reference.simulate import combine
 
@@ -164,6 +167,52 @@ def name_of(s: Spec) -> str:
     return NAMES[(s.index + COUNTS["outside"] * (s.sample % 3)) % len(NAMES)]
 
 
+HARMONICS = (0, 1, 2, 3, 4)
+MEMORIES = ("now", "now", "now", "late", "slow")
+FACTORS: Mapping[str, Callable[[Array], Array]] = {
+    "": lambda x: x,
+    "abs": np.abs,
+    "square": np.square,
+    "sign": np.sign,
+}
+LEAST_BEYOND = 0.3
+"""Share of a term that no combination of effects may make: one that they can is within the catalogue."""
+
+
+def grown(rng: np.random.Generator, w: Surroundings) -> tuple[str, Array]:
+    """A term at random, name and (4, N): harmonic x stage x product x memory.
+
+    A product of one or two channels or functions of them, as it is, some time late, or through a relaxation, at a harmonic of the
+    disc, is added to the voltage of A1, to its scale factor, or to the gain of the output.
+    """
+    names = sorted(n for n in w.channels if n[:5] not in ("time", "Gamma") and np.ptp(w[n]) > 0)
+    x, parts = np.ones(len(w.time)), []
+    for _ in range(int(rng.integers(1, 3))):
+        name, function = str(rng.choice(names)), str(rng.choice(list(FACTORS)))
+        centred = w[name] if name.startswith(("a_", "omega")) else w.change(name)
+        x = x * FACTORS[function](centred / _rms(centred))
+        parts.append(f"{function}({name})" if function else name)
+    text, memory, seconds = "*".join(parts), str(rng.choice(MEMORIES)), float(10 ** rng.uniform(-0.5, 1.5))
+    if memory != "now":
+        x = _creep(x - x[0], w.rate, seconds) if memory == "slow" else _late(x, w.rate, seconds)
+        text = f"{memory}({text}; {seconds:.2g} s)"
+    k, shift = int(rng.choice(HARMONICS)), float(rng.choice([0.0, np.pi / 2]))
+    if k:
+        x = x * np.cos(k * w.phi - shift)
+        text = f"{'sin' if shift else 'cos'} {k}*{text}"
+    stage = str(rng.choice(["voltage", "scale", "gain"]))
+    return f"{stage}: {text}", _first(x * {"voltage": 1.0, "scale": w.f_i[0], "gain": w.output}[stage])
+
+
+def drawn_from_grammar(oracle: Oracle, w: Surroundings, strength: float, rng: np.random.Generator) -> Outside:
+    """A term of the grammar that is outside the catalogue, of this strength beyond it."""
+    while True:
+        name, force = grown(rng, w)
+        found = _of_strength(oracle, w, name, force, strength)
+        if strength > LEAST_BEYOND * found.with_mimics:
+            return found
+
+
 @dataclass(frozen=True)
 class Outside:
     """A term in a flight: what it adds to G_out (N,) V, and its strength with what effects could feign of it, in sigmas."""
@@ -176,8 +225,30 @@ class Outside:
 
 def drawn(oracle: Oracle, w: Surroundings, name: str, strength: float) -> Outside:
     """A term of this strength beyond the calibration and all effects of the catalogue together."""
+    return _of_strength(oracle, w, name, ({**TERMS, **FURTHER})[name](w), strength)
+
+
+def _of_strength(oracle: Oracle, w: Surroundings, name: str, force: Array, strength: float) -> Outside:
     k = w.scenario.instrument.accelerometers
-    unit = combine((k["k_VI"] * k["K1"])[:, None] * ({**TERMS, **FURTHER})[name](w))
+    unit = combine((k["k_VI"] * k["K1"])[:, None] * force)
     factor = strength / oracle.beyond_all(unit)
     whole = float(np.linalg.norm(oracle.row(unit)))
     return Outside(name, factor * unit, strength, factor * whole)
+
+
+def share_explained(
+    oracle: Oracle, change: Array, terms: Sequence[Mapping[str, Any]]
+) -> tuple[str, float] | None:
+    """The strongest of a diagnosis' steady terms, and its share of what is hidden, both beside the calibration; ``None``: no term.
+
+    Without noise, so that it is the formula that is judged.
+    """
+    steady = [x for x in terms if x["kind"] == "steady" and OUTPUT not in x["term"]]
+    if not steady:
+        return None
+    best = max(steady, key=lambda x: abs(x["z"]))
+    term = Term(best["harmonic"], () if best["term"] == "1" else tuple(best["term"].split("*")))
+    record = oracle.o.record
+    column = Dictionary(record).series(term, record)
+    a, b = oracle.row(change), oracle.row(column / _rms(column))
+    return f"{term.harmonic}: {term.product}", float((a @ b) ** 2 / ((a @ a) * (b @ b)))

@@ -35,6 +35,9 @@ ABLATION = 4420
 CATALOGUE = 4430
 """Seed of the flights with each effect of the catalogue in turn."""
 
+GRAMMAR = 4440
+"""Seed of the flights with terms drawn from a grammar."""
+
 FIRST_CATALOGUE = (
     "adc-nonlinearity", "angular-jitter", "anisoinertia", "arm-length", "arm-sag", "arm-stretch", "bearing-run-out",
     "bias-drift", "bias-step", "clock-drift", "cubic-cross", "cubic-input", "disc-spin", "encoder-harmonic",
@@ -280,6 +283,11 @@ def replaced_spin(i: Instrument, f: float) -> Instrument:
 def catalogue(count: int) -> list[Spec]:
     """A flight for each of so many effects, kinds of record in turn."""
     return [Spec("each", records.KNOWN[n % len(records.KNOWN)], n, CATALOGUE) for n in range(count)]
+
+
+def grammar(count: int = 40) -> list[Spec]:
+    """So many flights with terms drawn from a grammar."""
+    return [Spec("grammar", records.KNOWN[n % len(records.KNOWN)], n, GRAMMAR) for n in range(count)]
 
 
 def ablation(kinds: Sequence[tuple[str, str]], count: int) -> Iterator[Spec]:

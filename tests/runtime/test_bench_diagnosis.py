@@ -56,6 +56,17 @@ def test_what_is_outside_keeps_its_strength_beyond_the_catalogue() -> None:
     term = outside.drawn(oracle, at, "resonance at 3 Hz", 10.0)
     assert oracle.beyond_all(term.change) == pytest.approx(10.0, rel=1e-6)
     assert term.with_mimics >= 10.0
+    grown = outside.drawn_from_grammar(oracle, at, 10.0, np.random.default_rng(3))
+    assert oracle.beyond_all(grown.change) == pytest.approx(10.0, rel=1e-6)
+    assert grown.with_mimics <= 10.0 / outside.LEAST_BEYOND
+    assert grown.name == outside.drawn_from_grammar(oracle, at, 10.0, np.random.default_rng(3)).name
+    of_one = outside.drawn(oracle, at, "a_x omega_y", 10.0)
+    said = {"harmonic": "const", "term": "a_x*omega_y", "kind": "steady", "z": 9.0}
+    assert outside.share_explained(oracle, of_one.change, [said]) == (
+        "const: a_x*omega_y",
+        pytest.approx(1.0),
+    )
+    assert outside.share_explained(oracle, of_one.change, []) is None
 
 
 def line(kind: str, verdict: str, found: list[str], hidden: list[str], **more: Any) -> dict[str, Any]:
