@@ -1,8 +1,16 @@
-"""What compensation does to a gradient: its gain from 1 s to 1 h, ``python -m benchmarks.compensation``; a figure of the site."""
+"""What compensation does to a gradient, and what its calibrations are worth, in the reference.
+
+python -m benchmarks.compensation                   gain from 1 s to 1 h; a figure of the site
+python -m benchmarks.compensation --calibration     designed calibration runs against even multisines of the same size
+python -m benchmarks.compensation --drift           coverage on surveys of several flights with parameters that walk
+"""
 
 from __future__ import annotations
 
 import dataclasses
+import sys
+from collections.abc import Sequence
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -13,10 +21,20 @@ from ragg_runtime.compensation.compensate import (
     make_channel,
     prepare,
 )
+from ragg_runtime.estimation.fitted import fit
+from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.identification import motion_design, next_motion
+from ragg_runtime.identification.motion_design import Information
+from ragg_runtime.identification.next_motion import Sinusoid
+from ragg_runtime.io import Flight
+from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import packaged
-from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.reference.motion import MotionSignals, Sinusoids
+from ragg_runtime.reference.scenario import Scenario, draw_gradient, draw_motion, scenario
+from ragg_runtime.reference.simulate import combine
 from ragg_runtime.signals.demodulators import DEMODULATORS
 
+Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 PERIODS = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, 20.0, 40.0, 90.0, 240.0, 600.0, 1200.0, 3600.0])
@@ -65,7 +83,134 @@ def draw_transfer(file: Path) -> None:
     fig.savefig(file, dpi=130)
 
 
-if __name__ == "__main__":
+# --- calibration runs ----------------------------------------------------------------------------------
+
+RUN = 600.0
+"""Of a calibration run, s."""
+
+
+def fly_sinusoids(s: Scenario, motion: Sequence[Sinusoid], duration: float) -> Flight:
+    """The scenario's instrument in a multisine about the mean of its flight."""
+    t = np.arange(int(s.duration * s.rate)) / s.rate
+    parts = {}
+    for group in ("a", "omega"):
+        for k, signal in zip("xyz", getattr(s.motion, group), strict=True):
+            own = [x[1:] for x in motion if x[0] == f"{group}_{k}"]
+            f, size, phase = zip(*own, strict=True) if own else ((), (), ())
+            parts[f"{group}_{k}"] = Sinusoids(float(np.mean(signal.value(t))), size, f, phase)
+    x, y, z, wx, wy, wz = (parts[n] for n in next_motion.AXES)
+    other = dataclasses.replace(
+        s, motion=MotionSignals((x, y, z), (wx, wy, wz)), seed=s.seed + 1000, duration=duration
+    )
+    return other.simulate({}).flight("run")
+
+
+def calibrate_by_runs(seed: int) -> list[tuple[str, float, Array, Array]]:
+    """Of each run its name, length, s, and rms that the parameters add to inline and cross, Eo, as they are uncertain and as they err."""
+    s = scenario(seed, duration=300.0, rate=8.0)
+    flight = s.simulate({}).flight()
+
+    def fitted(*flights: Flight) -> Information:
+        return Information.of(fit(packaged(), s.sheet, observations_of(flights, s.sheet), candidates=False))
+
+    first, band = fitted(flight), (0.0, next_motion.HIGHEST * s.rate)
+    plan = motion_design.design_calibration(first.f, next_motion.LIMITS, duration=RUN, band=band)
+    tones = motion_design.tones_of(s.sheet.spin_frequency, next_motion.LIMITS, band)
+    even = motion_design.multisine(tones, motion_design.even(tones))
+    true = vector(packaged(), s.instrument)
+    runs = [("none", (), 0.0), ("designed", plan.sinusoids, RUN)]
+    runs += [("even", even, times * RUN) for times in (1, 2, 4)]
+    found = []
+    for name, motion, duration in runs:
+        c = fitted(flight, fly_sinusoids(s, motion, duration)) if duration else first
+        q = c.f.calibration
+        error = (q.p - true)[q.index] / [column.scale for column in q.columns]
+        sure = np.array(c.channels(c.inverse(c.root)))
+        found.append((name, duration, sure, np.linalg.norm(c.shown @ error, axis=1)))
+    return found
+
+
+def print_calibrations(seeds: Sequence[int] = range(8)) -> None:
+    """Root mean squares over instruments."""
+    every = [calibrate_by_runs(seed) for seed in seeds]
+    print(f"{len(every)} instruments, flight of 300 s and a run; inline, cross, Eo: uncertain by, wrong by")
+    for of_run in zip(*every, strict=True):
+        name, duration, *_ = of_run[0]
+        sure, error = (np.sqrt(np.mean(np.square([x[k] for x in of_run]), axis=0)) for k in (2, 3))
+        print(f"{name:9} {duration:5.0f} s  {sure[0]:.3f} {sure[1]:.3f}  {error[0]:.3f} {error[1]:.3f}")
+
+
+# --- surveys with parameters that walk -----------------------------------------------------------------
+
+FLIGHTS, LENGTH = 4, 300.0
+"""Of a survey, and the length of each, s."""
+
+
+def fly_survey(seed: int) -> tuple[Scenario, list[Flight]]:
+    """Flights with 0.2 to 2 h between them, over a gradient that varies by 30 Eo.
+
+    Scale factors, and tilts of the input axes into a_z, of all four accelerometers walk by 1e-8 to 5e-7 after an hour, each kind in
+    seven of ten surveys.
+    """
+    rng, s = np.random.default_rng(seed), scenario(seed, duration=LENGTH, rate=4.0)
+    starts = np.cumsum([0.0, *(LENGTH + 3600 * rng.uniform(0.2, 2.0, FLIGHTS - 1))])
+    seconds = np.arange(0.0, starts[-1] + LENGTH + 1.0)
+    walks = np.cumsum(rng.standard_normal((2, 4, len(seconds))), axis=-1) / 60.0  # 1 after an hour
+    walks *= (10 ** rng.uniform(-8.0, -6.3, 2) * (rng.random(2) < 0.7))[:, None, None]
+    k, flights = s.instrument.accelerometers, []
+    for n, start in enumerate(starts):
+        own = dataclasses.replace(
+            s,
+            motion=draw_motion(np.random.default_rng([seed, n, 1]), LENGTH),
+            gravity=draw_gradient(np.random.default_rng([seed, n, 2]), 30e-9),
+            seed=1000 * seed + n,
+        )
+        sim = own.simulate({})
+        gain, tilt = (np.stack([np.interp(start + sim.time, seconds, w) for w in of]) for of in walks)
+        V = sim.voltages * (1 + gain) - (k["k_VI"] * k["K1"])[:, None] * tilt * sim.channels["a_z"]
+        day = datetime(2026, 3, 1, 22, tzinfo=UTC) + timedelta(seconds=float(start))
+        flights.append(dataclasses.replace(sim.flight(), outputs={"G_out": combine(V)}, origin=day))
+    return s, flights
+
+
+def score_survey(seed: int, kind: str) -> Array:
+    """Errors of inline and cross over their standard uncertainties, every two seconds of all flights."""
+    s, flights = fly_survey(seed)
+    p = prepare(packaged(), s.sheet, flights, kind)  # type: ignore[arg-type]
+    found = []
+    for n, x in enumerate(flights):
+        c = make_channel(p, n, "fir")
+        y = compensate_channel(c)
+        g = x.channels["Gamma_xx"] - x.channels["Gamma_yy"] + 1j * x.channels["Gamma_xy"]
+        off = y.gradient - c.demodulator.low_passed(g / 1e-9)
+        found += [(off.real / y.std[0])[::8], (off.imag / y.std[1])[::8]]
+    z = np.concatenate(found)
+    return z[np.isfinite(z)]
+
+
+def print_coverage(seeds: Sequence[int] = range(100, 120)) -> None:
+    """Of each survey, and of all, the shares within 1 and 2 standard uncertainties."""
+    for kind in ("smoothed", "self"):
+        every = []
+        for seed in seeds:
+            every.append(score_survey(seed, kind))
+            print(kind, seed, _coverage(every[-1]), flush=True)
+        print(kind, "all", _coverage(np.concatenate(every)))
+
+
+def _coverage(z: Array) -> str:
+    inside = [float(np.mean(np.abs(z) < k)) for k in (1.0, 2.0)]
+    return f"{100 * inside[0]:.1f} % {100 * inside[1]:.1f} %, rms {np.sqrt(np.mean(z**2)):.2f}, of {len(z)}"
+
+
+def print_gains() -> None:
+    """Of each demodulator."""
     for name, (gains, alone) in transfer().items():
         for period, gain, low in zip(PERIODS, gains, alone, strict=True):
             print(f"{name:12} {period:7g} s  {abs(gain):.4f}, low-pass alone {abs(low):.4f}")
+
+
+if __name__ == "__main__":
+    asked = {"--calibration": print_calibrations, "--drift": print_coverage}
+    for word in sys.argv[1:] or [""]:
+        asked.get(word, print_gains)()
