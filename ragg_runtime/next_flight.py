@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from ragg_runtime.api import Loaded, diagnose
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
-from ragg_runtime.estimation.fitted import fit
+from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification.motion_design import (
     CalibrationDesign,
     Criterion,
+    Information,
     Planned,
     design,
     design_calibration,
@@ -37,6 +38,8 @@ from ragg_runtime.identification.next_motion import (
 from ragg_runtime.io import Flight, write_flight
 
 Array = NDArray[np.float64]
+
+CHANNELS = ("inline_Eo", "cross_Eo")
 
 
 @dataclass(frozen=True)
@@ -135,14 +138,14 @@ class CalibrationFlight(NextFlight):
     plan: CalibrationDesign
 
     def as_json(self) -> dict[str, object]:
-        channels = ("inline_Eo", "cross_Eo")
         return super().as_json() | {
             "criterion": self.plan.criterion,
             "channels": {
-                "now": dict(zip(channels, self.plan.now, strict=True)),
-                "planned": dict(zip(channels, self.plan.then, strict=True)),
+                "now": dict(zip(CHANNELS, self.plan.now, strict=True)),
+                "planned": dict(zip(CHANNELS, self.plan.then, strict=True)),
             },
             "parameters": [q.as_json() for q in self.plan.parameters],
+            "combinations": [q.as_json() for q in self.plan.combinations],
         }
 
     def run_sheet(self) -> str:
@@ -155,18 +158,25 @@ class CalibrationFlight(NextFlight):
             f"| {axis} | {frequency:.6g} | {amplitude:.6g} | {unit_of(axis)} | {np.degrees(phase) % 360:.1f} |"
             for axis, frequency, amplitude, phase in self.sinusoids
         ]
+        means = [
+            f"| {axis} | {x:.6g} | {peaks.get(axis, 0.0):.4g} | {unit_of(axis)} |"
+            for axis, x in self.mean.items()
+        ]
         parameters = [
             f"| {q.name}{'' if q.accelerometer is None else f'[{q.accelerometer}]'} | {q.unit} | {q.now:.3g} | {q.then:.3g} |"
-            for q in self.plan.parameters
+            for q in (*self.plan.combinations, *self.plan.parameters)
         ]
-        largest = [f"Largest deviation of {axis}: {x:.4g} {unit_of(axis)}." for axis, x in peaks.items()]
+        channels = [
+            f"| channel {name} | Eo rms | {now:.3g} | {then:.3g} |"
+            for name, now, then in zip(("inline", "cross"), self.plan.now, self.plan.then, strict=True)
+        ]
         return _RUN_SHEET.format(
             count=len(self.sinusoids),
             duration=self.duration,
             rate=self.rate,
             sinusoids="\n".join(rows),
-            largest="\n".join(largest),
-            parameters="\n".join(parameters),
+            means="\n".join(means),
+            parameters="\n".join((*channels, *parameters)),
         )
 
 
@@ -175,15 +185,20 @@ _RUN_SHEET = """\
 
 {count} sinusoids, {duration:g} s at {rate:g} Hz.
 
-About the mean motion; x(t) = amplitude sin(2 pi frequency t + phase), t from the beginning of the run.
+Each axis moves about its mean: mean + the sum of its amplitude sin(2 pi frequency t + phase), t from the beginning of the run.
 
 | axis | frequency, Hz | amplitude | unit | phase, deg |
 |---|---|---|---|---|
 {sinusoids}
 
-{largest}
+| axis | mean | largest deviation | unit |
+|---|---|---|---|
+{means}
 
-| parameter | unit | std now | std planned |
+Standard uncertainties; Sigma = A1 + A2 + A3 + A4, D1234 = A1 + A2 - A3 - A4, D12 = A1 - A2, D34 = A3 - A4, weighted by scale factors.
+For a channel, what all parameters together add to it.
+
+| parameter | unit | now | planned |
 |---|---|---|---|
 {parameters}
 
@@ -209,14 +224,30 @@ def calibration_flight(
     return CalibrationFlight(plan.sinusoids, _mean(flights), (), duration, rate, plan)
 
 
-def read_plan(path: Path) -> list[Planned]:
-    """The parameters of a plan that `ragg next-motion --for calibration --json` wrote; UserError if it is none."""
+@dataclass(frozen=True)
+class Plan:
+    """What `ragg next-motion --for calibration --json` promised; ``channels``: rms of inline and cross, Eo, now and planned."""
+
+    parameters: tuple[Planned, ...]
+    combinations: tuple[Planned, ...]
+    channels: Mapping[str, Mapping[str, float]]
+
+
+def read_plan(path: Path) -> Plan:
+    """The plan in a file; UserError if it is none."""
     try:
         content = json.loads(read_text(path))
-        return [
-            Planned(str(q["name"]), q["accelerometer"], str(q["unit"]), float(q["now"]), float(q["then"]))
-            for q in content["parameters"]
-        ]
+        parameters, combinations = (
+            tuple(
+                Planned(str(q["name"]), q["accelerometer"], str(q["unit"]), float(q["now"]), float(q["then"]))
+                for q in content[key]
+            )
+            for key in ("parameters", "combinations")
+        )
+        channels = {
+            when: {n: float(content["channels"][when][n]) for n in CHANNELS} for when in ("now", "planned")
+        }
+        return Plan(parameters, combinations, channels)
     except (ValueError, KeyError, TypeError):
         raise UserError(
             "this is not a plan of a calibration",
@@ -225,33 +256,50 @@ def read_plan(path: Path) -> list[Planned]:
         ) from None
 
 
-def certify(plan: Sequence[Planned], parameters: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Each planned parameter with its value and standard uncertainty as planned and as reached; ``parameters`` as `calibrate` has
-    them in its JSON.
+def certify(plan: Plan, f: Fitted, calibration: Mapping[str, Any]) -> dict[str, Any]:
+    """What was planned and what was reached, for the JSON of `calibrate`, which is given with the fit that it is of.
+
+    ``certificate``: of every parameter its value and standard uncertainties; ``certified``: the same of the combinations, and what all
+    parameters add to the channels of the first flight.
     """
-    reached = {(q["name"], q["accelerometer"]): q for q in parameters}
-    found = []
-    for x in plan:
-        q = reached.get((x.name, x.accelerometer))
-        if q is None:
-            raise UserError(
-                "the plan is of another model: a parameter of it is not fitted",
-                found=x.name,
-                remedy="plan again with the present model: ragg next-motion --for calibration",
-            )
-        found.append(
-            {
-                "name": x.name,
-                "accelerometer": x.accelerometer,
-                "unit": x.unit,
-                "value": q["value"],
-                "std_before": x.now,
-                "std_planned": x.then,
-                "std_reached": q["std"],
-                "reached": bool(q["std"] <= REACHED * x.then),
-            }
+    both = [*calibration["combinations"], *calibration["parameters"]]
+    found = {(q["name"], q.get("accelerometer")): q for q in both}
+    reached = Information.of(f)
+    then = dict(zip(CHANNELS, reached.channels(reached.inverse(reached.root)), strict=True))
+    return {
+        "certificate": [_certify_one(x, found) for x in plan.parameters],
+        "certified": {
+            "channels": {
+                n: {
+                    "before": plan.channels["now"][n],
+                    "planned": plan.channels["planned"][n],
+                    "reached": then[n],
+                }
+                for n in CHANNELS
+            },
+            "combinations": [_certify_one(x, found) for x in plan.combinations],
+        },
+    }
+
+
+def _certify_one(x: Planned, found: Mapping[Any, Mapping[str, Any]]) -> dict[str, Any]:
+    q = found.get((x.name, x.accelerometer))
+    if q is None and x.accelerometer is not None:
+        raise UserError(
+            "the plan is of another model: a parameter of it is not fitted",
+            found=x.name,
+            remedy="plan again with the present model: ragg next-motion --for calibration",
         )
-    return found
+    return {
+        "name": x.name,
+        "accelerometer": x.accelerometer,
+        "unit": x.unit,
+        "value": None if q is None else q["value"],  # a combination that the flights do not determine
+        "std_before": x.now,
+        "std_planned": x.then,
+        "std_reached": None if q is None else q["std"],
+        "reached": q is not None and bool(q["std"] <= REACHED * x.then),
+    }
 
 
 REACHED = 1.1

@@ -285,7 +285,7 @@ def catalogue(count: int) -> list[Spec]:
     return [Spec("each", records.KNOWN[n % len(records.KNOWN)], n, CATALOGUE) for n in range(count)]
 
 
-def grammar(count: int = 40) -> list[Spec]:
+def grammar(count: int = 20) -> list[Spec]:
     """So many flights with terms drawn from a grammar."""
     return [Spec("grammar", records.KNOWN[n % len(records.KNOWN)], n, GRAMMAR) for n in range(count)]
 

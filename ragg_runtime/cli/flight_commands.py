@@ -224,7 +224,7 @@ def calibrate(
         kept = api.calibrate(m, records, save, mapping, drift=drift)
     found = kept.as_json()
     if planned is not None:
-        found["certificate"] = next_flight.certify(planned, found["parameters"])
+        found |= next_flight.certify(planned, kept.calibrated.fitted, found)
     use = f"{next_command('compensate', model_dir, records)} -o compensated.csv --calibration frozen"
     said = describe_other.describe_calibration(found, [x.name for x in records], use if kept.saved else "")
     page = lambda origin: pages.write_calibration(said, kept.calibrated.fitted, origin)  # noqa: E731

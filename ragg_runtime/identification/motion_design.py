@@ -34,6 +34,7 @@ from ragg_runtime.identification.next_motion import (
     kind,
     whitened_motion,
 )
+from ragg_runtime.identification.parameters import combinations_seen
 from ragg_runtime.identification.selection import field_of, testable_effects
 
 Array = NDArray[np.float64]
@@ -227,13 +228,14 @@ class Planned:
 
 @dataclass(frozen=True)
 class CalibrationDesign:
-    """The multisine that calibrates best, each parameter as planned, and the rms that the parameters' uncertainty adds to inline
-    and cross, Eo, ``now`` and ``then``.
+    """The multisine that calibrates best, each parameter as planned, the combinations of accelerometers' that it determines, and the
+    rms that the parameters' uncertainty adds to inline and cross, Eo, ``now`` and ``then``.
     """
 
     sinusoids: tuple[Sinusoid, ...]
     criterion: Criterion
     parameters: tuple[Planned, ...]
+    combinations: tuple[Planned, ...]
     now: tuple[float, float]
     then: tuple[float, float]
 
@@ -322,6 +324,10 @@ def design_calibration(
 
     motion = _best(worth, tones_of(f.instrument.spin_frequency, limits, band), limits)
     now, then = c.inverse(c.root), c.with_motion(motion, min(duration, LONGEST), duration)
+    columns = f.calibration.columns
+    determined = combinations_seen(
+        f.model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ then))
+    )
     return CalibrationDesign(
         sinusoids=motion,
         criterion=criterion,
@@ -332,7 +338,11 @@ def design_calibration(
                 q.unit,
                 *(float(np.linalg.norm(x[k])) * q.scale / q.unit_factor for x in (now, then)),
             )
-            for k, q in enumerate(f.calibration.columns)
+            for k, q in enumerate(columns)
+        ),
+        combinations=tuple(
+            Planned(q.name, None, q.unit, *(float(np.linalg.norm(q.weights @ x)) for x in (now, then)))
+            for q in determined
         ),
         now=c.channels(now),
         then=c.channels(then),

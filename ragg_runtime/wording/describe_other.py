@@ -75,7 +75,7 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
     if "drifting" in c:
         found += _drifting(c["drifting"])
     if "certificate" in c:
-        found.append(_certificate(c["certificate"]))
+        found += _certificate(c["certificate"], c["certified"])
     return (*found, *suggest_next(then))
 
 
@@ -131,20 +131,31 @@ def _drifting(d: Json) -> list[Section]:
     ]
 
 
-def _certificate(rows: Sequence[Json]) -> Section:
-    """Each parameter as planned and as reached, those that were not reached first."""
-    reached = sum(q["reached"] for q in rows)
+def _certificate(rows: Sequence[Json], certified: Json) -> Sections:
+    """As planned and as reached: the channels and combinations, and in detail each parameter, those that were not reached first."""
     columns: Columns = {
         "parameter": label_parameter,
-        "value": lambda q: numbers.with_unit(number(q["value"], 6), q["unit"]),
+        "value": lambda q: "not determined" if q["value"] is None else format_value({**q, "std": q["std_reached"]}),
         "before": lambda q: number(q["std_before"], 2),
         "planned": lambda q: number(q["std_planned"], 2),
-        "reached": lambda q: number(q["std_reached"], 2),
         "": lambda q: "" if q["reached"] else "NOT reached",
-    }
-    text = f"{reached} of {len(rows)} parameters are as certain as planned (standard uncertainty)."
-    ordered = sorted(rows, key=lambda q: q["reached"])
-    return Section("Certificate", (text,), tabulate(ordered, columns, words=2))
+    }  # fmt: skip
+    text = [
+        f"Parameters add {number(x['reached'], 3)} Eo rms to the {name.removesuffix('_Eo')} channel "
+        f"(before {number(x['before'], 3)}, planned {number(x['planned'], 3)})."
+        for name, x in certified["channels"].items()
+    ]
+    both = (*certified["combinations"], *rows)
+    reached = sum(q["reached"] for q in both)
+    text.append(f"{reached} of {len(both)} values are as certain as planned (standard uncertainty).")
+    first, second = (
+        tabulate(sorted(x, key=lambda q: q["reached"]), columns, words=2)
+        for x in (certified["combinations"], rows)
+    )
+    return (
+        Section("Certificate", tuple(text), first),
+        Section("Certificate of each parameter", table=second, detail=True, summary=f"all {len(rows)} parameters"),
+    )  # fmt: skip
 
 
 def describe_compensation(r: Json, output: str) -> Sections:
