@@ -139,7 +139,7 @@ TIME = symbol("time")
 
 AUXILIARY: tuple[str, ...] = (
     "temperature", "pressure", "roll", "pitch", "yaw", "B_x", "B_y", "B_z",
-    "fuel_mass", "vibration_rms", "angular_vibration_rms", "balance_current", "mass_x", "mass_y", "mass_z", "G_out",
+    "fuel_mass", "vibration_rms", "angular_vibration_rms", "balance_current", "second_order_current", "mass_x", "mass_y", "mass_z", "G_out",
 )  # fmt: skip
 """Channels beyond the motion that packaged effects need."""
 

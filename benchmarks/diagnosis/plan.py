@@ -167,7 +167,7 @@ def world(s: Spec) -> World:
     gravity = draw_gradient(rng, 20e-9 if rng.random() < 0.5 else 0.0)
     auxiliaries = {**plausible(rng), **further(rng)}
     if s.catalogue is not None:
-        del auxiliaries["balance_current"]
+        del auxiliaries["balance_current"], auxiliaries["second_order_current"]
     start = float(str(options.get("start", 0.0)))
     if start:
         motion = MotionSignals(*(_later(part, start) for part in (motion.a, motion.omega)))

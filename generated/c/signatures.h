@@ -1,8 +1,8 @@
 /* Signatures: what each candidate effect would add to V_j.
  *
  * Derived; do not edit: change the derivation and derive again. Units are SI, outputs V.
- * Effects beyond the paper's instrument: adc-nonlinearity, angular-jitter, anisoinertia, arm-length, arm-sag, arm-stretch, balancing-loop, bearing-run-out, bias-drift, bias-hysteresis, bias-step, carrier-gradient, clock-drift, cubic-cross, cubic-input, disc-spin, encoder-harmonic, fuel-gradient, gain-drift, gain-step, gradient-offset, gyro-bias, gyro-delay, gyro-g-sensitivity, gyro-misalignment, gyro-scale, imu-acceleration-bias, imu-acceleration-misalignment, imu-acceleration-quadratic, imu-acceleration-scale, imu-filter, imu-lever-arm, imu-misalignment, imu-skew, imu-thermal, inner-temperature, lag, magnetic-axial-bias, magnetic-bias, magnetic-scale, misalignment-drift, misalignment-step, mount-compliance, mount-hysteresis, mount-resonance, near-mass, odd-quadratic, output-curve, output-filter, output-gain-step, pendulum-angular, pressure-bias, second-order-drift, second-order-loop, second-order-misalignment, self-gradient, self-gradient-yaw, spin-axis-tilt, spin-axis-wobble, spin-phase-offset, spin-rate-jitter, spin-rate-offset, spin-servo, thermal-bias, thermal-lag, thermal-misalignment, thermal-scale, thermal-second-order, time-offset, vibration-level, vibration-rectification.
- * Inputs, one series each: a_x a_y a_z omega_x omega_y omega_z omegadot_x omegadot_y omegadot_z Gamma_xx Gamma_xy Gamma_xz Gamma_yy Gamma_yz Gamma_zz B_x B_y B_z heat_rr heat_rt heat_start heat_tt mount_a_x mount_a_y mount_a_z mount_omega_x mount_omega_y mount_omega_z mount_omegadot_x mount_omegadot_y mount_omegadot_z play_axial play_radial play_tangential slip_axial slip_radial slip_tangential G_out angular_vibration_rms balance_current d2_a_x d2_a_y d2_a_z d2_omegadot_x d2_omegadot_y d2_omegadot_z d2_spin_angle d_a_x d_a_y d_a_z d_omegadot_x d_omegadot_y d_omegadot_z d_spin_angle d_temperature fuel_mass pitch pressure roll temperature vibration_rms yaw
+ * Effects beyond the paper's instrument: adc-nonlinearity, angular-jitter, anisoinertia, arm-length, arm-sag, arm-stretch, balancing-loop, bearing-run-out, bias-drift, bias-hysteresis, bias-step, carrier-gradient, clock-drift, cubic-cross, cubic-input, disc-spin, encoder-harmonic, fuel-gradient, gain-drift, gain-step, gradient-offset, gyro-bias, gyro-delay, gyro-g-sensitivity, gyro-misalignment, gyro-scale, imu-acceleration-bias, imu-acceleration-misalignment, imu-acceleration-quadratic, imu-acceleration-scale, imu-filter, imu-lever-arm, imu-misalignment, imu-skew, imu-thermal, inner-temperature, lag, magnetic-axial-bias, magnetic-bias, magnetic-scale, misalignment-drift, misalignment-step, mount-compliance, mount-hysteresis, mount-resonance, near-mass, odd-quadratic, output-curve, output-filter, output-gain-step, pendulum-angular, pressure-bias, second-order-drift, second-order-loop, second-order-misalignment, second-order-step, self-gradient, self-gradient-yaw, spin-axis-tilt, spin-axis-wobble, spin-phase-offset, spin-rate-jitter, spin-rate-offset, spin-servo, thermal-bias, thermal-lag, thermal-misalignment, thermal-scale, thermal-second-order, time-offset, vibration-level, vibration-rectification.
+ * Inputs, one series each: a_x a_y a_z omega_x omega_y omega_z omegadot_x omegadot_y omegadot_z Gamma_xx Gamma_xy Gamma_xz Gamma_yy Gamma_yz Gamma_zz B_x B_y B_z heat_rr heat_rt heat_start heat_tt mount_a_x mount_a_y mount_a_z mount_omega_x mount_omega_y mount_omega_z mount_omegadot_x mount_omegadot_y mount_omegadot_z play_axial play_radial play_tangential slip_axial slip_radial slip_tangential G_out angular_vibration_rms balance_current d2_a_x d2_a_y d2_a_z d2_omegadot_x d2_omegadot_y d2_omegadot_z d2_spin_angle d_a_x d_a_y d_a_z d_omegadot_x d_omegadot_y d_omegadot_z d_spin_angle d_temperature fuel_mass pitch pressure roll second_order_current temperature vibration_rms yaw
  * Parameters: one value, or four in the order A1, A2, A3, A4, one after the other:
  *   radius (1): nominal distance of the accelerometers from the disc centre
  *   spin_frequency (1): rotation frequency of the disc
@@ -31,9 +31,9 @@
 extern "C" {
 #endif
 
-#define RAGG_SIGNATURES_INPUTS 62
+#define RAGG_SIGNATURES_INPUTS 63
 #define RAGG_SIGNATURES_PARAMETERS 62
-#define RAGG_SIGNATURES_ROWS 215
+#define RAGG_SIGNATURES_ROWS 217
 
 /* V_1 ... V_4 over n instants t, s: V[j * n + i]. angle is the disc angle, rad, or NULL for
  * 2 pi spin_frequency t. */
@@ -57,6 +57,7 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   arm-sag.c_z
  *   arm-stretch.c_r
  *   balancing-loop.dK1_di
+ *   balancing-loop.dK2_di
  *   bearing-run-out.c_x1
  *   bearing-run-out.s_x1
  *   bearing-run-out.c_y1
@@ -218,6 +219,7 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   second-order-drift.dK2_dt
  *   second-order-loop.b
  *   second-order-misalignment.kappa
+ *   second-order-step.dK2
  *   self-gradient.G_xx_roll
  *   self-gradient.G_xy_roll
  *   self-gradient.G_xz_roll

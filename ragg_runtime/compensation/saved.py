@@ -90,6 +90,11 @@ class Saved:
             found.append("the saved calibration had not converged")
         if not np.array_equal(self.sheet, vector(model, instrument)):
             found.append("model.toml has changed since the calibration was saved; the saved values are used")
+        if "balancing-loop" in self.effects:
+            found.append(
+                "balancing loops change scale factors or second-order coefficients during every flight: the saved calibration holds only "
+                "with their recorded currents"
+            )
         return found
 
 

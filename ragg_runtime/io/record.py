@@ -35,7 +35,13 @@ RATES = frozenset(
 AUXILIARY: Mapping[str, str] = MappingProxyType(
     {"temperature": "K", "roll": "rad", "pitch": "rad", "yaw": "rad", "pressure": "Pa"}
     | dict.fromkeys(("B_x", "B_y", "B_z"), "T")
-    | {"fuel_mass": "kg", "vibration_rms": "m/s^2", "angular_vibration_rms": "rad/s", "balance_current": "A"}
+    | {
+        "fuel_mass": "kg",
+        "vibration_rms": "m/s^2",
+        "angular_vibration_rms": "rad/s",
+        "balance_current": "A",
+        "second_order_current": "A",
+    }
     | {f"mass_{k}": "m" for k in "xyz"}
 )
 """Auxiliary channels of fixed meaning and their SI units; any other name is an auxiliary channel as well."""

@@ -59,7 +59,7 @@ def plausible(
 
 
 def further(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
-    """What only some carriers record: heading, fuel on board, levels of vibration above the recorder's bandwidth, a loop's current."""
+    """What only some carriers record: heading, fuel on board, levels of vibration above the recorder's bandwidth, loops' currents."""
     burning = rng.uniform(0.02, 0.06)  # kg/s
     return {
         "yaw": _slow(rng, float(rng.uniform(-3.0, 3.0)), 0.5).value,
@@ -67,6 +67,7 @@ def further(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
         "vibration_rms": _slow(rng, 0.5, 0.1).value,
         "angular_vibration_rms": _slow(rng, 1e-4, 2e-5).value,
         "balance_current": lambda time: np.asarray(-1e-3 * np.expm1(-time / 400.0)),  # a loop that settles
+        "second_order_current": lambda time: np.asarray(-1e-3 * np.expm1(-time / 250.0)),
     }
 
 

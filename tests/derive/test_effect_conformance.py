@@ -100,6 +100,7 @@ AUXILIARIES = {
     "vibration_rms": _signal(_RNG, 0.3, 0.05).value,
     "angular_vibration_rms": _signal(_RNG, 3e-4, 5e-5).value,
     "balance_current": _signal(_RNG, 1e-3, 2e-4).value,
+    "second_order_current": _signal(np.random.default_rng(22), 1e-3, 2e-4).value,
     **{f"mass_{k}": _signal(_RNG, 0.1, 0.2).value for k in "xyz"},
 }
 EOTVOS_VOLTS = float(np.mean(INSTRUMENT.accelerometers["k_VI"] * INSTRUMENT.accelerometers["K1"])) * 1e-10
@@ -141,6 +142,7 @@ CHANNEL_UNIT = {
     "vibration_rms": "m/s^2",
     "angular_vibration_rms": "rad/s",
     "balance_current": "A",
+    "second_order_current": "A",
     **{f"mass_{k}": "m" for k in "xyz"},
     "G_out": "V",
 }
@@ -381,6 +383,22 @@ def test_signature_is_what_the_independent_formulation_does(
         found = (missing(h) - missing(-h)) / (2 * h)
     expected = row(effect, parameter, order)
     assert rms(found - expected) < TOLERANCE.get(effect.id, 1e-6) * rms(expected)
+
+
+def test_cross_talk_is_a_gain_and_a_lag_of_where_it_comes_from() -> None:
+    """V_3 2 ms ago in G_out: its scale factor, lag and second-order loop. So cross-talk is no further effect."""
+    late = simulate(
+        INSTRUMENT, MOTION_TRUE, DURATION, RATE, start=-2e-3, gravity=GRAVITY, auxiliaries=AUXILIARIES
+    ).voltages[2]
+    of = {e.id: e for e in HOOKED}
+    names = (("lag", "tau"), ("second-order-loop", "b"))
+    slopes = [
+        row(of[e], next(q for q in of[e].parameters if q.name == n), LIKE_REFERENCE)[2] for e, n in names
+    ]
+    columns = np.stack([_nothing()[1][2], *slopes])
+    columns /= np.linalg.norm(columns, axis=1)[:, None]
+    left = late - columns.T @ np.linalg.lstsq(columns.T, late, rcond=None)[0]
+    assert rms(left) < 1e-6 * rms(late)
 
 
 @by_parameter

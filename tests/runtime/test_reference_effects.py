@@ -34,6 +34,7 @@ AUXILIARIES = {
     "vibration_rms": lambda t: 0.5 + 0 * t,
     "angular_vibration_rms": lambda t: 0.01 + 0 * t,
     "balance_current": lambda t: 0.01 + 0 * t,
+    "second_order_current": lambda t: 0.01 + 0 * t,
 }
 
 

@@ -128,6 +128,7 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "misalignment-drift": _each("rad/s", "dvartheta_y_dt"),
     "misalignment-step": _each("rad", "dvartheta_y") | _shared("s", "t_step"),
     "second-order-drift": _each("1/(m/s^2)/s", "dK2_dt"),
+    "second-order-step": _each("1/(m/s^2)", "dK2") | _shared("s", "t_step"),
     "imu-filter": _shared("s^2", "b_a", "b_w"),
     "imu-skew": _shared("s", "delta_x", "delta_y"),
     "gyro-misalignment": _shared("rad", *(f"m_{p}" for p in _PAIRS)),
@@ -137,7 +138,7 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "magnetic-axial-bias": _each("(m/s^2)/T", "dK0_dBz"),
     "carrier-gradient": _shared("1/s^2", *(f"G_{c}" for c in _TRACELESS))
     | _shared("1/s^2/kg", *(f"F_{c}" for c in _TRACELESS)),
-    "balancing-loop": _each("1/A", "dK1_di"),
+    "balancing-loop": _each("1/A", "dK1_di") | _each("1/(m/s^2)/A", "dK2_di"),
     "saturation": _shared("V", "V_max", neutral=np.inf),
     "imu-saturation": _shared("m/s^2", "a_max", neutral=np.inf)
     | _shared("rad/s", "omega_max", neutral=np.inf),
@@ -182,6 +183,9 @@ def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
     if effect == "carrier-gradient":
         fuel = any(value != 0 for name, value in parameters.items() if name.startswith("F_"))
         return ("roll", "pitch", "yaw", "fuel_mass") if fuel else ("roll", "pitch", "yaw")
+    if effect == "balancing-loop":
+        currents = {"dK1_di": "balance_current", "dK2_di": "second_order_current"}
+        return tuple(channel for name, channel in currents.items() if np.any(parameters[name]))
     return {
         "thermal-bias": ("temperature",),
         "thermal-scale": ("temperature",),
@@ -190,7 +194,6 @@ def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
         "thermal-misalignment": ("temperature",),
         "thermal-second-order": ("temperature",),
         "imu-thermal": ("temperature",),
-        "balancing-loop": ("balance_current",),
         "magnetic-scale": ("B_x", "B_y"),
         "magnetic-axial-bias": ("B_x", "B_y", "B_z"),
         "pressure-bias": ("pressure",),

@@ -72,7 +72,7 @@ def gain(j: int, time: Array, auxiliaries: Mapping[str, Array], effects: Injecte
         factor = factor * (1 + step["dK1"][j] * (time >= step["t_step"]))
     if common := effects.get("output-gain-step"):
         factor = factor * (1 + common["g"] * (time >= common["t_step"]))
-    if balanced := effects.get("balancing-loop"):
+    if (balanced := effects.get("balancing-loop")) and np.any(balanced["dK1_di"]):
         factor = factor * (1 + balanced["dK1_di"][j] * auxiliaries["balance_current"])
     if warming := effects.get("thermal-lag"):
         factor = factor * (1 + warming["dK1_dTdot"][j] * auxiliaries[RATE_OF_TEMPERATURE])
@@ -91,6 +91,10 @@ def curvature(
         value = value + warm["dK2_dT"][j] * (auxiliaries["temperature"] - REFERENCE_TEMPERATURE)
     if aged := effects.get("second-order-drift"):
         value = value + aged["dK2_dt"][j] * time
+    if step := effects.get("second-order-step"):
+        value = value + step["dK2"][j] * (time >= step["t_step"])
+    if (balanced := effects.get("balancing-loop")) and np.any(balanced["dK2_di"]):
+        value = value + balanced["dK2_di"][j] * auxiliaries["second_order_current"]
     return value
 
 
