@@ -8,7 +8,7 @@ import shutil
 import tomllib
 from collections.abc import Iterator
 from contextlib import redirect_stdout
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,9 +49,29 @@ def effects() -> dict[str, str]:
     from derive.effects import catalogue
     from derive.emit.render import environment
 
+    limits = detection_limits()
     one, index = (environment("derive.emit").get_template(f"{n}.md.j2") for n in ("effect", "effects"))
-    found = {f"effects/{e.id}.md": one.render(e=e) for e in catalogue()}
+    found = {f"effects/{e.id}.md": one.render(e=e, limits=limits.get(e.id, {})) for e in catalogue()}
     return found | {"effects.md": index.render(effects=catalogue())}
+
+
+def detection_limits() -> dict[str, dict[str, str]]:
+    """Effect -> parameter -> size, in its display unit, that is three sigma in ten minutes of flight with every channel recorded."""
+    from ragg_runtime.estimation.fitted import fit
+    from ragg_runtime.estimation.observation import observations_of
+    from ragg_runtime.identification.ranking import list_detectable
+    from ragg_runtime.identification.selection import field_of, testable_effects
+    from ragg_runtime.model.model import packaged
+    from ragg_runtime.reference.auxiliaries import further
+    from ragg_runtime.reference.scenario import scenario
+
+    s = scenario(1, duration=600.0, rate=8.0)
+    s = replace(s, auxiliaries={**s.auxiliaries, **further(np.random.default_rng(1))})
+    f = fit(packaged(), s.sheet, observations_of([s.simulate().flight()], s.sheet))
+    found: dict[str, dict[str, str]] = {}
+    for x in list_detectable(f, field_of(f, testable_effects(f))):
+        found.setdefault(x.effect, {})[x.name] = f"{x.size:.2g}"
+    return found
 
 
 def model_toml() -> str:
