@@ -25,8 +25,8 @@ EFFECT = Effect(
     source="US 5922951; Sensors 17, 1710 (2017); Sensors 18, 1247 (2018): k' = -gamma LP[G_out sin(phi + ...)]",
     equation=r"K_1 \leftarrow K_1 (1 + \partial_i K_1\, i_1(t)),\; K_2 \leftarrow K_2 + \partial_i K_2\, i_2(t)",
     limits=(
-        "Each kind of loop has its current recorded, in one channel; a current that is not recorded counts as zero. Coefficients are linear "
-        "in it. Without it a settling loop looks like gain-drift or second-order-drift, and one that runs on is a walk of K1 or K2 "
+        "Each kind of loop has its current recorded, in one channel; an unrecorded one counts as zero. Coefficients are linear in it. "
+        "Without it a settling loop looks like gain-drift or second-order-drift, and one that runs on is a walk of K1 or K2 "
         "(`ragg calibrate --drift`); a stopped loop has no effect."
     ),
     channels=("balance_current", "second_order_current"),

@@ -258,3 +258,11 @@ def test_a_calibration_of_another_model_is_not_exported(
     (copy / "calibration.json").write_text(text)
     told = run("export", copy, tmp_path / "c", "--c")
     assert "values of model.toml: the saved calibration belongs to another model" in told
+
+
+def test_an_effect_with_a_memory_is_refused_by_name(tmp_path: Path) -> None:
+    c = api.contents(api.new(tmp_path / "m"))
+    slips = c.model.effect("bias-hysteresis")
+    assert slips is not None
+    with pytest.raises(UserError, match="bias-hysteresis cannot be exported"):
+        dataclasses.replace(c, model=dataclasses.replace(c.model, effects=(slips,))).inputs()
