@@ -90,20 +90,26 @@ def model_toml() -> str:
 
 
 def keys(value: Any, path: str = "") -> Iterator[tuple[str, str]]:
-    """(path, type) of everything in a JSON document; ``[]`` is any entry of a list."""
+    """(path, type) of everything in a JSON document; ``[]`` is any entry of a list, ``*`` any name of :data:`NAMED`."""
     if isinstance(value, dict) and {"rms_V", "inline_Eo"} <= value.keys():
         yield path, "error object"
     elif isinstance(value, dict) and path == "provenance":
         yield path, "object"
     elif isinstance(value, dict):
+        named = path.rpartition(".")[2] in NAMED
         for name, x in value.items():
-            yield from keys(x, f"{path}.{name}" if path else name)
+            key = "*" if named else name
+            yield from keys(x, f"{path}.{key}" if path else key)
     elif isinstance(value, list):
         inner = dict(k for x in value for k in keys(x, f"{path}[]"))
         yield from inner.items() if inner else [(f"{path}[]", "")]
     else:
         kind = {bool: "boolean", int: "number", float: "number", str: "string"}.get(type(value), "null")
         yield path, kind
+
+
+NAMED = ("quality", "flights", "indistinguishable")
+"""Objects whose keys are names: of flags, flights, effects."""
 
 
 @dataclass(frozen=True)
@@ -139,43 +145,61 @@ def demonstration(reports: Path) -> Demonstration:
         for name, x in {"compare": c, "diagnose": d}.items()
     }
     documents["add"] = step.as_json() | api.origin(step.loaded, flights, "ragg add model", before=m)
-    for name, line in {
-        "calibrate": "calibrate model FLIGHT --save",
-        "compensate": "compensate model FLIGHT -o gradient.parquet --calibration frozen",
-        "history": "history model",
-    }.items():
+    for line in LINES:
         with redirect_stdout(io.StringIO()):
             words = line.replace("FLIGHT", FLIGHT.name).split()
-            cli.main([*words, "--json", f"{name}.json"], standalone_mode=False)
-        documents[name] = json.loads(Path(f"{name}.json").read_text("utf-8"))
+            cli.main([*words, "--json", "written.json"], standalone_mode=False)
+        documents[words[0]] = json.loads(Path("written.json").read_text("utf-8"))
     return Demonstration(json.loads(json.dumps(documents)), c, step.after)
+
+
+LINES = (
+    "new another",
+    "effects thermal-scale",
+    "info FLIGHT",
+    "convert FLIGHT flight.csv",
+    "calibrate model FLIGHT --save",
+    "compensate model FLIGHT -o gradient.parquet --calibration frozen",
+    "history model",
+    "simulate another -o short.parquet --duration 180",
+    "next-motion another short.parquet -o motion.csv",
+    "survey another short.parquet --jobs 1",
+    "remove model thermal-scale",
+)
+"""What is run besides ``compare``, ``diagnose`` and ``add`` for the page of JSON: each of the other commands with ``--json``."""
 
 
 def json_page(found: dict[str, Any]) -> str:
     """Keys of every command's JSON with type and meaning; a key without a meaning is an error."""
-    meanings = tomllib.loads((HERE / "reference" / "json.toml").read_text("utf-8"))
+    from ragg_runtime.cli.main import COMMANDS
+
+    meanings = read_meanings()
     text = ["# JSON", "", meanings["head"], ""]
-    for name, document in found.items():
+    for name in sorted(found, key=list(COMMANDS).index):
         text += [f"## {name}", "", "| key | type | meaning |", "|---|---|---|"]
         kinds: dict[str, list[str]] = {}
-        for path, kind in keys(document):
-            kinds.setdefault(path, []).append(kind)
+        for path, kind in keys(found[name]):
+            kinds.setdefault(path, []).append(kind or "empty here")
         for path, of in kinds.items():
-            text.append(
-                f"| `{path}` | {' or '.join(dict.fromkeys(filter(None, of)))} | {meaning(path, meanings)} |"
-            )
+            several = [k for k in dict.fromkeys(of) if k != "empty here"] or ["empty here"]
+            text.append(f"| `{path}` | {' or '.join(several)} | {meaning(name, path, meanings)} |")
         text.append("")
     return "\n".join(text)
 
 
-def meaning(path: str, meanings: dict[str, Any]) -> str:
-    """Of a key, by its last name."""
-    *outer, last = path.replace("[]", "").split(".")
-    if last in meanings["keys"]:
-        return str(meanings["keys"][last])
-    if outer and outer[-1] in ("quality", "flights"):  # keyed by bits, by flights
-        return f"of {last}"
-    raise KeyError(f"docs/reference/json.toml has no meaning of {path}")
+def read_meanings() -> dict[str, Any]:
+    """What the keys mean: ``docs/reference/json.toml``."""
+    return tomllib.loads((HERE / "reference" / "json.toml").read_text("utf-8"))
+
+
+def meaning(command: str, path: str, meanings: dict[str, Any]) -> str:
+    """Of a key of a command's JSON, by the longest end of its path that is listed, first for the command, then for all."""
+    parts = path.replace("[]", "").split(".")
+    for listed in (meanings.get(command, {}), meanings["keys"]):
+        for k in range(len(parts)):
+            if (end := ".".join(parts[k:])) in listed:
+                return str(listed[end])
+    raise KeyError(f"docs/reference/json.toml has no meaning of {path} of {command}")
 
 
 def loop_figure(target: Path, shown: Demonstration) -> None:
