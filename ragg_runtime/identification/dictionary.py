@@ -78,16 +78,14 @@ class Term:
         """What effects of which it is all that a record shows have in common."""
         kind, _, turns = self.harmonic.partition(" ")
         if not self.channels:
-            return f"constant term at {name_multiple(int(turns or 0))}"
+            return f"a constant term at {name_multiple(int(turns))}" if turns else "a constant offset"
         where = "" if kind == "const" else f" at {name_multiple(int(turns))}"
-        return f"something proportional to {self.product}{where}"
+        return f"a term proportional to {self.product}{where}"
 
 
 def name_multiple(turns: int) -> str:
     """A multiple of the spin rate."""
-    return {0: "rest", 1: "the spin rate", 2: "twice the spin rate"}.get(
-        turns, f"{turns} times the spin rate"
-    )
+    return {1: "the spin rate", 2: "twice the spin rate"}.get(turns, f"{turns} times the spin rate")
 
 
 class Dictionary:

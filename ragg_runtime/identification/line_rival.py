@@ -89,7 +89,7 @@ class Steady:
     @property
     def words(self) -> str:
         others = f", like {', '.join(self.others)}" if self.others else ""
-        said = f"{self.effect} acts as a {self.name}{others}"
+        said = f"{self.effect} acts as {self.name}{others}"
         if self.width is None:
             return said
         return f"{said}; a line within {self.width:.1g} Hz of {self.frequency:.6g} Hz would explain it too"

@@ -87,7 +87,7 @@ def tabulate_errors(
     heads = ("error", *(ERROR_HEADS[k] for k in shown))
     cells = [(label, *(number(None if e is None else e.get(k)) for k in shown)) for label, e in rows]
     why = "the disc does not spin, or no part of the record is as long as the demodulator's low-pass."
-    missing = any(e.get("inline_Eo") is None for e in given)
+    missing = bool(given) and all(e.get("inline_Eo") is None for e in given)
     note = f"No demodulated channels: {why}" if missing else ""
     table = Table(heads=heads, rows=tuple(cells), note=note)
     return Section(title=title, table=table, detail=detail)
@@ -235,7 +235,7 @@ def _equals(log10_p: float | None) -> str:
 def write_verdict(d: Json) -> str:
     """What a diagnosis concludes, with its numbers, in one sentence or two."""
     before, after, noise = d["error"]["before"], d["error"]["after"], d["noise_floor"]
-    found = listed([_group_name(e, d["groups"]) for e in d["found"]])
+    found = listed([_name_alternatives(e, d["groups"]) for e in d["found"]])
     it = "it" if len(d["found"]) == 1 else "them"
     terms = d["unexplained"]["terms"]
     mostly = f", mostly at {label_term(terms[0])}" if terms else ""
@@ -267,11 +267,10 @@ def write_verdict(d: Json) -> str:
     )
 
 
-def _group_name(effect: str, groups: Sequence[Json]) -> str:
-    for g in groups:
-        if g["effects"][0] == effect and g["name"]:
-            return f"{g['name']!s} ({listed([str(e) for e in g['effects']], 'or')})"
-    return str(effect)
+def _name_alternatives(effect: str, groups: Sequence[Json]) -> str:
+    """The effect, or those of which the record shows one."""
+    same = next((g["effects"] for g in groups if g["effects"][0] == effect), [effect])
+    return f"one of {listed(list(map(str, same)), 'or')}" if len(same) > 1 else str(effect)
 
 
 def choose_values(r: Json) -> list[Json]:
@@ -372,9 +371,10 @@ def _remarks(d: Json) -> list[str]:
     said = [f"Note: {text}." for text in d["notes"]] if judged else []
     for g in d["groups"]:
         main, *others = map(str, g["effects"])
-        if others and not g["name"]:
+        if others:
+            term = f"; {g['name']!s} explains as much" if g["name"] else ""
             said.append(
-                f"This record cannot distinguish {main} from {listed(others, 'or')}: they are one finding."
+                f"This record cannot distinguish {main} from {listed(others, 'or')}{term}: they are one finding."
             )
     for x in d.get("disagree") or ():
         what = listed([str(e) for e in x["found"]]) or "no effect"

@@ -204,10 +204,10 @@ def _differentiated(name: str, order: int) -> str:
     """A derivative of a channel by time; the angular acceleration is itself one of the angular rate."""
     found = _MOTION.fullmatch(name)
     if found is None:
-        return str(Derivative(ChannelName(name), order)) if order else name
-    stem = "ω" if found[1].startswith("omega") else found[1]
-    order += found[1] == "omegadot"
-    text = f"{stem}_{found[2]}"
+        text = name
+    else:
+        text = f"{'ω' if found[1].startswith('omega') else found[1]}_{found[2]}"
+        order += found[1] == "omegadot"
     return text if not order else f"d{text}/dt" if order == 1 else f"d²{text}/dt²"
 
 

@@ -77,9 +77,10 @@ def test_a_line_beside_a_multiple_of_the_spin_rate_accuses_nothing(frequency: fl
         assert f"{d.found[0]} acts as a constant term at twice the spin rate" in said
         assert "gradient-offset" in said  # of those that would do as well
         (group,) = d.groups
-        assert group.name == "constant term at twice the spin rate"
+        assert group.name == "a constant term at twice the spin rate"
         assert group.effects[0] == d.found[0] and "gradient-offset" in group.effects
-        assert f"Missing: {group.name} ({d.found[0]}" in d._repr_html_()
+        assert f"Missing: one of {d.found[0]}" in d._repr_html_()
+        assert f"; {group.name} explains as much: they are one finding" in d._repr_html_()
         return
     assert (d.verdict, d.found) == ("unexplained", ())
     said = re.search(r"a line at about ([0-9.]+) Hz", str(d.as_json()["reason"]))
@@ -93,7 +94,7 @@ def test_effects_that_look_alike_are_named_by_what_they_share() -> None:
     shared: Any = SimpleNamespace(term=Term("cos 1", ("a_z",)))
     (group,) = groups(("spin-axis-tilt",), alike, (), shared)
     assert group.as_json() == {
-        "name": "something proportional to a_z at the spin rate",
+        "name": "a term proportional to a_z at the spin rate",
         "effects": ["spin-axis-tilt", "imu-misalignment"],
     }
     (alone,) = groups(("bias-drift",), alike, (), shared)
