@@ -62,7 +62,8 @@ def shown(command: str, samples: int) -> Iterator[None]:
         nonlocal done, due
         done += amount
         now, share = time.monotonic(), min(done / total, BEYOND)
-        pause = 1.0 if terminal else max(INTERVAL, 0.02 * (now - start) / share)
+        rest = 0.02 / share if share < BEYOND else 0.5
+        pause = 1.0 if terminal else max(INTERVAL, rest * (now - start))
         if now >= due:
             due = now + pause
             text = f"... {_describe(share, now - start)}"

@@ -38,7 +38,7 @@ LIKE_ONE = 0.05
 LISTED = 16
 """Pairs that are listed, the most correlated first."""
 
-MOST_LABELS = 32
+MOST_LABELS = 24
 """Directions of a matrix of correlations: beyond these nobody reads it."""
 
 
@@ -172,17 +172,20 @@ def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...
 
 
 def correlate_parameters(f: Fitted) -> tuple[Matrix, list[tuple[str, str, str]]]:
-    """The matrix of correlations of the directions that the record constrains, and its largest entries."""
+    """The matrix of correlations of the directions that the record constrains, and its largest entries.
+
+    Of more than can be labelled in it, it has those with the largest correlations.
+    """
     directions, U = find_directions(f)
     covariance = U @ posterior(f).covariance @ U.T
     std = np.sqrt(np.diag(covariance))
     kept = np.flatnonzero(std < UNSEEN)
-    if len(kept) > MOST_LABELS:
-        kept = np.sort(kept[np.argsort(std[kept], kind="stable")[:MOST_LABELS]])
     r = (covariance / np.outer(std, std))[np.ix_(kept, kept)]
     labels = tuple(str(directions[n]) for n in kept)
     i, j = np.triu_indices(len(r), 1)
     strongest = np.argsort(-np.abs(r[i, j]), kind="stable")[:LISTED]
     pairs = [(labels[i[k]], labels[j[k]], numbers.fixed(float(r[i[k], j[k]]), 3)) for k in strongest]
     caption = "Correlations of the calibrated parameters that this record determines, wholly or in part."
-    return Matrix("correlations", caption, labels, r), pairs
+    largest = np.max(np.abs(r - np.eye(len(r))), axis=0, initial=0.0)
+    shown = np.sort(np.argsort(-largest, kind="stable")[:MOST_LABELS])
+    return Matrix("correlations", caption, tuple(labels[n] for n in shown), r[np.ix_(shown, shown)]), pairs

@@ -256,7 +256,7 @@ def _label_bars(ax: Drawn, plot: Bars, low: float, top: float) -> None:
 def _draw_matrix(plot: Matrix) -> str:
     """Squares below the diagonal whose areas are the sizes of the entries; those of less than 0.1 are left out."""
     count = len(plot.names)
-    side = max(WIDTH, 0.14 * count + 1.2)
+    side = max(WIDTH, 0.14 * count + 1.4)
     fig = _make_figure(side, side)
     ax = fig.subplots()
     for sign, colour, words in ((1.0, "residual", "positive"), (-1.0, "noise", "negative")):
@@ -269,7 +269,7 @@ def _draw_matrix(plot: Matrix) -> str:
     ax.set_xticks(range(count), names, rotation=90)
     ax.set_yticks(range(count), names)
     ax.set(xlim=(-0.6, count - 0.4), ylim=(count - 0.4, -0.6), aspect="equal")
-    ax.tick_params(labelsize=7, length=0)
+    ax.tick_params(length=0)
     ax.grid(False)
     _add_legend(ax, 2)
     return _write_svg(fig, plot.key, plot.caption)

@@ -146,7 +146,7 @@ def _tabulate_discs(i: Instrument) -> Table:
         radii = ", ".join(f"{r:g}" for r in sorted({p.radius for _, p in own}))
         outputs = ", ".join(dict.fromkeys(layout.output_names[p.output] for _, p in own))
         axis = ", ".join(f"{x:g}" for x in d.axis)
-        rows.append((d.name, f"{d.spin_frequency:g}", radii, axis, places, outputs))
+        rows.append((d.name or str(k + 1), f"{d.spin_frequency:g}", radii, axis, places, outputs))
     return Table(("disc", "spin, Hz", "radius, m", "axis", "accelerometers", "output"), tuple(rows), words=6)
 
 

@@ -217,7 +217,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     found = [Section(sentences=(*head, *first.sentences), state="good" if h["holds"] else "bad"), *others]
     if h["suspects"]:
         single: Columns = {
-            "parameter": lambda x: str(x["name"]),
+            "parameter": label_parameter,
             "change": lambda x: numbers.with_unit(number(x["change"], 3), x["unit"]),
             "explains": lambda x: numbers.percent(x["share"]),
         }

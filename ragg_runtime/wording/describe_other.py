@@ -378,7 +378,7 @@ def _record_sections(r: Json) -> list[Section]:
         text += ["This record cannot be used as it is:", *str(r["refused"]).splitlines()]
     columns: Columns = {
         "column": lambda c: str(c["name"]),
-        "unit": lambda c: numbers.unit(c["unit"]) or "1",
+        "unit": lambda c: (numbers.unit(c["unit"]) or "1") if c["unit"] else numbers.ABSENT,
         "minimum": lambda c: number(c["minimum"], 4),
         "mean": lambda c: number(c["mean"], 4),
         "maximum": lambda c: number(c["maximum"], 4),

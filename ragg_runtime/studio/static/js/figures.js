@@ -19,8 +19,15 @@ function laid() {
 }
 
 const marks = () => {
-  const f = flight(), known = (f && f.missing) || { gaps: [], alone: [] };
-  return { ...known, cuts: (f && f.cuts) || [] };
+  const f = flight(), { gaps, alone } = (f && f.missing) || { gaps: [], alone: [] }, cuts = (f && f.cuts) || [];
+  const near = f ? 2 / f.rate_Hz : 0; // what is left out counts as missing, too: it is shown once
+  return { gaps: gaps.filter(([a, b]) => !cuts.some(([from, to]) => a > from - near && b < to + near)), alone, cuts };
+};
+
+/** How far the models are from the residual, rms over the window. */
+const spread = (high, now) => {
+  const apart = Array.from(high.high, (x, k) => x - now.high[k]).filter(Number.isFinite);
+  return Math.sqrt(apart.reduce((sum, x) => sum + x * x, 0) / Math.max(1, apart.length));
 };
 
 export function figures(box) {
@@ -104,7 +111,7 @@ export function figures(box) {
     const common = asked(points()), over = laid();
     const began = performance.now();
     const [low, high, before, now, effect] = await Promise.all([
-      ...["low", "high"].map((edge) => (view.fan ? series({ ...common, what: `fan:${edge}` }).catch(() => null) : null)),
+      ...["low", "high"].map((edge) => (view.fan && !flight().kept ? series({ ...common, what: `fan:${edge}` }).catch(() => null) : null)),
       server.state.before ? series({ ...common, what: "before" }).catch(() => null) : null,
       series({ ...common, what: "residual" }),
       over ? series({ ...common, ...over }).catch((e) => (note("residual", [e.facts.what, e.facts.remedy].filter(Boolean).join(": ")), null)) : null,
@@ -113,7 +120,7 @@ export function figures(box) {
     plots.residual.show([low && high && { ...low, low: low.low, high: high.high }, before, now, effect]);
     document.documentElement.dataset.series = (performance.now() - began).toFixed(1);
     legend("residual", [
-      low && ["models within the uncertainty", "beside", "band"], before && ["before the last step", "before"], [`residual, ${unitName()}`, "residual"],
+      low && high && [`models within the uncertainty: ± ${number(spread(high, now), 2)} ${unitName()} rms`, "beside", "band"], before && ["before the last step", "before"], [`residual, ${unitName()}`, "residual"],
       effect && [over.words, "effect"], level() && ["± noise, 1 σ", "noise", "dashed"],
     ]);
   });
@@ -243,11 +250,11 @@ export function noisePane(box) {
     pane.hidden = !ready();
     if (pane.hidden || !pane.open) return;
     const names = flight().channels, channel = names.includes(picked) ? picked : names.find((n) => n === "temperature") || names[0];
-    const asked = { flight: view.flight, output: view.output, of: server.state.banner.errors.calibrated.rms_Eo };
+    const of = `${server.state.banner.errors.calibrated.rms_Eo} ${Boolean(server.state.validation)}`, asked = { flight: view.flight, output: view.output, of };
     const key = JSON.stringify([asked, channel, flight().path]);
     if (key === shown) return;
     shown = key;
-    fill(body, h("div.row.choices", {}, h("label", {}, "channel "), choose("Channel", names, names.indexOf(channel), (k) => ((picked = names[k]), known()))), pictureNode(`against:${channel}`, asked), pictureNode("whiteness", asked));
+    fill(body, h("div.row.choices", {}, h("label", {}, "channel "), choose("Channel", names, names.indexOf(channel), (k) => ((picked = names[k]), known()))), h("div.pair", {}, pictureNode(`against:${channel}`, asked), pictureNode("whiteness", asked)));
   }
   const offs = [on("flight output", known)];
   return { known, gone: () => offs.forEach((f) => f()) };
@@ -342,7 +349,7 @@ function cuts(f, state) {
 }
 
 /** A flight is fitted, or kept to validate the calibration on the others. */
-const validated = (f, state) => h("button", { type: "button", disabled: Boolean(state.status.job), "aria-pressed": String(f.kept), title: "Calibrate on the other flights and see how that holds here",
+const validated = (f, state) => h("button.keep", { type: "button", disabled: Boolean(state.status.job), "aria-pressed": String(f.kept), title: "Calibrate on the other flights and see how that holds here",
   onclick: async () => {
     const fitted = state.flights.filter((x) => !x.kept).length;
     if (await doing("validate", { flight: view.flight })) look({ flight: f.kept ? fitted : state.flights.length - 1 });
@@ -364,7 +371,7 @@ export function windowHead(box) {
       h("button", { type: "button", onclick: () => pan(-0.5), "aria-label": "Earlier", title: "Earlier ([)" }, "‹"),
       h("button", { type: "button", onclick: () => pan(0.5), "aria-label": "Later", title: "Later (])" }, "›"),
       h("button", { type: "button", onclick: () => moved(null), title: "The whole flight (0)" }, "all")),
-    state && state.banner ? h("label.fan", { title: "What models within the uncertainty of the parameters leave" }, h("input", { type: "checkbox", checked: Boolean(view.fan), onchange: (e) => look({ fan: e.target.checked ? 1 : 0 }) }), " spread of models") : null,
+    state && state.banner && !(f && f.kept) ? h("label.fan", { title: "What models within the uncertainty of the parameters leave" }, h("input", { type: "checkbox", checked: Boolean(view.fan), onchange: (e) => look({ fan: e.target.checked ? 1 : 0 }) }), " spread of models") : null,
     cuts(f, state),
     flights.length > 1 && f ? validated(f, state) : null,
     flights.length > 1 && flights.length <= MOST_LINES ? lines(flights) : null,
