@@ -148,15 +148,18 @@ class Conclusion:
         if self.one:
             cases = f"{listed(o.effects)} would explain it together, as {self.one} may alone"
             return [Reason(f"{cases}: add {self.one} and compare")]
-        if self.rival and terms:
-            return [Reason(f"{listed(o.effects)} would explain it no better than a generic term, {terms[0]}")]
+        if self.rival:
+            generic = f"a generic term, {terms[0]}" if terms else "generic terms"
+            return [Reason(f"{listed(o.effects)} would explain it no better than {generic}")]
         found = [] if o.complaint is None else [Reason(o.complaint)]
         if terms:
             found.append(
                 Reason(f"the residual is more than noise, mostly {terms[0]}", is_verdict=True),
             )
-        rms = o.scored.whole.rms_Eo
-        noise = f"the residual, {rms:.3g} Eo, is more than the noise of {o.noise_floor:.3g} Eo"
+        noise = "the residual is more than noise by all generic terms together, none of which stands out"
+        if o.exceeds_noise:
+            rms = o.scored.whole.rms_Eo
+            noise = f"the residual, {rms:.3g} Eo, is more than the noise of {o.noise_floor:.3g} Eo"
         return found or [Reason(noise, is_verdict=True)]
 
 

@@ -230,7 +230,7 @@ def require_units(columns: Iterable[DataColumn], place: str) -> None:
                 "the column has no unit",
                 where=f"{place}: column {c.name!r}",
                 found=repr(c.name),
-                expected=f"{c.name} [unit], such as {c.name} [{SI_UNITS.get(c.name, 'K')}]",
+                expected=f"{c.name} [unit], such as {c.name if c.name in SI_UNITS else 'temperature'} [{SI_UNITS.get(c.name, 'K')}]",
                 remedy="write the unit; a pure number has the unit 1; none is guessed. Or describe the columns "
                 "once for all files: ragg map FLIGHT -o mapping.toml",
             )

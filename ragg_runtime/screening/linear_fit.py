@@ -8,7 +8,7 @@ an axis, a clock or the sheet itself, competes by the same.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -150,11 +150,21 @@ def _fit_together(model: Model, instrument: Instrument, many: Sequence[Rows]) ->
     if not many:
         return []
     c = _evaluate_columns(model, instrument, many)
+    return [c.fit(*one) for one in _split(c, many)]
+
+
+def list_systems(model: Model, instrument: Instrument, many: Sequence[Rows]) -> list[tuple[Array, Array]]:
+    """Of each of several rows the columns (n, m, N) of a linear fit, and what they are fitted to, (m, N), Eo."""
+    c = _evaluate_columns(model, instrument, many)
+    return [c.system(*one) for one in _split(c, many)]
+
+
+def _split(c: _Columns, many: Sequence[Rows]) -> Iterator[tuple[Rows, Array, Array]]:
+    """Each of several rows with what its output sees of the columns, (n, m, N), and of the model at the sheet's values, (m, N)."""
     edges = np.cumsum([0, *(len(r.time) for r in many)])
-    return [
-        c.fit(r, r.seen(np.concatenate([c.columns[:, :, a:b], _make_gradient(r)])), r.seen(c.nominal[:, a:b]))
-        for r, a, b in zip(many, edges, edges[1:], strict=False)
-    ]
+    for r, a, b in zip(many, edges, edges[1:], strict=False):
+        columns = np.concatenate([c.columns[:, :, a:b], _make_gradient(r)])
+        yield r, r.seen(columns), r.seen(c.nominal[:, a:b])
 
 
 def fit_low_passes(model: Model, instrument: Instrument, rows: Rows) -> Callable[[Array], LinearFit]:
@@ -191,11 +201,15 @@ class _Columns:
     nominal: Array
     eotvos: float
 
+    def system(self, rows: Rows, seen: Array, nominal: Array) -> tuple[Array, Array]:
+        """The columns (n, m, N) and the output less the model at the sheet's values (m, N), Eo, of the rows that are fitted."""
+        inner = rows.inner
+        return seen[:, :, inner], (rows.data[:, inner] - nominal[:, inner]) / self.eotvos
+
     def fit(self, rows: Rows, seen: Array, nominal: Array) -> LinearFit:
         """Rows fitted by what their output sees of the columns, (n, m, N), and of the model at the sheet's values, (m, N)."""
         inner, n = rows.inner, len(self.places)
-        X = seen[:, :, inner].reshape(len(seen), -1)
-        y = ((rows.data[:, inner] - nominal[:, inner]) / self.eotvos).reshape(-1)
+        X, y = (x.reshape(*x.shape[:-2], -1) for x in self.system(rows, seen, nominal))
         theta, kept, volume = fit_robustly(X, y)
         size = rows.data[:, inner] / self.eotvos
         size = (size - np.mean(size, axis=1, keepdims=True)).reshape(-1)

@@ -137,9 +137,9 @@ class Sampler:
         self,
         rows: Index,
         *,
-        motion_later: int = 0,
+        motion_later: int | Index = 0,
         of: Sequence[str] = ("a", "omega", "omegadot", "Gamma"),
-        output_later: int = 0,
+        output_later: int | Index = 0,
         spin_frequency: float | None = None,
         phase: float | Array = 0.0,
         backwards: bool = False,
@@ -151,7 +151,7 @@ class Sampler:
         rows
             (n,) which.
         motion_later, of, output_later
-            Samples by which the quantities ``of`` motion, or the output, are taken later than recorded; rows that
+            Samples by which the quantities ``of`` motion, or the output, are taken later than recorded, one or (n,); rows that
             would lie outside are left out.
         spin_frequency
             Hz, in place of the instrument's (or the encoder's angle).
@@ -161,9 +161,9 @@ class Sampler:
             Let the disc turn the other way.
         """
         x, n = self.flight, len(self.flight)
-        early, late = min(motion_later, output_later, 0), max(motion_later, output_later, 0)
-        inside = (rows + early >= 0) & (rows + late < n)
-        rows = rows[inside]
+        at = np.array([rows, rows + motion_later, rows + output_later])
+        inside = ((at >= 0) & (at < n)).all(axis=0)
+        rows, moved_to, output_at = at[:, inside]
         time, start = x.time[rows] - x.time[0], start_of(x, self.instrument)
         f = self.disc.spin_frequency if spin_frequency is None else spin_frequency
         if self.has_encoder and spin_frequency is None:
@@ -174,7 +174,7 @@ class Sampler:
             name for name in (*x.channels, *self.derived) if {find_stem(name), differentiated(name)} & {*of}
         }
         channels = {
-            name: v[rows + motion_later] if name in moved else v[rows]
+            name: v[moved_to] if name in moved else v[rows]
             for name, v in (*x.channels.items(), *self.derived.items())
         }
         if spin_frequency is not None:
@@ -182,7 +182,7 @@ class Sampler:
         if backwards:
             phi = -phi
             channels |= {name: -channels[name] for name in SPIN if name in channels}
-        data = np.nan_to_num(np.stack([x.outputs[v][rows + output_later] for v in self.columns]), copy=False)
+        data = np.nan_to_num(np.stack([x.outputs[v][output_at] for v in self.columns]), copy=False)
         if self.recorded.demodulated:  # inline and cross
             data *= self.instrument.scale_factor * np.array([[0.5], [-1.0]])
         return Rows(
@@ -194,7 +194,7 @@ class Sampler:
             taps=self.taps,
             output=self.output,
             names=self.columns,
-            usable=self.usable[rows + output_later] if self.recorded.demodulated else None,
+            usable=self.usable[output_at] if self.recorded.demodulated else None,
         )
 
 

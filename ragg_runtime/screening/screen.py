@@ -122,6 +122,8 @@ def _remark(f: Finding) -> Flag:
     gain = "the parameters stay closer to the test sheet"
     if f.factor > HALVED:
         gain = f"the unexplained part is {f.factor:.3g} times smaller"
+    elif not f.best.calming:
+        gain = f"{100 * (f.best.fitted.kept - f.before.kept):.2g} % more of the samples are explained"
     if f.best.kind == "sheet":
         return Flag((), f"{f.best.what}; with a wider sheet {gain}; {f.best.remedy}")
     reason = f"likely mistake: {f.best.what}{_others(f)}; undone, {gain}; {f.best.remedy}"

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any, cast
 
 import numpy as np
@@ -14,7 +15,14 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.sampling import find_clock_steps
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import disc_angle, start_of
-from ragg_runtime.screening.linear_fit import Hypothesis, LinearFit, fit_each, fit_rows
+from ragg_runtime.screening.linear_fit import (
+    Hypothesis,
+    LinearFit,
+    fit_each,
+    fit_robustly,
+    fit_rows,
+    list_systems,
+)
 from ragg_runtime.screening.sampler import Index, Rows, Sampler
 from ragg_runtime.signals.demodulate import demodulable, low_pass
 from ragg_runtime.signals.resolution import find_step
@@ -29,6 +37,10 @@ SPIN_RANGE = 0.05
 
 LATEST = 1e4
 """Start of a record after angle 0 of its disc, s, up to which the spin rate is looked for: the grid is the finer."""
+
+SLIP_ROWS, SWITCH, MOST_SLIPS = 800, 30.0, 4
+"""Rows on which slips of one recorder against another are looked for; what a change of the lag costs, as a dozen samples that are ten
+standard deviations off; most of them in a record."""
 
 MOST_SHIFTS = 64
 """Shifts that are tried: about the tops of a cross-correlation, and on from there while less is left."""
@@ -97,7 +109,7 @@ class _Trial:
 def propose_times(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
     """The best of each kind of mistake."""
     t = _Trial(model, instrument, s)
-    found = _propose_shifts(t)
+    found = [*_propose_shifts(t), *_propose_slips(t)]
     if s.disc.spin_frequency == 0.0:
         return found
     if not s.recorded.demodulated:  # a demodulator at the wrong rate lets nothing through
@@ -267,8 +279,8 @@ def _propose_losses(t: _Trial) -> list[Hypothesis]:
     blocks = len(s.flight) // (turn * TURNS)
     if blocks < FEWEST_BLOCKS:
         return []
-    whole = s.take(np.arange(blocks * turn * TURNS))
-    output, motion = (np.mean(x.reshape(-1, turn), axis=1) for x in _mix(s, whole))
+    mixed = _mix(s, np.arange(blocks * turn * TURNS))
+    output, motion = (np.mean(x.reshape(-1, turn), axis=1) for x in mixed)
     steps = -np.diff(np.angle(np.sum((output * np.conj(motion)).reshape(-1, TURNS), axis=1)))
     rows, at = s.rows(), (np.arange(blocks) + 0.5) * turn * TURNS
     found = []
@@ -321,7 +333,7 @@ def propose_parts(model: Model, instrument: Instrument, s: Sampler) -> list[Hypo
     return [Hypothesis(what, remedy, tried[at], COST + 1.0, effects=("gain-step",), calming=False)]
 
 
-_SHIFTED: tuple[tuple[str, str, str, Callable[[int], dict[str, Any]]], ...] = (
+_SHIFTED: tuple[tuple[str, str, str, Callable[[Any], dict[str, Any]]], ...] = (
     ("the motion record is", "motion columns", "the output", lambda k: {"motion_later": k}),
     ("a_x, a_y, a_z are", "columns", "the output", lambda k: {"motion_later": k, "of": ("a",)}),
     ("a_x is", "column", "the output", lambda k: {"motion_later": k, "of": ("a_x",)}),
@@ -335,16 +347,10 @@ def _propose_shifts(t: _Trial) -> list[Hypothesis]:
     """Motion, specific force alone, and output apart in time: candidates from a cross-correlation, judged by the model."""
     s, rate = t.s, t.s.flight.rate
     rows = s.rows(most=400)
-    waiting = [k for k in _lags(s) if k != 0]
-    tried: dict[int, list[float]] = {}
-    while waiting and len(tried) < MOST_SHIFTS:
-        each = [t.judge(s.take(rows, **shift(k)) for k in waiting) for *_, shift in _SHIFTED]
-        tried |= {k: list(misfits) for k, *misfits in zip(waiting, *each, strict=True)}
-        best = [min(tried, key=lambda k: tried[k][way]) for way in range(len(_SHIFTED))]
-        near = {k + d or d for k in best for d in (-1, 1)}  # beyond 0, which is the record as it is
-        waiting = sorted(near - set(tried))
+    lags = [k for k in _lags(s) if k != 0]
     found = []
-    for (name, columns, against, shift), k in zip(_SHIFTED, best if tried else (), strict=False):
+    for name, columns, against, shift in _SHIFTED if lags else ():
+        k = _find_lag(t, rows, lags, shift)
         by, whole = f"{abs(k) / rate:.6g} s", columns not in ("columns", "column")
         late = "late" if (k > 0) == (name != "the output is") else "early"
         what = f"{name} {by} ({abs(k)} sample{'s' * (abs(k) > 1)}) {late} against {against}"
@@ -364,14 +370,126 @@ def _propose_shifts(t: _Trial) -> list[Hypothesis]:
     return found
 
 
-def _lags(s: Sampler) -> Sequence[int]:
-    """Samples by which the motion may be late: where the demodulated output resembles a_x + i a_y, or one of them, most."""
+_SLIPPED = (
+    *_SHIFTED[:2],
+    (
+        "omega_x, omega_y, omega_z are",
+        "columns",
+        "the rest",
+        lambda k: {"motion_later": k, "of": ("omega", "omegadot")},
+    ),
+    _SHIFTED[-1],
+)
+"""What one of two recorders may have recorded."""
+
+
+def _propose_slips(t: _Trial) -> list[Hypothesis]:
+    """From some instant on, some columns are late: one of two recorders lost samples, or wrote some twice, perhaps several times."""
+    s, n = t.s, len(t.s.flight)
+    quarters = [(n * k // 4, n * (k + 1) // 4) for k in range(4)]
+    likely = [(a, b, [k for k in _lags(s, a, b) if abs(k) < n // 8]) for a, b in quarters]
+    best: tuple[float, int, Index, Index] | None = None
+    for way, (*_, shift) in enumerate(_SLIPPED):
+        lags = {_find_lag(t, s.rows(a, b, SLIP_ROWS // 4), [0, *some], shift) for a, b, some in likely} | {0}
+        rows = s.rows(reach := max(map(abs, lags)), n - reach, SLIP_ROWS)
+        for late in _follow_lags(t, rows, sorted(lags), shift) if reach else ():
+            misfit = t.judge([s.take(rows, **shift(late))])[0]
+            if np.ptp(late) and (best is None or misfit < best[0]):
+                best = misfit, way, rows, late
+    if best is None:
+        return []
+    _, way, rows, late = best
+    name, columns, against, shift = _SLIPPED[way]
+    here = np.flatnonzero(np.diff(late))
+    edges = [0, *(here + 1), len(rows)]
+    alone = [(rows[a:b], [int(late[a])]) for a, b in pairwise(edges)]
+    lags = {0, *late.tolist(), *(_find_lag(t, some, near, shift) for some, near in alone)}
+    beside = [s.rows(int(rows[k]), int(rows[k + 1]) + 1, SLIP_ROWS) for k in here]
+    rows = np.union1d(rows, np.concatenate(beside)).astype(np.intp)
+    late = min(
+        _follow_lags(t, rows, sorted(lags), shift),
+        key=lambda late: t.judge([s.take(rows, **shift(late))])[0],
+    )
+    here = np.flatnonzero(np.diff(late)) + 1
+    if not len(here) or len(here) > MOST_SLIPS:
+        return []
+
+    def describe(k: int) -> str:
+        way = "late" if (k > 0) == (name != "the output is") else "early"
+        return (
+            f"{abs(k) / s.flight.rate:.6g} s ({abs(k)} sample{'s' * (abs(k) > 1)}) {way}" if k else "in time"
+        )
+
+    parts = [f"{describe(int(late[k]))} from t = {s.flight.time[rows[k]]:.5g} s on" for k in here]
+    parts = [f"{describe(int(late[0]))} at first", *parts] if late[0] else parts
+    what = f"{name} {', '.join(parts)}, against {against}: did one of two recorders lose samples, or repeat some?"
+    remedy = f"shift the {columns} back from there on, or cut the record there and diagnose the parts"
+    return [t.propose(what, remedy, COST + 1.0, s.take(rows, **shift(late)), calming=False)]
+
+
+def _find_lag(t: _Trial, rows: Index, lags: Sequence[int], shift: Callable[[Any], dict[str, Any]]) -> int:
+    """The lag, of some and from the best of these on while less is left, with which the model leaves least of some rows."""
+    tried: dict[int, float] = {}
+    waiting = [*lags]
+    while waiting and len(tried) < MOST_SHIFTS:
+        judged = t.judge(t.s.take(rows, **shift(k)) for k in waiting)
+        tried |= dict(zip(waiting, judged, strict=True))
+        best = min(tried, key=lambda k: tried[k])
+        waiting = [k for d in (-1, 1) if (k := best + d or d) not in tried]  # over 0, the record as it is
+    return best
+
+
+def _follow_lags(
+    t: _Trial, rows: Index, lags: Sequence[int], shift: Callable[[Index], dict[str, Any]]
+) -> Iterator[Index]:
+    """By how many samples, (rows,) of ``lags`` each, some columns are late all along: by the model as fitted to the first third as it is,
+    and to the last third with the lag that suits it best.
+    """
+    third = len(rows) // 3
+    many = [t.s.take(rows, **shift(np.full(len(rows), k))) for k in lags]
+    systems = list_systems(t.model, t.instrument, many)
+    ends = [slice(0, third), slice(len(rows) - third, None)]
+    for end, some in zip(ends, ([lags.index(0)], range(len(lags))), strict=True):
+        fits = [_fit_end(*systems[k], end) for k in some]
+        theta, rms = min(fits, key=lambda x: x[1])
+        square = np.array([np.sum((y - np.tensordot(theta, X, 1)) ** 2, axis=0) for X, y in systems])
+        yield np.asarray(lags)[find_path(np.log1p(square / rms**2), SWITCH)]
+
+
+def _fit_end(X: Array, y: Array, end: slice) -> tuple[Array, float]:
+    """Coefficients (n,) of columns (n, m, N) by some of their rows, and the size of what they leave there, Eo."""
+    some, left = X[:, :, end].reshape(len(X), -1), y[:, end].reshape(-1)
+    theta, kept, _ = fit_robustly(some, left)
+    return theta, max(float(np.sqrt(np.mean((left - theta @ some)[kept] ** 2))), 1e-12)
+
+
+def find_path(costs: Array, switch: float) -> Index:
+    """(N,): which of K states of costs (K, N) is followed at least cost where every change costs so much (A. Viterbi, IEEE Trans.
+    Inf. Theory 13, 1967, 260).
+    """
+    total, came = costs[:, 0], np.zeros(costs.T.shape, dtype=np.intp)
+    for k in range(1, costs.shape[1]):
+        least = int(np.argmin(total))
+        stays = total <= total[least] + switch
+        came[k] = np.where(stays, np.arange(len(total)), least)
+        total = np.where(stays, total, total[least] + switch) + costs[:, k]
+    path = np.full(len(came), int(np.argmin(total)))
+    for k in range(len(came) - 1, 0, -1):
+        path[k - 1] = came[k, path[k]]
+    return path
+
+
+def _lags(s: Sampler, first: int = 0, last: int | None = None) -> Sequence[int]:
+    """Samples by which the motion may be late in a segment: where the demodulated output resembles a_x + i a_y, or one of them, or,
+    at twice the spin rate, the square of the rates in the disc's plane, most.
+    """
     x, f = s.flight, abs(s.disc.spin_frequency)
-    if s.recorded.demodulated or not demodulable(x.rate) or (f > 0 and x.duration < 3 / f):
+    rows = np.arange(first, min(len(x) if last is None else last, first + LONGEST))
+    n = len(rows)
+    if s.recorded.demodulated or not demodulable(x.rate) or (f > 0 and n < 3 * x.rate / f):
         return ()
-    n = min(len(x), LONGEST)
-    whole = s.take(np.arange(n))
-    carried, in_plane = _mix(s, whole)
+    carried, in_plane = _mix(s, rows)
+    rates = x.channels["omega_x"][rows] + 1j * x.channels["omega_y"][rows]
     taps = low_pass(x.rate)
     narrow = fft.next_fast_len(n + len(taps))
     response = fft.fft(taps, narrow)
@@ -382,19 +500,21 @@ def _lags(s: Sampler) -> Sequence[int]:
         low = np.diff(low)  # slow drifts resemble each other at any lag
         return np.asarray(fft.fft(low - np.mean(low), size))
 
-    output = np.conj(prepared(carried))
+    turned = carried * np.exp(1j * s.take(rows).phi)
+    pairs = [(z, carried) for z in (in_plane, in_plane.real.astype(complex), in_plane.imag.astype(complex))]
     reach = min(n // 4, int(FARTHEST * x.rate))
     found: list[int] = []
-    for motion in map(prepared, (in_plane, in_plane.real.astype(complex), in_plane.imag.astype(complex))):
+    for motion, output in (tuple(map(prepared, pair)) for pair in (*pairs, (rates**2, turned))):
         for other in (motion, np.conj(np.roll(motion[::-1], 1))):
-            like = np.abs(fft.ifft(other * output))
+            like = np.abs(fft.ifft(other * np.conj(output)))
             top = int(np.argmax(np.concatenate([like[-reach:], like[: reach + 1]]))) - reach
             found += [k for k in range(top - 2, top + 3) if k not in found]
     return found
 
 
-def _mix(s: Sampler, whole: Rows) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """The output at the spin rate, and the specific force in the disc's plane, of the first rows of a record, (n,) each."""
+def _mix(s: Sampler, rows: Index) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    """The output at the spin rate, and the specific force in the disc's plane, of neighbouring rows of a record, (n,) each."""
+    whole = s.take(rows)
     data = whole.data[0] if len(whole.data) == 1 else whole.data[0] - whole.data[1]
-    output = np.where(s.usable[: len(data)], data, 0.0) * np.exp(1j * whole.phi)
+    output = np.where(s.usable[rows], data, 0.0) * np.exp(1j * whole.phi)
     return np.asarray(output), np.asarray(whole.channels["a_x"] + 1j * whole.channels["a_y"])

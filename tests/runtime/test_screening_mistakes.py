@@ -173,6 +173,24 @@ def test_a_record_of_two_instruments_is_said_with_the_time() -> None:
         screen(MODEL, drawn(12).sheet, replace(x, outputs={"G_out": G}))
 
 
+@pytest.mark.usefixtures("timing_alone")
+@pytest.mark.parametrize(("start", "samples"), [(("G_",), 2), (("a_", "om"), -5)])
+def test_a_recorder_that_slips_against_the_other_is_said_with_the_time(
+    start: tuple[str, ...], samples: int
+) -> None:
+    x = flown(12)
+    late = np.arange(len(x)) - np.where(x.time < 110.0, 0, samples)
+    late = np.minimum(late, len(x) - 1)
+    moved = {n: v[late] if n.startswith(start) else v for n, v in (*x.channels.items(), *x.outputs.items())}
+    slipped = replace(x, channels={n: moved[n] for n in x.channels}, outputs={"G_out": moved["G_out"]})
+    name, way = ("the output", "late") if samples > 0 else ("the motion record", "early")
+    said = (
+        rf"{name} is {abs(samples) / 16:g} s \({abs(samples)} samples\) {way} from t = 1(09|10)(\.\d+)? s on"
+    )
+    with pytest.raises(UserError, match=said):
+        screen(MODEL, drawn(12).sheet, slipped)
+
+
 @pytest.mark.parametrize("size", [0.025, 1.0])
 def test_a_clock_that_was_set_is_said_with_its_time(size: float) -> None:
     """Where rows seem to lack, as after a step of a second, none does."""
