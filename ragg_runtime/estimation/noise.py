@@ -198,6 +198,7 @@ def level_quantities(r: Record) -> list[str]:
     names += [f"abs({c[0][:-2]})" for c in (ANGULAR_RATE, ANGULAR_ACCELERATION) if set(c) <= set(r.wide)]
     if set(SPECIFIC_FORCE) <= set(r.wide):
         names += ["abs(a)", "input-rms", *(("input",) if r.turning else ())]
+        names += [f"input({k})" for k in r.different_axes] if len(r.different_axes) > 1 else []
     names += sorted(n for n in r.wide if n not in MOTION and not is_disc_angle(n))
     names += ["phi"] if r.turning else []
     names += [] if r.valid.all() else ["gap"]

@@ -102,7 +102,7 @@ def shapes(quantity: Callable[[str], Array], names: Iterable[str], level: Level)
     for n in dict.fromkeys(names):
         if n not in SHAPELESS:
             x = quantity(n)
-            found += [x, x**2] if n.startswith("abs(") or n in ("input-rms", "input") else [x]
+            found += [x, x**2] if n.startswith(("abs(", "input(")) or n in ("input-rms", "input") else [x]
     weight = np.broadcast_to(level.of(quantity), found[0].shape) ** -2.0
     return np.stack([np.ones_like(weight), *(f * weight for f in found)])
 
@@ -260,5 +260,7 @@ def in_words(level: Level) -> str | None:
         "input-rms": "with the specific force along the input axes",
         "input": "with the specific force along the input axes",
     }
-    said = [f"{names.get(p.name, f'with {p.name}')} ({p.ratio:.2g} times)" for p in level.parts]
+    one = "with the specific force along one input axis"
+    named = [names.get(p.name, one if p.name.startswith("input(") else f"with {p.name}") for p in level.parts]
+    said = [f"{name} ({p.ratio:.2g} times)" for name, p in zip(named, level.parts, strict=True)]
     return f"the noise level changes {' and '.join(said)}; samples are weighted accordingly"

@@ -33,6 +33,9 @@ from ragg_runtime.signals.derivative import (
 Array = NDArray[np.float64]
 
 
+PARALLEL = 1e-9
+"""Sine of the angle between two input axes below which they are parallel."""
+
 HALO = 32
 """Samples on either side that a part of a record keeps, so that second derivatives come out as in the whole."""
 
@@ -165,8 +168,9 @@ class Record:
 
     def quantity(self, name: str) -> Array:
         """(N,): what a level of noise may follow: ``time``, ``phi`` (from 0 to 2 pi), ``gap`` (samples from the next that is
-        not valid), a channel, ``abs(CHANNEL)``, ``abs(VECTOR)``, its length, ``input`` and ``input-rms``, mean and quadratic mean
-        of the specific force along the input axes of the output's accelerometers, which weigh by the power that they add.
+        not valid), a channel, ``abs(CHANNEL)``, ``abs(VECTOR)``, its length, ``input(K)``, the size of the specific force along the
+        input axis of the output's accelerometer K, ``input`` and ``input-rms``, mean and quadratic mean of these, which weigh by the
+        power that they add.
         """
         if name == "time":
             return self.time
@@ -174,12 +178,14 @@ class Record:
             return _from_gap(self.valid)
         if name == "phi":
             return np.asarray(np.mod(self.phi, 2 * np.pi))
-        if name in ("input", "input-rms"):
+        if name in ("input", "input-rms") or name.startswith("input("):
             x, y, _ = self.along_disc
             along, across = y * self.cos_phi - x * self.sin_phi, x * self.cos_phi + y * self.sin_phi
             forces = [(w, np.abs(along * cosine - across * sine)) for cosine, sine, w in self.input_axes]
             if name == "input":
                 return np.asarray(sum(w * f for w, f in forces))
+            if name != "input-rms":
+                return forces[int(name[6:-1])][1]
             return np.sqrt(sum((w * f**2 for w, f in forces), np.zeros(len(x))))
         if name in self.channels:
             return self.channels[name]
@@ -187,6 +193,15 @@ class Record:
         if inner in self.channels:
             return np.abs(self.channels[inner])
         return np.sqrt(sum((self.channels[f"{inner}_{k}"] ** 2 for k in "xyz"), np.zeros(len(self.time))))
+
+    @property
+    def different_axes(self) -> list[int]:
+        """Of the output's accelerometers those with different input axes, the first of each two that are parallel."""
+        found: list[int] = []
+        for k, (c, s, _) in enumerate(self.input_axes):
+            if all(abs(c * self.input_axes[j][1] - s * self.input_axes[j][0]) > PARALLEL for j in found):
+                found.append(k)
+        return found
 
     @property
     def along_disc(self) -> tuple[Array, Array, Array]:

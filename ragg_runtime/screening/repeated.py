@@ -88,11 +88,12 @@ def leave_out_repeated(flight: Flight) -> Flight:
             if r.how == "stuck" or name not in angles:  # a disc turns smoothly between two angles
                 valid &= ~r.left_out
     for sensor in (SPECIFIC_FORCE, ANGULAR_RATE):
-        names = [n for n in sensor if n in channels and n not in dict(found)]
-        lost = _find_lost_packets([channels[n] for n in names], flight.valid)
+        slower = {n for n, r in found if r.how != "stuck"}
+        names = [n for n in sensor if n in channels and n not in slower]
+        lost = _find_lost_packets([channels[n] for n in names], valid)
         if lost.any():
             found += [(n, _Repeated("not renewed", lost, 0.0)) for n in names]
-            channels |= {n: _interpolated(channels[n], flight.valid & ~lost, True) for n in names}
+            channels |= {n: _interpolated(channels[n], valid & ~lost, True) for n in names}
             valid &= ~lost
     if not found:
         return flight

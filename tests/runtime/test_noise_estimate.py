@@ -161,16 +161,20 @@ def test_tails_beyond_all_floats_are_known(ratio: float, d1: float, d2: float) -
 
 
 def test_noise_in_proportion_to_a_force_is_no_random_effect() -> None:
-    """Its level follows the force along the input axes; the angle's jitter, louder where that is, explains no more."""
+    """Its level follows the force along the input axes, or along one; the angle's jitter, louder where that is, explains no more."""
     rng = np.random.default_rng(9)
     force, phi = rng.normal(size=(2, 4800)), np.arange(4800) * 0.1
     across = np.abs(force[1] * np.cos(phi) - force[0] * np.sin(phi))
     along = np.abs(force[0] * np.cos(phi) + force[1] * np.sin(phi))
-    loud = np.hypot(0.2 + across, 0.2 + along)
     x = {**quantities(4800, rng), "input-rms": np.hypot(*force), "input": across + along}
+    x |= {"input(0)": across, "input(2)": along}
     jitter = (0.8 * along + 0.3 * across) ** 2
-    level = estimated(loud * rng.normal(size=4800), x, {"jitter": jitter})
-    assert level.parts[0].name in ("input-rms", "input")
+    for loud, names in (
+        (np.hypot(0.2 + across, 0.2 + along), ("input-rms", "input")),
+        (0.2 + along, ("input(2)",)),
+    ):
+        level = estimated(loud * rng.normal(size=4800), x, {"jitter": jitter})
+        assert level.parts[0].name in names
 
 
 def test_noise_about_the_carrier_is_resolved() -> None:

@@ -204,6 +204,14 @@ def test_readings_that_did_not_arrive_are_left_out() -> None:
     assert leave_out_repeated(Flight(TIME, coarse, {})).valid.all()
 
 
+def test_short_drop_outs_beside_a_long_one_are_left_out_as_well() -> None:
+    rng, zero = np.random.default_rng(8), [*range(100, 140), 300, 301, 600]
+    motion = {n: rng.standard_normal(N) for n in SPECIFIC_FORCE}
+    for x in motion.values():
+        x[zero] = 0.0
+    assert np.flatnonzero(~leave_out_repeated(Flight(TIME, motion, {})).valid).tolist() == zero
+
+
 def test_numbers_that_overflow_are_said() -> None:
     full = 0.9 * np.max(SMOOTH)
     wrapped = (SMOOTH + full) % (2 * full) - full
