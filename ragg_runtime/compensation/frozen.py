@@ -160,7 +160,7 @@ def compare_frozen(model: Model, instrument: Instrument, flights: Sequence[Fligh
     frozen, fitted, held_out, nominal = comparison.errors(f, [np.zeros(f.n_base), free, half])
     return Held(
         # nothing of these flights was fitted: all of their time is held out
-        comparison=comparison.concluded(f, nominal.whole, frozen, frozen.whole),
+        comparison=comparison.conclude(f, nominal.whole, frozen, frozen.whole),
         saved=saved,
         free=fitted.whole,
         free_holdout=held_out.held_out,

@@ -171,9 +171,9 @@ class Fitted:
         v[[self.n_base + k for k in extra]] = coefficients[self.n_base :]
         return v
 
-    def residuals(self, coefficients: Array, extra: Sequence[int] = ()) -> list[Array]:
-        """Residual of G_out, (N,) V, of every flight once these coefficients are in."""
-        return self.residuals_of(self.vector(coefficients, extra))
+    def residuals(self, coefficients: Array) -> list[Array]:
+        """Residual of G_out, (N,) V, of every flight once these coefficients of the base are in."""
+        return self.residuals_of(self.vector(coefficients))
 
     def residuals_of(self, v: Array) -> list[Array]:
         """The same with the coefficients of all regressors, (size,)."""
@@ -351,24 +351,3 @@ def noise_floor(f: Fitted) -> float:
     for x, k_ggi, fast in zip(f.prepared, f.scales, f.beyond, strict=True):
         variances.append((estimated(x) + fast) / (k_ggi / f.k_ggi) ** 2)
     return float(np.sqrt(np.mean(variances))) / f.k_ggi
-
-
-@dataclass(frozen=True)
-class Posterior:
-    """Fitted values (k,) in scales, and their covariance (k, k)."""
-
-    value: Array
-    covariance: Array
-
-    def std(self, weights: Array) -> float:
-        """Standard deviation of ``weights @ value``."""
-        return float(np.sqrt(max(0.0, float(weights @ self.covariance @ weights))))
-
-    def of(self, places: Sequence[int]) -> Posterior:
-        """Of some of the parameters."""
-        return Posterior(self.value[list(places)], self.covariance[np.ix_(places, places)])
-
-
-def posterior(f: Fitted, extra: Sequence[int] = ()) -> Posterior:
-    """Base parameters (as steps from the calibrated ones) and ``extra`` candidates, priors of both included."""
-    return Posterior(*f.coefficients(extra))

@@ -208,7 +208,7 @@ L = TypeVar("L", bound=Linear)
 
 @dataclass(frozen=True)
 class Minimum(Generic[L]):
-    """Where the search ended: ``x`` (n,), the problem linearised ``at`` it, and the ``trials`` it took.
+    """Where the search ended: ``x`` (n,), the problem linearised ``at`` it, and why the search ended there.
 
     ``faithful``: the last step did what was promised of it, and none before had to be shortened.
     """
@@ -217,7 +217,6 @@ class Minimum(Generic[L]):
     at: L
     converged: bool
     reason: str
-    trials: int
     faithful: bool = False
 
     @property
@@ -239,7 +238,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
     radius, faithful, trials = np.inf, False, 1
 
     def ended(converged: bool, reason: str, faithful: bool = False) -> Minimum[L]:
-        return Minimum(x=x, at=at, converged=converged, reason=reason, trials=trials, faithful=faithful)
+        return Minimum(x=x, at=at, converged=converged, reason=reason, faithful=faithful)
 
     if not np.isfinite(at.cost):
         return ended(False, "the model output is not finite at the starting point")

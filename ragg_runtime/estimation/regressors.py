@@ -174,12 +174,12 @@ def level_biases(coefficients: Array, sums: Array, biases: Sequence[int]) -> Arr
     return shifted
 
 
-def grouped(columns: Iterable[Column], offset: int = 0) -> dict[str, list[tuple[int, Column]]]:
+def grouped(columns: Iterable[Column]) -> dict[str, list[tuple[int, Column]]]:
     """Effect id -> its (position, column)s."""
     groups: dict[str, list[tuple[int, Column]]] = {}
     for n, c in enumerate(columns):
         if c.effect is not None:
-            groups.setdefault(c.effect, []).append((n + offset, c))
+            groups.setdefault(c.effect, []).append((n, c))
     return groups
 
 

@@ -86,7 +86,7 @@ def shortest_demodulated(rate: float) -> int:
     return len(low_pass(rate)) + int(2 * rate)
 
 
-def error(residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_] | None = None) -> Error:
+def error(residual: Array, r: Record, k_ggi: float) -> Error:
     """The error object of a residual of G_out.
 
     Parameters
@@ -95,12 +95,9 @@ def error(residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_] 
         (N,) V.
     k_ggi
         V/Eo.
-    selected
-        (N,) bool: the samples to count (default: all valid ones).
     """
-    chosen = r.valid if selected is None else (selected & r.valid)
-    rms = float(np.sqrt(np.mean(residual[chosen] ** 2))) if np.any(chosen) else float("nan")
-    _, inline, cross = channels(residual, r, k_ggi, chosen)
+    rms = float(np.sqrt(np.mean(residual[r.valid] ** 2))) if np.any(r.valid) else float("nan")
+    _, inline, cross = channels(residual, r, k_ggi, r.valid)
     i, c = (float(np.std(x)) if len(x) > 1 else float("nan") for x in (inline, cross))
     return Error.of(rms, rms / k_ggi, i, c)
 

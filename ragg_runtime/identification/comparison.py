@@ -40,20 +40,20 @@ power is below the lowest frequency at which its spectrum is estimated, is up to
 
 @dataclass(frozen=True, repr=False)
 class Comparison:
-    """The result of ``compare``; ``adequate`` and ``remainder`` are ``None`` where the errors alone were asked for."""
+    """The result of ``compare``."""
 
     fitted: Fitted
     nominal: Error
     scored: Scored
     holdout: Error
     noise_floor: float
-    adequate: bool | None
-    remainder: Remainder | None
-    complaint: str | None = None
-    remark: str | None = None
-    off_sheet: tuple[OffSheet, ...] = ()
-    explained: Explained | None = None
-    grounds: tuple[str, ...] = ()
+    adequate: bool
+    remainder: Remainder
+    complaint: str | None
+    remark: str | None
+    off_sheet: tuple[OffSheet, ...]
+    explained: Explained
+    grounds: tuple[str, ...]
     """Tests by which the model is not adequate, in words."""
 
     @property
@@ -104,7 +104,7 @@ class Comparison:
                 "holdout": self.holdout.as_json(),
             },
             "noise_floor": series.noise_floor_json(f, self.noise_floor),
-            "explained": None if self.explained is None else {"share": self.explained.share},
+            "explained": {"share": self.explained.share},
             "converged": self.converged,
             "reason": self.complaint or self.remark,
             "off_sheet": [x.as_json() for x in self.off_sheet],
@@ -134,7 +134,7 @@ class Comparison:
 
     def terms(self) -> list[dict[str, object]]:
         """Generic terms in the calibrated residual (see :func:`terms_json`)."""
-        return [] if self.remainder is None else terms_json(self.remainder, self.scored.mean_square)
+        return terms_json(self.remainder, self.scored.mean_square)
 
     def by_time(self) -> list[dict[str, object]]:
         """Error in every block of time, Eo, largest first."""
@@ -201,22 +201,17 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
 
 
 @one_thread
-def compare(
-    model: Model, instrument: Instrument, flights: Sequence[Flight], *, judged: bool = True
-) -> Comparison:
-    """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails.
-
-    Without ``judged`` neither the candidates are tested nor what is left is searched.
-    """
+def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:
+    """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
     observations = observations_of(flights, instrument)
-    f = fit(model, instrument, observations, candidates=judged)
+    f = fit(model, instrument, observations)
     calibrated, half, nominal = _three_scores(f)
     if calibrated.whole.rms_V > nominal.whole.rms_V:
         # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
         noise = f.calibration.noise
-        f = fit(model, instrument, observations, noise, unweighted=True, candidates=judged)
+        f = fit(model, instrument, observations, noise, unweighted=True)
         calibrated, half, nominal = _three_scores(f)
-    return concluded(f, nominal.whole, calibrated, half.held_out, judged=judged)
+    return conclude(f, nominal.whole, calibrated, half.held_out)
 
 
 def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
@@ -232,26 +227,22 @@ def errors(f: Fitted, coefficients: Sequence[Array]) -> list[Scored]:
     return f.score([f.vector(c) for c in coefficients], lambda x: nominal_residual(f, p, x)[None], 1)
 
 
-def concluded(
-    f: Fitted, nominal: Error, calibrated: Scored, holdout: Error, *, judged: bool = True
-) -> Comparison:
-    """Search the residual, and decide whether the model is adequate (if it is to be ``judged``)."""
-    rem = remainder(f) if judged else None
-    available = testable_effects(f) if judged else []
+def conclude(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> Comparison:
+    """Search the residual, and decide whether the model is adequate."""
+    rem, available = remainder(f), testable_effects(f)
     choice = selection.choose(field_of(f, available)) if available else None
     complaint = f.calibration.complaint
     noise = noise_floor(f)
     output_explained = explained(f, calibrated)
-    doubt = output_explained.complaint if judged else None
-    grounds = [] if rem is None else _grounds(exceeds_noise(f, calibrated, noise), rem, choice)
-    adequate = None if rem is None else complaint is None and doubt is None and not grounds
+    doubt = output_explained.complaint
+    grounds = _grounds(exceeds_noise(f, calibrated, noise), rem, choice)
     return Comparison(
         fitted=f,
         nominal=nominal,
         scored=calibrated,
         holdout=holdout,
         noise_floor=noise,
-        adequate=adequate,
+        adequate=complaint is None and doubt is None and not grounds,
         remainder=rem,
         complaint=complaint,
         remark=doubt or disturbed(f),

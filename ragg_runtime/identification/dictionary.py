@@ -9,7 +9,7 @@ fifteen of them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement, product
 
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import series_name
+from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation.observation import segments
 from ragg_runtime.identification import features
 from ragg_runtime.identification.features import OUTPUT, Relaxations
@@ -51,6 +52,9 @@ FRICTION = (0.2, 0.5, 1)
 
 WARMTH = (5, 20, 60)
 """The same of squares: what the power that a motion dissipates warms."""
+
+TOGETHER = 32
+"""Terms whose series are made at a time."""
 
 OF_OUTPUT = ((OUTPUT, OUTPUT), (OUTPUT, OUTPUT, OUTPUT), (f"abs({OUTPUT})",), (f"sign({OUTPUT})",))
 """Terms of the output itself."""
@@ -138,17 +142,26 @@ class Dictionary:
             x = x * self._channel(name, r)
         return x
 
-    def chunks(self, r: Record, terms: Sequence[Term] | None = None, most: int = 32) -> Chunks:
-        """The terms over a part of a flight, ``most`` at a time."""
-        chosen = self.terms if terms is None else terms
+    def make_chunks(self, r: Record, chosen: Sequence[Term]) -> Iterator[tuple[slice, Singles]]:
+        """Of some terms, a few at a time, the places and their series (terms, N) over ``size``, zero where not valid."""
         carriers = {h: carrier(r, h).astype(np.float32) for h in dict.fromkeys(t.harmonic for t in chosen)}
         wanted = dict.fromkeys(n for t in chosen for n in t.channels)
         channels = {
             n: (np.where(r.valid, self._channel(n, r), 0.0) / self._size[n]).astype(np.float32)
             for n in wanted
         }
-        nothing = np.where(r.valid, np.float32(1.0), np.float32(0.0))
-        return Chunks(terms=chosen, most=most, carriers=carriers, channels=channels, one=nothing)
+        one = np.where(r.valid, np.float32(1.0), np.float32(0.0))
+        for some in split_range(len(chosen), TOGETHER):
+            part = chosen[some]
+            x = np.empty((len(part), len(one)), dtype=np.float32)
+            product, of = one, tuple[str, ...]()
+            for n, t in enumerate(part):
+                if t.channels != of:
+                    product, of = one, t.channels
+                    for name in of:
+                        product = product * channels[name]
+                np.multiply(product, carriers[t.harmonic], out=x[n])
+            yield some, x
 
     def _channel(self, name: str, r: Record) -> Array:
         if name in self._of_output:
@@ -156,37 +169,6 @@ class Dictionary:
             return self._of_output[name][first : first + len(r.time)]
         x = self._slow.series(name, r) if features.is_slow(name) else features.series(name, r)
         return np.asarray(x - self.centre.get(name, 0.0))
-
-
-@dataclass(frozen=True)
-class Chunks(Sequence[tuple[slice, Singles]]):
-    """Places of terms, and their series over ``size``, (terms, N), zero where not valid: made when they are asked for.
-
-    ``one`` (N,) is the product of no channels.
-    """
-
-    terms: Sequence[Term]
-    most: int
-    carriers: Mapping[str, Singles]
-    channels: Mapping[str, Singles]
-    one: Singles
-
-    def __len__(self) -> int:
-        return -(-len(self.terms) // self.most)
-
-    def __getitem__(self, k: int) -> tuple[slice, Singles]:  # type: ignore[override]
-        if not 0 <= k < len(self):
-            raise IndexError(k)
-        part = self.terms[k * self.most : (k + 1) * self.most]
-        x = np.empty((len(part), len(self.one)), dtype=np.float32)
-        product, of = self.one, tuple[str, ...]()
-        for n, t in enumerate(part):
-            if t.channels != of:
-                product, of = self.one, t.channels
-                for name in of:
-                    product = product * self.channels[name]
-            np.multiply(product, self.carriers[t.harmonic], out=x[n])
-        return slice(k * self.most, k * self.most + len(part)), x
 
 
 def _functions_of(output: Array) -> dict[str, Array]:

@@ -26,11 +26,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Step:
-    """The first sample after the most likely instant of a step, and its test, chosen from so many variants."""
+    """The first sample after the most likely instant of a step, and its test."""
 
     sample: int
     test: Test
-    variants: int
 
 
 def best_steps(
@@ -66,7 +65,7 @@ def best_steps(
         P = likelihood_ratio.project(fold([before, after[len(edges) - n]]), k)
         tests.append([likelihood_ratio.test(P, own, floor, float(np.log(2 * BLOCKS))) for own in named])
     best = [min(zip(edges, own, strict=True), key=lambda at: at[1].log_p) for own in zip(*tests, strict=True)]
-    return [Step(edge, test, 2 * BLOCKS) for edge, test in best]
+    return [Step(edge, test) for edge, test in best]
 
 
 FINE = 192

@@ -71,7 +71,7 @@ class Directions:
         lead = min(rows.start, max(len(t) for t in self.filters) - 1)
         wide = self.whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
         valid = o.record.valid
-        for at, x in self.dictionary.chunks(wide, terms):
+        for at, x in self.dictionary.make_chunks(wide, terms):
             if o.recorded.demodulated:  # what the recorder made of G_out before it was recorded
                 x = o.recorded.through(x.astype(np.float64), wide).astype(np.float32)
                 x[:, ~wide.valid] = 0.0

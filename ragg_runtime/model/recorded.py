@@ -13,7 +13,6 @@ from ragg_runtime.instrument.layout import Layout, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
@@ -67,11 +66,11 @@ class RecordedSeries:
             v = full
         return v if self.separate else np.asarray(np.array(o.signs, dtype=np.float64) @ v)[None]
 
-    def through(self, G: Array, r: Record, low: Demodulator | None = None) -> Array:
-        """What the recorder lets pass of the output (..., N) before demodulation, by its low-pass or another one."""
+    def through(self, G: Array, r: Record) -> Array:
+        """What the recorder lets pass of the output (..., N) before demodulation."""
         if not self.demodulated:
             return G
-        taps = (low or r.low_pass).centred
+        taps = r.low_pass.centred
         cosine, sine = r.quadratures
         in_phase = convolved(2 * G * sine, taps, "same")
         quadrature = convolved(2 * G * cosine, taps, "same")

@@ -81,7 +81,7 @@ def _ask_whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
 def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
     """The sections, that on where the model fails with its figures."""
     f = c.fitted
-    harmonics = panels.plot_harmonics(f, f.vector(np.zeros(f.n_base)), "where")
+    harmonics = panels.plot_harmonics(f, f.vector(np.zeros(f.n_base)))
     if any(s.title == "Where it fails" for s in sections):
         return [_with_plots(s, harmonics) if s.title == "Where it fails" else s for s in sections]
     return [*sections, *_figure("Residual by harmonic of the spin", harmonics)]
@@ -95,7 +95,7 @@ def write_diagnosis(d: Diagnosis, origin: Origin) -> str:
     parts = {s.title: s for s in said[1:]}
     open_ = []
     if d.verdict in ("unexplained", "partly-explained"):
-        harmonics = panels.plot_harmonics(f, d.coefficients, "where")
+        harmonics = panels.plot_harmonics(f, d.coefficients)
         rest = parts.pop("Not explained", Section(title="Not explained"))
         open_.append(_with_plots(rest, harmonics))
     open_ += [parts.pop(name) for name in ("Values", "Next motion") if name in parts]

@@ -164,7 +164,7 @@ def plot_measured(f: Fitted, residual: Residuals) -> Curves:
     return Curves("measured", caption, axes, SECONDS, height=1.5)
 
 
-def plot_harmonics(f: Fitted, coefficients: Array, key: str) -> Bars | None:
+def plot_harmonics(f: Fitted, coefficients: Array) -> Bars | None:
     """The slow error at every harmonic of the spin, with what noise alone gives."""
     rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.harmonic_errors(f, coefficients)}
     noise = series.harmonic_noise(f, rows)
@@ -182,7 +182,7 @@ def plot_harmonics(f: Fitted, coefficients: Array, key: str) -> Bars | None:
         "Residual by harmonic of the spin, multiplied by 1, 2 cos kΩt or 2 sin kΩt and low-passed at 0.2 Hz as the"
         " demodulator does; the demodulator reads harmonic 2 as gradient. Grey: not above the noise."
     )
-    return Bars(f"{key}-harmonic", caption, bars, "slow error, Eo")
+    return Bars("where-harmonic", caption, bars, "slow error, Eo")
 
 
 def list_error_steps(steps: Sequence[Mapping[str, Any]], now: float | None = None) -> list[Bar]:

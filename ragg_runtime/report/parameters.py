@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from ragg_runtime.compensation.calibrate import list_combinations, list_parameters
-from ragg_runtime.estimation.fitted import Fitted, posterior
+from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.identification import parameters as combinations
 from ragg_runtime.identification.parameters import UNSEEN
@@ -94,7 +94,7 @@ def find_directions(f: Fitted) -> tuple[list[Direction], Array]:
 def find_visibility(f: Fitted) -> Visibility:
     """Which directions of the parameters the record determines, and which it leaves at their prior."""
     directions, U = find_directions(f)
-    variance, vectors = np.linalg.eigh(U @ posterior(f).covariance @ U.T)
+    variance, vectors = np.linalg.eigh(U @ f.coefficients(())[1] @ U.T)
     null = vectors[:, variance >= DETERMINED**2]
     P = null @ null.T
     own_share = np.diag(P)
@@ -177,7 +177,7 @@ def correlate_parameters(f: Fitted) -> tuple[Matrix, list[tuple[str, str, str]]]
     Of more than can be labelled in it, it has those with the largest correlations.
     """
     directions, U = find_directions(f)
-    covariance = U @ posterior(f).covariance @ U.T
+    covariance = U @ f.coefficients(())[1] @ U.T
     std = np.sqrt(np.diag(covariance))
     kept = np.flatnonzero(std < UNSEEN)
     r = (covariance / np.outer(std, std))[np.ix_(kept, kept)]

@@ -78,9 +78,7 @@ def counted(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def tabulate_errors(
-    rows: Sequence[tuple[str, Json | None]], title: str = "Errors", *, detail: bool = False
-) -> Section:
+def tabulate_errors(rows: Sequence[tuple[str, Json | None]]) -> Section:
     """The table of errors, before demodulation and of both channels; a dash where there is none."""
     given = [e for _, e in rows if e is not None]
     shown = [k for k in ERROR_HEADS if k == "rms_Eo" or any(e.get(k) is not None for e in given)]
@@ -90,7 +88,7 @@ def tabulate_errors(
     missing = bool(given) and all(e.get("inline_Eo") is None for e in given)
     note = f"No demodulated channels: {why}" if missing else ""
     table = Table(heads=heads, rows=tuple(cells), note=note)
-    return Section(title=title, table=table, detail=detail)
+    return Section(title="Errors", table=table)
 
 
 def make_floor_row(c: Json) -> tuple[str, Json]:

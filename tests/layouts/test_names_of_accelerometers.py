@@ -26,7 +26,7 @@ def test_what_is_far_off_its_sheet_is_called_by_its_name_there() -> None:
     flight = flown_by(replace(sheet, accelerometers={**sheet.accelerometers, "K1": K1}), 120.0)
     model = derive.derived((), (), sheet.form, sheet.layout)[0]
 
-    farthest = compare(model, sheet, [flight], judged=False).off_sheet[0]
+    farthest = compare(model, sheet, [flight]).off_sheet[0]
     assert farthest.in_words().startswith("K1 of south is ")
     assert farthest.as_json()["accelerometer"] == 2
     assert farthest.as_json()["accelerometer_name"] == "south"

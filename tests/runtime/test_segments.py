@@ -12,7 +12,7 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, beginnings, segments, spread
 from ragg_runtime.estimation.regressors import LinearisationPoint
-from ragg_runtime.identification import comparison, contenders, omnibus, selection
+from ragg_runtime.identification import contenders, omnibus, selection
 from ragg_runtime.identification.contenders import ContenderFit
 from ragg_runtime.identification.selection import field_of
 from ragg_runtime.io import Flight
@@ -86,7 +86,8 @@ def test_single_missing_samples_do_not_silence_the_demodulator(flown: tuple[Scen
     found = {}
     for name, valid in (("whole", np.ones(len(flight.time), dtype=bool)), ("scattered", scattered)):
         x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
-        found[name] = comparison.compare(model.packaged(), s.sheet, [x], judged=False).scored
+        f = fitted.fit(model.packaged(), s.sheet, observation.observations_of([x], s.sheet), candidates=False)
+        (found[name],) = f.score([np.zeros(f.size)])
     for part in ("whole", "held_out"):
         a, b = getattr(found["whole"], part), getattr(found["scattered"], part)
         assert b.inline_Eo == pytest.approx(a.inline_Eo, rel=0.1)
