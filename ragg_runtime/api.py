@@ -35,7 +35,7 @@ from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.next_motion import LIMITS
-from ragg_runtime.identification.parameters import ParameterValue, calibrated
+from ragg_runtime.identification.parameters import Estimates, ParameterValue
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.series import noise_floor_json
@@ -303,7 +303,8 @@ def add(
     combinations: tuple[ParameterValue, ...] = ()
     if flights:
         after = _compare.compare(model, extended, flights)
-        parameters, combinations = calibrated(after.fitted, effect)
+        found = Estimates.of_calibration(after.fitted).select(effect)
+        parameters, combinations = found.list_parameters(), found.list_combinations()
         values = {**setting.values, **_written(parameters, m.instrument.layout.size)}
         setting = replace(setting, values=MappingProxyType(values))
         after = after.with_nominal(replace(extended, effects=(*others.effects, setting)))

@@ -70,7 +70,8 @@ class Calibrated:
 
 def list_parameters(f: Fitted) -> list[dict[str, Any]]:
     """Every fitted parameter with its prior, as in JSON."""
-    c, values = f.calibration, find_values_in_scales(f)
+    c = f.calibration
+    values = c.in_scales
     found = []
     for k, (q, column) in enumerate(
         zip(parameter_values(c.columns, values, c.covariance), c.columns, strict=True)
@@ -86,7 +87,7 @@ def list_parameters(f: Fitted) -> list[dict[str, Any]]:
 def list_combinations(f: Fitted) -> list[dict[str, Any]]:
     """What the record determines: combinations of accelerometers', and single values, as JSON has them."""
     columns, layout = f.calibration.columns, f.model.layout
-    values, root = find_values_in_scales(f), invert_root(information(f))
+    values, root = f.calibration.in_scales, invert_root(information(f))
     found = combinations_seen(f.model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ root)))
     single = np.linalg.norm(root, axis=1) < SEEN
     for name in dict.fromkeys(c.name for c in columns):
@@ -158,12 +159,6 @@ def find_ranges(flights: Sequence[Flight]) -> Mapping[str, tuple[float, float]]:
 
 
 # --- results of a fit in scales: units of the prior widths of its parameters
-
-
-def find_values_in_scales(f: Fitted) -> Array:
-    """(n,): the fitted parameters."""
-    c = f.calibration
-    return np.asarray(c.p[c.index] / np.array([q.scale for q in c.columns]))
 
 
 def information(f: Fitted) -> Array:

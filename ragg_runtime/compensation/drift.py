@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
-from ragg_runtime.compensation.calibrate import find_values_in_scales, invert_root, list_base_r_factors
+from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.least_squares import join
 from ragg_runtime.estimation.observation import BLOCKS, block_edges
@@ -63,7 +63,7 @@ class Drift:
         """The rates of those that walk, and their values in every block."""
         columns = self.f.calibration.columns
         names = {o.flight: o.flight_name for o in self.f.observations}
-        values = find_values_in_scales(self.f) + self.steps
+        values = self.f.calibration.in_scales + self.steps
         rates, states = [], []
         for name, rate in self.rates.items():
             own = [q for q in columns if q.name == name]

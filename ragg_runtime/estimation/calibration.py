@@ -54,6 +54,11 @@ class Calibration:
     reason: str
 
     @property
+    def in_scales(self) -> Array:
+        """(n,): the fitted parameters, each over its scale."""
+        return np.asarray(self.p[self.index] / np.array([c.scale for c in self.columns]))
+
+    @property
     def complaint(self) -> str | None:
         """Why it is not to be trusted, in words; ``None`` if it is."""
         return None if self.converged else f"the calibration has not converged: {self.reason}"

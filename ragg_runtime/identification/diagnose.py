@@ -16,7 +16,6 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.calibration import QUIET, off_sheet
 from ragg_runtime.estimation.fitted import Fitted, calibrated, fit, with_held
 from ragg_runtime.estimation.observation import Observation, observations_of
-from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.estimation.thinning import thinned
 from ragg_runtime.identification import (
@@ -26,14 +25,13 @@ from ragg_runtime.identification import (
 from ragg_runtime.identification.claims import Regression, Robust, with_shift
 from ragg_runtime.identification.contenders import Extend
 from ragg_runtime.identification.omnibus import Remainder
-from ragg_runtime.identification.parameters import parameter_values, visible_combinations
+from ragg_runtime.identification.parameters import Estimates
 from ragg_runtime.identification.ranking import (
     Ranked,
     list_detectable,
     list_not_testable,
     placed,
     rank_effects,
-    rank_random,
     staged,
     weighed,
     with_probability,
@@ -139,7 +137,7 @@ def complete_ranking(
     """The effects in the order of the ranking; ``ranking`` is the first stage's, ``before`` the error without any."""
     steps, last = evidence.steps, evidence.last
     random = {} if found.remains else found.outcome.random
-    ranking = [*ranking, *rank_random(random, before)]
+    ranking = [*ranking, *(Ranked.without_columns(e, t, before) for e, t in random.items())]
     if steps:
         chosen = last.choice.chosen
         later = (
@@ -157,24 +155,14 @@ def complete_ranking(
     fitted = [q.label for q in (*o.target.calibration.columns, *(o.target.candidates[k] for k in o.given))]
     columns = [*free.calibration.columns, *(free.candidates[k] for k in given)]
     robust = Robust.of(Regression.of(free, given))
+    # the values as they stand beside all that is claimed, and a covariance that knows of what remains
     covariance = with_shift(robust, found.left, [q.label for q in columns], fitted)
+    values = robust.value - robust.regression.absent
+    claimed = Estimates(free.model, free.calibration.p, columns, values, covariance)
     return [
-        _beside_rest(r, free, columns, robust, covariance) if r.effect in found.claims else r for r in ranking
+        r.with_estimates(claimed.select(r.effect), r.instant) if r.effect in found.claims else r
+        for r in ranking
     ]
-
-
-def _beside_rest(r: Ranked, f: Fitted, every: Sequence[Column], robust: Robust, covariance: Array) -> Ranked:
-    """A row with the values as they stand beside all that is claimed, and a covariance that knows of what remains."""
-    E = [k for k, q in enumerate(every) if q.effect == r.effect]
-    columns = [every[k] for k in E]
-    values = (robust.value - robust.regression.absent)[E]
-    instant = [q for q in r.parameters if q.name == "t_step"]
-    own = covariance[np.ix_(E, E)]
-    return replace(
-        r,
-        parameters=(*parameter_values(columns, values, own), *instant),
-        combinations=tuple(visible_combinations(f.model, f.calibration.p, columns, values, own)),
-    )
 
 
 def _followed(

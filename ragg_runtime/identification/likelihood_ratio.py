@@ -209,7 +209,8 @@ class Variance:
     def test(self) -> Test:
         """Score test of the variance, with the residual's own fourth moment, so that heavy tails raise no alarm."""
         z, _ = excess(self.gram)
-        return Test(max(z, 0.0) ** 2, 1, float(special.log_ndtr(-z)), (0,))
+        chi2 = max(z, 0.0) ** 2
+        return Test(chi2, 1, float(special.log_ndtr(-z)), (0,), float(log_bayes(chi2, 1)))
 
 
 def pooled(parts: Sequence[Variance]) -> Variance:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -144,38 +144,53 @@ def combinations_seen(
     return found
 
 
-def visible_combinations(
-    model: Model, p: Array, columns: Sequence[Column], values: Array, covariance: Array
-) -> list[ParameterValue]:
-    """:func:`combinations_seen` of values (n,) in scales with their covariance."""
+@dataclass(frozen=True)
+class Estimates:
+    """Fitted values (n,) of columns, in scales, with their covariance (n, n); ``p`` is the parameter vector of the model, SI."""
 
-    def std(w: Array) -> float:
-        return float(np.sqrt(max(0.0, float(w @ covariance @ w))))
+    model: Model
+    p: Array
+    columns: Sequence[Column]
+    values: Array
+    covariance: Array
 
-    return [
-        ParameterValue(
-            name=q.name,
-            accelerometer=None,
-            value=float(q.weights @ values),
-            std=std(q.weights),
-            unit=q.unit,
-            weights=q.shares,
+    @staticmethod
+    def of_calibration(f: Fitted) -> Estimates:
+        """The calibrated parameters of a model."""
+        c = f.calibration
+        return Estimates(f.model, c.p, c.columns, c.in_scales, c.covariance)
+
+    def select(self, effect: str | None) -> Estimates:
+        """Those of one effect, or, of none, of the instrument."""
+        own = [k for k, c in enumerate(self.columns) if c.effect == effect]
+        return replace(
+            self,
+            columns=[self.columns[k] for k in own],
+            values=self.values[own],
+            covariance=self.covariance[np.ix_(own, own)],
         )
-        for q in combinations_seen(model, p, columns, std)
-    ]
 
+    def list_parameters(self) -> tuple[ParameterValue, ...]:
+        """Each in its display unit."""
+        return tuple(parameter_values(self.columns, self.values, self.covariance))
 
-def calibrated(f: Fitted, effect: str) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:
-    """The calibrated parameters of an effect that is in the model, and the combinations that are seen."""
-    c = f.calibration
-    mine = [n for n, column in enumerate(c.columns) if column.effect == effect]
-    columns = [c.columns[n] for n in mine]
-    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in mine])
-    covariance = c.covariance[np.ix_(mine, mine)]
-    return (
-        tuple(parameter_values(columns, values, covariance)),
-        tuple(visible_combinations(f.model, c.p, columns, values, covariance)),
-    )
+    def list_combinations(self) -> tuple[ParameterValue, ...]:
+        """What the record sees of the accelerometers' values together (:func:`combinations_seen`)."""
+
+        def std(w: Array) -> float:
+            return float(np.sqrt(max(0.0, float(w @ self.covariance @ w))))
+
+        return tuple(
+            ParameterValue(
+                name=q.name,
+                accelerometer=None,
+                value=float(q.weights @ self.values),
+                std=std(q.weights),
+                unit=q.unit,
+                weights=q.shares,
+            )
+            for q in combinations_seen(self.model, self.p, self.columns, std)
+        )
 
 
 def physical_columns(f: Fitted) -> list[tuple[int, Column, DerivedParameter]]:

@@ -11,8 +11,8 @@ from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted, with_held
 from ragg_runtime.estimation.scores import Error, finite
 from ragg_runtime.identification import likelihood_ratio, probability, selection, sheet
-from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
-from ragg_runtime.identification.parameters import ParameterValue, parameter_values, visible_combinations
+from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification.parameters import Estimates, ParameterValue
 from ragg_runtime.identification.probability import Probabilities
 from ragg_runtime.identification.selection import Choice, Field
 from ragg_runtime.identification.strong import AddedEffect
@@ -21,23 +21,44 @@ from ragg_runtime.model.model import DerivedEffect
 
 @dataclass(frozen=True)
 class Ranked:
-    """One effect and the evidence for it, alone.
-
-    ``delta_bic`` is -2 times the difference of log evidence, without the effect less with it: positive speaks for it.
-    """
+    """One effect and the evidence for it, alone; without columns nothing of it is fitted, and the error stays."""
 
     effect: str
-    log_p: float
-    chi2: float
-    rank: int
-    delta_bic: float
+    test: Test
     before: Error
     after: Error
     after_holdout: Error
-    parameters: tuple[ParameterValue, ...]
-    combinations: tuple[ParameterValue, ...]
-    indistinguishable_from: tuple[str, ...]
+    parameters: tuple[ParameterValue, ...] = ()
+    combinations: tuple[ParameterValue, ...] = ()
+    indistinguishable_from: tuple[str, ...] = ()
     probability: float | None = 0.0
+
+    @staticmethod
+    def without_columns(effect: str, test: Test, error: Error) -> Ranked:
+        """The row of an effect of which nothing is fitted."""
+        return Ranked(effect, test, error, error, error)
+
+    def with_estimates(self, found: Estimates, instant: float | None) -> Ranked:
+        """The same with the values of the effect, and the instant of a step, s."""
+        values = found.list_parameters()
+        if instant is not None:
+            values += (ParameterValue("t_step", accelerometer=None, value=instant, std=0.0, unit="s"),)
+        return replace(self, parameters=values, combinations=found.list_combinations())
+
+    @property
+    def instant(self) -> float | None:
+        """Of a step, s."""
+        return next((q.value for q in self.parameters if q.name == "t_step"), None)
+
+    @property
+    def log_p(self) -> float:
+        """Logarithm of :attr:`p_value`."""
+        return self.test.log_p
+
+    @property
+    def delta_bic(self) -> float:
+        """-2 times the difference of log evidence, without the effect less with it: positive speaks for it."""
+        return 2.0 * self.test.log_b
 
     @property
     def p_value(self) -> float:
@@ -49,8 +70,8 @@ class Ranked:
             "effect": self.effect,
             "p_value": self.p_value,
             "log10_p": finite(self.log_p / np.log(10.0)),
-            "chi2": finite(self.chi2),
-            "rank": self.rank,
+            "chi2": finite(self.test.chi2),
+            "rank": self.test.rank,
             "delta_bic": finite(self.delta_bic),
             "probability": self.probability,
             "error_before": self.before.as_json(),
@@ -90,60 +111,29 @@ def rank_effects(
     first, *scored = f.score(vectors)
     before = first.whole
     ranked = []
-    for n, ((e, t, extra), (c, covariance)) in enumerate(zip(tested, fits, strict=True)):
+    n = f.n_base
+    for (e, t, extra), (c, covariance), whole, half_fitted in zip(
+        tested, fits, scored[::2], scored[1::2], strict=True
+    ):
         own = dict(field.candidates[e])
         mine = [own[k] for k in extra]
-        values, spread = c[f.n_base :], covariance[f.n_base :, f.n_base :]
-        parameters = parameter_values(mine, values, spread)
-        if e in instants:
-            parameters.append(_instant(instants[e]))
+        found = Estimates(f.model, f.calibration.p, mine, c[n:], covariance[n:, n:])
         indistinguishable = alternatives.get(e, ())
         for main, others in alternatives.items():
             if e in others:
                 indistinguishable = tuple(sorted({main, *others} - {e}))
-        ranked.append(
-            Ranked(
-                effect=e,
-                log_p=t.log_p,
-                chi2=t.chi2,
-                rank=t.rank,
-                delta_bic=2.0 * t.log_b,
-                before=before,
-                after=scored[2 * n].whole,
-                after_holdout=scored[2 * n + 1].held_out,
-                parameters=tuple(parameters),
-                combinations=tuple(visible_combinations(f.model, f.calibration.p, mine, values, spread)),
-                indistinguishable_from=indistinguishable,
-            )
+        row = Ranked(
+            effect=e,
+            test=t,
+            before=before,
+            after=whole.whole,
+            after_holdout=half_fitted.held_out,
+            indistinguishable_from=indistinguishable,
         )
-    certain = Test(log_p=-np.inf, chi2=np.inf, rank=1, which=())
-    ranked += [_unfitted(e, certain, np.inf, before) for e in output]
+        ranked.append(row.with_estimates(found, instants.get(e)))
+    certain = Test(log_p=-np.inf, chi2=np.inf, rank=1, which=(), log_b=np.inf)
+    ranked += [Ranked.without_columns(e, certain, before) for e in output]
     return ranked, before
-
-
-def rank_random(random: Mapping[str, Test], before: Error) -> list[Ranked]:
-    return [_unfitted(e, t, 2.0 * float(log_bayes(t.chi2, 1)), before) for e, t in random.items()]
-
-
-def _unfitted(effect: str, t: Test, delta_bic: float, before: Error) -> Ranked:
-    """The row of an effect without columns: nothing of it is fitted, so the error stays."""
-    return Ranked(
-        effect=effect,
-        log_p=t.log_p,
-        chi2=t.chi2,
-        rank=t.rank,
-        delta_bic=delta_bic,
-        before=before,
-        after=before,
-        after_holdout=before,
-        parameters=(),
-        combinations=(),
-        indistinguishable_from=(),
-    )
-
-
-def _instant(t_step: float) -> ParameterValue:
-    return ParameterValue(name="t_step", accelerometer=None, value=t_step, std=0.0, unit="s")
 
 
 def staged(
@@ -163,27 +153,17 @@ def _ranked_taken(t: AddedEffect, free: Fitted) -> Ranked:
     (before,) = t.before.score([np.zeros(t.before.size)])
     half = t.after.vector(t.after.coefficients((), held_out=True)[0])
     after, held_out = t.after.score([np.zeros(t.after.size), half])
-    c, (change, _) = free.calibration, free.coefficients(())
-    own = [n for n, q in enumerate(c.columns) if q.effect == t.effect]
-    columns = [c.columns[n] for n in own]
-    values = np.array([c.p[c.index[n]] / c.columns[n].scale + change[n] for n in own])
-    covariance = c.covariance[np.ix_(own, own)]
-    parameters = parameter_values(columns, values, covariance)
-    if t.instant is not None:
-        parameters.append(_instant(t.instant))
-    return Ranked(
+    row = Ranked(
         effect=t.effect,
-        log_p=t.test.log_p,
-        chi2=t.test.chi2,
-        rank=t.test.rank,
-        delta_bic=2.0 * t.test.log_b,
+        test=t.test,
         before=before.whole,
         after=after.whole,
         after_holdout=held_out.held_out,
-        parameters=tuple(parameters),
-        combinations=tuple(visible_combinations(free.model, c.p, columns, values, covariance)),
         indistinguishable_from=t.alternatives,
     )
+    fitted = Estimates.of_calibration(free)
+    stepped = replace(fitted, values=fitted.values + free.coefficients(())[0])
+    return row.with_estimates(stepped.select(t.effect), t.instant)
 
 
 def placed(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:

@@ -12,7 +12,7 @@ from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.identification import series
 from ragg_runtime.identification.comparison import Comparison
-from ragg_runtime.identification.parameters import calibrated
+from ragg_runtime.identification.parameters import Estimates
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
 from ragg_runtime.report import panels, whiteness
@@ -125,8 +125,11 @@ def write_addition(
     old, new = ([e.id for e in c.fitted.model.effects] for c in (before, after))
     values = []
     for e in new:
-        found = zip(("parameters", "combinations"), calibrated(f, e), strict=True)
-        values.append({"effect": e} | {name: [p.as_json() for p in own] for name, own in found})
+        found = Estimates.of_calibration(f).select(e)
+        parameters, combinations = (
+            [p.as_json() for p in own] for own in (found.list_parameters(), found.list_combinations())
+        )
+        values.append({"effect": e, "parameters": parameters, "combinations": combinations})
     added, removed = [e for e in new if e not in old], [e for e in old if e not in new]
     step = describe.describe_step(added, removed, before.as_json(), after.as_json(), values)
     lines = panels.pair_lines(before.residual, after.residual)

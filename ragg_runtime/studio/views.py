@@ -279,7 +279,7 @@ def show_effects(d: Diagnosis) -> list[Json]:
     found: list[Json] = []
     for r in d.ranking:
         own: Any = r.as_json()
-        significant, claimed = r.rank > 0 and r.log_p < level, r.effect in d.found
+        significant, claimed = r.test.rank > 0 and r.log_p < level, r.effect in d.found
         best = describe.choose_values(own) if significant or claimed else []
         found.append(
             {
@@ -291,7 +291,7 @@ def show_effects(d: Diagnosis) -> list[Json]:
                 "chance": describe.chance(own["probability"], own["log10_p"]),
                 "after_Eo": r.after.rms_Eo,
                 "holdout_Eo": r.after_holdout.rms_Eo,
-                "testable": r.rank > 0 and r.effect in linear,
+                "testable": r.test.rank > 0 and r.effect in linear,
                 "seen_from": [str(s) for s in d.sizes if s.effect == r.effect],
                 "values": [[describe.label_parameter(p), describe.format_value(p)] for p in best],
                 "indistinguishable": list(r.indistinguishable_from),

@@ -27,7 +27,7 @@ from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.estimation.scores import finite
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.diagnose import diagnose_fitted
-from ragg_runtime.identification.parameters import SEEN, parameter_values, visible_combinations
+from ragg_runtime.identification.parameters import SEEN, Estimates
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import Instrument
@@ -222,19 +222,11 @@ def _after_holdout(d: Diagnosis, held: Mapping[str, Any]) -> Mapping[str, Any] |
 
 def _visible_parameters(d: Diagnosis) -> list[Record]:
     """Calibrated values of what this record sees: single parameters, else combinations; effects by their id."""
-    f = d.final or d.fitted
-    c = f.calibration
-    values = np.array([c.p[k] / q.scale for k, q in zip(c.index, c.columns, strict=True)])
-    every = parameter_values(c.columns, values, c.covariance)
-    found = [
-        (q.effect, p)
-        for k, (q, p) in enumerate(zip(c.columns, every, strict=True))
-        if c.covariance[k, k] < SEEN**2
-    ]
-    for e in dict.fromkeys(q.effect for q in c.columns):
-        own = [k for k, q in enumerate(c.columns) if q.effect == e]
-        columns, covariance = [c.columns[k] for k in own], c.covariance[np.ix_(own, own)]
-        found += [(e, p) for p in visible_combinations(f.model, c.p, columns, values[own], covariance)]
+    every = Estimates.of_calibration(d.final or d.fitted)
+    each = zip(every.columns, every.list_parameters(), np.diag(every.covariance), strict=True)
+    found = [(q.effect, p) for q, p, variance in each if variance < SEEN**2]
+    for e in dict.fromkeys(q.effect for q in every.columns):
+        found += [(e, p) for p in every.select(e).list_combinations()]
     if d.final is None:
         found += [(r.effect, p) for r in d.ranking if r.effect in d.found for p in r.parameters]
     return [p.as_json() | {"name": f"{e}.{p.name}" if e else p.name} for e, p in found]

@@ -109,7 +109,7 @@ def test_the_diagnosis_is_that_of_the_whole_record(
     assert d.before.rms_Eo == pytest.approx(before.whole.rms_Eo, rel=1e-3)
     assert d.before.inline_Eo == pytest.approx(before.whole.inline_Eo, rel=0.03)
     chi2 = field_of(f, ["thermal-scale"]).tests()["thermal-scale"].chi2
-    assert d.ranking[0].chi2 == pytest.approx(chi2, rel=0.1)  # the slow noise is known to some per cent
+    assert d.ranking[0].test.chi2 == pytest.approx(chi2, rel=0.1)  # the slow noise is known to some per cent
 
 
 def test_what_thinning_takes_is_counted_as_noise(flown: tuple[Scenario, Flight], thin: Observation) -> None:
