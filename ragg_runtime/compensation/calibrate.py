@@ -120,8 +120,7 @@ def calibrate(model: Model, instrument: Instrument, flights: Sequence[Flight]) -
         If the flights are not of this instrument.
     """
     f = fit(model, instrument, observations_of(flights, instrument))
-    half, _ = f.coefficients((), held_out=True)
-    whole, held_out, nominal = comparison.errors(f, [np.zeros(f.n_base), half])
+    whole, held_out, nominal = comparison.score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
     return Calibrated(fitted=f, nominal=nominal.whole, error=whole.whole, holdout=held_out.held_out)
 
 

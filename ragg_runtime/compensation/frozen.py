@@ -155,9 +155,10 @@ def compare_frozen(model: Model, instrument: Instrument, flights: Sequence[Fligh
     """Compare flights with a model by a saved calibration, and test whether it holds for them."""
     observations = observations_of(flights, instrument)
     f = about(model, instrument, observations, as_calibration(saved, model, instrument, observations))
-    free, _ = f.coefficients(())
-    half, _ = f.coefficients((), held_out=True)
-    frozen, fitted, held_out, nominal = comparison.errors(f, [np.zeros(f.n_base), free, half])
+    free = f.vector(f.coefficients(())[0])
+    frozen, fitted, held_out, nominal = comparison.score_with_nominal(
+        f, [np.zeros(f.size), free, f.fit_held_out()]
+    )
     return Held(
         # nothing of these flights was fitted: all of their time is held out
         comparison=comparison.conclude(f, nominal.whole, frozen, frozen.whole),
@@ -201,9 +202,9 @@ def retest_change(
 
 def warn_of_change(made: str, change: CalibrationChange) -> str:
     """The warning of a compensation by a calibration, made at that instant, that does not hold."""
-    p = numbers.probability(change.log10_p)
+    p = numbers.equate_probability(change.log10_p)
     return (
         f"The calibration of {made} does NOT hold here: against parameters fitted to this record chi-square is "
-        f"{change.chi2:.4g} in {len(change.z)} directions (p {p if p.startswith('<') else f'= {p}'}). Motion errors beyond the "
+        f"{change.chi2:.4g} in {len(change.z)} directions (p {p}). Motion errors beyond the "
         "stated uncertainty may remain; no sample is marked good. What changed: ragg compare --frozen"
     )

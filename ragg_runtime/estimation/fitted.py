@@ -171,6 +171,10 @@ class Fitted:
         v[[self.n_base + k for k in extra]] = coefficients[self.n_base :]
         return v
 
+    def fit_held_out(self, extra: Sequence[int] = ()) -> Array:
+        """(size,): coefficients of all regressors by a fit to the blocks of time :data:`FITTED_BLOCKS`."""
+        return self.vector(self.coefficients(extra, held_out=True)[0], extra)
+
     def residuals(self, coefficients: Array) -> list[Array]:
         """Residual of G_out, (N,) V, of every flight once these coefficients of the base are in."""
         return self.residuals_of(self.vector(coefficients))

@@ -22,32 +22,19 @@ Array = NDArray[np.float64]
 @dataclass(frozen=True)
 class Error:
     """The *error* object of the interface: rms before demodulation, V and over k_ggi, Eo; standard deviations of the channels (NaN
-    if the record is shorter than the low-pass), and over the root of the bandwidth of 0.2 Hz.
+    if the record is shorter than the low-pass).
     """
 
     rms_V: float
     rms_Eo: float
     inline_Eo: float
     cross_Eo: float
-    inline_Eo_per_rtHz: float
-    cross_Eo_per_rtHz: float
-
-    @staticmethod
-    def of(rms_V: float, rms_Eo: float, inline_Eo: float, cross_Eo: float) -> Error:
-        """Of these four; the densities follow."""
-        root = float(np.sqrt(CUTOFF))
-        return Error(
-            rms_V=rms_V,
-            rms_Eo=rms_Eo,
-            inline_Eo=inline_Eo,
-            cross_Eo=cross_Eo,
-            inline_Eo_per_rtHz=inline_Eo / root,
-            cross_Eo_per_rtHz=cross_Eo / root,
-        )
 
     def as_json(self) -> dict[str, float | None]:
-        """The object as JSON: NaN becomes null."""
-        return {k: finite(v) for k, v in asdict(self).items()}
+        """The object as JSON, with densities, over the root of the bandwidth of 0.2 Hz: NaN becomes null."""
+        root = float(np.sqrt(CUTOFF))
+        densities = {"inline_Eo_per_rtHz": self.inline_Eo / root, "cross_Eo_per_rtHz": self.cross_Eo / root}
+        return {k: finite(v) for k, v in (asdict(self) | densities).items()}
 
 
 def finite(x: float) -> float | None:
@@ -99,7 +86,7 @@ def error(residual: Array, r: Record, k_ggi: float) -> Error:
     rms = float(np.sqrt(np.mean(residual[r.valid] ** 2))) if np.any(r.valid) else float("nan")
     _, inline, cross = channels(residual, r, k_ggi, r.valid)
     i, c = (float(np.std(x)) if len(x) > 1 else float("nan") for x in (inline, cross))
-    return Error.of(rms, rms / k_ggi, i, c)
+    return Error(rms, rms / k_ggi, i, c)
 
 
 def pooled(errors: list[Error], weights: list[float]) -> Error:
@@ -168,7 +155,7 @@ class Tally:
         if m > 1:
             mean, square = self._sums[:, group, :, series] / m
             i, c = (float(x) / k_ggi for x in np.sqrt(np.maximum(0.0, square - mean**2)))
-        return Error.of(rms, rms / k_ggi, i, c)
+        return Error(rms, rms / k_ggi, i, c)
 
 
 INDISTINGUISHABLE = 9.0

@@ -12,7 +12,7 @@ perfectly white.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,10 +66,6 @@ class Spectrum:
         with np.errstate(divide="ignore"):
             return np.asarray(np.exp(np.interp(np.log(np.abs(f)), self.log_f, self.log_psd)))
 
-    def _cautious(self, f: Array) -> Array:
-        with np.errstate(divide="ignore"):
-            return np.asarray(np.exp(np.interp(np.log(np.abs(f)), self.log_f, self.log_psd + self.spread**2)))
-
     @property
     def rms(self) -> float:
         """Root of the density integrated from 0 to the Nyquist frequency."""
@@ -95,7 +91,8 @@ class Spectrum:
         n = 1 << max(13, (4 * length - 1).bit_length())
         f: Array = np.fft.fftfreq(n, 1 / self.rate).astype(np.float64)
         # Kolmogorov: the causal half of the cepstrum of 1/sqrt(two-sided density, per sample).
-        cepstrum = np.fft.ifft(-0.5 * np.log(self._cautious(f) * self.rate / 2)).real
+        cautious = replace(self, log_psd=self.log_psd + self.spread**2).psd(f)
+        cepstrum = np.fft.ifft(-0.5 * np.log(cautious * self.rate / 2)).real
         cepstrum[1 : n // 2] *= 2
         cepstrum[n // 2 + 1 :] = 0
         return np.asarray(np.fft.ifft(np.exp(np.fft.fft(cepstrum))).real[:length])

@@ -216,15 +216,14 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
 
 def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
     """As calibrated, as fitted to half of the record, and with model.toml's values as they are."""
-    half, _ = f.coefficients((), held_out=True)
-    calibrated, held_out, nominal = errors(f, [np.zeros(f.n_base), half])
+    calibrated, held_out, nominal = score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
     return calibrated, held_out, nominal
 
 
-def errors(f: Fitted, coefficients: Sequence[Array]) -> list[Scored]:
-    """How large the residuals are with these coefficients of the base regressors, and with the nominal values (last)."""
+def score_with_nominal(f: Fitted, vectors: Sequence[Array]) -> list[Scored]:
+    """How large the residuals are with these coefficients (size,), and with the nominal values (last)."""
     p = f.sheet
-    return f.score([f.vector(c) for c in coefficients], lambda x: nominal_residual(f, p, x)[None], 1)
+    return f.score(vectors, lambda x: nominal_residual(f, p, x)[None], 1)
 
 
 def conclude(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> Comparison:
@@ -256,8 +255,8 @@ def _grounds(exceeds: bool, rem: Remainder, choice: selection.Choice | None) -> 
     """The tests by which a model is not adequate, in words."""
     found = ["the error is larger than the noise"] if exceeds else []
     if rem.significant:
-        p = numbers.probability(rem.log_p / np.log(10.0))
-        found.append(f"test of the motion terms: p {p if p.startswith('<') else f'= {p}'}")
+        p = numbers.equate_probability(rem.log_p / np.log(10.0))
+        found.append(f"test of the motion terms: p {p}")
     if choice is not None and choice.chosen:
         found.append(f"test of the catalogue: {choice.chosen[0]} is significant")
     return found

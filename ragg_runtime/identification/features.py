@@ -69,20 +69,10 @@ def _turning(name: str, r: Record) -> Array:
     factors = ([1.0], [spin, 1.0], [spin**2, 2 * spin, 1.0])[order]
     z = np.zeros(len(r.time), dtype=np.complex128)
     for prefix, factor in zip(("", "d_", "d2_"), factors, strict=False):
-        x, y = _across(r, prefix)
+        x, y, _ = r.along_disc(prefix)
         z += factor * (y + 1j * x)
     z *= r.cos_phi + 1j * r.sin_phi
     return np.asarray(z.real if name.endswith("f_i") else z.imag)
-
-
-def _across(r: Record, prefix: str) -> tuple[Array, Array]:
-    """a_x and a_y, or their derivatives, by the axes of the disc at rest."""
-    a = [r.series(f"{prefix}a_{k}") for k in "xyz"]
-    x, y, z = (np.asarray(v) for v in a if v is not None)
-    if r.axes is None:
-        return x, y
-    along = [e[0] * x + e[1] * y + e[2] * z for e in r.axes]
-    return along[0], along[1]
 
 
 class Relaxations:

@@ -11,10 +11,10 @@ from scipy import special
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import whitening
-from ragg_runtime.estimation.whitening import Piece, PreparedFlight
+from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.identification import omnibus
 from ragg_runtime.identification.dictionary import Term, harmonics
-from ragg_runtime.identification.omnibus import Scores, Sums
+from ragg_runtime.identification.omnibus import Scores
 
 Array = NDArray[np.float64]
 
@@ -39,13 +39,7 @@ def heat(
     """The scores of all terms once base and ``given`` candidate columns are projected out, in one pass."""
     prepared, projector, _ = whitening.projector(r_factors, n_base, given).lean(prepared)
     scores = Scores(prepared, projector)
-
-    def own(piece: Piece) -> Sums:
-        Q = projector.basis(piece)
-        return scores.of(piece, projector.left(piece, Q), Q)
-
-    for sums in prepared.each(own):
-        scores.sums.join(sums)
+    scores.collect(lambda piece, y: None)
     return _table(scores)
 
 

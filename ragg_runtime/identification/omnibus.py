@@ -25,6 +25,7 @@ from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, flight_segments
 from ragg_runtime.identification.dictionary import Dictionary, Term
 from ragg_runtime.identification.features import term_unit
+from ragg_runtime.identification.likelihood_ratio import Variance, pooled
 from ragg_runtime.identification.spectral_line import Periodogram
 from ragg_runtime.identification.time_varying import BlockScores
 from ragg_runtime.identification.whitened_terms import Directions, products, squares
@@ -168,7 +169,21 @@ class Scores:
             Periodogram(self._longest, self.prepared.observation.record.rate, self._excluded),
         )
 
-    def of(self, piece: Piece, y: Array, Q: Array) -> Sums:
+    def collect(self, further: Callable[[Piece, Array], T]) -> list[T]:
+        """Count in the whole flight, in one pass; what ``further`` makes of every segment and its whitened, projected residual."""
+
+        def both(piece: Piece) -> tuple[Sums, T]:
+            Q = self.projector.basis(piece)
+            y = self.projector.left(piece, Q)
+            return self._sum_segment(piece, y, Q), further(piece, y)
+
+        found = []
+        for sums, more in self.prepared.each(both):
+            self.sums.join(sums)
+            found.append(more)
+        return found
+
+    def _sum_segment(self, piece: Piece, y: Array, Q: Array) -> Sums:
         """The sums of one segment; y (rows,) is what the projector, with basis Q (rows, k), leaves of it."""
         s = self._zero()
         s.square = float(y @ y)
@@ -242,29 +257,6 @@ def _predicted(x: PreparedFlight) -> Array | None:
         part = o.part(s.rows)
         found[s.rows] = predict_observed(x.at.model, part, x.at.p)[0]
     return found
-
-
-def search(
-    prepared: PreparedFlight,
-    projector: Projector,
-    further: Callable[[Piece, Array], T],
-    only: int | None = None,
-) -> tuple[Omnibus, list[T]]:
-    """What is left of a flight, or of ``only`` one of its series, and what ``further`` makes of every segment and its whitened,
-    projected residual.
-    """
-    scores = Scores(prepared, projector, only)
-
-    def both(piece: Piece) -> tuple[Sums, T]:
-        Q = projector.basis(piece)
-        y = projector.left(piece, Q)
-        return scores.of(piece, y, Q), further(piece, y)
-
-    found = []
-    for sums, more in prepared.each(both):
-        scores.sums.join(sums)
-        found.append(more)
-    return choose(scores), found
 
 
 def choose(s: Scores) -> Omnibus:
@@ -405,12 +397,26 @@ class Remainder:
 
 
 def remainder(f: Fitted, given: Sequence[int] = (), only: int | None = None) -> Remainder:
-    """Search the residual once base and ``given`` candidate columns are projected out."""
-    found = []
+    """Search the residual, or ``only`` one of its series, once base and ``given`` candidate columns are projected out."""
+    return search(f, given, {}, only)[0]
+
+
+def search(
+    f: Fitted, given: Sequence[int], random: Mapping[str, int], only: int | None = None
+) -> tuple[Remainder, dict[str, Variance]]:
+    """The same, and the sums of ``random`` effects, of which it has the places of their columns, in one pass."""
+    searches, counted = [], []
     for x, r_factors in zip(f.prepared, f.r_factors, strict=True):
-        lean, projector, _ = whitening.projector(r_factors, f.n_base, given).lean(x)
-        found.append(search(lean, projector, lambda piece, y: None, only)[0])
-    return Remainder(tuple(found))
+        lean, projector, places = whitening.projector(r_factors, f.n_base, given).lean(x, [*random.values()])
+
+        def sum_variances(piece: Piece, y: Array, places: Sequence[int] = places) -> list[Variance]:
+            return [Variance.of(piece, k, y) for k in places]
+
+        scores = Scores(lean, projector, only)
+        counted += scores.collect(sum_variances)
+        searches.append(choose(scores))
+    variances = {e: pooled([own[n] for own in counted]) for n, e in enumerate(random)}
+    return Remainder(tuple(searches)), variances
 
 
 def remainders(f: Fitted) -> list[Remainder]:

@@ -106,8 +106,7 @@ def rank_effects(
     fits = [f.coefficients(extra) for _, _, extra in tested]
     vectors = [f.vector(np.zeros(f.n_base))]
     for (_, _, extra), (c, _) in zip(tested, fits, strict=True):
-        half, _ = f.coefficients(extra, held_out=True)
-        vectors += [f.vector(c, extra), f.vector(half, extra)]
+        vectors += [f.vector(c, extra), f.fit_held_out(extra)]
     first, *scored = f.score(vectors)
     before = first.whole
     ranked = []
@@ -151,8 +150,7 @@ def staged(
 def _ranked_taken(t: AddedEffect, free: Fitted) -> Ranked:
     """The row of an effect that was derived into the model; ``free``: the flights with all of them, and all their coefficients."""
     (before,) = t.before.score([np.zeros(t.before.size)])
-    half = t.after.vector(t.after.coefficients((), held_out=True)[0])
-    after, held_out = t.after.score([np.zeros(t.after.size), half])
+    after, held_out = t.after.score([np.zeros(t.after.size), t.after.fit_held_out()])
     row = Ranked(
         effect=t.effect,
         test=t.test,

@@ -9,16 +9,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation import calibration, whitening
+from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation import fitted as fitted_
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.fitted import Fitted, Scored, fit
-from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import comparison, contenders, omnibus, selection, strong
 from ragg_runtime.identification.claims import SECOND_ORDER, Regression, Robust, Significance
 from ragg_runtime.identification.comparison import Explained, explained
 from ragg_runtime.identification.contenders import Extend
-from ragg_runtime.identification.likelihood_ratio import Test, Variance, pooled
+from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.strong import AddedEffect, Stage
 from ragg_runtime.instrument.instrument import Instrument
@@ -47,7 +46,7 @@ class Outcome:
     def of(f: Fitted, effects: Sequence[str], given: Sequence[int]) -> Outcome:
         v = f.vector(f.coefficients(given)[0], given) if given else np.zeros(f.size)
         (scored,) = f.score([v])
-        rem, random = _remainder(f, given)
+        rem, random = omnibus.search(f, given, _random_columns(f))
         return Outcome(
             effects=tuple(effects),
             target=f,
@@ -239,23 +238,6 @@ def _linear(f: Fitted, given: Sequence[int], extended: Model, instrument: Instru
     for c, place in design.list_base_columns(extended, instrument):
         p[place] = value.get(c.label, p[place])  # what but shapes the others has no linear fit
     return p
-
-
-def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Variance]]:
-    """What is left once ``given`` columns are projected out, and the sums of random effects, in one pass."""
-    random = _random_columns(f)
-    searches, counted = [], []
-    for x, r_factors in zip(f.prepared, f.r_factors, strict=True):
-        taken = whitening.projector(r_factors, f.n_base, given)
-        lean, projector, places = taken.lean(x, list(random.values()))
-
-        def variances(piece: Piece, y: Array, places: Sequence[int] = places) -> dict[str, Variance]:
-            return {e: Variance.of(piece, k, y) for e, k in zip(random, places, strict=True)}
-
-        found, more = omnibus.search(lean, projector, variances)
-        searches.append(found)
-        counted += more
-    return Remainder(tuple(searches)), {e: pooled([v[e] for v in counted]) for e in random}
 
 
 def _random_columns(f: Fitted) -> dict[str, int]:

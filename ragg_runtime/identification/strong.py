@@ -365,25 +365,13 @@ def _begun(
 ) -> Fitted:
     """The same with R factors and sums in which the columns of steps are zero in blocks of time that begin before them."""
     sums = tuple(own.copy() for own in f.sums)
-    for own in sums:
-        for e, k in samples.items():
-            own[np.ix_(np.asarray(edges)[:-1] < k, np.array(places[e]))] = 0.0
-    return replace(f, r_factors=tuple(_stepped(t, edges, samples, places) for t in f.r_factors), sums=sums)
-
-
-def _stepped(
-    r_factors: Sequence[Array],
-    edges: Sequence[int] | NDArray[np.intp],
-    samples: Mapping[str, int],
-    places: Mapping[str, Sequence[int]],
-) -> tuple[Array, ...]:
-    """The R factors of blocks of time, in each the columns of steps put to zero that come after its first edge."""
-    found = tuple(t.copy() for t in r_factors)
-    for t, start in zip(found, edges[:-1], strict=True):
-        for e, sample in samples.items():
-            if start < sample:
-                t[:, list(places[e])] = 0.0
-    return found
+    r_factors = tuple(tuple(t.copy() for t in own) for own in f.r_factors)
+    for e, sample in samples.items():
+        for block in np.flatnonzero(np.asarray(edges)[:-1] < sample):
+            for own, factors in zip(sums, r_factors, strict=True):
+                own[block, places[e]] = 0.0
+                factors[block][:, places[e]] = 0.0
+    return replace(f, r_factors=r_factors, sums=sums)
 
 
 def _root(

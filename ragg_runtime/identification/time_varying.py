@@ -8,7 +8,7 @@ stationary or not quite white raises no alarm.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -114,15 +114,7 @@ class BlockScores:
         found = [self._scatter(d, v, block), self._window(d, v, known), self._jump(d, v), self._swing(d, v)]
         best = min((f for f in found if f is not None), key=lambda f: f.log_p)
         log_p = min(0.0, best.log_p + float(np.log(len(terms) * QUESTIONS)))
-        return Varying(
-            log_p=log_p,
-            place=int(terms[best.place]),
-            chi2=best.chi2,
-            coefficient=best.coefficient,
-            std=best.std,
-            how=best.how,
-            rank=best.rank,
-        )
+        return replace(best, log_p=log_p, place=int(terms[best.place]))
 
     def _scatter(self, d: Array, v: Array, block: NDArray[np.intp]) -> Varying:
         starts = np.flatnonzero(np.diff(block, prepend=-1))

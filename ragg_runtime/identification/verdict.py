@@ -17,6 +17,7 @@ from ragg_runtime.identification.omnibus import Remainder, ResidualTerm
 from ragg_runtime.identification.result import Reason, name_verdict
 from ragg_runtime.identification.search import Evidence, Outcome
 from ragg_runtime.identification.strong import Stage
+from ragg_runtime.wording.numbers import listed
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,10 +166,6 @@ class Conclusion:
 
 OPEN = 0.1
 """p-value from which an effect is named as one for which the record does not suffice."""
-
-
-def listed(names: Sequence[str], word: str = "and") -> str:
-    return f" {word} ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def _weakest(found: Evidence, o: Outcome, needed: Sequence[str]) -> str | None:

@@ -93,7 +93,7 @@ def first_memories(effects: Iterable[DerivedEffect], r: Record) -> Iterator[tupl
     for e in (e for e in effects if e.memory is not None):
         values = {q.name: q.default for q in e.parameters if q.shape}
         if e.memory in SLIPPING:
-            x, y, _ = (r.whole or r).along_disc
+            x, y, _ = (r.whole or r).along_disc()
             values = {"w": max(SHARE * float(np.hypot(np.nanstd(x), np.nanstd(y))), LEAST * values["w"])}
         yield e, Memory(str(e.memory), values)
 
@@ -132,7 +132,7 @@ def _given(kind: str, r: Record) -> Mapping[str, Array]:
         return {f"mount_{n}": r.channels[n] for n in motion if n in r.channels}
     if kind == "cycle":
         return {n: r.channels[n] for n in ("temperature",) if n in r.channels}
-    x, y, z = r.along_disc
+    x, y, z = r.along_disc()
     force = (x * r.cos_phi + y * r.sin_phi, y * r.cos_phi - x * r.sin_phi, z)
     if kind == "heat":
         pairs = ((i, k) for i in range(3) for k in range(i, 3))

@@ -179,7 +179,7 @@ class Record:
         if name == "phi":
             return np.asarray(np.mod(self.phi, 2 * np.pi))
         if name in ("input", "input-rms") or name.startswith("input("):
-            x, y, _ = self.along_disc
+            x, y, _ = self.along_disc()
             along, across = y * self.cos_phi - x * self.sin_phi, x * self.cos_phi + y * self.sin_phi
             forces = [(w, np.abs(along * cosine - across * sine)) for cosine, sine, w in self.input_axes]
             if name == "input":
@@ -203,10 +203,9 @@ class Record:
                 found.append(k)
         return found
 
-    @property
-    def along_disc(self) -> tuple[Array, Array, Array]:
-        """The specific force along the axes of the disc at rest, (N,) each, m/s^2."""
-        a = [self.channels[n] for n in SPECIFIC_FORCE]
+    def along_disc(self, prefix: str = "") -> tuple[Array, Array, Array]:
+        """The specific force along the axes of the disc at rest, (N,) each, m/s^2; with the prefix ``d_`` or ``d2_`` its derivative."""
+        a = [x for n in SPECIFIC_FORCE if (x := self.series(f"{prefix}{n}")) is not None]
         if self.axes is None:
             return a[0], a[1], a[2]
         axes = (*self.axes, np.cross(*self.axes))

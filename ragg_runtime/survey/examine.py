@@ -167,7 +167,7 @@ def _require_same_program(job: Job) -> None:
 
 
 def _make_record(f: Fitted, flight: Flight) -> Record:
-    held_out, nominal = f.score([_held_out(f)], lambda x: comparison.nominal_residual(f, f.sheet, x)[None], 1)
+    held_out, nominal = comparison.score_with_nominal(f, [f.fit_held_out()])
     extend = partial(derive.with_effects, f.instrument)
     d = heed_flags(diagnose_fitted(f, [flight], extend), [flight])
     held = held_out.held_out.as_json()
@@ -205,15 +205,9 @@ def _make_record(f: Fitted, flight: Flight) -> Record:
     return {key: _plain(value) for key, value in record.items()}
 
 
-def _held_out(f: Fitted) -> Array:
-    """Coefficients of a fit to half of the blocks of time."""
-    half, _ = f.coefficients((), held_out=True)
-    return f.vector(half)
-
-
 def _after_holdout(d: Diagnosis, held: Mapping[str, Any]) -> Mapping[str, Any] | None:
     if d.final is not None:
-        (scored,) = d.final.score([_held_out(d.final)])
+        (scored,) = d.final.score([d.final.fit_held_out()])
         return scored.held_out.as_json()
     if not d.found:
         return held

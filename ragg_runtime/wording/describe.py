@@ -208,7 +208,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
         f"The calibration on {on} {holds} here: its error is {format_error(frozen)} Eo, with parameters fitted to this record"
         f" {format_error(free)} Eo; the noise floor is {format_error(c['noise_floor'])} Eo.",
         f"It was made {h['made'][:16].replace('T', ' ')} UTC. Test against parameters fitted to this record: chi-square"
-        f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions (p {_equals(h['log10_p'])}).",
+        f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions (p {numbers.equate_probability(h['log10_p'])}).",
     )
     rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))
     first, *others = describe_comparison(c, flights, then, rows, judged=False)
@@ -223,11 +223,6 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
         found.append(Section(title, table=tabulate(h["suspects"], single)))
     save = "" if h["holds"] or not again else f"if the instrument may have changed: {again} --save"
     return (*found, *suggest_next(save))
-
-
-def _equals(log10_p: float | None) -> str:
-    text = numbers.probability(log10_p)
-    return text if text.startswith("<") else f"= {text}"
 
 
 def write_verdict(d: Json) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import unicodedata
+from collections.abc import Sequence
 
 from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, Series, series
 
@@ -99,6 +100,12 @@ def probability(log10_p: float | None) -> str:
     if log10_p is None or log10_p < LEAST_P:
         return f"<{THIN}{power(round(LEAST_P))}"
     return number(10.0**log10_p, 2) if log10_p > -3.0 else number(10.0**log10_p, 1)
+
+
+def equate_probability(log10_p: float | None) -> str:
+    """The same after its symbol: ``= 0.03``, ``< 10⁻¹⁶``."""
+    text = probability(log10_p)
+    return text if text.startswith("<") else f"= {text}"
 
 
 def plain(x: float, digits: int = 6) -> str:
@@ -214,7 +221,7 @@ def _differentiated(name: str, order: int) -> str:
 _MOTION = re.compile(r"(a|omega|omegadot|f)_([xyzio])")
 
 
-def listed(names: list[str], conjunction: str = "and") -> str:
+def listed(names: Sequence[str], conjunction: str = "and") -> str:
     """``a, b and c``."""
     if len(names) < 2:
         return "".join(names)

@@ -109,7 +109,7 @@ def test_of_an_effect_that_the_model_explains_otherwise_or_does_without_it_is_no
     """A twin that did worse in the model is no column of what is left any more: 1.0 was said of it, by its p-value, beside the
     1.0 of the right one. Of random effects the p-value is all there is.
     """
-    error = Error(*(1.0,) * 6)
+    error = Error(*(1.0,) * 4)
     found = Probabilities({"right": 1.0, "faint": 0.02}, (("right",),))
     said = {}
     for effect, log_p in (("right", -900.0), ("faint", -3.0), ("twin", -890.0), ("random", -9.0)):

@@ -132,9 +132,7 @@ def scored() -> tuple[Scores, Array, Array]:
     f = fitted.fit(load.packaged(), s.sheet, [observation.observe(s.simulate({}).flight(), s.sheet)])
     projector = whitening.projector(f.r_factors[0], f.n_base, ())
     scores = Scores(f.prepared[0], projector)
-    (piece,) = f.prepared[0].each(lambda p: p)
-    Q = projector.basis(piece)
-    scores.sums.join(scores.of(piece, projector.left(piece, Q), Q))
+    (piece,) = scores.collect(lambda piece, y: piece)
     X = scores.whitened(piece, range(len(scores.dictionary.terms)))
     return scores, X, projector.basis(piece)
 
