@@ -83,33 +83,38 @@ def diagnose_fitted(
     if not apart and len(flights) > 1 and found.contradictory:
         apart = disagreement(f, flights, extend)
         found = replace(found, verdict="unexplained", claims=()) if apart else found
-    outcome, left, target = found.outcome, found.left, found.outcome.target
     ranking = complete_ranking(*ranked, evidence, found)
+    return _make_diagnosis(evidence, found, ranking, ranked[1], apart, limits)
+
+
+def _make_diagnosis(
+    evidence: Evidence,
+    found: Conclusion,
+    ranking: Sequence[Ranked],
+    before: Error,
+    apart: tuple[Disagreement, ...],
+    limits: Mapping[str, float],
+) -> Diagnosis:
+    """What is reported; ``before``: the error without any effect, ``apart``: how flights disagree."""
+    first, outcome, left, target = evidence.first, found.outcome, found.left, found.outcome.target
     credence = weighed(evidence.last.field, evidence.steps).within(found.share)
+    rows = (with_probability(r, credence, first.field.candidates) for r in ranking)
+    pairs = next_motion.pairs_of(evidence.alternatives())
     return Diagnosis(
         verdict=found.verdict,
         fitted=first.fitted,
-        ranking=tuple(
-            sorted(
-                (with_probability(r, credence, first.field.candidates) for r in ranking),
-                key=placed([*found.claims, *outcome.effects]),
-            )
-        ),
+        ranking=tuple(sorted(rows, key=placed([*found.claims, *outcome.effects]))),
         found=found.claims,
         not_testable=tuple(list_not_testable(first.fitted, first.field)),
         remainder=left if found.remains else _without_terms(left),
         remainder_share=_share(outcome, left) if found.remains else 0.0,
-        before=ranked[1],
+        before=before,
         scored=outcome.scored,
         noise_floor=outcome.noise_floor,
         sizes=tuple(list_detectable(first.fitted, first.field)),
         target=target,
         coefficients=outcome.coefficients,
-        next_motion=tuple(
-            next_motion.proposals(
-                first.fitted, first.field, next_motion.pairs_of(evidence.alternatives()), limits
-            )
-        ),
+        next_motion=tuple(next_motion.proposals(first.fitted, first.field, pairs, limits)),
         complaint=outcome.complaint,
         remarks=tuple(found.remarks(words(apart), evidence.spent)),
         reasons=tuple(found.reasons(words(apart), evidence.spent)),

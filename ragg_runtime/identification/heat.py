@@ -44,9 +44,7 @@ def heat(
 
 
 def _table(s: Scores) -> Heat:
-    left2 = s.sums.norm2 - np.einsum("ij,ij->i", s.sums.along, s.sums.along)
-    good = left2 > omnibus.OWN * s.sums.norm2
-    norm = np.sqrt(np.where(good, left2, np.nan))
+    norm = np.where(np.isfinite(s.norms), s.norms, np.nan)
     terms = s.dictionary.terms
     rows = harmonics()
     columns = tuple(dict.fromkeys(t.product for t in terms if t.harmonic in rows))
@@ -57,7 +55,7 @@ def _table(s: Scores) -> Heat:
             at = row[t.harmonic], column[t.product]
             z[at] = s.sums.dot[k] / norm[k]
             coefficient[at] = z[at] / (norm[k] * s.dictionary.size(t))
-    share = omnibus.FAMILY * omnibus.SHARES[0] / (2 * max(int(np.sum(good)), 1))
+    share = omnibus.FAMILY * omnibus.SHARES[0] / (2 * max(int(np.sum(np.isfinite(norm))), 1))
     return Heat(
         harmonics=rows, products=columns, z=z, coefficient=coefficient, level=-float(special.ndtri(share))
     )

@@ -8,9 +8,9 @@ over the segments of a flight.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -205,6 +205,13 @@ class Scores:
             s.raw[1, at] = squares(x)
         return s
 
+    @property
+    def norms(self) -> Array:
+        """(terms,): lengths of the whitened terms beside what is projected out; infinite where next to nothing is left."""
+        left2 = self.sums.norm2 - np.einsum("ij,ij->i", self.sums.along, self.sums.along)
+        good = left2 > OWN * self.sums.norm2
+        return np.asarray(np.sqrt(np.where(good, left2, np.inf)))
+
     def whitened(self, piece: Piece, places: Sequence[int]) -> Singles:
         """(len(places), rows): the whitened series of some terms over a segment, in order of their places."""
         d = Directions(self.prepared, self.dictionary, piece, self.only)
@@ -306,12 +313,10 @@ def _line(s: Scores) -> tuple[float, ResidualTerm] | None:
     return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
 
 
-def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
+def _steady(s: Scores) -> Omnibus:
     """The largest scores, one by one, while they are significant."""
-    left2 = s.sums.norm2 - np.einsum("ij,ij->i", s.sums.along, s.sums.along)
-    good = left2 > OWN * s.sums.norm2
-    norm = np.sqrt(np.where(good, left2, np.inf))
-    tried = int(np.sum(good))
+    norm = s.norms
+    tried = int(np.sum(np.isfinite(norm)))
     z = s.sums.dot / norm
     freedom = s.prepared.noise.freedom
     first = _log_p(z, tried, freedom)
@@ -328,50 +333,72 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         if first >= np.log(FAMILY):
             return replace(nothing, log_p=first)
     G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
+    order = np.array([s.dictionary.terms[k].order for k in places])
+    taken = list(_pursue(z[places], sober, G, order, lambda x: _log_p(x, tried, freedom)))
+    if not taken:
+        return replace(nothing, log_p=first)
+    # together the terms take so much of each, in whitened units, and with it what of each the columns explain
+    own = [t.k for t in taken]
+    each = np.linalg.lstsq(G[np.ix_(own, own)], z[places[own]], rcond=None)[0] / norm[places[own]]
+    shift = -s.projector.to_basis @ (s.sums.along[places[own]].T @ each)
+    terms = tuple(_as_term(s, int(places[t.k]), float(norm[places[t.k]]), t) for t in taken)
+    return replace(nothing, log_p=first, terms=terms, chi2=sum(t.amount**2 for t in taken), shift=shift)
+
+
+class _Taken(NamedTuple):
+    """A term of a pursuit: its place in it, its significance then, the component of the residual along what is new in it, and
+    the share of its length that is new.
+    """
+
+    k: int
+    z: float
+    amount: float
+    length: float
+
+
+def _pursue(
+    score: Array, sober: Array, G: Array, order: NDArray[np.intp], log_p: Callable[[Array], float]
+) -> Iterator[_Taken]:
+    """Orthogonal matching pursuit: the terms with the largest scores (n,) beside those before, while they are significant.
+
+    ``sober`` (n,): what scores are divided by before they are judged; ``G`` (n, n): inner products of the terms of unit length;
+    ``order`` (n,): of terms that do as well the simplest is taken.
+    """
     # a term that is almost absorbed: its square is below single precision, and it cannot be separated from another
-    score, left = z[places].copy(), (np.abs(np.diag(G) - 1.0) < APART).astype(np.float64)
+    left = (np.abs(np.diag(G) - 1.0) < APART).astype(np.float64)
     left[int(np.argmax(np.abs(score) / sober))] = 1.0
     directions: list[Array] = []  # components of every term along each direction taken
-    taken: list[ResidualTerm] = []
-    order: list[int] = []
-    chi2 = 0.0
-    while len(taken) < most:
+    while len(directions) < MOST_TERMS:
         now = np.where(left > APART, score / np.sqrt(np.maximum(left, APART)), 0.0)
-        if _log_p(now / sober, tried, freedom) >= np.log(FAMILY):
-            break
+        if log_p(now / sober) >= np.log(FAMILY):
+            return
         near = np.flatnonzero(now**2 > np.max(now**2) - INDISTINGUISHABLE)
-        k = int(min(near, key=lambda n: (s.dictionary.terms[places[n]].order, -abs(now[n]))))
+        k = int(min(near, key=lambda n: (order[n], -abs(now[n]))))
         length = float(np.sqrt(left[k]))
-        along = (G[:, k] - sum((d * d[k] for d in directions), np.zeros(len(places)))) / length
+        along = (G[:, k] - sum((d * d[k] for d in directions), np.zeros(len(score)))) / length
         amount = float(score[k]) / length
         directions.append(along)
         score = score - along * amount
         left = left - along**2
-        chi2 += amount**2
-        order.append(k)
-        place = int(places[k])
-        term = s.dictionary.terms[place]
-        std = 1.0 / (float(norm[place]) * length * s.dictionary.size(term))
-        mean, square = s.sums.raw[:, place] / max(s.sums.samples, 1)
-        spread = square - mean**2 if term.harmonic == "const" else square
-        size2 = (amount * std * s.dictionary.size(term)) ** 2 * float(spread)
-        taken.append(
-            ResidualTerm(
-                term=term,
-                coefficient=amount * std,
-                std=std,
-                z=float(now[k]),
-                chi2=amount**2,
-                mean_square=size2,
-                centre=s.dictionary.centre,
-            )
-        )
-    shift = None
-    if order:
-        # together the terms take so much of each, in whitened units, and with it what of each the columns explain
-        each = np.linalg.lstsq(G[np.ix_(order, order)], z[places[order]], rcond=None)[0] / norm[places[order]]
-        shift = -s.projector.to_basis @ (s.sums.along[places[order]].T @ each)
-    return replace(nothing, log_p=first, terms=tuple(taken), chi2=chi2, shift=shift)
+        yield _Taken(k, float(now[k]), amount, length)
+
+
+def _as_term(s: Scores, place: int, norm: float, t: _Taken) -> ResidualTerm:
+    """What was taken, in the units of its channels; ``norm``: the length of the whitened term."""
+    term = s.dictionary.terms[place]
+    size = s.dictionary.size(term)
+    std = 1.0 / (norm * t.length * size)
+    mean, square = s.sums.raw[:, place] / max(s.sums.samples, 1)
+    spread = square - mean**2 if term.harmonic == "const" else square
+    return ResidualTerm(
+        term=term,
+        coefficient=t.amount * std,
+        std=std,
+        z=t.z,
+        chi2=t.amount**2,
+        mean_square=(t.amount * std * size) ** 2 * float(spread),
+        centre=s.dictionary.centre,
+    )
 
 
 def _log_p(z: Array, tried: int, freedom: float = np.inf) -> float:

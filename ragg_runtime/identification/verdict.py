@@ -57,19 +57,7 @@ class Conclusion:
         count = first.field.count + len(outcome.random)
         base = omnibus.remainders(first.fitted) if outcome.effects else None
         share = 1.0 if base is None else float(expit(_ahead(found, outcome, count, base)))
-        weak: list[str] = []
-        needed: list[str] = []
-        while not apart:
-            e = _weakest(found, outcome, needed)
-            if e is not None and _is_needed(found, outcome, e):
-                needed.append(e)
-                continue
-            e = e or _contradicted(outcome, first) or _unfitted(found, outcome)
-            if e is None:
-                break
-            weak.append(e)
-            needed = []  # beside that effect
-            outcome = found.without(outcome, e)
+        outcome, weak = (outcome, []) if apart else _drop_unfounded(found, outcome)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         # next to the noise model, whose level has shapes of its own
         tests = outcome.random.items()
@@ -90,8 +78,6 @@ class Conclusion:
             claimed = (*claimed, *(e for _, e in random[:1]))
         if not doubted:  # what the recorder did is certain, whatever else is in the record
             claimed = (*claimed, *output)
-        beside = last.choice.conditional
-        unsure = sorted((t.log_p, e) for e, t in beside.items() if t.rank and t.log_p < np.log(OPEN))
         return Conclusion(
             verdict=name_verdict(claimed=bool(claimed), remains=remains),
             claims=claimed,
@@ -99,7 +85,7 @@ class Conclusion:
             left=left,
             line=line,
             steady=tuple(s for s in steady if s.effect in claimed),
-            open=tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in unsure)) if e not in claimed)),
+            open=_unsure(last, weak, claimed),
             share=share,
             rival=rival,
             one=None if claimed else one,
@@ -166,6 +152,30 @@ class Conclusion:
 
 OPEN = 0.1
 """p-value from which an effect is named as one for which the record does not suffice."""
+
+
+def _drop_unfounded(found: Evidence, o: Outcome) -> tuple[Outcome, list[str]]:
+    """The outcome without the effects that are not significant beside the others, and these, in the order in which they went."""
+    weak: list[str] = []
+    needed: list[str] = []
+    while True:
+        e = _weakest(found, o, needed)
+        if e is not None and _is_needed(found, o, e):
+            needed.append(e)
+            continue
+        e = e or _contradicted(o, found.first) or _unfitted(found, o)
+        if e is None:
+            return o, weak
+        weak.append(e)
+        needed = []  # beside that effect
+        o = found.without(o, e)
+
+
+def _unsure(last: Stage, weak: Sequence[str], claimed: Sequence[str]) -> tuple[str, ...]:
+    """Effects that the record speaks for, but not surely enough: those that went, and others beside what the last stage chose."""
+    beside = last.choice.conditional
+    near = sorted((t.log_p, e) for e, t in beside.items() if t.rank and t.log_p < np.log(OPEN))
+    return tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in near)) if e not in claimed))
 
 
 def _weakest(found: Evidence, o: Outcome, needed: Sequence[str]) -> str | None:

@@ -253,35 +253,11 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
     """The result of ``survey``; ``headline`` counts the verdicts, ``advice`` is what to do, in sentences."""
     done = [r for r in s["flights"] if "verdict" in r]
     failed = [r for r in s["flights"] if "verdict" not in r]
-
-    def error(key: str) -> Callable[[Json], str]:
-        return lambda r: format_error(r["error"][key])
-
-    columns: Columns = {
-        "flight": lambda r: str(r["flight"]),
-        "verdict": lambda r: str(r["verdict"]),
-        "nominal, Eo": error("nominal"),
-        "calibrated, Eo": error("calibrated"),
-        "held out, Eo": error("holdout"),
-        "after, Eo": error("after"),
-        "noise, Eo": lambda r: format_error(r["noise_floor"]),
-        "found": lambda r: " ".join(map(str, r["found"])),
-    }
     bad = s["counts"]["error"] or s["counts"]["unexplained"]
     state = "bad" if bad else "good" if s["counts"]["adequate"] == len(done) else "found"
     found = [Section(sentences=(headline, *advice), state=state)]
     if done:
-        more = f"and {len(done) - LISTED} more" if len(done) > LISTED else ""
-        found.append(Section("Flights", table=tabulate(done[:LISTED], columns, words=2, note=more)))
-    about: dict[str, list[str]] = {}
-    for r in done:
-        for note in r["notes"]:
-            about.setdefault(str(note), []).append(str(r["flight"]))
-    if about:
-        noted = tuple((note, write_flights(names)) for note, names in about.items())
-        table = Table(("note", "flights"), noted, words=2)
-        summary = f"{counted(len(noted), 'note')} on the flights"
-        found.append(Section(title="Notes", table=table, detail=True, summary=summary))
+        found += [_surveyed(done), *_survey_notes(done)]
     if s["effects"]:
         heads = ("effect", "found", "perhaps", "testable")
         counts = tuple(tuple(str(e[k]) for k in heads) for e in s["effects"])
@@ -302,6 +278,40 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
         text = "The other flights are not affected."
         found.append(Section("Flights in error", (text,), tabulate(failed, wrong, words=2)))
     return tuple(found)
+
+
+def _surveyed(done: Sequence[Json]) -> Section:
+    """A row a flight."""
+
+    def error(key: str) -> Callable[[Json], str]:
+        return lambda r: format_error(r["error"][key])
+
+    columns: Columns = {
+        "flight": lambda r: str(r["flight"]),
+        "verdict": lambda r: str(r["verdict"]),
+        "nominal, Eo": error("nominal"),
+        "calibrated, Eo": error("calibrated"),
+        "held out, Eo": error("holdout"),
+        "after, Eo": error("after"),
+        "noise, Eo": lambda r: format_error(r["noise_floor"]),
+        "found": lambda r: " ".join(map(str, r["found"])),
+    }
+    more = f"and {len(done) - LISTED} more" if len(done) > LISTED else ""
+    return Section("Flights", table=tabulate(done[:LISTED], columns, words=2, note=more))
+
+
+def _survey_notes(done: Sequence[Json]) -> list[Section]:
+    """Every note once, with the flights that it is about."""
+    about: dict[str, list[str]] = {}
+    for r in done:
+        for note in r["notes"]:
+            about.setdefault(str(note), []).append(str(r["flight"]))
+    if not about:
+        return []
+    noted = tuple((note, write_flights(names)) for note, names in about.items())
+    table = Table(("note", "flights"), noted, words=2)
+    summary = f"{counted(len(noted), 'note')} on the flights"
+    return [Section(title="Notes", table=table, detail=True, summary=summary)]
 
 
 def _trends(parameters: Sequence[Json]) -> Section:
