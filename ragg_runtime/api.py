@@ -31,6 +31,7 @@ from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.compensation.export.program import FORMS, write_export
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.compensation.saved import Saved, add_entry, load_saved
+from ragg_runtime.estimation.scores import errors_json
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
 from ragg_runtime.identification.comparison import Comparison
@@ -249,8 +250,7 @@ class Added:
 
 def errors_of(c: Comparison | None) -> dict[str, object] | None:
     """The ``error`` of compare: nominal, calibrated, holdout."""
-    parts = ("nominal", "calibrated", "holdout")
-    return None if c is None else {name: getattr(c, name).as_json() for name in parts}
+    return None if c is None else errors_json(c.nominal, c.calibrated, c.holdout)
 
 
 def _judged(c: Comparison | None) -> dict[str, object] | None:

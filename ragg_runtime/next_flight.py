@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from ragg_runtime.estimation.observation import observations_of
 from ragg_runtime.identification.motion_design import (
     CalibrationDesign,
     Criterion,
+    Design,
     Information,
     Planned,
     design,
@@ -30,25 +31,23 @@ from ragg_runtime.identification.motion_design import (
 from ragg_runtime.identification.next_motion import (
     AXES,
     HIGHEST,
-    Separation,
-    Sinusoid,
     moved,
     unit_of,
 )
 from ragg_runtime.io import Flight, write_flight
 
 Array = NDArray[np.float64]
+D = TypeVar("D", bound=Design, covariant=True)
 
 CHANNELS = ("inline_Eo", "cross_Eo")
 
 
 @dataclass(frozen=True)
-class NextFlight:
-    """A multisine about the mean of the flights, and the predicted separation of each pair of alternatives."""
+class NextFlight(Generic[D]):
+    """A multisine about the mean of the flights."""
 
-    sinusoids: tuple[Sinusoid, ...]
+    design: D
     mean: Mapping[str, float]
-    separations: tuple[Separation, ...]
     duration: float
     rate: float
 
@@ -59,7 +58,7 @@ class NextFlight:
         channels |= {f"omegadot_{k}": np.zeros(len(time)) for k in "xyz"}
         return Flight(
             time=time,
-            channels=channels | moved(channels, self.sinusoids, time),
+            channels=channels | moved(channels, self.design.sinusoids, time),
             outputs={},
             name="next motion",
         )
@@ -76,9 +75,9 @@ class NextFlight:
                     "unit": unit_of(axis),
                     "phase_rad": phase,
                 }
-                for axis, frequency, amplitude, phase in self.sinusoids
+                for axis, frequency, amplitude, phase in self.design.sinusoids
             ],
-            "separations": [x.as_json() for x in self.separations],
+            **self.design.as_json(),
         }
 
 
@@ -90,20 +89,14 @@ def next_flight(
     duration: float = 600.0,
     rate: float | None = None,
     band: tuple[float, float] | None = None,
-) -> NextFlight:
+) -> NextFlight[Design]:
     """The multisine for the alternatives left; ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold."""
     rate, band = _possible(m, flights, limits, rate, band)
     d = diagnose(m, flights)
     pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
-    made = design(d.fitted, pairs, limits, duration=duration, band=band)
     tones = tones_of(m.instrument.spin_frequency, limits, band)
-    return NextFlight(
-        sinusoids=multisine(tones, even(tones)) if made is None else made.sinusoids,
-        mean=_mean(flights),
-        separations=() if made is None else made.separations,
-        duration=duration,
-        rate=rate,
-    )
+    made = design(d.fitted, pairs, limits, duration=duration, band=band)
+    return NextFlight(made or Design(multisine(tones, even(tones)), ()), _mean(flights), duration, rate)
 
 
 def _possible(
@@ -131,53 +124,36 @@ def _mean(flights: Sequence[Flight]) -> dict[str, float]:
     return {n: float(np.mean([np.mean(x.channels[n][x.valid]) for x in flights])) for n in AXES}
 
 
-@dataclass(frozen=True)
-class CalibrationFlight(NextFlight):
-    """The multisine that calibrates best, and what it makes of each parameter."""
-
-    plan: CalibrationDesign
-
-    def as_json(self) -> dict[str, object]:
-        return super().as_json() | {
-            "criterion": self.plan.criterion,
-            "channels": {
-                "now": dict(zip(CHANNELS, self.plan.now, strict=True)),
-                "planned": dict(zip(CHANNELS, self.plan.then, strict=True)),
-            },
-            "parameters": [q.as_json() for q in self.plan.parameters],
-            "combinations": [q.as_json() for q in self.plan.combinations],
-        }
-
-    def run_sheet(self) -> str:
-        """What whoever flies it reads, as Markdown; the plan by which the calibration is certified afterwards."""
-        peaks = {
-            axis: float(np.max(np.abs(self.motion().channels[axis] - self.mean[axis])))
-            for axis in dict.fromkeys(x[0] for x in self.sinusoids)
-        }
-        rows = [
-            f"| {axis} | {frequency:.6g} | {amplitude:.6g} | {unit_of(axis)} | {np.degrees(phase) % 360:.1f} |"
-            for axis, frequency, amplitude, phase in self.sinusoids
-        ]
-        means = [
-            f"| {axis} | {x:.6g} | {peaks.get(axis, 0.0):.4g} | {unit_of(axis)} |"
-            for axis, x in self.mean.items()
-        ]
-        parameters = [
-            f"| {q.name}{'' if q.accelerometer is None else f'[{q.accelerometer}]'} | {q.unit} | {q.now:.3g} | {q.then:.3g} |"
-            for q in (*self.plan.combinations, *self.plan.parameters)
-        ]
-        channels = [
-            f"| channel {name} | Eo rms | {now:.3g} | {then:.3g} |"
-            for name, now, then in zip(("inline", "cross"), self.plan.now, self.plan.then, strict=True)
-        ]
-        return _RUN_SHEET.format(
-            count=len(self.sinusoids),
-            duration=self.duration,
-            rate=self.rate,
-            sinusoids="\n".join(rows),
-            means="\n".join(means),
-            parameters="\n".join((*channels, *parameters)),
-        )
+def write_run_sheet(x: NextFlight[CalibrationDesign]) -> str:
+    """What whoever flies it reads, as Markdown; the plan by which the calibration is certified afterwards."""
+    plan, sinusoids, channels = x.design, x.design.sinusoids, x.motion().channels
+    peaks = {
+        a: float(np.max(np.abs(channels[a] - x.mean[a]))) for a in dict.fromkeys(s[0] for s in sinusoids)
+    }
+    rows = [
+        f"| {axis} | {frequency:.6g} | {amplitude:.6g} | {unit_of(axis)} | {np.degrees(phase) % 360:.1f} |"
+        for axis, frequency, amplitude, phase in sinusoids
+    ]
+    means = [
+        f"| {axis} | {mean:.6g} | {peaks.get(axis, 0.0):.4g} | {unit_of(axis)} |"
+        for axis, mean in x.mean.items()
+    ]
+    parameters = [
+        f"| {q.name}{'' if q.accelerometer is None else f'[{q.accelerometer}]'} | {q.unit} | {q.now:.3g} | {q.then:.3g} |"
+        for q in (*plan.combinations, *plan.parameters)
+    ]
+    added = [
+        f"| channel {name} | Eo rms | {now:.3g} | {then:.3g} |"
+        for name, now, then in zip(("inline", "cross"), plan.now, plan.then, strict=True)
+    ]
+    return _RUN_SHEET.format(
+        count=len(sinusoids),
+        duration=x.duration,
+        rate=x.rate,
+        sinusoids="\n".join(rows),
+        means="\n".join(means),
+        parameters="\n".join((*added, *parameters)),
+    )
 
 
 _RUN_SHEET = """\
@@ -216,12 +192,12 @@ def calibration_flight(
     rate: float | None = None,
     band: tuple[float, float] | None = None,
     criterion: Criterion = "A",
-) -> CalibrationFlight:
+) -> NextFlight[CalibrationDesign]:
     """The multisine that calibrates the model best for motion such as that of the flights, with which it will be fitted jointly."""
     rate, band = _possible(m, flights, limits, rate, band)
     f = fit(m.model, m.instrument, observations_of(flights, m.instrument), candidates=False)
     plan = design_calibration(f, limits, duration=duration, band=band, criterion=criterion)
-    return CalibrationFlight(plan.sinusoids, _mean(flights), (), duration, rate, plan)
+    return NextFlight(plan, _mean(flights), duration, rate)
 
 
 @dataclass(frozen=True)
@@ -306,6 +282,6 @@ REACHED = 1.1
 """A standard deviation within so much of the planned one counts as reached: noise is known to some per cent."""
 
 
-def write_motion(found: NextFlight, path: Path) -> None:
+def write_motion(found: NextFlight[Design], path: Path) -> None:
     """Write the motion as a flight file without output, which `ragg simulate --motion` flies."""
     write_flight(found.motion(), path)

@@ -197,7 +197,7 @@ def next_motion(
     else:
         found = planned = next_flight.calibration_flight(m, records, most, criterion=criterion, **options)
         if run_sheet is not None:
-            write_text(Path(run_sheet), planned.run_sheet())
+            write_text(Path(run_sheet), next_flight.write_run_sheet(planned))
     next_flight.write_motion(found, Path(output))
     said = describe_other.describe_next_motion(found.as_json(), output)
     page = lambda origin: pages.write_info(said, [found.motion()], origin)  # noqa: E731

@@ -14,7 +14,7 @@ from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.estimation.fitted import Fitted, fit, noise_floor
 from ragg_runtime.estimation.least_squares import Linear, join, with_prior
 from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.estimation.scores import Error
+from ragg_runtime.estimation.scores import Error, errors_json
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.parameters import (
     SEEN,
@@ -64,8 +64,7 @@ class Calibrated:
 
     def errors_json(self) -> dict[str, Any]:
         """The ``error`` of the JSON: nominal, calibrated, holdout."""
-        errors = {"nominal": self.nominal, "calibrated": self.error, "holdout": self.holdout}
-        return {name: e.as_json() for name, e in errors.items()}
+        return errors_json(self.nominal, self.error, self.holdout)
 
 
 def list_parameters(f: Fitted) -> list[dict[str, Any]]:

@@ -37,6 +37,12 @@ class Error:
         return {k: finite(v) for k, v in (asdict(self) | densities).items()}
 
 
+def errors_json(nominal: Error, calibrated: Error, holdout: Error) -> dict[str, Any]:
+    """The ``error`` of the JSON of a comparison and of a calibration."""
+    errors = {"nominal": nominal, "calibrated": calibrated, "holdout": holdout}
+    return {name: e.as_json() for name, e in errors.items()}
+
+
 def finite(x: float) -> float | None:
     """``None`` for NaN and infinity, which JSON does not have."""
     return float(x) if np.isfinite(x) else None

@@ -14,7 +14,7 @@ from ragg_runtime.estimation import fitted, regressors, unknown_gradient
 from ragg_runtime.estimation.calibration import OffSheet, off_sheet
 from ragg_runtime.estimation.fitted import Fitted, Scored, fit, noise_floor, swell
 from ragg_runtime.estimation.observation import as_output, observations_of
-from ragg_runtime.estimation.scores import Error, channels
+from ragg_runtime.estimation.scores import Error, channels, errors_json
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import selection, series, several_outputs
 from ragg_runtime.identification.dictionary import carrier, harmonics
@@ -98,11 +98,7 @@ class Comparison:
             "samples": int(sum(len(o.record.time) for o in f.flights)),
             "duration_s": float(sum(o.record.time[-1] + 1 / o.record.rate for o in f.flights)),
             "rate_Hz": float(records[0].rate),
-            "error": {
-                "nominal": self.nominal.as_json(),
-                "calibrated": self.calibrated.as_json(),
-                "holdout": self.holdout.as_json(),
-            },
+            "error": errors_json(self.nominal, self.calibrated, self.holdout),
             "noise_floor": series.noise_floor_json(f, self.noise_floor),
             "explained": {"share": self.explained.share},
             "converged": self.converged,

@@ -66,10 +66,14 @@ ITERATIONS = 25
 
 @dataclass(frozen=True)
 class Design:
-    """The multisine and what it promises."""
+    """A multisine, and what it promises of each pair of alternatives."""
 
     sinusoids: tuple[Sinusoid, ...]
     separations: tuple[Separation, ...]
+
+    def as_json(self) -> dict[str, object]:
+        """What it promises."""
+        return {"separations": [x.as_json() for x in self.separations]}
 
 
 @one_thread
@@ -227,17 +231,26 @@ class Planned:
 
 
 @dataclass(frozen=True)
-class CalibrationDesign:
+class CalibrationDesign(Design):
     """The multisine that calibrates best, each parameter as planned, the combinations of accelerometers' that it determines, and the
     rms that the parameters' uncertainty adds to inline and cross, Eo, ``now`` and ``then``.
     """
 
-    sinusoids: tuple[Sinusoid, ...]
     criterion: Criterion
     parameters: tuple[Planned, ...]
     combinations: tuple[Planned, ...]
     now: tuple[float, float]
     then: tuple[float, float]
+
+    def as_json(self) -> dict[str, object]:
+        """What it promises."""
+        channels = {"now": self.now, "planned": self.then}
+        return super().as_json() | {
+            "criterion": self.criterion,
+            "channels": {k: {"inline_Eo": v[0], "cross_Eo": v[1]} for k, v in channels.items()},
+            "parameters": [q.as_json() for q in self.parameters],
+            "combinations": [q.as_json() for q in self.combinations],
+        }
 
 
 @dataclass(frozen=True)
@@ -330,6 +343,7 @@ def design_calibration(
     )
     return CalibrationDesign(
         sinusoids=motion,
+        separations=(),
         criterion=criterion,
         parameters=tuple(
             Planned(

@@ -127,7 +127,7 @@ def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None
     x = simulated(m.instrument, [], seed=8, duration=120.0)
     limits = api.motion_limits(m, ["a=30mg", "jerk=1m/s^3", "alpha=1deg/s^2"])
     n = next_flight(m, [x], limits, duration=60.0, band=(0.1, 2.0))
-    assert n.separations == ()
+    assert n.design.separations == ()
     assert {axis for axis, *_ in n.sinusoids} == set(next_motion.AXES)
     write_motion(n, tmp_path / "motion.csv")
     motion = simulated(m.instrument, [], motion=tmp_path / "motion.csv")
