@@ -9,20 +9,26 @@ fifteen of them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement, product
+from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import series_name
+from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, Series
 from ragg_runtime.base.threads import split_range
+from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.observation import segments
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 from ragg_runtime.identification import features
 from ragg_runtime.identification.features import OUTPUT, Relaxations
-from ragg_runtime.io.record import GRADIENT, is_disc_angle
+from ragg_runtime.io.record import GRADIENT, RATES, is_disc_angle
 from ragg_runtime.model.record import Record
+from ragg_runtime.signals.fir import filtered
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -264,3 +270,158 @@ def carrier(r: Record, harmonic: str) -> Array:
         return np.ones(len(r.time))
     z = (r.cos_phi + 1j * r.sin_phi) ** h.multiple
     return np.asarray(z.real if h.function == "cos" else z.imag)
+
+
+# --- whitened: the directions along which a residual is asked. Any tells a standard normal deviate from white noise; the
+# whitened series of a term is the one that finds the term best.
+
+MEMORY = 16384
+"""Most taps of the filter that terms are whitened with: a direction need not be the best one for its
+score to be a standard normal deviate, and slower memory than this buys little."""
+
+STRETCH = 2048
+"""Samples that are summed in single precision."""
+
+
+def products(X: Singles, right: Array | Singles) -> Array:
+    """X (terms, N) times right (N, k): single precision within a segment, double between segments."""
+    singles = right.astype(np.float32, copy=False)
+    total = np.zeros((len(X), right.shape[1]))
+    for start in range(0, X.shape[1], STRETCH):
+        total += X[:, start : start + STRETCH] @ singles[start : start + STRETCH]
+    return total
+
+
+def squares(X: Singles) -> Array:
+    """(terms,): sums of squares of X (terms, N), as :func:`products` sums."""
+    total = np.zeros(len(X))
+    for start in range(0, X.shape[1], STRETCH):
+        part = X[:, start : start + STRETCH]
+        total += np.matmul(part[:, None, :], part[:, :, None])[:, 0, 0]
+    return total
+
+
+def _keep_valid(X: Singles, valid: NDArray[np.bool_]) -> Singles:
+    return X if valid.all() else X[:, valid]
+
+
+class Directions:
+    """Whitened series of the terms of a dictionary over a segment, as terms of the output or of ``only`` one of its series."""
+
+    def __init__(
+        self, prepared: PreparedFlight, dictionary: Dictionary, piece: Piece, only: int | None = None
+    ) -> None:
+        self.piece, self.dictionary, self.whole = piece, dictionary, prepared.observation
+        r = piece.observation.record
+        self.filters = prepared.noise.taps(MEMORY)
+        o = piece.observation
+        self.weights = prepared.noise.weights(
+            o.weights if only is None else np.where(np.arange(len(o.signs)) == only, o.signs, 0.0)
+        )
+        self.level = prepared.noise.level_of(r.quantity)
+
+    def whitened(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
+        """Places of some terms, their series (terms, N), and these whitened (terms, rows), through the filter."""
+        o, piece = self.piece.observation, self.piece
+        rows = piece.segment.rows
+        lead = min(rows.start, max(len(t) for t in self.filters) - 1)
+        wide = self.whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
+        valid = o.record.valid
+        for at, x in self.dictionary.make_chunks(wide, terms):
+            if o.recorded.demodulated:  # what the recorder made of G_out before it was recorded
+                x = o.recorded.through(x.astype(np.float64), wide).astype(np.float32)
+                x[:, ~wide.valid] = 0.0
+            parts = [
+                _keep_valid(self._even(filtered(x, np.asarray(w * taps), lead=lead)), valid)
+                for w, taps in zip(self.weights, self.filters, strict=True)
+            ]
+            yield at, x[:, lead:], self._without_gradient(parts)
+
+    def _even(self, X: Singles) -> Singles:
+        return X if isinstance(self.level, float) else np.asarray(X / self.level.astype(np.float32))
+
+    def _without_gradient(self, parts: Sequence[Singles]) -> Singles:
+        X = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+        unknown_gradient.project(X, self.piece.windows)
+        return X
+
+
+# --- a term as an effect of the user's own: a line for ``effects`` in model.toml, and what the flight must have for it
+
+_FUNCTION_NAMES = {"abs": "absolute value", "sign": "sign", "square": "square"}
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
+
+
+def write_effect(term: Term, centre: Mapping[str, float], unit: str) -> str | None:
+    """The effect as one line of model.toml; ``None`` if a channel's name is not possible in an expression, or it is made of the output.
+
+    ``centre`` are the means that auxiliary channels enter less; ``unit`` is that of the term's channels.
+    """
+    factors: list[str] = []
+    if any(series_name.channel(series_name.series(n)) == OUTPUT for n in term.channels):
+        return None  # no stage sees the output
+    for name in dict.fromkeys(term.channels):
+        text = _written(series_name.series(name))
+        if text is None:
+            return None
+        n = term.channels.count(name)
+        if n > 1 and name in centre:  # the square of a temperature in K would be all but a multiple of it
+            text = f"({text} - {centre[name]:.6g})" if centre[name] > 0 else f"({text} + {-centre[name]:.6g})"
+        factors.append(text if n == 1 else f"{text}**{n}")
+    product = "*".join(("K_x", *factors, *_carrier(term.harmonic)))
+    return f'{{ id = "my-effect", stage = "transducer", add = "{product}", K_x = {{ unit = "{unit}" }} }}'
+
+
+def list_effect_columns(term: Term) -> list[str]:
+    """In words: the columns that a flight must have for :func:`write_effect`, since an expression has only the values of one instant."""
+    found = {}
+    for name in term.channels:
+        s = series_name.series(name)
+        while isinstance(s, Function):
+            s = s.of
+        if not isinstance(s, ChannelName) and str(s) not in RATES:
+            found[_column(s)] = f"{_column(s)} ({describe_series(s)})"
+    return list(found.values())
+
+
+def describe_series(s: Series) -> str:
+    """What a series is."""
+    match s:
+        case ChannelName(name):
+            return name
+        case Derivative(of, order):
+            return f"{'second ' if order == 2 else ''}time derivative of {of}"
+        case Function(name, of):
+            return f"{_FUNCTION_NAMES[name]} of {describe_series(of)}"
+        case Relaxation(of, seconds):
+            return f"{describe_series(of)} through a relaxation of {seconds} s"
+
+
+def _column(s: Series) -> str:
+    """Name for a column of the flight that holds a series which no expression can form."""
+    if isinstance(s, Relaxation):
+        return "slow_" + str(s.of).replace("(", "_").replace(")", "")
+    return str(s)
+
+
+def _written(s: Series) -> str | None:
+    if isinstance(s, Function):
+        inner = _written(s.of)
+        return None if inner is None else f"{s.name}({inner})"
+    text = _column(s)
+    return text if _NAME.fullmatch(text) else None
+
+
+def _carrier(name: str) -> tuple[str, ...]:
+    """A harmonic of the disc angle as a polynomial in cos_phi and sin_phi (de Moivre)."""
+    h = series_name.harmonic(name)
+    k = h.multiple
+    if not k:
+        return ()
+    terms = []
+    # powers of i sin phi: real for cos, imaginary for sin
+    for n in range(0 if h.function == "cos" else 1, k + 1, 2):
+        factor = comb(k, n) * (-1) ** (n // 2)
+        powers = [f"{name}**{e}" if e > 1 else name for name, e in (("cos_phi", k - n), ("sin_phi", n)) if e]
+        terms.append("*".join([*([] if factor == 1 else [str(factor)]), *powers]))
+    return (terms[0],) if len(terms) == 1 else (f"({' + '.join(terms)})",)

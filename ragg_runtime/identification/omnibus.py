@@ -23,12 +23,11 @@ from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.regressors import predict_observed
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, flight_segments
-from ragg_runtime.identification.dictionary import Dictionary, Term
+from ragg_runtime.identification.dictionary import Dictionary, Directions, Term, products, squares
 from ragg_runtime.identification.features import term_unit
 from ragg_runtime.identification.likelihood_ratio import Variance, pooled
 from ragg_runtime.identification.spectral_line import Periodogram
 from ragg_runtime.identification.time_varying import BlockScores
-from ragg_runtime.identification.whitened_terms import Directions, products, squares
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]

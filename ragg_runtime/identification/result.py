@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation.calibration import OffSheet
 from ragg_runtime.estimation.fitted import Fitted, Scored
 from ragg_runtime.estimation.scores import Error
-from ragg_runtime.identification import as_effect, series
+from ragg_runtime.identification import dictionary, series
 from ragg_runtime.identification.comparison import Explained
 from ragg_runtime.identification.features import channel_unit
 from ragg_runtime.identification.line_rival import Steady
@@ -122,14 +122,14 @@ class Diagnosis:
     def needs(self) -> list[str]:
         """Columns, in words, that a flight must have for :meth:`expression`."""
         found = self._suggested
-        return [] if found is None else as_effect.columns(found[0].term)
+        return [] if found is None else dictionary.list_effect_columns(found[0].term)
 
     @cached_property
     def _suggested(self) -> tuple[ResidualTerm, str] | None:
         steady = [t for s in self.remainder.searches for t in s.terms if t.kind == "steady"]
         for t in sorted(steady, key=lambda t: -abs(t.z)):
             units = [u for c in t.term.channels if (u := channel_unit(c)) != "1"]
-            line = as_effect.line(t.term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
+            line = dictionary.write_effect(t.term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
             if line is not None:
                 return t, line
         return None

@@ -18,7 +18,7 @@ from scipy import special
 from ragg_runtime.estimation.observation import block_edges
 from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.estimation.whitening import Piece
-from ragg_runtime.identification.whitened_terms import products, squares
+from ragg_runtime.identification.dictionary import products, squares
 
 Array = NDArray[np.float64]
 

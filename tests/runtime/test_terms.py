@@ -12,7 +12,7 @@ from scipy import stats
 
 from derive.expression import from_expression
 from ragg_runtime.estimation import fitted, observation, whitening
-from ragg_runtime.identification import as_effect, comparison, features, omnibus
+from ragg_runtime.identification import comparison, dictionary, features, omnibus
 from ragg_runtime.identification.dictionary import Dictionary, Term
 from ragg_runtime.identification.omnibus import Scores
 from ragg_runtime.instrument.instrument import EffectSetting
@@ -247,9 +247,9 @@ def test_every_term_is_offered_as_an_expression_or_with_the_column_that_it_lacks
     channels: tuple[str, ...], text: str, needs: list[str]
 ) -> None:
     term = Term("const", channels)
-    line = as_effect.line(term, {"temperature": 293.25, "roll": -0.5}, "m/s^2")
+    line = dictionary.write_effect(term, {"temperature": 293.25, "roll": -0.5}, "m/s^2")
     assert line is not None
     assert f'add = "{text}"' in line
-    assert as_effect.columns(term) == needs
+    assert dictionary.list_effect_columns(term) == needs
     e = from_expression("my-effect", "transducer", text, {"K_x": {"unit": "m/s^2"}})
     assert set(e.channels) == {n.split()[0] for n in needs} | ({"temperature", "roll"} & set(channels))
