@@ -9,7 +9,8 @@ from scipy import stats
 
 from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import Error
-from ragg_runtime.identification.likelihood_ratio import STRENGTHS, Test
+from ragg_runtime.identification import likelihood_ratio
+from ragg_runtime.identification.likelihood_ratio import STRENGTHS
 from ragg_runtime.identification.probability import HELD, Probabilities, weighed
 from ragg_runtime.identification.ranking import Ranked, with_probability
 from ragg_runtime.identification.selection import Field
@@ -113,7 +114,7 @@ def test_of_an_effect_that_the_model_explains_otherwise_or_does_without_it_is_no
     found = Probabilities({"right": 1.0, "faint": 0.02}, (("right",),))
     said = {}
     for effect, log_p in (("right", -900.0), ("faint", -3.0), ("twin", -890.0), ("random", -9.0)):
-        row = Ranked.without_columns(effect, Test(1.0, 1, log_p, ()), error)
+        row = Ranked.without_columns(effect, likelihood_ratio.Test(1.0, 1, log_p, ()), error)
         said[effect] = with_probability(row, found, {"right", "faint", "twin"}).probability
     assert (said["right"], said["faint"], said["twin"]) == (1.0, 0.02, 0.0)
     assert said["random"] is None
