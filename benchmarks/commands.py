@@ -34,7 +34,7 @@ def run() -> list[Row]:
     """Rows of all commands."""
     from ragg_runtime import api
     from ragg_runtime.io import write_flight
-    from ragg_runtime.simulate import simulated
+    from ragg_runtime.simulate import simulate_flight
 
     rows = [
         _row("import ragg", [sys.executable, "-c", "import ragg"], 0.2),
@@ -45,10 +45,10 @@ def run() -> list[Row]:
         folder = Path(name)
         m = api.new(folder / "model")
         model, copy = str(folder / "model"), folder / "copy"
-        flight = simulated(m.instrument, [HIDDEN], seed=1, duration=1800.0, no_gradient=False)
+        flight = simulate_flight(m.instrument, [HIDDEN], seed=1, duration=1800.0, no_gradient=False)
         known, unknown = str(folder / "flight.parquet"), str(folder / "unknown.parquet")
         write_flight(flight, known)
-        write_flight(simulated(m.instrument, [HIDDEN], seed=1, duration=1800.0), unknown)
+        write_flight(simulate_flight(m.instrument, [HIDDEN], seed=1, duration=1800.0), unknown)
         first = _processor(_ragg("diagnose", model, known), {"XDG_CACHE_HOME": str(folder / "cold")})
 
         def fresh() -> None:
@@ -135,11 +135,11 @@ def _compensation(flight: Flight, folder: Path) -> list[Row]:
 def _preview(m: object, flight: Flight) -> list[Row]:
     """An effect predicted from R factors in memory."""
     from ragg_runtime.estimation.fitted import fit
-    from ragg_runtime.estimation.observation import observations_of
+    from ragg_runtime.estimation.observation import observe_flights
     from ragg_runtime.identification.predict import pass_unwhitened, predict_error
-    from ragg_runtime.identification.strong import with_steps
+    from ragg_runtime.identification.strong import add_steps
 
-    field, f, _ = with_steps(fit(m.model, m.instrument, observations_of([flight], m.instrument)))  # type: ignore[attr-defined]
+    field, f, _ = add_steps(fit(m.model, m.instrument, observe_flights([flight], m.instrument)))  # type: ignore[attr-defined]
     known = pass_unwhitened(f)
     found = []
     for effect in [*field.candidates][:12]:
@@ -155,9 +155,9 @@ def _preview(m: object, flight: Flight) -> list[Row]:
 def _hour(m: object, path: Path) -> list[Row]:
     """A diagnosis of an hour at 100 Hz, from a file."""
     from ragg_runtime.io import write_flight
-    from ragg_runtime.simulate import simulated
+    from ragg_runtime.simulate import simulate_flight
 
-    write_flight(simulated(m.instrument, [HIDDEN], seed=1, duration=3600.0, rate=100.0), path)  # type: ignore[attr-defined]
+    write_flight(simulate_flight(m.instrument, [HIDDEN], seed=1, duration=3600.0, rate=100.0), path)  # type: ignore[attr-defined]
     script = (
         "import ragg, resource, sys; m = ragg.load(sys.argv[1]);"
         "d = ragg.diagnose(m, ragg.read_flights(m, [sys.argv[2]])); assert d.found == ('thermal-scale',), d.found;"

@@ -22,8 +22,8 @@ from ragg_runtime.compensation.compensate import (
     prepare,
 )
 from ragg_runtime.estimation.fitted import fit
-from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.estimation.regressors import LinearisationPoint, residual_of
+from ragg_runtime.estimation.observation import observe_flights
+from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual
 from ragg_runtime.estimation.scores import channels
 from ragg_runtime.identification import motion_design, next_motion
 from ragg_runtime.identification.motion_design import Information
@@ -114,22 +114,22 @@ def calibrate_by_runs(seed: int) -> list[tuple[str, float, Array, Array]]:
     s = scenario(seed, duration=300.0, rate=8.0)
     sim = s.simulate(PAPER_ORDER)
     flight = sim.flight()
-    (clean,) = observations_of([dataclasses.replace(flight, outputs=dict(sim.outputs_noise_free))], s.sheet)
+    (clean,) = observe_flights([dataclasses.replace(flight, outputs=dict(sim.outputs_noise_free))], s.sheet)
 
     def fitted(*flights: Flight) -> Information:
-        return Information.of(fit(packaged(), s.sheet, observations_of(flights, s.sheet), candidates=False))
+        return Information.of(fit(packaged(), s.sheet, observe_flights(flights, s.sheet), candidates=False))
 
     first, band = fitted(flight), (0.0, next_motion.HIGHEST * s.rate)
     plan = motion_design.design_calibration(first.f, next_motion.LIMITS, duration=RUN, band=band)
-    tones = motion_design.tones_of(s.sheet.spin_frequency, next_motion.LIMITS, band)
-    even = motion_design.multisine(tones, motion_design.even(tones))
+    tones = motion_design.list_tones(s.sheet.spin_frequency, next_motion.LIMITS, band)
+    even = motion_design.multisine(tones, motion_design.share_evenly(tones))
     runs = [("none", (), 0.0), ("designed", plan.sinusoids, RUN)]
     runs += [("even", even, times * RUN) for times in (1, 2, 4)]
     found = []
     for name, motion, duration in runs:
         c = fitted(flight, fly_sinusoids(s, motion, duration)) if duration else first
         at = LinearisationPoint(c.f.model, s.sheet, c.f.calibration.p, False)
-        left = residual_of(at, clean)  # of what has no noise: what the parameters are wrong by
+        left = compute_residual(at, clean)  # of what has no noise: what the parameters are wrong by
         r = clean.record
         error = [np.sqrt(np.mean(x**2)) for x in channels(left[0], r, c.f.k_ggi, r.valid)[1:]]
         found.append((name, duration, np.array(c.channels(c.inverse(c.root))), np.array(error)))

@@ -71,10 +71,10 @@ def _made(app: Sphinx, config: Any) -> None:
     from derive import audit
     from derive.simplify.page import page as simplified
     from docs import made as build
-    from ragg_runtime.experiments.dynamic import dynamic
-    from ragg_runtime.experiments.multifrequency import multifrequency
+    from ragg_runtime.experiments.dynamic import repeat_dynamic
+    from ragg_runtime.experiments.multifrequency import repeat_multifrequency
     from ragg_runtime.experiments.paper import write_page
-    from ragg_runtime.experiments.turbulence import turbulence
+    from ragg_runtime.experiments.turbulence import repeat_turbulence
 
     made = HERE / "_made"
     (made / "effects").mkdir(parents=True, exist_ok=True)
@@ -83,7 +83,7 @@ def _made(app: Sphinx, config: Any) -> None:
     texts = build.effects() | {
         "errata.md": audit.page(),
         "simplified.md": simplified(),
-        "experiments.md": write_page([multifrequency(), dynamic(), turbulence()]),
+        "experiments.md": write_page([repeat_multifrequency(), repeat_dynamic(), repeat_turbulence()]),
         "benchmark.md": committed_page(),
         "commands.md": build.commands(),
         "model-toml.md": build.model_toml(),

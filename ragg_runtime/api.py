@@ -31,7 +31,7 @@ from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.compensation.export.program import FORMS, write_export
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.compensation.saved import Saved, add_entry, load_saved
-from ragg_runtime.estimation.scores import errors_json
+from ragg_runtime.estimation.scores import list_errors
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
 from ragg_runtime.identification.comparison import Comparison
@@ -39,7 +39,7 @@ from ragg_runtime.identification.next_motion import LIMITS
 from ragg_runtime.identification.parameters import Estimates, ParameterValue
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.identification.series import noise_floor_json
+from ragg_runtime.identification.series import list_noise_floor
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.layout import PAPER
@@ -108,11 +108,11 @@ __all__ = [
     "load",
     "mapping_of",
     "mapping_text",
-    "motion_limits",
     "new",
     "notes",
     "of_survey",
     "origin",
+    "parse_limits",
     "read_flights",
     "read_for_compensation",
     "remove",
@@ -187,7 +187,7 @@ def diagnose(
 LIMIT_UNITS = {"a": "m/s^2", "omega": "rad/s", "jerk": "m/s^3", "alpha": "rad/s^2"}
 
 
-def motion_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
+def parse_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
     """Largest amplitudes of a motion to fly next, and of its rates of change, SI, from texts such as ``a=50mg``."""
     found = dict(LIMITS)
     for text in texts:
@@ -250,14 +250,14 @@ class Added:
 
 def errors_of(c: Comparison | None) -> dict[str, object] | None:
     """The ``error`` of compare: nominal, calibrated, holdout."""
-    return None if c is None else errors_json(c.nominal, c.calibrated, c.holdout)
+    return None if c is None else list_errors(c.nominal, c.calibrated, c.holdout)
 
 
 def _judged(c: Comparison | None) -> dict[str, object] | None:
     """The errors of a comparison with its noise floor, and whether the model is adequate."""
     if c is None:
         return None
-    floor = noise_floor_json(c.fitted, c.noise_floor)
+    floor = list_noise_floor(c.fitted, c.noise_floor)
     return {**(errors_of(c) or {}), "noise_floor": floor, "adequate": c.adequate}
 
 

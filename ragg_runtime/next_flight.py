@@ -15,7 +15,7 @@ from ragg_runtime.api import Loaded, diagnose
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification.motion_design import (
     CalibrationDesign,
     Criterion,
@@ -24,15 +24,15 @@ from ragg_runtime.identification.motion_design import (
     Planned,
     design,
     design_calibration,
-    even,
+    list_tones,
     multisine,
-    tones_of,
+    share_evenly,
 )
 from ragg_runtime.identification.next_motion import (
     AXES,
     HIGHEST,
-    moved,
-    unit_of,
+    find_unit,
+    move_channels,
 )
 from ragg_runtime.io import Flight, write_flight
 
@@ -58,7 +58,7 @@ class NextFlight(Generic[D]):
         channels |= {f"omegadot_{k}": np.zeros(len(time)) for k in "xyz"}
         return Flight(
             time=time,
-            channels=channels | moved(channels, self.design.sinusoids, time),
+            channels=channels | move_channels(channels, self.design.sinusoids, time),
             outputs={},
             name="next motion",
         )
@@ -72,7 +72,7 @@ class NextFlight(Generic[D]):
                     "axis": axis,
                     "frequency_Hz": frequency,
                     "amplitude": amplitude,
-                    "unit": unit_of(axis),
+                    "unit": find_unit(axis),
                     "phase_rad": phase,
                 }
                 for axis, frequency, amplitude, phase in self.design.sinusoids
@@ -94,9 +94,11 @@ def next_flight(
     rate, band = _possible(m, flights, limits, rate, band)
     d = diagnose(m, flights)
     pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
-    tones = tones_of(m.instrument.spin_frequency, limits, band)
+    tones = list_tones(m.instrument.spin_frequency, limits, band)
     made = design(d.fitted, pairs, limits, duration=duration, band=band)
-    return NextFlight(made or Design(multisine(tones, even(tones)), ()), _mean(flights), duration, rate)
+    return NextFlight(
+        made or Design(multisine(tones, share_evenly(tones)), ()), _mean(flights), duration, rate
+    )
 
 
 def _possible(
@@ -109,7 +111,7 @@ def _possible(
     """Rate and band, Hz, of a motion; UserError if nothing can be made of them."""
     rate = flights[0].rate if rate is None else rate
     band = (0.0, HIGHEST * rate) if band is None else band
-    if not tones_of(m.instrument.spin_frequency, limits, band) or band[1] > HIGHEST * rate:
+    if not list_tones(m.instrument.spin_frequency, limits, band) or band[1] > HIGHEST * rate:
         raise UserError(
             "no motion is possible with these frequencies",
             where="--band",
@@ -131,11 +133,11 @@ def write_run_sheet(x: NextFlight[CalibrationDesign]) -> str:
         a: float(np.max(np.abs(channels[a] - x.mean[a]))) for a in dict.fromkeys(s[0] for s in sinusoids)
     }
     rows = [
-        f"| {axis} | {frequency:.6g} | {amplitude:.6g} | {unit_of(axis)} | {np.degrees(phase) % 360:.1f} |"
+        f"| {axis} | {frequency:.6g} | {amplitude:.6g} | {find_unit(axis)} | {np.degrees(phase) % 360:.1f} |"
         for axis, frequency, amplitude, phase in sinusoids
     ]
     means = [
-        f"| {axis} | {mean:.6g} | {peaks.get(axis, 0.0):.4g} | {unit_of(axis)} |"
+        f"| {axis} | {mean:.6g} | {peaks.get(axis, 0.0):.4g} | {find_unit(axis)} |"
         for axis, mean in x.mean.items()
     ]
     parameters = [
@@ -195,7 +197,7 @@ def calibration_flight(
 ) -> NextFlight[CalibrationDesign]:
     """The multisine that calibrates the model best for motion such as that of the flights, with which it will be fitted jointly."""
     rate, band = _possible(m, flights, limits, rate, band)
-    f = fit(m.model, m.instrument, observations_of(flights, m.instrument), candidates=False)
+    f = fit(m.model, m.instrument, observe_flights(flights, m.instrument), candidates=False)
     plan = design_calibration(f, limits, duration=duration, band=band, criterion=criterion)
     return NextFlight(plan, _mean(flights), duration, rate)
 

@@ -18,7 +18,7 @@ from ragg_runtime.instrument.units import units
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.model.model import DerivedEffect, packaged
-from ragg_runtime.model.record import start_of
+from ragg_runtime.model.record import find_start
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.chain import Auxiliary
@@ -65,10 +65,10 @@ def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
     UserError
         If an effect is unknown or a value is out of range.
     """
-    return simulated(m.instrument, effects, **options)
+    return simulate_flight(m.instrument, effects, **options)
 
 
-def simulated(
+def simulate_flight(
     instrument: Instrument,
     hidden: Sequence[str],
     *,
@@ -114,7 +114,7 @@ def simulated(
         flown = _drawn(seed, duration, rate, shape)
     else:
         record = read_flight(motion, instrument.g0, need_output=False, mapping=mapping)
-        start = start_of(record, instrument)
+        start = find_start(record, instrument)
         flown, duration, rate = _recorded(record, start)
     with _bounded():
         s = reference.simulate(
@@ -132,7 +132,7 @@ def simulated(
             effects=effects,
             seed=seed,
             auxiliaries=_auxiliaries(seed, effects, instrument.layout.size),
-            turning=turning_of(spin, instrument.layout, record, start),
+            turning=parse_turning(spin, instrument.layout, record, start),
         )
         found = s.flight("simulated", voltages=voltages)
         there = np.isfinite(list(found.outputs.values()))
@@ -233,7 +233,7 @@ FORM = "[DISC:]HZ[,RAD@HZ[@RAD]]..."
 """A steady rate (negative: backwards, 0: none) and swings: amplitude, frequency, phase at the beginning."""
 
 
-def turning_of(
+def parse_turning(
     given: Sequence[str], layout: Layout, motion: Flight | None = None, start: float = 0.0
 ) -> dict[str, Turning]:
     """Name of a disc -> how it turns; ``given`` are texts FORM, for the disc named or for all, before the angles of

@@ -57,7 +57,7 @@ def no_next_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     """No motion to fly next is sought, which takes a fifth of a diagnosis: for what is about the verdict."""
     from ragg_runtime.identification import next_motion
 
-    monkeypatch.setattr(next_motion, "proposals", lambda *_: ())
+    monkeypatch.setattr(next_motion, "propose_motions", lambda *_: ())
 
 
 @pytest.fixture

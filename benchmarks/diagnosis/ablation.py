@@ -154,7 +154,7 @@ def _level(*args: Any) -> Any:
 
 def _scipy(linearise: Callable[[Array], Any], start: Array, most: int = 150, ceiling: float = np.inf) -> Any:
     """``scipy.optimize.least_squares`` on the R factors: residual [y, sqrt(rest)], Jacobian -R."""
-    from ragg_runtime.estimation.least_squares import Minimum, settled
+    from ragg_runtime.estimation.least_squares import Minimum, is_settled
 
     known: dict[bytes, Any] = {}
 
@@ -179,7 +179,7 @@ def _scipy(linearise: Callable[[Array], Any], start: Array, most: int = 150, cei
         return Minimum(x=x, at=at(x), converged=False, reason="no finite output", trials=1)
     got = optimize.least_squares(residual, x, jac=jacobian, ftol=1e-7, xtol=1e-10, gtol=1e-10, max_nfev=most)
     end = at(got.x)
-    arrived = bool(got.status > 0 or settled(end))
+    arrived = bool(got.status > 0 or is_settled(end))
     return Minimum(x=got.x, at=end, converged=arrived, reason=got.message, trials=got.nfev, faithful=True)
 
 
@@ -190,7 +190,7 @@ RULES: tuple[Rule, ...] = (
          (Patch("estimation.calibration:minimise", _scipy, constant=True),)),
     Rule("line-rival", "a line beside a multiple of the spin rate in the place of an effect",
          (*quiet("near-line"), ("ten", "white"), ("quiet", "spin-off")), ("identification/line_rival.py",),
-         (Patch("identification.verdict:line_rival", lambda *a: (None, ()), acts=lambda r: r[0] is not None or bool(r[1])),)),
+         (Patch("identification.verdict:find_line_rival", lambda *a: (None, ()), acts=lambda r: r[0] is not None or bool(r[1])),)),
     Rule("jumps", "jumps of the output are fitted beside the columns before the noise is estimated",
          (*quiet("jump"), ("ten", "red"), ("five", "white")),
          ("estimation/residual.py:_jumps", "estimation/residual.py"),
@@ -208,8 +208,8 @@ RULES: tuple[Rule, ...] = (
          (Patch("identification.selection:uneven.nonempty_blocks", lambda blocks: (), acts=lambda r: bool(r)),
           Patch("identification.omnibus:Scores.inflation", lambda self, places: np.ones(len(places))),)),
     Rule("off-sheet", "priors are widened where the record requires it",
-         (*OFF, ("ten", "elsewhere")), ("estimation/calibration.py:widened", "estimation/calibration.py:_widths"),
-         (Patch("estimation.fitted:widened", _nothing),)),
+         (*OFF, ("ten", "elsewhere")), ("estimation/calibration.py:widen_priors", "estimation/calibration.py:_widths"),
+         (Patch("estimation.fitted:widen_priors", _nothing),)),
     Rule("time-varying", "generic terms that come and go",
          (*OUTSIDE, ("quiet", "ramp")), ("identification/time_varying.py", "identification/omnibus.py:_varying"),
          (Patch("identification.omnibus:_varying", _nothing, acts=_significant),)),
@@ -223,21 +223,23 @@ RULES: tuple[Rule, ...] = (
          STRONG, ("identification/contenders.py:Contest", "identification/strong.py:_best"),
          (Patch("identification.strong:CONTENDERS", 1, constant=True),)),
     Rule("impossible", "an effect that is possible at one size only is excluded at another",
-         (*OUTSIDE, ("off-sheet", "white"), ("strong", "white")), ("identification/strong.py:impossible",),
-         (Patch("identification.strong:impossible", lambda *a: ()),)),
+         (*OUTSIDE, ("off-sheet", "white"), ("strong", "white")), ("identification/strong.py:find_impossible",),
+         (Patch("identification.strong:find_impossible", lambda *a: ()),)),
     Rule("swap", "after each addition a chosen effect may be swapped for a better one",
          (("pair", "white"), ("pair", "red"), ("pair", "elsewhere"), ("outside", "white")), ("identification/selection.py:_swap",),
          (Patch("identification.selection:_swap", lambda f, chosen, blocks: (chosen, blocks)),)),
     Rule("doubtful", "effects degenerate with an error of the sheet are not offered",
          (("ten", "elsewhere"), *OFF), ("identification/sheet.py",),
-         (Patch("identification.sheet:doubtful", _nothing),)),
+         (Patch("identification.sheet:describe_doubt", _nothing),)),
     Rule("switching", "samples at which a switch's side is open, and the ends of late motion, are left out",
          (("strong", "white"), ("ten", "white"), ("pair", "elsewhere")), ("estimation/thinning.py",),
-         (Patch("estimation.fitted:certain", lambda m, i, o: o), Patch("identification.contenders:certain", lambda m, i, o: o))),
+         (Patch("estimation.fitted:leave_out_uncertain", lambda m, i, o: o),
+          Patch("identification.contenders:leave_out_uncertain", lambda m, i, o: o))),
     Rule("step-instant", "the instant of a step is refined to the sample, through the filter",
-         (("ten", "white"), ("strong", "red"), *quiet("jump")), ("identification/steps.py:refined", "identification/steps.py:sharpened"),
-         (Patch("identification.steps:refined", lambda prepared, step, *a: step),
-          Patch("identification.steps:sharpened", lambda prepared, sample, *a: sample),)),
+         (("ten", "white"), ("strong", "red"), *quiet("jump")),
+         ("identification/steps.py:refine_step", "identification/steps.py:sharpen_step"),
+         (Patch("identification.steps:refine_step", lambda prepared, step, *a: step),
+          Patch("identification.steps:sharpen_step", lambda prepared, sample, *a: sample),)),
     Rule("shared-noise", "voltages are whitened in their principal components",
          (("ten", "voltages"), ("quiet", "voltages"), ("pair", "voltages")), ("estimation/noise_estimate.py:_principal_components",),
          (Patch("estimation.noise_estimate:_principal_components", _nothing),)),
@@ -245,7 +247,7 @@ RULES: tuple[Rule, ...] = (
          (*OUTSIDE, *quiet("sensors-1-mg", "clock-set")), ("identification/comparison.py:exceeds_noise",),
          (Patch("identification.comparison:exceeds_noise", _false, acts=bool),)),
     Rule("explains-nothing", "a model that explains no more than its parameters would of noise",
-         quiet("shuffled", "pure-noise"), ("identification/comparison.py:Explained", "identification/comparison.py:explained"),
+         quiet("shuffled", "pure-noise"), ("identification/comparison.py:Explained", "identification/comparison.py:measure_explained"),
          (Patch("identification.comparison:Explained.complaint", None, constant=True),)),
     Rule("filled-in", "values that are stuck, or were filled in between recorded ones, are left out",
          quiet("stuck", "coarse", "digits"), ("screening/repeated.py",),
@@ -298,8 +300,8 @@ RULES: tuple[Rule, ...] = (
          ("identification/claims.py:Robust", "identification/claims.py:Significance", "identification/verdict.py:_weakest"),
          (Patch("identification.verdict:_weakest", _nothing, acts=lambda r: r is not None),)),
     Rule("spread", "beside a remainder generic terms have Gaussian coefficients of one fitted variance",
-         (*OUTSIDE, ("off-sheet", "red"), ("strong", "white")), ("identification/claims.py:spread_of",),
-         (Patch("identification.claims:spread_of", lambda left: 1.0),)),
+         (*OUTSIDE, ("off-sheet", "red"), ("strong", "white")), ("identification/claims.py:measure_spread",),
+         (Patch("identification.claims:measure_spread", lambda left: 1.0),)),
     Rule("second-order", "what an effect explains is what it explains to first order, but for some per cent",
          (*STRONG,), ("identification/claims.py:SECOND_ORDER",),
          (Patch("identification.search:SECOND_ORDER", np.inf, constant=True),)),

@@ -30,7 +30,7 @@ from ragg_runtime.reference.effects import EffectValues, resolve
 from ragg_runtime.reference.effects.output import record_output
 from ragg_runtime.reference.simulate import Simulation, combine, simulate
 from ragg_runtime.signals.demodulate import low_pass
-from ragg_runtime.signals.fir import convolved
+from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]
 
@@ -189,7 +189,7 @@ def _channels(w: World, x: Table) -> Table:
     k, half, G = w.scenario.sheet.scale_factor, len(low) // 2, x.pop("G_out")
     made = {"inline": 4 * G * np.sin(2 * phi), "cross": -2 * G * np.cos(2 * phi)}
     ends = {"constant_values": np.nan}
-    return x | {n: np.pad(convolved(v, low) / k, half, **ends) for n, v in made.items()}  # type: ignore[call-overload]
+    return x | {n: np.pad(convolve(v, low) / k, half, **ends) for n, v in made.items()}  # type: ignore[call-overload]
 
 
 def _hidden(spec: Spec, o: Oracle) -> tuple[Hidden, ...]:

@@ -17,7 +17,7 @@ from scipy.optimize import least_squares
 from examples.mimu.record import G0
 from examples.mimu.sheet import sheet
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -92,7 +92,7 @@ def calibrated(
     i = parse_instrument(text)
     i = dataclasses.replace(i, effects=(*i.effects, *(EffectSetting(e) for e in effects)))
     model = derive.without_signatures(i, i.form)
-    f = fit(model, i, observations_of(flights(i, motion, misread), i))
+    f = fit(model, i, observe_flights(flights(i, motion, misread), i))
     c = f.calibration
     std = np.sqrt(np.diag(c.covariance)) * np.array([q.scale for q in c.columns])
 

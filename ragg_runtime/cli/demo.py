@@ -13,7 +13,7 @@ from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import cli
 from ragg_runtime.io import write_flight
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Section, render_text
 
@@ -26,7 +26,8 @@ def make_flight(path: Path) -> None:
     effect, name, values = HIDDEN
     hidden = f"{effect}:{name}={'/'.join(f'{x:g}' for x in values)}"
     write_flight(
-        simulated(api.example(), [hidden], seed=2026, instrument_seed=2026, duration=720.0, rate=16.0), path
+        simulate_flight(api.example(), [hidden], seed=2026, instrument_seed=2026, duration=720.0, rate=16.0),
+        path,
     )
 
 

@@ -94,7 +94,7 @@ def _calibration_notes(m: Loaded) -> list[str]:
 def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], mapping: Path | None) -> None:
     """Find which physical effect is missing."""
     m = load(model_dir)
-    allowed = api.motion_limits(m, limits)
+    allowed = api.parse_limits(m, limits)
     records = read(m, flights, mapping)
     with working("calibrating, then testing every effect of the catalogue", "diagnose", records):
         d = api.diagnose(m, records, allowed)
@@ -191,7 +191,7 @@ def next_motion(
             "a run sheet needs --for calibration", where="--run-sheet", expected="--for calibration"
         )
     m = load(model_dir)
-    records, most = read(m, flights, mapping), api.motion_limits(m, limits)
+    records, most = read(m, flights, mapping), api.parse_limits(m, limits)
     if purpose == "effects":
         found = next_flight.next_flight(m, records, most, **options)
     else:

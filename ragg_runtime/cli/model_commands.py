@@ -169,11 +169,11 @@ def simulate(
 ) -> None:
     """Simulate a flight, hidden effects on request."""
     from ragg_runtime.io import write_flight
-    from ragg_runtime.simulate import simulated
+    from ragg_runtime.simulate import simulate_flight
 
     m = load(model_dir)
     under_way("simulating")
-    flight = simulated(
+    flight = simulate_flight(
         m.instrument, hidden, mapping=api.mapping_of(m, mapping), no_gradient=not gradient, **options
     )
     write_flight(flight, output)

@@ -12,18 +12,18 @@ from scipy import linalg
 
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.estimation.fitted import Fitted, fit, noise_floor
-from ragg_runtime.estimation.least_squares import Linear, join, with_prior
-from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.estimation.scores import Error, errors_json
+from ragg_runtime.estimation.least_squares import Linear, add_prior, join
+from ragg_runtime.estimation.observation import observe_flights
+from ragg_runtime.estimation.scores import Error, list_errors
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.parameters import (
     SEEN,
     Combination,
-    combinations_seen,
+    find_combinations,
     own_name,
     parameter_values,
 )
-from ragg_runtime.identification.series import noise_floor_json
+from ragg_runtime.identification.series import list_noise_floor
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import Model
@@ -56,7 +56,7 @@ class Calibrated:
             "converged": f.calibration.converged,
             "effects": [e.id for e in f.model.effects],
             "error": self.errors_json(),
-            "noise_floor": noise_floor_json(f, noise_floor(f)),
+            "noise_floor": list_noise_floor(f, noise_floor(f)),
             "directions": dict(zip(("seen", "fitted"), self.directions, strict=True)),
             "parameters": list_parameters(f),
             "combinations": list_combinations(f),
@@ -64,7 +64,7 @@ class Calibrated:
 
     def errors_json(self) -> dict[str, Any]:
         """The ``error`` of the JSON: nominal, calibrated, holdout."""
-        return errors_json(self.nominal, self.error, self.holdout)
+        return list_errors(self.nominal, self.error, self.holdout)
 
 
 def list_parameters(f: Fitted) -> list[dict[str, Any]]:
@@ -87,7 +87,7 @@ def list_combinations(f: Fitted) -> list[dict[str, Any]]:
     """What the record determines: combinations of accelerometers', and single values, as JSON has them."""
     columns, layout = f.calibration.columns, f.model.layout
     values, root = f.calibration.in_scales, invert_root(information(f))
-    found = combinations_seen(f.model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ root)))
+    found = find_combinations(f.model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ root)))
     single = np.linalg.norm(root, axis=1) < SEEN
     for name in dict.fromkeys(c.name for c in columns):
         places = [k for k, c in enumerate(columns) if c.name == name]
@@ -118,7 +118,7 @@ def calibrate(model: Model, instrument: Instrument, flights: Sequence[Flight]) -
     UserError
         If the flights are not of this instrument.
     """
-    f = fit(model, instrument, observations_of(flights, instrument))
+    f = fit(model, instrument, observe_flights(flights, instrument))
     whole, held_out, nominal = comparison.score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
     return Calibrated(fitted=f, nominal=nominal.whole, error=whole.whole, holdout=held_out.held_out)
 
@@ -176,6 +176,6 @@ def list_base_r_factors(f: Fitted, k: int) -> list[Array]:
 
 def fit_some(f: Fitted, r_factors: Sequence[Array]) -> tuple[Array, Array]:
     """The posterior of some R factors [base | residual] and the prior: the step (n,) from here, and a root (n, n) of its covariance."""
-    whole = with_prior(join(r_factors), range(f.n_base), f.to_nominal)
+    whole = add_prior(join(r_factors), range(f.n_base), f.to_nominal)
     R = whole[:-1, :-1]
     return Linear(R=R, y=whole[:-1, -1], rest=0.0).step, invert_root(R)

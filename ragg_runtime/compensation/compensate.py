@@ -17,8 +17,8 @@ from ragg_runtime.compensation.calibrate import fit_some, information, invert_ro
 from ragg_runtime.compensation.drift import find_starts, smooth_drift
 from ragg_runtime.compensation.frozen import (
     CalibrationChange,
-    as_calibration,
     describe_saved,
+    make_calibration,
     retest_change,
     warn_of_change,
 )
@@ -36,20 +36,20 @@ from ragg_runtime.compensation.segment import (
 )
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.least_squares import orthonormal
+from ragg_runtime.estimation.least_squares import orthonormalise
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import (
     BLOCKS,
     ROWS,
     Observation,
     Segment,
-    as_output,
     block_edges,
-    observations_of,
+    combine_output,
+    observe_flights,
     segments,
     spread,
 )
-from ragg_runtime.estimation.scores import error, finite
+from ragg_runtime.estimation.scores import finite, measure_error
 from ragg_runtime.estimation.spectrum import periodogram
 from ragg_runtime.estimation.unknown_gradient import spin_frequency, windows
 from ragg_runtime.estimation.whitening import flight_segments
@@ -62,7 +62,7 @@ from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
-from ragg_runtime.signals.demodulators import Demodulator, demodulator
+from ragg_runtime.signals.demodulators import Demodulator, find_demodulator
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.tensor import COMPONENTS, tensor
 from ragg_runtime.wording import describe_other
@@ -84,7 +84,7 @@ Kind = Literal["frozen", "self", "crossed", "smoothed"]
 KINDS: tuple[Kind, ...] = ("self", "crossed", "smoothed", "frozen")
 
 
-def without_gradients(flight: Flight) -> Flight:
+def leave_out_gradients(flight: Flight) -> Flight:
     """A flight without recorded gradients, which must not enter what is compensated."""
     channels = {n: x for n, x in flight.channels.items() if n not in GRADIENT}
     return replace(flight, channels=channels) if len(channels) < len(flight.channels) else flight
@@ -203,14 +203,14 @@ def prepare(
     """
     if kind not in KINDS:
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
-    flights = tuple(without_gradients(x) for x in flights)
-    observations = tuple(observations_of(flights, instrument))
+    flights = tuple(leave_out_gradients(x) for x in flights)
+    observations = tuple(observe_flights(flights, instrument))
     seeing = find_seeing(instrument, observations)
     change: CalibrationChange | None = None
     if kind == "frozen":
         if saved is None:
             raise UserError("a frozen compensation needs a saved calibration")
-        c = as_calibration(saved, model, instrument, observations)
+        c = make_calibration(saved, model, instrument, observations)
         root = invert_root(saved.information)
         blocks = _whole_blocks(c, observations, root)
         change = retest_change(model, instrument, observations, saved, c)
@@ -292,7 +292,7 @@ def _crossed_block(f: Fitted, o: Observation, b: int, of_all: Sequence[Sequence[
 def make_channel(p: PreparedFlights, k: int, name: str) -> OutputChannel:
     """An observation ready to be compensated; ``name``: of the demodulator. UserError if the flight is too short for it."""
     o, c = p.observations[k], p.calibration
-    flight, d = p.flights[o.flight], demodulator(name, o.record.rate)
+    flight, d = p.flights[o.flight], find_demodulator(name, o.record.rate)
     least = sum(d.settling) + 1
     if len(flight.time) < least:
         raise UserError(
@@ -357,7 +357,7 @@ def describe_channel(c: OutputChannel, x: Compensated) -> dict[str, Any]:
     o, d, names = c.observation, c.demodulator, ("inline_Eo", "cross_Eo")
     there = np.isfinite(x.gradient.real)
     rms = np.sqrt(np.mean(x.parameters[:, there] ** 2, axis=1)) if there.any() else np.full(2, np.nan)
-    nominal = error(take_gradient_out(o, x.nominal, c.spectrum), o.record, c.k_ggi).as_json()
+    nominal = measure_error(take_gradient_out(o, x.nominal, c.spectrum), o.record, c.k_ggi).as_json()
     every = max(1, int(d.rate))  # the channels hold nothing above half a hertz
     return {
         "flight": o.flight_name,
@@ -389,7 +389,7 @@ def take_gradient_out(o: Observation, e: Array, noise: NoiseModel) -> Array:
         for w in (w for w in windows(o, s.rows, noise) if len(w.plain)):
             rows = np.arange(s.rows.start, s.rows.stop)[w.samples]
             rows = rows[valid[rows]]
-            Q = orthonormal(as_output(o, w.plain.reshape(len(w.plain), -1, len(rows))))
+            Q = orthonormalise(combine_output(o, w.plain.reshape(len(w.plain), -1, len(rows))))
             found[rows] -= (found[rows] @ Q) @ Q.T
     return found
 

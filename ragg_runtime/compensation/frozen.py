@@ -15,10 +15,10 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.estimation.calibration import Calibration
-from ragg_runtime.estimation.fitted import Fitted, about
+from ragg_runtime.estimation.fitted import Fitted, prepare_evidence
 from ragg_runtime.estimation.least_squares import join
 from ragg_runtime.estimation.noise_estimate import estimate_noise
-from ragg_runtime.estimation.observation import Observation, observations_of, segments, spread
+from ragg_runtime.estimation.observation import Observation, observe_flights, segments, spread
 from ragg_runtime.estimation.regressors import Column, LinearisationPoint
 from ragg_runtime.estimation.scores import Error, finite, log_sf
 from ragg_runtime.identification import comparison
@@ -129,7 +129,7 @@ def describe_saved(saved: Saved) -> dict[str, Any]:
 
 
 @one_thread
-def as_calibration(
+def make_calibration(
     saved: Saved, model: Model, instrument: Instrument, observations: Sequence[Observation]
 ) -> Calibration:
     """The saved parameters as the calibration of these flights, of which the noise alone is estimated."""
@@ -153,8 +153,10 @@ def as_calibration(
 
 def compare_frozen(model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved) -> Held:
     """Compare flights with a model by a saved calibration, and test whether it holds for them."""
-    observations = observations_of(flights, instrument)
-    f = about(model, instrument, observations, as_calibration(saved, model, instrument, observations))
+    observations = observe_flights(flights, instrument)
+    f = prepare_evidence(
+        model, instrument, observations, make_calibration(saved, model, instrument, observations)
+    )
     free = f.vector(f.coefficients(())[0])
     frozen, fitted, held_out, nominal = comparison.score_with_nominal(
         f, [np.zeros(f.size), free, f.fit_held_out()]
@@ -196,7 +198,7 @@ def retest_change(
         # of the observation, not of the flight: the disc's angle counts from its beginning
         parts += [o.part(rows) for rows in blocks]
         noise += [own] * len(blocks)
-    f = about(model, instrument, parts, replace(c, noise=tuple(noise)), candidates=False)
+    f = prepare_evidence(model, instrument, parts, replace(c, noise=tuple(noise)), candidates=False)
     return measure_change(f, saved)
 
 

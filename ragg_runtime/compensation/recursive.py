@@ -18,11 +18,11 @@ from scipy import linalg
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread, split_range
-from ragg_runtime.compensation.compensate import Compensation, find_seeing, without_gradients
+from ragg_runtime.compensation.compensate import Compensation, find_seeing, leave_out_gradients
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.compensation.segment import Quality
-from ragg_runtime.estimation.least_squares import of_some
-from ragg_runtime.estimation.observation import ROWS, Observation, as_output, observations_of
+from ragg_runtime.estimation.least_squares import marginalise
+from ragg_runtime.estimation.observation import ROWS, Observation, combine_output, observe_flights
 from ragg_runtime.estimation.regressors import (
     Column,
     LinearisationPoint,
@@ -37,7 +37,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.recorded import carried
+from ragg_runtime.model.recorded import put_on_carriers
 from ragg_runtime.signals.demodulate import CUTOFF
 
 Array = NDArray[np.float64]
@@ -105,7 +105,7 @@ class Online:
         self.k_ggi = scale_factor(model, self.p, place)
         n = len(self.columns)
         self.R = np.zeros((n + 2, n + 3))
-        self.R[:n, :n] = np.eye(n) if root is None else of_some(root, self.own)
+        self.R[:n, :n] = np.eye(n) if root is None else marginalise(root, self.own)
         self.R[n:, n : n + 2] = np.eye(2) / UNKNOWN_EO
         self._waiting: list[Array] = []
         self._before: float | None = None
@@ -139,12 +139,14 @@ class Online:
         r = o.record
         wide = {name: x for name, x in r.wide.items() if name not in GRADIENT}
         bare = replace(o, record=replace(r, wide=wide))
-        columns = as_output(
+        columns = combine_output(
             bare, linearise(LinearisationPoint(self.model, self.instrument, self.p, False), bare)
         )
         columns = columns[[*self.own, len(columns) - 1]]
         zero, one = np.zeros(len(r.time)), np.ones(len(r.time))
-        gradient = np.stack([carried(one, zero, r, self.k_ggi), carried(zero, one, r, self.k_ggi)])
+        gradient = np.stack(
+            [put_on_carriers(one, zero, r, self.k_ggi), put_on_carriers(zero, one, r, self.k_ggi)]
+        )
         return np.asarray(np.concatenate([columns[:-1], gradient, columns[-1:]]).T / self.tuning.noise)
 
     def _fold(self) -> None:
@@ -190,7 +192,7 @@ class Online:
         x = linalg.solve_triangular(self.R[:, : n + 2], self.R[:, -1])
         p = self.p.copy()
         p[self.index] += x[:n] * self.scale
-        return p, of_some(self.R[:, : n + 2], range(n))
+        return p, marginalise(self.R[:, : n + 2], range(n))
 
 
 def _eliminate(rows: Array) -> Array:
@@ -236,7 +238,7 @@ def follow(
     tuning = Tuning(noise=density, walk=wander, forget=forget)
     series, entries = [], []
     for k, x in enumerate(flights, 1):
-        columns, said = _follow_flight(model, instrument, without_gradients(x), saved, tuning)
+        columns, said = _follow_flight(model, instrument, leave_out_gradients(x), saved, tuning)
         if len(flights) > 1:
             columns["flight"] = np.full(len(columns["time"]), k, dtype=np.int64)
         series.append(columns)
@@ -277,7 +279,7 @@ def _follow_flight(
     p, root = (vector(model, instrument), None) if saved is None else (saved.p, saved.information)
     columns: dict[str, NDArray[Any]] = {}
     said = []
-    observations = observations_of([x], instrument)
+    observations = observe_flights([x], instrument)
     for o in (observations[k] for k in find_seeing(instrument, observations)):
         if o.recorded.demodulated:
             raise UserError(

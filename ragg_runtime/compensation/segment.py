@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.observation import Observation, as_output
+from ragg_runtime.estimation.observation import Observation, combine_output
 from ragg_runtime.estimation.regressors import Column, put_derivatives
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
@@ -25,8 +25,8 @@ from ragg_runtime.model import lateness
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.evaluator import Evaluator
 from ragg_runtime.model.model import Model
-from ragg_runtime.signals.demodulators import Demodulator, demodulator
-from ragg_runtime.signals.tensor import across
+from ragg_runtime.signals.demodulators import Demodulator, find_demodulator
+from ragg_runtime.signals.tensor import spread_across
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -143,8 +143,8 @@ class ChannelSegment:
         self.own = slice(rows.start - self.first, rows.stop - self.first)
         part = o.part(slice(self.first, self.last))
         self.record = part.record
-        self.G = as_output(part, part.data)
-        moved, rest = lateness.about(c.model, self.record, c.about)
+        self.G = combine_output(part, part.data)
+        moved, rest = lateness.move_record(c.model, self.record, c.about)
         self.late = c.about - rest
         self.x = moved.inputs(c.model.chain)
         self.x[[n in GRADIENT for n in c.model.chain.INPUTS]] = 0.0
@@ -207,7 +207,7 @@ class ChannelSegment:
     def gradient(self) -> Complex:
         """(N,) Eo: the gradient as this instrument sees it; the model is left with it as its input, across the axis of the disc."""
         g = self.first_estimate()
-        parts = across(self.record.axes or (X_AXIS, Y_AXIS), EOTVOS * g.real, EOTVOS * g.imag)
+        parts = spread_across(self.record.axes or (X_AXIS, Y_AXIS), EOTVOS * g.real, EOTVOS * g.imag)
         for n, name in enumerate(self.c.model.chain.INPUTS):
             if name in GRADIENT:
                 self.x[n] = parts[GRADIENT.index(name)]
@@ -220,14 +220,14 @@ class ChannelSegment:
         columns = np.zeros((len(c.columns), len(c.observation.series), len(self.k)))
         chain = c.model.evaluators("chain")
         put_derivatives(columns, chain, c.columns, self.x, self.record, c.observation, c.about - self.late)
-        J = as_output(c.observation, columns)[:, : count * few].reshape(len(columns), count, few)
+        J = combine_output(c.observation, columns)[:, : count * few].reshape(len(columns), count, few)
         mixer = self.mixer[:, : count * few].reshape(2, count, few) / few
         return np.asarray(np.einsum("wcf,ncf->nwc", mixer, J))
 
     def variance(self) -> Array:
         """(2, N) Eo^2: of inline and cross, by the parameters."""
         few = max(1, int(self.c.demodulator.rate // FINE))
-        low_pass = demodulator(self.c.demodulator.name, self.c.demodulator.rate / few)
+        low_pass = find_demodulator(self.c.demodulator.name, self.c.demodulator.rate / few)
         change = self.change_by_parameters(few)
         count = change.shape[-1]
         along = np.empty(

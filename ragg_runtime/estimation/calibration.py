@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.least_squares import Linear, Minimum, join, minimise, with_prior
+from ragg_runtime.estimation.least_squares import Linear, Minimum, add_prior, join, minimise
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation
-from ragg_runtime.estimation.regressors import Column, LinearisationPoint, spelt, tested_columns
+from ragg_runtime.estimation.regressors import Column, LinearisationPoint, spell_name, tested_columns
 from ragg_runtime.estimation.unknown_gradient import Window
 from ragg_runtime.estimation.whitening import Piece, find_segments, pass_over, take_excerpt
 from ragg_runtime.instrument.instrument import Instrument
@@ -278,7 +278,7 @@ def _r_factor(piece: Piece) -> tuple[Array, int, Array]:
 
 def _linear(T: Array, to_nominal: Array) -> Linear:
     """The fit of an R factor [base (n) | residual], the prior in it: its centre is ``to_nominal`` away, its width one scale."""
-    R = with_prior(T, range(len(to_nominal)), to_nominal)
+    R = add_prior(T, range(len(to_nominal)), to_nominal)
     return Linear(R[:-1, :-1], R[:-1, -1], float(R[-1, -1] ** 2))
 
 
@@ -314,7 +314,7 @@ class OffSheet:
             "value": self.value,
             "sheet": self.sheet,
             "unit": self.unit,
-            **spelt(self.accelerometer, self.accelerometer_name),
+            **spell_name(self.accelerometer, self.accelerometer_name),
         }
 
 
@@ -324,7 +324,7 @@ def to_nominal(model: Model, instrument: Instrument, c: Calibration) -> Array:
     return np.asarray((vector(model, instrument)[c.index] - c.p[c.index]) / scale)
 
 
-def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffSheet]:
+def list_off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffSheet]:
     """The instrument's parameters that ended more than :data:`FAR` sigmas from their sheet, farthest first."""
     sheet = vector(model, instrument)
     found = [
@@ -361,7 +361,7 @@ HELD = 0.5
 is (linearised), not even a curved valley takes most."""
 
 
-def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
+def widen_priors(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
     """The instrument with each kind of parameter's prior as wide as the record requires, if that is wider than on the sheet.
 
     The widths are those of greatest evidence (empirical Bayes; MacKay, Neural Computation 4, 1992): the squared distances over the

@@ -13,13 +13,13 @@ from scipy import linalg
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import calibration, regressors, whitening
-from ragg_runtime.estimation.calibration import QUIET, Calibration, widened
-from ragg_runtime.estimation.least_squares import fold, prior, with_prior
+from ragg_runtime.estimation.calibration import QUIET, Calibration, widen_priors
+from ragg_runtime.estimation.least_squares import add_prior, fold, prior
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, Observation
 from ragg_runtime.estimation.regressors import Column
-from ragg_runtime.estimation.scores import Error, Tally, pooled
-from ragg_runtime.estimation.thinning import beyond, certain
+from ragg_runtime.estimation.scores import Error, Tally, pool_errors
+from ragg_runtime.estimation.thinning import leave_out_uncertain, measure_beyond
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, prepare_flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
@@ -110,7 +110,9 @@ class Fitted:
     @cached_property
     def beyond(self) -> tuple[float, ...]:
         """Mean square, V^2, of what thinning took of each observation: no column reaches there, it is noise."""
-        return tuple(beyond(self.model, self.instrument, self.calibration.p, o) for o in self.observations)
+        return tuple(
+            measure_beyond(self.model, self.instrument, self.calibration.p, o) for o in self.observations
+        )
 
     @cached_property
     def _fitted_part(self) -> Array:
@@ -152,7 +154,7 @@ class Fitted:
         picked = [*range(n), *(n + k for k in extra)]
         k = len(picked)
         # the base columns are triangular already: what the extra ones leave below them is all that is new
-        below = with_prior(T[n:, [*picked[n:], -1]], range(k - n))
+        below = add_prior(T[n:, [*picked[n:], -1]], range(k - n))
         R = np.vstack([T[:n, picked], np.hstack([np.zeros((k - n, n)), below[: k - n, : k - n]])])
         inverse, _ = linalg.lapack.dtrtri(R)
         blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
@@ -233,10 +235,10 @@ class Fitted:
         errors = [t.error(series, k, group) for t, k in zip(tallies, self.scales, strict=True)]
         if len(errors) == 1:
             return errors[0]
-        return pooled(errors, [float(t.samples[group]) for t in tallies])
+        return pool_errors(errors, [float(t.samples[group]) for t in tallies])
 
 
-def calibrated(
+def calibrate(
     model: Model,
     instrument: Instrument,
     observations: Sequence[Observation],
@@ -251,7 +253,7 @@ def calibrated(
     c = calibration.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
     found = instrument, c
     for _ in range(WIDENED):
-        wider = widened(model, instrument, c)
+        wider = widen_priors(model, instrument, c)
         if wider is None:
             break
         instrument = wider
@@ -274,8 +276,8 @@ def fit(
 
     ``noise`` is estimated unless given; ``unweighted``: all samples weigh the same. Without ``candidates`` no effect can be tested.
     """
-    observations = certain(model, instrument, observations)
-    instrument, c = calibrated(
+    observations = leave_out_uncertain(model, instrument, observations)
+    instrument, c = calibrate(
         model, instrument, observations, noise=noise, start=start, unweighted=unweighted
     )
     if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):
@@ -286,11 +288,11 @@ def fit(
             expected="the disc angle, spin frequency, axes and signs of the model",
             remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
         )
-    return about(model, instrument, observations, c, candidates=candidates)
+    return prepare_evidence(model, instrument, observations, c, candidates=candidates)
 
 
 @one_thread
-def about(
+def prepare_evidence(
     model: Model,
     instrument: Instrument,
     observations: Sequence[Observation],
@@ -316,7 +318,7 @@ def about(
     )
 
 
-def with_held(f: Fitted, *, candidates: bool = False) -> Fitted:
+def release_held(f: Fitted, *, candidates: bool = False) -> Fitted:
     """The evidence about the same values with the coefficients that were held among the columns: what is reported are combinations
     that the record determines of all.
     """
@@ -325,16 +327,16 @@ def with_held(f: Fitted, *, candidates: bool = False) -> Fitted:
     instrument = replace(f.instrument, held=frozenset())
     columns, index = zip(*regressors.list_base_columns(f.model, instrument), strict=True)
     c = replace(f.calibration, columns=columns, index=np.array(index, dtype=np.intp))
-    free = about(f.model, instrument, f.observations, c, candidates=candidates)
+    free = prepare_evidence(f.model, instrument, f.observations, c, candidates=candidates)
     return replace(free, calibration=replace(c, covariance=free.coefficients(())[1]))
 
 
-def swell(f: Fitted) -> float:
+def measure_swell(f: Fitted) -> float:
     """rms of all the noise over that of the floor."""
     return float(np.sqrt(np.mean([x.noise.swell(x.observation.record) for x in f.prepared])))
 
 
-def lines(f: Fitted) -> float:
+def measure_lines(f: Fitted) -> float:
     """rms of the lines that are taken for noise, Eo."""
     power = [
         x.noise.line_power_of(x.observation.signs) / k_ggi**2
@@ -343,7 +345,7 @@ def lines(f: Fitted) -> float:
     return float(np.sqrt(np.mean(power)))
 
 
-def estimated(x: PreparedFlight) -> float:
+def estimate_variance(x: PreparedFlight) -> float:
     """Variance of the estimated noise of what was observed as G_out, V^2."""
     share = x.observation.recorded.noise_share(x.observation.record)
     return share * x.noise.variance(x.observation.signs)
@@ -353,5 +355,5 @@ def noise_floor(f: Fitted) -> float:
     """rms of the noise of G_out before demodulation, Eo."""
     variances = []
     for x, k_ggi, fast in zip(f.prepared, f.scales, f.beyond, strict=True):
-        variances.append((estimated(x) + fast) / (k_ggi / f.k_ggi) ** 2)
+        variances.append((estimate_variance(x) + fast) / (k_ggi / f.k_ggi) ** 2)
     return float(np.sqrt(np.mean(variances))) / f.k_ggi

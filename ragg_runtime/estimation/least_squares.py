@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from scipy import linalg, optimize
 
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
-from ragg_runtime.signals.fir import not_zero
+from ragg_runtime.signals.fir import find_nonzero
 
 Array = NDArray[np.float64]
 
 
-def with_prior(T: Array, columns: Sequence[int], centre: Array | float = 0.0) -> Array:
+def add_prior(T: Array, columns: Sequence[int], centre: Array | float = 0.0) -> Array:
     """An R factor (n, n) whose last column is the data, with a prior of unit width on some of the other columns.
 
     ``centre`` (columns,) or one number is where the prior has its mean. A prior is so many further rows of data.
@@ -33,7 +33,7 @@ def prior(columns: Sequence[int], n: int, centre: Array | float = 0.0) -> Array:
     return rows
 
 
-def orthonormal(columns: Array) -> Array:
+def orthonormalise(columns: Array) -> Array:
     """(rows, k): orthonormal basis of columns (n, rows); those that vanish (knots in a gap) span nothing."""
     norms = np.linalg.norm(columns, axis=1)
     return np.asarray(np.linalg.qr(columns[norms > 1e-9 * np.max(norms, initial=0.0)].T)[0])
@@ -48,7 +48,7 @@ PANEL = 32
 
 def r_factor(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows. What is zero stays so, without work."""
-    some = not_zero(columns)
+    some = find_nonzero(columns)
     k = np.count_nonzero(some)
     R = np.zeros((k, k), order="F")
     for start in range(0, columns.shape[1], CHUNK):
@@ -86,7 +86,7 @@ def fold(trapezoids: Sequence[Array]) -> Array:
     return R
 
 
-def below(T: Array, first: int, picked: Sequence[int]) -> Array:
+def pick_columns(T: Array, first: int, picked: Sequence[int]) -> Array:
     """The R factor of the first columns of T (n, n), which are triangular in it already, and of others ``picked``."""
     k = first + len(picked)
     R = np.zeros((k, k))
@@ -97,7 +97,7 @@ def below(T: Array, first: int, picked: Sequence[int]) -> Array:
     return R
 
 
-def of_some(root: Array, own: Sequence[int]) -> Array:
+def marginalise(root: Array, own: Sequence[int]) -> Array:
     """(n, n): a root of the information about some parameters, marginal over the others, from one (all, all) about all."""
     others = [k for k in range(len(root)) if k not in set(own)]
     if not others:
@@ -226,7 +226,7 @@ class Minimum(Generic[L]):
         return self.at.damped(0.0) if trusted else np.zeros(len(self.x))
 
 
-def settled(at: Linear) -> bool:
+def is_settled(at: Linear) -> bool:
     """The test of optimality: nothing worth having is promised any more."""
     return at.decrement <= max(SETTLED, RELATIVE * at.cost)
 
@@ -243,7 +243,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
     if not np.isfinite(at.cost):
         return ended(False, "the model output is not finite at the starting point")
     while trials < most:
-        if settled(at):
+        if is_settled(at):
             return ended(True, "no further gain", faithful)
         step = at.within(radius)
         length = float(np.linalg.norm(step))
@@ -266,7 +266,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
             if at.decrement < INDISTINGUISHABLE:
                 return ended(True, "no significant gain")
             return ended(False, "no step reduces the misfit")
-    return ended(settled(at), f"stopped after {most} trials")
+    return ended(is_settled(at), f"stopped after {most} trials")
 
 
 def _followed(linearise: Callable[[Array], L], at: L, x: Array, step: Array) -> tuple[Array, L, int]:

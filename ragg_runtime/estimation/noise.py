@@ -20,7 +20,7 @@ from ragg_runtime.io.record import (
     is_disc_angle,
 )
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.fir import filtered
+from ragg_runtime.signals.fir import filter_columns
 
 Array = NDArray[np.float64]
 
@@ -164,7 +164,7 @@ class NoiseModel:
 
         def through(k: int) -> Array:
             past = None if tail is None else self._series(tail, k)
-            y = filtered(self._series(columns, k), self.filters[k], past, lead)
+            y = filter_columns(self._series(columns, k), self.filters[k], past, lead)
             y = y / level if self.uneven else y
             return y if valid is None or valid.all() else y[:, valid]
 

@@ -18,23 +18,23 @@ from ragg_runtime.estimation.observation import (
     THINNER,
     Observation,
     Segment,
-    beginnings,
     information_per_sample,
     spread,
+    take_beginnings,
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint
 from ragg_runtime.estimation.residual import (
     Disturbance,
     ProjectedResidual,
+    describe_disturbances,
     fit_columns,
-    in_words,
     place_valid,
 )
-from ragg_runtime.estimation.spectrum import LOWEST, Averages, Spectrum, estimate, periodogram, without_lines
-from ragg_runtime.estimation.whitening import Piece, flight_segments, longer, pass_over
+from ragg_runtime.estimation.spectrum import LOWEST, Averages, Spectrum, cut_lines, estimate, periodogram
+from ragg_runtime.estimation.whitening import Piece, flight_segments, is_long, pass_over
 from ragg_runtime.io.record import ANGULAR_RATE, SPECIFIC_FORCE
-from ragg_runtime.model.record import quantities_of
-from ragg_runtime.signals.fir import filtered
+from ragg_runtime.model.record import take_quantities
+from ragg_runtime.signals.fir import filter_columns
 
 Array = NDArray[np.float64]
 
@@ -109,7 +109,7 @@ def estimate_noise(
     ):  # what is loud has been in the fit: of what is quiet columns have left more than the noise
         parts = _parts(at, o, apart, chosen, level)
         noise = _of_level(parts, o, level, means)
-    said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
+    said = (describe_disturbances(_disturbances(parts, o.record.rate)), noise_level.describe_level(level))
     words = "; ".join(w for w in said if w is not None) or None
     free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
     return replace(noise, disturbed=words, freedom=free, combinations=apart, lines=_lines(parts, o))
@@ -200,7 +200,7 @@ def _has_lines(o: Observation, p: _Part) -> bool:
             continue
         x = o.record.wide[name][p.rows]
         power = periodogram(np.where(p.valid, x - np.mean(x[p.valid]), 0.0), o.record.rate)[1][LOWEST:-1]
-        if np.sum(power - without_lines(power)) > LOUD * np.sum(power):
+        if np.sum(power - cut_lines(power)) > LOUD * np.sum(power):
             return True
     return False
 
@@ -211,7 +211,7 @@ def _of_level(
     """The noise's spectra, given how its level changes."""
     rate, band = o.record.rate, unknown_gradient.band(o)
     spin = unknown_gradient.spin_frequency(o) if o.record.turning else None
-    loud = [level.of(quantities_of(o.record, p.rows)) for p in parts]
+    loud = [level.of(take_quantities(o.record, p.rows)) for p in parts]
     mean = float(np.sqrt(np.mean([np.mean(np.square(x)) for x in loud])))
     models, filters = [], []
     for m in range(len(o.series)):
@@ -233,7 +233,7 @@ def _chosen(o: Observation, most: int, samples: int) -> list[Segment]:
     """The beginnings of at ``most`` so many segments, spread over the flight, with at most so many ``samples`` in all."""
     found = spread(flight_segments(o), most)
     if not o.recorded.demodulated:  # their columns pass a two-sided filter and are not divided
-        found = beginnings(found, samples)
+        found = take_beginnings(found, samples)
     return [s for s in found if np.sum(o.record.valid[s.rows]) >= SHORTEST]
 
 
@@ -331,12 +331,12 @@ def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
     for p in parts:
         r = o.record.part(p.rows)
         for m, taps in enumerate(noise.filters):
-            white.append(filtered(p.rest(m)[None], taps)[0][p.valid])
+            white.append(filter_columns(p.rest(m)[None], taps)[0][p.valid])
             for n in names:
                 quantities[n].append(r.quantity(n)[p.valid])
             for e, variance in p.random.items():
                 alternatives.setdefault(e, []).append(variance[m])
-    return noise_level.estimated(
+    return noise_level.estimate_level(
         np.concatenate(white),
         {n: np.concatenate(x) for n, x in quantities.items()},
         {e: np.concatenate(x) for e, x in alternatives.items()},
@@ -364,7 +364,7 @@ def averages(at: LinearisationPoint, o: Observation, unwhitened: NoiseModel) -> 
 
     ``unwhitened``: the noise that makes the columns as they are, or in combinations.
     """
-    if not longer(o):
+    if not is_long(o):
         return None
     n, m = len(o.record.time), len(o.series)
     every = -(-n // MEANS)

@@ -129,7 +129,7 @@ def excess(gram: Array) -> tuple[float, float]:
     return float(np.sqrt(count) * left[0, 1] / np.sqrt(left[0, 0] * left[1, 1])), float(left[0, 0])
 
 
-def estimated(
+def estimate_level(
     white: Array,
     quantities: Mapping[str, Array],
     alternatives: Mapping[str, Array],
@@ -249,7 +249,7 @@ def _intervals(edges: Array, count: Array, power: Array, fourth: float) -> Array
     return np.asarray(edges[cuts[1:-1] - 1])
 
 
-def in_words(level: Level) -> str | None:
+def describe_level(level: Level) -> str | None:
     """What the level follows, in one sentence; ``None`` if it is constant."""
     if not level.parts:
         return None

@@ -16,8 +16,8 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.io import Flight
 from ragg_runtime.model.record import Record, record
-from ragg_runtime.model.recorded import RecordedSeries, recorded
-from ragg_runtime.signals.fir import convolved
+from ragg_runtime.model.recorded import RecordedSeries, find_recorded
+from ragg_runtime.signals.fir import convolve
 
 BLOCKS = 24
 """Segments of time of which each keeps an R factor of its own."""
@@ -64,7 +64,7 @@ def spread(found: Sequence[Segment], most: int) -> list[Segment]:
     return [found[k] for k in np.linspace(0, len(found) - 1, most).round().astype(int)]
 
 
-def beginnings(found: Sequence[Segment], samples: int) -> list[Segment]:
+def take_beginnings(found: Sequence[Segment], samples: int) -> list[Segment]:
     """As much of the beginnings of segments as makes at most so many samples together, without their blocks."""
     each = samples // max(1, len(found))
     return [Segment(slice(s.rows.start, min(s.rows.stop, s.rows.start + each)), ()) for s in found]
@@ -84,11 +84,11 @@ def _joined(parts: list[tuple[int, slice]]) -> Segment:
 Array = NDArray[np.float64]
 
 
-def observations_of(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
+def observe_flights(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
     """Every output of every flight: several where the layout has several, those that were recorded."""
     found = []
     for n, x in enumerate(flights):
-        forms = [recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
+        forms = [find_recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
         found += [replace(observe(x, instrument, k), flight=n) for k, form in enumerate(forms) if form]
     return found
 
@@ -98,7 +98,7 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     layout = instrument.layout
     o = layout.outputs[place]
     r = record(flight, instrument, place)
-    form = recorded(flight, layout, place)
+    form = find_recorded(flight, layout, place)
     if form is None:
         raise UserError(f"the flight lacks the output {o.name}", where=flight.path or flight.name)
     a = instrument.accelerometers
@@ -220,7 +220,7 @@ class Thin:
 
     def kept(self, x: Array) -> Array:
         """Series (..., N) over the :attr:`span`, thinned: (..., n)."""
-        return convolved(x, self.taps)[..., :: self.every]
+        return convolve(x, self.taps)[..., :: self.every]
 
 
 def bridge_gaps(x: Array, valid: NDArray[np.bool_]) -> Array:
@@ -276,6 +276,6 @@ def information_per_sample(r: Record) -> float:
     return max(1.0, whole / own) if count else 1.0
 
 
-def as_output(o: Observation, e: Array) -> Array:
+def combine_output(o: Observation, e: Array) -> Array:
     """G_out (..., N) of what an observation holds (..., m, N): itself, or the sum of the voltages with their signs (Eq. 15)."""
     return np.asarray(np.einsum("m,...mn->...n", o.signs, e))

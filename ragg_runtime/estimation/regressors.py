@@ -16,10 +16,10 @@ from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.model.evaluate import unit_factor, voltages
 from ragg_runtime.model.evaluator import Evaluator, find_places
-from ragg_runtime.model.lateness import about
-from ragg_runtime.model.memory import first_memories, with_responses
+from ragg_runtime.model.lateness import move_record
+from ragg_runtime.model.memory import add_responses, first_memories
 from ragg_runtime.model.model import DerivedEffect, Model
-from ragg_runtime.model.record import Record, made_of
+from ragg_runtime.model.record import Record, list_channels
 
 Array = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ class Column:
         return self.name if self.accelerometer is None else f"{self.name}[{self.accelerometer}]"
 
 
-def spelt(accelerometer: int | None, name: str) -> dict[str, str]:
+def spell_name(accelerometer: int | None, name: str) -> dict[str, str]:
     """For JSON, next to an accelerometer's number: its name on the sheet, where that is not A and the number."""
     return {} if name in ("", f"A{accelerometer}") else {"accelerometer_name": name}
 
@@ -145,15 +145,15 @@ def find_nonzero(columns: Sequence[Column], instrument: Instrument, place: int) 
     return np.array([*own_columns(columns, instrument, place), len(columns)], dtype=np.intp)
 
 
-def observed(o: Observation, v: Array, accelerometer: int | None) -> Array:
+def observe_voltages(o: Observation, v: Array, accelerometer: int | None) -> Array:
     """What an observation sees of its output's voltages: (members, N), or (N,) of one accelerometer -> (m, N)."""
     return o.recorded.through(o.recorded.of_voltages(o.output, v, accelerometer), o.record)
 
 
 def predict_observed(model: Model, o: Observation, p: Array) -> Array:
     """(m, N), V: what a model with parameters p (size,), SI, predicts of what is observed; no unknown gradient."""
-    record, rest = about(model, o.record, p)
-    return observed(o, voltages(model.chain, record, rest, o.output), None)
+    record, rest = move_record(model, o.record, p)
+    return observe_voltages(o, voltages(model.chain, record, rest, o.output), None)
 
 
 def null_biases(columns: Sequence[Column]) -> list[int]:
@@ -174,7 +174,7 @@ def level_biases(coefficients: Array, sums: Array, biases: Sequence[int]) -> Arr
     return shifted
 
 
-def grouped(columns: Iterable[Column]) -> dict[str, list[tuple[int, Column]]]:
+def group_by_effect(columns: Iterable[Column]) -> dict[str, list[tuple[int, Column]]]:
     """Effect id -> its (position, column)s."""
     groups: dict[str, list[tuple[int, Column]]] = {}
     for n, c in enumerate(columns):
@@ -214,7 +214,7 @@ class LinearisationPoint:
     @cached_property
     def channels(self) -> frozenset[str]:
         """What of a record the outputs are made of."""
-        return made_of(self.model.chain.INPUTS)
+        return list_channels(self.model.chain.INPUTS)
 
 
 PART = 4096
@@ -229,7 +229,7 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
 
     ``residual`` (m, N): that of a thinned observation, where it is known already.
     """
-    r, p = about(at.model, o.record, at.p)
+    r, p = move_record(at.model, o.record, at.p)
     V = _voltages(at, o, r, p)
     if r.reading is not None:  # in a column of what was read the noise would explain itself
         r = replace(r, reading=np.pad(o.output.combined(V), r.halo, mode="edge"))
@@ -239,14 +239,14 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
     put_derivatives(columns, chain, at.base, r.inputs(chain.chain), r, o, p)
     if at.candidates:
         searched = (m for _, m in first_memories((e for e in at.model.candidates if e.searched), r))
-        r = with_responses(r, searched, at.model.signatures.INPUTS)
+        r = add_responses(r, searched, at.model.signatures.INPUTS)
         q = np.concatenate([p, np.zeros(at.model.signatures.SIZE - len(p))])
         module = at.model.evaluators("signatures")
         put_derivatives(columns[n_base:], module, at.candidates, r.inputs(module.chain), r, o, q)
     for column in columns[:-1] if o.recorded.demodulated else ():
         column[:] = o.recorded.through(column, r)
     if o.thin is None:
-        columns[-1] = o.data - observed(o, V, None)
+        columns[-1] = o.data - observe_voltages(o, V, None)
     else:
         columns[-1] = thin_residual(at, o.thin) if residual is None else residual
     for k, c in enumerate((*at.base, *at.candidates)):
@@ -288,11 +288,11 @@ def _voltages(at: LinearisationPoint, o: Observation, r: Record, p: Array) -> Ar
 def thin_residual(at: LinearisationPoint, thin: Thin) -> Array:
     """Residual (m, n), V, of a thinned record: that of the whole one, thinned, for the outputs are a million times the noise."""
     parts = [thin.part(some) for some in split_range(thin.rows.stop - thin.rows.start, PART)]
-    return np.concatenate([x.kept(residual_of(at, x.source(at.channels))) for x in parts], axis=1)
+    return np.concatenate([x.kept(compute_residual(at, x.source(at.channels))) for x in parts], axis=1)
 
 
-def residual_of(at: LinearisationPoint, o: Observation) -> Array:
+def compute_residual(at: LinearisationPoint, o: Observation) -> Array:
     """Residual (m, N), V, at a point; between its neighbours where a sample is not valid."""
-    r, p = about(at.model, o.record, at.p)
-    left = o.data - observed(o, _voltages(at, o, r, p), None)
+    r, p = move_record(at.model, o.record, at.p)
+    left = o.data - observe_voltages(o, _voltages(at, o, r, p), None)
     return np.stack([bridge_gaps(x, r.valid) for x in left])

@@ -12,8 +12,8 @@ from scipy import fft, linalg
 
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation.least_squares import r_factor
-from ragg_runtime.estimation.spectrum import LOWEST, Spectrum, estimate, hann, periodogram, without_lines
-from ragg_runtime.signals.fir import GROUP, SPARSE, filtered, not_zero
+from ragg_runtime.estimation.spectrum import LOWEST, Spectrum, cut_lines, estimate, hann, periodogram
+from ragg_runtime.signals.fir import GROUP, SPARSE, filter_columns, find_nonzero
 
 Array = NDArray[np.float64]
 
@@ -46,7 +46,7 @@ class Disturbance:
         return np.stack([np.cos(phase), np.sin(phase), slow * np.cos(phase), slow * np.sin(phase)])
 
 
-def disturbances(
+def find_disturbances(
     rest: Array, valid: NDArray[np.bool_], rate: float, without: tuple[float, float] | None = None
 ) -> list[Disturbance]:
     """Those in a residual (N,), zero where it is not valid; no lines in a band (from, to, Hz) that has lost its noise."""
@@ -58,7 +58,7 @@ def _lines(rest: Array, rate: float, without: tuple[float, float] | None) -> lis
     if without is not None:
         kept = (f < without[0]) | (f > without[1])
         f, p = f[kept], p[kept]
-    quiet = without_lines(p)
+    quiet = cut_lines(p)
     high = np.flatnonzero(p > quiet)
     noise = float(np.sqrt(np.sum(quiet) * (f[1] - f[0])))
     found: list[Disturbance] = []
@@ -101,7 +101,7 @@ def _jumps(rest: Array, valid: NDArray[np.bool_], rate: float) -> list[Disturban
     return found
 
 
-def in_words(found: Sequence[Disturbance]) -> str | None:
+def describe_disturbances(found: Sequence[Disturbance]) -> str | None:
     """One sentence on them; ``None`` if there are none."""
     lines = sorted({float(f"{d.at:.4g}") for d in found if d.kind == "line"})
     jumps = sorted({round(d.at) for d in found if d.kind == "jump"})
@@ -176,7 +176,7 @@ def fit_columns(
     No line is looked for in ``band``; ``through`` does to columns (k, rows) what was done to ``flat``. Without ``rate`` neither
     lines nor ``kept`` are looked for.
     """
-    some = not_zero(flat[:-1])
+    some = find_nonzero(flat[:-1])
     if np.count_nonzero(some) < SPARSE * len(flat):
         flat = flat[[*some, True]]
     left = _fitted(flat, flat, valid, rate, [])
@@ -189,7 +189,7 @@ def fit_columns(
         return _fitted(wide, flat, valid, rate, found)
 
     for _ in range(ROUNDS):
-        seen = disturbances(place_valid(left.rest, valid), valid, rate, band)
+        seen = find_disturbances(place_valid(left.rest, valid), valid, rate, band)
         lines = [d for d in seen if d.kind == "line"]
         jump = None if lines else _jump(left, valid, rate)
         with_it = None if jump is None else _and(left, through(jump.columns(time))[0], valid)
@@ -280,7 +280,7 @@ def _told(
     """Whether what was fitted last is significant against the noise without it: red noise looks like jumps, too."""
     model = estimate([place_valid(after.rest, valid)], rate, band, [after.kept])
     taps = model.whitening_filter(len(valid))
-    gone = filtered(place_valid(before.rest - after.rest, valid)[None], taps)[0][valid]
+    gone = filter_columns(place_valid(before.rest - after.rest, valid)[None], taps)[0][valid]
     return float(gone @ gone) > JUMP
 
 

@@ -14,7 +14,7 @@ from ragg_runtime.base.threads import split_range
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.demodulate import CUTOFF, demodulate, low_pass
-from ragg_runtime.signals.fir import convolved
+from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ class Error:
         return {k: finite(v) for k, v in (asdict(self) | densities).items()}
 
 
-def errors_json(nominal: Error, calibrated: Error, holdout: Error) -> dict[str, Any]:
+def list_errors(nominal: Error, calibrated: Error, holdout: Error) -> dict[str, Any]:
     """The ``error`` of the JSON of a comparison and of a calibration."""
     errors = {"nominal": nominal, "calibrated": calibrated, "holdout": holdout}
     return {name: e.as_json() for name, e in errors.items()}
@@ -79,7 +79,7 @@ def shortest_demodulated(rate: float) -> int:
     return len(low_pass(rate)) + int(2 * rate)
 
 
-def error(residual: Array, r: Record, k_ggi: float) -> Error:
+def measure_error(residual: Array, r: Record, k_ggi: float) -> Error:
     """The error object of a residual of G_out.
 
     Parameters
@@ -95,7 +95,7 @@ def error(residual: Array, r: Record, k_ggi: float) -> Error:
     return Error(rms, rms / k_ggi, i, c)
 
 
-def pooled(errors: list[Error], weights: list[float]) -> Error:
+def pool_errors(errors: list[Error], weights: list[float]) -> Error:
     """One error of several flights: quadratic mean, weighted by their samples."""
     w = np.asarray(weights) / np.sum(weights)
     values = np.array([[getattr(e, k) for k in Error.__dataclass_fields__] for e in errors])
@@ -149,7 +149,7 @@ class Tally:
         self.demodulated += np.sum(whole, axis=1)
         for c, carrier in enumerate((4 * np.sin(2 * phi), -2 * np.cos(2 * phi))):
             for some in split_range(len(e), SERIES):
-                x = convolved(e[some] * carrier, self._taps)
+                x = convolve(e[some] * carrier, self._taps)
                 self._sums[0, :, c, some] += whole @ x.T
                 self._sums[1, :, c, some] += whole @ (x**2).T
 

@@ -286,14 +286,14 @@ def _periodogram(
         if slow is not None:
             used &= f >= slow.below
         frequency.append(f[used])
-        density.append(without_lines(p[used]))
+        density.append(cut_lines(p[used]))
         share.append(np.ones(len(f))[used] if kept is None else kept[k][used])
     if slow is not None:
         f, p = periodogram(slow.rest, slow.rate)
         used = f < slow.below
         used[:LOWEST] = False
         frequency.append(f[used])
-        density.append(without_lines(p[used]))
+        density.append(cut_lines(p[used]))
         share.append(slow.kept[used])
     f, p, left = np.concatenate(frequency), np.concatenate(density), np.concatenate(share)
     which = np.digitize(f, np.geomspace(f.min() * 0.999, f.max() * 1.001, 120))
@@ -319,7 +319,7 @@ LEAST = 10
 """Half width of the neighbourhood, bins: those lower than twice this are left as they are, red noise being steep there."""
 
 
-def without_lines(p: Array) -> Array:
+def cut_lines(p: Array) -> Array:
     """A periodogram with its lines cut down to their neighbourhood's median; of noise nothing is changed."""
     n = len(p)
     found = p.copy()

@@ -17,17 +17,17 @@ from scipy import ndimage
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.observation import Observation, Segment, Thin, bridge_gaps, segments, spread
-from ragg_runtime.estimation.regressors import LinearisationPoint, linearise, residual_of
-from ragg_runtime.estimation.residual import disturbances
-from ragg_runtime.estimation.whitening import find_segments, longer
+from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual, linearise
+from ragg_runtime.estimation.residual import find_disturbances
+from ragg_runtime.estimation.whitening import find_segments, is_long
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.record import is_disc_angle
 from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model.lateness import late
+from ragg_runtime.model.lateness import list_late
 from ragg_runtime.model.memory import list_memories
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import HALO
-from ragg_runtime.signals.fir import convolved
+from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]
 
@@ -41,7 +41,9 @@ MOST_LEFT_OUT = 0.2
 """Share of the samples beyond which none is left out: a sheet that knows so little of the switch cannot help."""
 
 
-def certain(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
+def leave_out_uncertain(
+    model: Model, instrument: Instrument, observations: Sequence[Observation]
+) -> list[Observation]:
     """The observations without the samples that the model does not describe: sides of a switch, ends of the motion."""
     observations = [_inside(model, instrument, o) for o in observations]
     if not any(e.switches for e in model.effects):
@@ -52,7 +54,7 @@ def certain(model: Model, instrument: Instrument, observations: Sequence[Observa
 
 def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation:
     """Without as much of either end as motion may be late, and what an instrument may remember of what was before."""
-    moving, memories = dict(late(model)), [*list_memories(model, vector(model, instrument))]
+    moving, memories = dict(list_late(model)), [*list_memories(model, vector(model, instrument))]
     if not (moving or memories):
         return o
     r = o.record
@@ -131,7 +133,9 @@ BLOCK, TOGETHER = 1 << 12, 32
 """Samples, and columns, that are made at a time: more take memory and no less time."""
 
 
-def thinned(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
+def thin_observations(
+    model: Model, instrument: Instrument, observations: Sequence[Observation]
+) -> list[Observation]:
     """Observations as thin as their columns allow about the sheet, those of one flight alike; short ones as they are."""
     at = LinearisationPoint(model, instrument, vector(model, instrument), with_candidates=True)
     most = [_most(at, o) for o in observations]
@@ -146,7 +150,7 @@ def _most(at: LinearisationPoint, o: Observation) -> int:
     """One in how many of its samples is enough."""
     least = max(LEAST_RATE, 2 * (4 * o.record.spin_frequency + ABOVE) / PASSED)
     choices = [k for k in EVERY if o.record.rate >= k * least]
-    if o.recorded.demodulated or not longer(o) or not choices:
+    if o.recorded.demodulated or not is_long(o) or not choices:
         return 1
     some = spread(find_segments(o), EXCERPTS)
     pieces = [o.part(slice(s.rows.start, min(s.rows.start + EXCERPT, s.rows.stop))) for s in some]
@@ -182,7 +186,7 @@ def low_pass(every: int) -> Array:
     return np.asarray(signal.firwin(2 * (half // 2) + 1, 1.0 / every, window=("kaiser", shape)))
 
 
-def beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> float:
+def measure_beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> float:
     """Mean square, V^2 of G_out, of what thinning has taken of an observation's residual about parameters p, SI."""
     if o.thin is None:
         return 0.0
@@ -191,8 +195,8 @@ def beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> fl
 
     def taken(s: Segment) -> Array:
         part = whole.part(s.rows, at.channels)
-        e = part.signs @ residual_of(at, part)
-        slow, inner = convolved(e, taps), slice(len(taps) // 2, len(e) - len(taps) // 2)
+        e = part.signs @ compute_residual(at, part)
+        slow, inner = convolve(e, taps), slice(len(taps) // 2, len(e) - len(taps) // 2)
         # the whole less the slow, one sample at a time: what both hold, an unknown gradient say, cancels
         square = ((e[inner] - slow) * (e[inner] + slow))[part.record.valid[inner]]
         return np.array([np.sum(square), len(square)])
@@ -223,10 +227,10 @@ def _alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[Array
 
 def _has_line(at: LinearisationPoint, thin: Thin) -> bool:
     """Whether the part of a piece's residual that the low-pass removes has a line, which must be reported."""
-    r, half, e = thin.whole.record, len(thin.taps) // 2, residual_of(at, thin.whole)
-    fast = e[:, half:-half] - convolved(e, thin.taps)
+    r, half, e = thin.whole.record, len(thin.taps) // 2, compute_residual(at, thin.whole)
+    fast = e[:, half:-half] - convolve(e, thin.taps)
     told = (0.0, STOPPED * r.rate / (2 * thin.every))
-    found = (d for x in fast for d in disturbances(x, r.valid[half:-half], r.rate, told))
+    found = (d for x in fast for d in find_disturbances(x, r.valid[half:-half], r.rate, told))
     return any(d.kind == "line" for d in found)
 
 

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from scipy import interpolate
 
 from ragg_runtime.base.threads import split_range
-from ragg_runtime.estimation.least_squares import orthonormal
+from ragg_runtime.estimation.least_squares import orthonormalise
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.record import quantities_of
+from ragg_runtime.model.record import take_quantities
 from ragg_runtime.signals.fir import Floats
 
 Array = NDArray[np.float64]
@@ -61,17 +61,17 @@ class Window:
     @cached_property
     def raw(self) -> Array:
         """(m valid, k): orthonormal basis before whitening."""
-        return orthonormal(self.plain)
+        return orthonormalise(self.plain)
 
 
-def unknown(o: Observation) -> bool:
+def is_unknown(o: Observation) -> bool:
     """Whether the gradient was not recorded."""
     return not all(g in o.record.wide for g in GRADIENT)
 
 
 def band(o: Observation) -> tuple[float, float] | None:
     """Frequencies of G_out, Hz, that an unknown gradient takes; ``None`` if it is known."""
-    if not unknown(o):
+    if not is_unknown(o):
         return None
     carrier = 2 * spin_frequency(o)
     return carrier - TAKEN, carrier + TAKEN
@@ -97,10 +97,10 @@ def splines(time: Array, cosine: Array, sine: Array) -> Array:
 
 def windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
     """The windows of one segment of a flight, whitened; none if the gradient is known and the output has no lines."""
-    if not unknown(o) and not noise.lines:
+    if not is_unknown(o) and not noise.lines:
         return []
     r = o.record
-    level = np.ones(rows.stop - rows.start) * noise.level_of(quantities_of(r, rows))
+    level = np.ones(rows.stop - rows.start) * noise.level_of(take_quantities(r, rows))
     valid = np.array(r.valid[rows])
     rank = np.concatenate([[0], np.cumsum(valid)])
     count = max(1, round((rows.stop - rows.start) / (WINDOW_SECONDS * r.rate)))
@@ -114,7 +114,7 @@ def windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
             return None
         inside = here[lead:]
         shares = [np.empty((0, len(here)))] * len(o.series)
-        if unknown(o):
+        if is_unknown(o):
             shares = _shares(o, splines(*r.carried(slice(a - lead, b))) * here)
         plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
         levels = level[a - rows.start : b - rows.start]
@@ -124,7 +124,7 @@ def windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
         places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(noise.outputs)])
         samples = slice(a - rows.start, b - rows.start)
-        return Window(samples, plain, places, orthonormal(white))
+        return Window(samples, plain, places, orthonormalise(white))
 
     return [w for w in map(window, pairwise(edges)) if w is not None]
 
@@ -156,7 +156,7 @@ def project(columns: Floats, found: Sequence[Window]) -> None:
                 columns[some, w.rows] = part
 
 
-def without(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Array:
+def take_out(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Array:
     """Take the fitted unknown gradient out of residuals (k, m, N): it is signal, not error."""
     gradient = [w for w in found if len(w.plain)]
     if not gradient:

@@ -20,8 +20,8 @@ from ragg_runtime.estimation.observation import (
     THINNER,
     Observation,
     Segment,
-    as_output,
     block_edges,
+    combine_output,
     segments,
     spread,
 )
@@ -77,8 +77,8 @@ class Piece:
 
     def observed(self, e: Array) -> Array:
         """What residuals of the series (k, m, N), V, are of G_out (k, N); no unknown gradient."""
-        e = unknown_gradient.without(e, self.windows, self.observation.record.valid)
-        return as_output(self.observation, e)
+        e = unknown_gradient.take_out(e, self.windows, self.observation.record.valid)
+        return combine_output(self.observation, e)
 
 
 def flight_segments(o: Observation) -> list[Segment]:
@@ -89,7 +89,7 @@ def flight_segments(o: Observation) -> list[Segment]:
     return segments(n, ROWS // THINNER if o.thin is not None and n > ROWS else ROWS)
 
 
-def longer(o: Observation) -> bool:
+def is_long(o: Observation) -> bool:
     """Whether a flight is longer than what its noise is seen in at a time: of noise that is slower nothing is known."""
     return len(flight_segments(o)) > 1
 

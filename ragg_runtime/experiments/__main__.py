@@ -12,15 +12,15 @@ import click
 from ragg_runtime.base import provenance
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
-from ragg_runtime.experiments.dynamic import dynamic
-from ragg_runtime.experiments.multifrequency import multifrequency
+from ragg_runtime.experiments.dynamic import repeat_dynamic
+from ragg_runtime.experiments.multifrequency import repeat_multifrequency
 from ragg_runtime.experiments.paper import Experiment, write_page
-from ragg_runtime.experiments.turbulence import turbulence
+from ragg_runtime.experiments.turbulence import repeat_turbulence
 
 EXPERIMENTS: Mapping[str, Callable[[], Experiment]] = {
-    "multifrequency": multifrequency,
-    "dynamic": dynamic,
-    "turbulence": turbulence,
+    "multifrequency": repeat_multifrequency,
+    "dynamic": repeat_dynamic,
+    "turbulence": repeat_turbulence,
 }
 
 

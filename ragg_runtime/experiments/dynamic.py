@@ -39,7 +39,7 @@ WITH_MASS = PointMass(paper.MASS, paper.MASS_POSITION)
 """The test mass of Section III.A where it starts."""
 
 
-def dynamic() -> Experiment:
+def repeat_dynamic() -> Experiment:
     """Repeat the experiment."""
     run = run_regular(turns=TURNS)
     errors = {name: find_error(name, run) for name in DERIVED}

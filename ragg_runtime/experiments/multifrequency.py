@@ -26,7 +26,7 @@ ATTENUATIONS = (40.0, 60.0, 80.0, 100.0)
 """Of the low-pass, dB, the last as of the settings: the paper only says FIR."""
 
 
-def multifrequency() -> Experiment:
+def repeat_multifrequency() -> Experiment:
     """Repeat the experiment."""
     run = run_mass()
     filters = [subtract_centre(run, attenuation) for attenuation in ATTENUATIONS]

@@ -64,7 +64,7 @@ _MEAN = (
 )
 
 
-def turbulence() -> Experiment:
+def repeat_turbulence() -> Experiment:
     """Repeat the three experiments: one record of each for each of :data:`SEEDS`."""
     values: dict[tuple[int, str], Array] = {}
     for e in EXPERIMENTS:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.scores import error
+from ragg_runtime.estimation.scores import measure_error
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.evaluate import output, unit_factor
@@ -42,7 +42,7 @@ class Contribution:
     strong: bool
 
 
-def contributions(f: Fitted) -> list[Contribution]:
+def list_contributions(f: Fitted) -> list[Contribution]:
     """rms before demodulation and standard deviations of the channels, Eo, largest first: the change of the model's output when one
     group of parameters is put to zero.
     """
@@ -51,7 +51,7 @@ def contributions(f: Fitted) -> list[Contribution]:
     for g in list_groups(f.model, f.instrument, f.calibration.p):
         squares = []
         for o, G, k in zip(f.observations, full, f.scales, strict=True):
-            e = error(G - output(f.model.chain, o.record, g.without, o.output), o.record, k)
+            e = measure_error(G - output(f.model.chain, o.record, g.without, o.output), o.record, k)
             squares.append([e.rms_Eo**2, e.inline_Eo**2, e.cross_Eo**2])
         rms, inline, cross = (float(x) for x in np.sqrt(np.mean(squares, axis=0)))
         found.append(Contribution(g.label, rms, inline, cross, g.effect is not None))

@@ -257,17 +257,17 @@ def evidence(chi2: float, rank: int, charge: float, spread: float = 1.0) -> floa
     return float(log_bayes(chi2 / spread, rank)) - charge
 
 
-def spread_of(left: Remainder) -> float:
+def measure_spread(left: Remainder) -> float:
     """Variance that generic terms have in what is left: 1 where nothing significant is."""
     return max([1.0, *(s.spread for s in left.searches)]) if left.significant else 1.0
 
 
-def strongest(left: Remainder) -> ResidualTerm | None:
+def find_strongest(left: Remainder) -> ResidualTerm | None:
     """The most significant generic term of the residual."""
     return max((t for s in left.searches for t in s.terms), key=lambda t: abs(t.z), default=None)
 
 
-def with_shift(x: Robust, left: Remainder, columns: Sequence[str], projected: Sequence[str]) -> Array:
+def add_shift(x: Robust, left: Remainder, columns: Sequence[str], projected: Sequence[str]) -> Array:
     """(n, n): the covariance to state of ``columns``, with how far the values move when the generic terms that are left are fitted
     beside the columns ``projected`` out of the residual.
     """

@@ -11,21 +11,21 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import fitted, regressors, unknown_gradient
-from ragg_runtime.estimation.calibration import OffSheet, off_sheet
-from ragg_runtime.estimation.fitted import Fitted, Scored, fit, noise_floor, swell
-from ragg_runtime.estimation.observation import as_output, observations_of
-from ragg_runtime.estimation.scores import Error, channels, errors_json
+from ragg_runtime.estimation.calibration import OffSheet, list_off_sheet
+from ragg_runtime.estimation.fitted import Fitted, Scored, fit, measure_swell, noise_floor
+from ragg_runtime.estimation.observation import combine_output, observe_flights
+from ragg_runtime.estimation.scores import Error, channels, list_errors
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import selection, series, several_outputs
 from ragg_runtime.identification.dictionary import carrier, harmonics
-from ragg_runtime.identification.omnibus import Remainder, remainder, terms_json
-from ragg_runtime.identification.selection import field_of, testable_effects
+from ragg_runtime.identification.omnibus import Remainder, list_terms, remainder
+from ragg_runtime.identification.selection import list_testable, make_field
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
-from ragg_runtime.signals.demodulate import demodulable, low_pass
-from ragg_runtime.signals.fir import convolved
+from ragg_runtime.signals.demodulate import is_demodulable, low_pass
+from ragg_runtime.signals.fir import convolve
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import render_notebook
 
@@ -73,7 +73,7 @@ class Comparison:
     def with_nominal(self, instrument: Instrument) -> Comparison:
         """The same, ``nominal`` being these values."""
         p = vector(self.fitted.model, instrument)
-        (scored,) = self.fitted.score((), lambda x: nominal_residual(self.fitted, p, x)[None], 1)
+        (scored,) = self.fitted.score((), lambda x: compute_nominal_residual(self.fitted, p, x)[None], 1)
         return replace(self, nominal=scored.whole)
 
     def __repr__(self) -> str:
@@ -98,8 +98,8 @@ class Comparison:
             "samples": int(sum(len(o.record.time) for o in f.flights)),
             "duration_s": float(sum(o.record.time[-1] + 1 / o.record.rate for o in f.flights)),
             "rate_Hz": float(records[0].rate),
-            "error": errors_json(self.nominal, self.calibrated, self.holdout),
-            "noise_floor": series.noise_floor_json(f, self.noise_floor),
+            "error": list_errors(self.nominal, self.calibrated, self.holdout),
+            "noise_floor": series.list_noise_floor(f, self.noise_floor),
             "explained": {"share": self.explained.share},
             "converged": self.converged,
             "reason": self.complaint or self.remark,
@@ -120,17 +120,17 @@ class Comparison:
             return {}
         return {
             "outputs": several_outputs.errors(self.fitted, self.residual),
-            "together": [t.as_json() for t in several_outputs.together(self.fitted)],
+            "together": [t.as_json() for t in several_outputs.compare_outputs(self.fitted)],
         }
 
     @cached_property
     def harmonics(self) -> list[dict[str, object]]:
-        """Slow error at every harmonic of the spin, Eo, largest first (see :func:`harmonic_errors`)."""
-        return harmonic_errors(self.fitted, self.fitted.vector(np.zeros(self.fitted.n_base)))
+        """Slow error at every harmonic of the spin, Eo, largest first (see :func:`measure_harmonics`)."""
+        return measure_harmonics(self.fitted, self.fitted.vector(np.zeros(self.fitted.n_base)))
 
     def terms(self) -> list[dict[str, object]]:
         """Generic terms in the calibrated residual (see :func:`terms_json`)."""
-        return terms_json(self.remainder, self.scored.mean_square)
+        return list_terms(self.remainder, self.scored.mean_square)
 
     def by_time(self) -> list[dict[str, object]]:
         """Error in every block of time, Eo, largest first."""
@@ -154,14 +154,14 @@ class Comparison:
         return sorted(rows, key=lambda x: -float(str(x["rms_Eo"])))
 
 
-def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
+def measure_harmonics(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
     """Residual demodulated at const, cos k, sin k, as the demodulator would see it, largest first."""
     turning = any(x.observation.record.turning for x in f.prepared)
     total = dict.fromkeys(harmonics() if turning else ("const",), 0.0)
     counted = 0
     for x, k_ggi in zip(f.prepared, f.scales, strict=True):
         rate = x.observation.record.rate
-        if not demodulable(rate):
+        if not is_demodulable(rate):
             continue
         taps = low_pass(rate)
         if len(x.observation.record.time) < 2 * len(taps):
@@ -179,7 +179,7 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
         for mixed in lean.each(mix, whitened=False):
             mixed = np.concatenate([tail, mixed], axis=1)
             if mixed.shape[1] >= len(taps):
-                low = convolved(mixed, taps)
+                low = convolve(mixed, taps)
                 samples += low.shape[1]
                 for h, y in zip(total, low, strict=True):
                     squares[h] += float(y @ y)
@@ -199,7 +199,7 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
 @one_thread
 def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
-    observations = observations_of(flights, instrument)
+    observations = observe_flights(flights, instrument)
     f = fit(model, instrument, observations)
     calibrated, half, nominal = _three_scores(f)
     if calibrated.whole.rms_V > nominal.whole.rms_V:
@@ -219,16 +219,16 @@ def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
 def score_with_nominal(f: Fitted, vectors: Sequence[Array]) -> list[Scored]:
     """How large the residuals are with these coefficients (size,), and with the nominal values (last)."""
     p = f.sheet
-    return f.score(vectors, lambda x: nominal_residual(f, p, x)[None], 1)
+    return f.score(vectors, lambda x: compute_nominal_residual(f, p, x)[None], 1)
 
 
 def conclude(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> Comparison:
     """Search the residual, and decide whether the model is adequate."""
-    rem, available = remainder(f), testable_effects(f)
-    choice = selection.choose(field_of(f, available)) if available else None
+    rem, available = remainder(f), list_testable(f)
+    choice = selection.choose(make_field(f, available)) if available else None
     complaint = f.calibration.complaint
     noise = noise_floor(f)
-    output_explained = explained(f, calibrated)
+    output_explained = measure_explained(f, calibrated)
     doubt = output_explained.complaint
     grounds = _grounds(exceeds_noise(f, calibrated, noise), rem, choice)
     return Comparison(
@@ -240,10 +240,10 @@ def conclude(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> C
         adequate=complaint is None and doubt is None and not grounds,
         remainder=rem,
         complaint=complaint,
-        remark=doubt or disturbed(f),
+        remark=doubt or describe_disturbance(f),
         explained=output_explained,
         grounds=tuple(grounds),
-        off_sheet=tuple(off_sheet(f.model, f.instrument, f.calibration)),
+        off_sheet=tuple(list_off_sheet(f.model, f.instrument, f.calibration)),
     )
 
 
@@ -260,10 +260,10 @@ def _grounds(exceeds: bool, rem: Remainder, choice: selection.Choice | None) -> 
 
 def exceeds_noise(f: Fitted, scored: Scored, noise: float) -> bool:
     """Whether an error is several times the noise (rms, Eo) and its lines."""
-    return scored.whole.rms_Eo > LOUD * float(np.hypot(noise * swell(f), fitted.lines(f)))
+    return scored.whole.rms_Eo > LOUD * float(np.hypot(noise * measure_swell(f), fitted.measure_lines(f)))
 
 
-def disturbed(f: Fitted) -> str | None:
+def describe_disturbance(f: Fitted) -> str | None:
     """Which lines and jumps the record holds, and how its noise changes its level, in words."""
     said = [
         x.noise.disturbed if len(f.prepared) == 1 else f"{x.observation.name}: {x.noise.disturbed}"
@@ -273,7 +273,7 @@ def disturbed(f: Fitted) -> str | None:
     return "; ".join(said) or None
 
 
-def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
+def compute_nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     """Residual of G_out, (N,) V, of a piece of a flight with these values; no unknown gradient."""
     o = piece.observation
     predicted = regressors.predict_observed(f.model, o, p)
@@ -281,12 +281,12 @@ def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     return np.asarray(left)
 
 
-def demodulated(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:
+def demodulate_all(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:
     """(time, inline, cross) of every flight's residual, s and Eo."""
-    return [demodulated_one(f, n, e) for n, e in enumerate(residuals)]
+    return [demodulate_one(f, n, e) for n, e in enumerate(residuals)]
 
 
-def demodulated_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Array]:
+def demodulate_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Array]:
     """(time, inline, cross) of any series of G_out of one flight, s and Eo."""
     r = f.prepared[flight].observation.record
     return channels(x, r, f.scales[flight], r.valid)
@@ -312,18 +312,18 @@ class Explained:
         )
 
 
-def explained(f: Fitted, scored: Scored) -> Explained:
+def measure_explained(f: Fitted, scored: Scored) -> Explained:
     """What a fitted model that leaves a residual so large (``scored``) explains of the flights' outputs."""
     power = left = rows = 0.0
     parameters = float(f.n_base)
     for o, mean_square in zip(f.observations, scored.mean_square, strict=True):
         valid = o.record.valid
         count = float(np.sum(valid))
-        G = as_output(o, o.data)[valid]
+        G = combine_output(o, o.data)[valid]
         power += float(np.var(G)) * count
         left += mean_square * count
         rows += count
-        if unknown_gradient.unknown(o):
+        if unknown_gradient.is_unknown(o):
             span = float(o.record.time[-1] - o.record.time[0])
             parameters += 2 * (span / unknown_gradient.KNOT_SECONDS + 3)
     ratio = left / power if power > 0.0 else 1.0

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.calibration import prior_volume, restore_priors, to_nominal
-from ragg_runtime.estimation.fitted import Fitted, calibrated
+from ragg_runtime.estimation.fitted import Fitted, calibrate
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.thinning import certain
+from ragg_runtime.estimation.thinning import leave_out_uncertain
 from ragg_runtime.estimation.whitening import take_excerpt
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
@@ -35,7 +35,7 @@ class Extend(Protocol):
     def __call__(self, model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model: ...
 
 
-def derived(
+def derive_with(
     f: Fitted,
     ids: Sequence[str],
     instants: Mapping[str, float],
@@ -68,13 +68,13 @@ class ContenderFit:
     arrived: bool
 
 
-def left(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: Instrument) -> ContenderFit:
+def fit_contender(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: Instrument) -> ContenderFit:
     """What a nonlinear fit leaves with effects in the model.
 
     Every parameter that only the sheet knew before, and the record does now, costs 2 (AIC).
     """
-    observations = certain(model, sheet, f.observations)
-    instrument, c = calibrated(model, sheet, observations, noise=noise)
+    observations = leave_out_uncertain(model, sheet, f.observations)
+    instrument, c = calibrate(model, sheet, observations, noise=noise)
     x = -to_nominal(model, instrument, c)
     known = len(c.columns) - float(np.trace(c.covariance))
     left_out = f.calibration.rows - c.rows  # each would have its share of the noise
@@ -92,7 +92,7 @@ def left(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: Instrument
 class Contest:
     """What contenders leave of the flights of the fit ``f`` without them, each fitted once; of long ones first an excerpt.
 
-    ``entered``: of a contender its model and sheet, as for :func:`left`.
+    ``entered``: of a contender its model and sheet, as for :func:`fit_contender`.
     """
 
     f: Fitted
@@ -122,5 +122,5 @@ class Contest:
 
     def _fitted(self, e: str, f: Fitted, fits: dict[str, ContenderFit]) -> ContenderFit:
         if e not in fits:
-            fits[e] = left(f, f.calibration.noise, *self.entered(e))
+            fits[e] = fit_contender(f, f.calibration.noise, *self.entered(e))
         return fits[e]

@@ -13,30 +13,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.estimation.calibration import QUIET, off_sheet
-from ragg_runtime.estimation.fitted import Fitted, calibrated, fit, with_held
-from ragg_runtime.estimation.observation import Observation, observations_of
+from ragg_runtime.estimation.calibration import QUIET, list_off_sheet
+from ragg_runtime.estimation.fitted import Fitted, calibrate, fit, release_held
+from ragg_runtime.estimation.observation import Observation, observe_flights
 from ragg_runtime.estimation.scores import Error
-from ragg_runtime.estimation.thinning import thinned
+from ragg_runtime.estimation.thinning import thin_observations
 from ragg_runtime.identification import (
     next_motion,
     sequential,
 )
-from ragg_runtime.identification.claims import Regression, Robust, with_shift
+from ragg_runtime.identification.claims import Regression, Robust, add_shift
 from ragg_runtime.identification.contenders import Extend
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.parameters import Estimates
 from ragg_runtime.identification.ranking import (
     Ranked,
+    add_probability,
     list_detectable,
     list_not_testable,
-    placed,
     rank_effects,
-    staged,
-    weighed,
-    with_probability,
+    rank_stages,
+    sort_by_choice,
+    weigh_effects,
 )
-from ragg_runtime.identification.result import Diagnosis, Disagreement, groups, words
+from ragg_runtime.identification.result import Diagnosis, Disagreement, describe_disagreement, group_findings
 from ragg_runtime.identification.search import Evidence, Outcome, search
 from ragg_runtime.identification.strong import Stage
 from ragg_runtime.identification.verdict import Conclusion
@@ -60,7 +60,7 @@ def diagnose(
     ``extend`` derives the model with the chosen effects for the final, nonlinear check, which is linear without it; ``limits`` are
     the largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
     """
-    observations = thinned(model, instrument, observations_of(flights, instrument))
+    observations = thin_observations(model, instrument, observe_flights(flights, instrument))
     f = fit(model, instrument, observations)
     return diagnose_fitted(f, flights, extend, limits)
 
@@ -72,16 +72,16 @@ def diagnose_fitted(
     extend: Extend | None = None,
     limits: Mapping[str, float] = next_motion.LIMITS,
 ) -> Diagnosis:
-    """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.proposals``."""
+    """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.propose_motions``."""
     output = _output_effects(f, flights)
     first = Stage.of(f)
-    apart = contradiction(first)
+    apart = find_contradiction(first)
     # before strong effects, whose columns take the place of these
     ranked = rank_effects(first.fitted, first.field, first.choice, first.instants, output)
     evidence = search(first, extend, apart=bool(apart))
     found = Conclusion.of(evidence, output, apart=bool(apart))
     if not apart and len(flights) > 1 and found.contradictory:
-        apart = disagreement(f, flights, extend)
+        apart = find_disagreement(f, flights, extend)
         found = replace(found, verdict="unexplained", claims=()) if apart else found
     ranking = complete_ranking(*ranked, evidence, found)
     return _make_diagnosis(evidence, found, ranking, ranked[1], apart, limits)
@@ -97,13 +97,13 @@ def _make_diagnosis(
 ) -> Diagnosis:
     """What is reported; ``before``: the error without any effect, ``apart``: how flights disagree."""
     first, outcome, left, target = evidence.first, found.outcome, found.left, found.outcome.target
-    credence = weighed(evidence.last.field, evidence.steps).within(found.share)
-    rows = (with_probability(r, credence, first.field.candidates) for r in ranking)
-    pairs = next_motion.pairs_of(evidence.alternatives())
+    credence = weigh_effects(evidence.last.field, evidence.steps).within(found.share)
+    rows = (add_probability(r, credence, first.field.candidates) for r in ranking)
+    pairs = next_motion.list_pairs(evidence.alternatives())
     return Diagnosis(
         verdict=found.verdict,
         fitted=first.fitted,
-        ranking=tuple(sorted(rows, key=placed([*found.claims, *outcome.effects]))),
+        ranking=tuple(sorted(rows, key=sort_by_choice([*found.claims, *outcome.effects]))),
         found=found.claims,
         not_testable=tuple(list_not_testable(first.fitted, first.field)),
         remainder=left if found.remains else _without_terms(left),
@@ -114,18 +114,18 @@ def _make_diagnosis(
         sizes=tuple(list_detectable(first.fitted, first.field)),
         target=target,
         coefficients=outcome.coefficients,
-        next_motion=tuple(next_motion.proposals(first.fitted, first.field, pairs, limits)),
+        next_motion=tuple(next_motion.propose_motions(first.fitted, first.field, pairs, limits)),
         complaint=outcome.complaint,
-        remarks=tuple(found.remarks(words(apart), evidence.spent)),
-        reasons=tuple(found.reasons(words(apart), evidence.spent)),
+        remarks=tuple(found.remarks(describe_disagreement(apart), evidence.spent)),
+        reasons=tuple(found.reasons(describe_disagreement(apart), evidence.spent)),
         disagree=apart,
         tests=round(first.field.effective_count, 3),
         explained=outcome.explained,
-        groups=groups(found.claims, ranking, found.steady, found.shared),
+        groups=group_findings(found.claims, ranking, found.steady, found.shared),
         credible_set=credence.credible,
         holds=_followed(target, evidence.instants, found.claims),
         staged=bool(evidence.steps),
-        off_sheet=tuple(off_sheet(target.model, target.instrument, target.calibration)),
+        off_sheet=tuple(list_off_sheet(target.model, target.instrument, target.calibration)),
     )
 
 
@@ -150,18 +150,18 @@ def complete_ranking(
             if chosen
             else []
         )
-        ranking = staged(steps, later, ranking, found.outcome.target)
+        ranking = rank_stages(steps, later, ranking, found.outcome.target)
     # beside a rival only what the recorder did is claimed, which has no columns
     if found.verdict != "partly-explained" or found.rival:
         return list(ranking)
     o = found.outcome
-    free = with_held(o.target, candidates=bool(o.given))
+    free = release_held(o.target, candidates=bool(o.given))
     given = [k for k, q in enumerate(free.candidates) if o.given and q.effect in found.claims]
     fitted = [q.label for q in (*o.target.calibration.columns, *(o.target.candidates[k] for k in o.given))]
     columns = [*free.calibration.columns, *(free.candidates[k] for k in given)]
     robust = Robust.of(Regression.of(free, given))
     # the values as they stand beside all that is claimed, and a covariance that knows of what remains
-    covariance = with_shift(robust, found.left, [q.label for q in columns], fitted)
+    covariance = add_shift(robust, found.left, [q.label for q in columns], fitted)
     values = robust.value - robust.regression.absent
     claimed = Estimates(free.model, free.calibration.p, columns, values, covariance)
     return [
@@ -176,7 +176,7 @@ def _followed(
     """From when on the model no longer holds; a step that is found is such an instant itself."""
     if target.observations[0].recorded.demodulated:
         return None  # neighbouring samples of a demodulated channel are not independent
-    followed = sequential.evidence(target)
+    followed = sequential.follow_model(target)
     for effect, instant in instants:
         if effect in found and instant is not None:
             name = target.observations[0].flight_name
@@ -214,7 +214,7 @@ UNEXPLAINED = 10.0
 """Times the noise's chi-square that all effects of the catalogue together must leave for flights to contradict each other."""
 
 
-def contradiction(first: Stage) -> tuple[Disagreement, ...]:
+def find_contradiction(first: Stage) -> tuple[Disagreement, ...]:
     """The flights that agree, where each is explained by the model and all together are not; ``first`` is the stage without effects."""
     f = first.fitted
     flights = _by_flight(f)
@@ -233,7 +233,9 @@ def contradiction(first: Stage) -> tuple[Disagreement, ...]:
     return tuple(Disagreement(tuple(x[0].flight_name for x in g), ()) for g in agree)
 
 
-def disagreement(f: Fitted, flights: Sequence[Flight], extend: Extend | None) -> tuple[Disagreement, ...]:
+def find_disagreement(
+    f: Fitted, flights: Sequence[Flight], extend: Extend | None
+) -> tuple[Disagreement, ...]:
     """What each flight alone lacks, where each is explained so; nothing if one is not."""
     found: dict[tuple[str, ...], list[str]] = {}
     for x, own in zip(flights, _by_flight(f), strict=True):
@@ -253,4 +255,4 @@ def _by_flight(f: Fitted) -> list[list[Observation]]:
 
 def _quiet(f: Fitted, observations: Sequence[Observation]) -> bool:
     """Whether the model leaves but noise of some of the observations."""
-    return calibrated(f.model, f.instrument, observations)[1].excess <= QUIET
+    return calibrate(f.model, f.instrument, observations)[1].excess <= QUIET

@@ -28,7 +28,7 @@ from ragg_runtime.identification import features
 from ragg_runtime.identification.features import OUTPUT, Relaxations
 from ragg_runtime.io.record import GRADIENT, RATES, is_disc_angle
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.fir import filtered
+from ragg_runtime.signals.fir import filter_columns
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -111,7 +111,7 @@ class Dictionary:
         centred = sorted(n for n in r.wide if n not in _MOTION and _is_channel(n))
         rates = [n for n in _RATES if n.partition("_")[2] in r.wide]
         names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
-        further = [c for c in generic([*centred, "time"]) if all(features.recorded(n, r) for n in c)]
+        further = [c for c in list_generic([*centred, "time"]) if all(features.is_recorded(n, r) for n in c)]
         made = dict.fromkeys(n for c in further for n in c if n not in names)
         self._slow = Relaxations([n for n in made if features.is_slow(n)], r)
         found = _statistics(r, [*names, *made], self._slow)
@@ -198,7 +198,7 @@ class _Statistics:
     varies: bool
 
 
-def generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
+def list_generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
     """Products, of any order, by which a transducer may depend on the force on it; ``auxiliary``: see above."""
     a, omega, omegadot = (tuple(f"{n}_{k}" for k in "xyz") for n in ("a", "omega", "omegadot"))
     rates = tuple(f"d_{f}" for f in _FORCES)
@@ -283,7 +283,7 @@ STRETCH = 2048
 """Samples that are summed in single precision."""
 
 
-def products(X: Singles, right: Array | Singles) -> Array:
+def multiply(X: Singles, right: Array | Singles) -> Array:
     """X (terms, N) times right (N, k): single precision within a segment, double between segments."""
     singles = right.astype(np.float32, copy=False)
     total = np.zeros((len(X), right.shape[1]))
@@ -292,8 +292,8 @@ def products(X: Singles, right: Array | Singles) -> Array:
     return total
 
 
-def squares(X: Singles) -> Array:
-    """(terms,): sums of squares of X (terms, N), as :func:`products` sums."""
+def sum_squares(X: Singles) -> Array:
+    """(terms,): sums of squares of X (terms, N), as :func:`multiply` sums."""
     total = np.zeros(len(X))
     for start in range(0, X.shape[1], STRETCH):
         part = X[:, start : start + STRETCH]
@@ -332,7 +332,7 @@ class Directions:
                 x = o.recorded.through(x.astype(np.float64), wide).astype(np.float32)
                 x[:, ~wide.valid] = 0.0
             parts = [
-                _keep_valid(self._even(filtered(x, np.asarray(w * taps), lead=lead)), valid)
+                _keep_valid(self._even(filter_columns(x, np.asarray(w * taps), lead=lead)), valid)
                 for w, taps in zip(self.weights, self.filters, strict=True)
             ]
             yield at, x[:, lead:], self._without_gradient(parts)

@@ -35,7 +35,7 @@ def is_slow(name: str) -> bool:
     return isinstance(series_name.series(name), Relaxation)
 
 
-def recorded(name: str, r: Record) -> bool:
+def is_recorded(name: str, r: Record) -> bool:
     """Whether a record has all that a series needs."""
     base = series_name.channel(series_name.series(name, r.wide.keys()))
     if base in FORCES and base not in r.wide:

@@ -64,7 +64,7 @@ def project(T: Array, onto: int) -> Array:
     return T[onto:, onto:]
 
 
-def explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[float, int]:
+def measure_explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[float, int]:
     """(chi-square, rank) of the last column of P explained by ``columns`` of a norm above ``floor``."""
     if len(columns) == 1:
         x = np.ascontiguousarray(P[:, columns[0]])
@@ -130,13 +130,15 @@ def test(
     best, charge = Test(0.0, 0, 0.0, ()), 0.0
     for block, count in _ways(_kinds(columns)):
         chi2, rank = (
-            (alone[block[0]], int(seen[block[0]])) if len(block) == 1 else explained(small, block, low)
+            (alone[block[0]], int(seen[block[0]]))
+            if len(block) == 1
+            else measure_explained(small, block, low)
         )
         log_p = min(0.0, log_sf(chi2, rank, freedom) + math.log(count) + penalty)
         if rank and log_p < best.log_p:
             best, charge = Test(chi2, rank, log_p, tuple(every[k] for k in block)), math.log(count)
     if not best.which:
-        chi2, rank = explained(small, range(len(every)), low)
+        chi2, rank = measure_explained(small, range(len(every)), low)
         best = Test(chi2, rank, min(0.0, log_sf(chi2, rank, freedom) + penalty), tuple(every))
     return replace(best, log_b=float(log_bayes(best.chi2, best.rank)) - charge - penalty)
 
@@ -213,6 +215,6 @@ class Variance:
         return Test(chi2, 1, float(special.log_ndtr(-z)), (0,), float(log_bayes(chi2, 1)))
 
 
-def pooled(parts: Sequence[Variance]) -> Variance:
+def pool_variances(parts: Sequence[Variance]) -> Variance:
     """The sums of several segments or flights together."""
     return Variance(np.sum([p.gram for p in parts], axis=0))

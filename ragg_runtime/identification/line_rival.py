@@ -95,7 +95,7 @@ class Steady:
         return f"{said}; a line within {self.width:.1g} Hz of {self.frequency:.6g} Hz would explain it too"
 
 
-def line_rival(
+def find_line_rival(
     steps: Sequence[AddedEffect], last: Stage
 ) -> tuple[LineAlternative | None, tuple[Steady, ...]]:
     """The first chosen effect that a line next to a multiple of the spin rate could replace, and those that are no more than
@@ -103,7 +103,7 @@ def line_rival(
     """
     steady = []
     for t in steps:
-        line = best(t.before, ())
+        line = find_best_line(t.before, ())
         if _in_place(line, t.test.chi2):
             return LineAlternative(line=line, effect=t.effect, own=t.test.chi2), ()
         steady += _steady(t.before, line, t.effect, t.test.chi2, t.alternatives)
@@ -112,7 +112,7 @@ def line_rival(
     for e in choice.chosen:
         others = [o for o in choice.chosen if o != e]
         beside = field.joint([choice.blocks[o] for o in others])[0] if others else 0.0
-        line = best(last.fitted, [n for o in others for n, _ in field.candidates[o]])
+        line = find_best_line(last.fitted, [n for o in others for n, _ in field.candidates[o]])
         if _in_place(line, choice.chi2 - beside):
             return LineAlternative(line=line, effect=e, own=choice.chi2 - beside), ()
         steady += _steady(last.fitted, line, e, choice.chi2 - beside, alternatives[e])
@@ -185,7 +185,7 @@ class NearLine:
     log_p: float
 
 
-def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
+def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
     """The sinusoid next to a multiple of the spin rate that explains most, base and ``given`` candidate columns projected out.
 
     ``None`` of several records or of channels, where no disc turns, or where none has a direction of its own.

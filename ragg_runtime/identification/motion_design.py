@@ -19,7 +19,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.least_squares import r_factor
-from ragg_runtime.estimation.observation import as_output
+from ragg_runtime.estimation.observation import combine_output
 from ragg_runtime.estimation.scores import channels
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification.next_motion import (
@@ -31,11 +31,11 @@ from ragg_runtime.identification.next_motion import (
     Alternatives,
     Separation,
     Sinusoid,
-    kind,
-    whitened_motion,
+    find_kind,
+    whiten_motion,
 )
-from ragg_runtime.identification.parameters import combinations_seen
-from ragg_runtime.identification.selection import field_of, testable_effects
+from ragg_runtime.identification.parameters import find_combinations
+from ragg_runtime.identification.selection import list_testable, make_field
 
 Array = NDArray[np.float64]
 Tone = tuple[str, float, float]
@@ -89,8 +89,8 @@ def design(
 
     ``None`` if there is nothing to separate, or no frequency within the band.
     """
-    asked = Alternatives.of(f, field_of(f, testable_effects(f)), pairs, both=True)
-    tones = tones_of(f.instrument.spin_frequency, limits, band)
+    asked = Alternatives.of(f, make_field(f, list_testable(f)), pairs, both=True)
+    tones = list_tones(f.instrument.spin_frequency, limits, band)
     if not asked.pairs or not tones:
         return None
 
@@ -109,7 +109,7 @@ def _best(worth: Worth, tones: Sequence[Tone], limits: Mapping[str, float]) -> t
     together = _exchanged(worth, tones, order)
     best = list(dict.fromkeys([*together, *order]))[:CANDIDATES]
     tones = [tones[n] for n in sorted(best)]
-    starts = even(tones), _mostly([sorted(best).index(n) for n in together], tones)
+    starts = share_evenly(tones), _mostly([sorted(best).index(n) for n in together], tones)
     found = max((_climbed(worth, tones, limits, x) for x in starts), key=lambda x: x[1])
     return multisine(tones, found[0])
 
@@ -141,19 +141,19 @@ def _mostly(few: Sequence[int], tones: Sequence[Tone]) -> Array:
     return shares
 
 
-def tones_of(spin: float, limits: Mapping[str, float], band: tuple[float, float]) -> list[Tone]:
+def list_tones(spin: float, limits: Mapping[str, float], band: tuple[float, float]) -> list[Tone]:
     """The sinusoids within a band."""
     found = []
     for axis in AXES:
         for ratio in GRID:
             frequency = ratio * (abs(spin) or AT_REST)
             if band[0] <= frequency <= band[1]:
-                slope = limits.get(SLOPES[kind(axis)], np.inf) / (2 * np.pi * frequency)
-                found.append((axis, frequency, float(min(limits[kind(axis)], slope))))
+                slope = limits.get(SLOPES[find_kind(axis)], np.inf) / (2 * np.pi * frequency)
+                found.append((axis, frequency, float(min(limits[find_kind(axis)], slope))))
     return found
 
 
-def even(tones: Sequence[Tone]) -> Array:
+def share_evenly(tones: Sequence[Tone]) -> Array:
     """Shares that are alike for all sinusoids about an axis."""
     axes = [axis for axis, _, _ in tones]
     return np.array([1.0 / axes.count(axis) for axis in axes])
@@ -190,8 +190,8 @@ def _peaks(tones: Sequence[Tone], limits: Mapping[str, float]) -> list[Array]:
     for axis in dict.fromkeys(axis for axis, _, _ in tones):
         own = np.array([axis == t[0] for t in tones], dtype=np.float64)
         size = np.array([amplitude for _, _, amplitude in tones])
-        rows.append(own * size / limits[kind(axis)])
-        slope = limits.get(SLOPES[kind(axis)])
+        rows.append(own * size / limits[find_kind(axis)])
+        slope = limits.get(SLOPES[find_kind(axis)])
         if slope is not None:
             rows.append(own * size * 2 * np.pi * np.array([t[1] for t in tones]) / slope)
     return rows
@@ -272,7 +272,7 @@ class Information:
     def with_motion(self, motion: Sequence[Sinusoid], simulated: float, duration: float) -> Array:
         """(n, n): the inverse of the R factor with so much, s, of a motion."""
         at = replace(self.f.prepared[0].at, only=())
-        X = r_factor(whitened_motion(self.f, at, motion, simulated))
+        X = r_factor(whiten_motion(self.f, at, motion, simulated))
         return self.inverse(np.vstack([self.root, np.sqrt(duration / simulated) * X]))
 
     @staticmethod
@@ -299,7 +299,7 @@ def _channel_changes(f: Fitted) -> Array:
     def changes(piece: Piece) -> Array:
         r = piece.observation.record
         return np.array(
-            [channels(e, r, k_ggi, r.valid)[1:] for e in as_output(piece.observation, piece.columns[:n])]
+            [channels(e, r, k_ggi, r.valid)[1:] for e in combine_output(piece.observation, piece.columns[:n])]
         )
 
     found = np.concatenate([*x.each(changes, whitened=False)], axis=2)  # (n, 2, instants)
@@ -335,10 +335,10 @@ def design_calibration(
             return -float(np.log(np.sum(np.square(c.channels(inverse)))))
         return -float(2 * np.sum(np.log(np.linalg.svd(important @ inverse, compute_uv=False))))
 
-    motion = _best(worth, tones_of(f.instrument.spin_frequency, limits, band), limits)
+    motion = _best(worth, list_tones(f.instrument.spin_frequency, limits, band), limits)
     now, then = c.inverse(c.root), c.with_motion(motion, min(duration, LONGEST), duration)
     columns = f.calibration.columns
-    determined = combinations_seen(
+    determined = find_combinations(
         f.model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ then))
     )
     return CalibrationDesign(

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.least_squares import orthonormal, r_factor
+from ragg_runtime.estimation.least_squares import orthonormalise, r_factor
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.identification.selection import Field
 from ragg_runtime.io.record import is_disc_angle
@@ -106,7 +106,7 @@ class Proposal:
             "frequency_over_spin": self.ratio,
             "frequency_Hz": frequency,
             "amplitude": amplitude,
-            "unit": unit_of(axis),
+            "unit": find_unit(axis),
             "duration_s": self.duration,
             "separation_now": s.now,
             "separation_then": s.then,
@@ -141,7 +141,7 @@ class Strength:
 def estimate_strength(f: Fitted, field: Field, effect: str, beside: Sequence[str] = ()) -> Strength:
     """The coefficients of an effect by the flights, marginal over the model's parameters and the effects ``beside`` it."""
     own = [f.n_base + n for n in field.testable(effect)]
-    others = [*range(f.n_base), *columns_of(f, field, beside)]
+    others = [*range(f.n_base), *list_columns(f, field, beside)]
     k = len(others)
     R = _lower_block(f.whole[:, [*others, *own, -1]], k)
     U, s, V = np.linalg.svd(R[:, :-1], full_matrices=False)
@@ -163,7 +163,7 @@ def _lower_block(rows: Array, first: int) -> Array:
     return np.asarray(np.linalg.qr(rows, mode="r"))[first:, first:]
 
 
-def columns_of(f: Fitted, field: Field, effects: Sequence[str]) -> list[int]:
+def list_columns(f: Fitted, field: Field, effects: Sequence[str]) -> list[int]:
     """Places among all columns of those of effects."""
     return [f.n_base + n for e in effects for n, _ in field.candidates[e]]
 
@@ -194,7 +194,7 @@ class Alternatives:
             if e not in strengths:
                 without = beside[e, r] if e not in found else [x for x in found if x != e]
                 strengths[e] = estimate_strength(f, field, e, without)
-        of_pair = {(e, r): columns_of(f, field, [r, *beside[e, r]]) for e, r in asked}
+        of_pair = {(e, r): list_columns(f, field, [r, *beside[e, r]]) for e, r in asked}
         places = [*range(f.n_base), *sorted({k for own in of_pair.values() for k in own})]
         at = {k: n for n, k in enumerate(places)}
         nuisance = tuple((*range(f.n_base), *(at[k] for k in own)) for own in of_pair.values())
@@ -238,7 +238,7 @@ class Alternatives:
         self, motion: Sequence[Sinusoid], *, simulated: float = SIMULATED, duration: float = DURATION
     ) -> Array:
         """R factor (k, k) of [places | directions] of a motion, ``simulated`` s of it, weighted for ``duration``, whitened."""
-        X = whitened_motion(self.f, self.at, motion, simulated)
+        X = whiten_motion(self.f, self.at, motion, simulated)
         there = [*range(self.f.n_base), *self.needed]
         directions = np.hstack([s.directions for s in self.strengths.values()])[there]
         X = np.concatenate([X[[there.index(k) for k in self.places]], directions.T @ X])
@@ -256,7 +256,7 @@ class Alternatives:
         ]
 
 
-def whitened_motion(f: Fitted, at: LinearisationPoint, motion: Sequence[Sinusoid], simulated: float) -> Array:
+def whiten_motion(f: Fitted, at: LinearisationPoint, motion: Sequence[Sinusoid], simulated: float) -> Array:
     """(columns, samples): the columns at a point of so many seconds of a motion, whitened with the noise of the first flight.
 
     Where that flight's gradient was not recorded it will not be known in the motion either, and is projected out.
@@ -266,18 +266,18 @@ def whitened_motion(f: Fitted, at: LinearisationPoint, motion: Sequence[Sinusoid
     n = int(simulated * o.record.rate)
     time = np.arange(n) / o.record.rate
     channels = _continued(f, n)
-    channels |= moved(channels, motion, time)
+    channels |= move_channels(channels, motion, time)
     r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
     r = replace(r, reading=None if r.reading is None else np.zeros(n))  # the model names it
     series = (np.zeros(n),) * len(o.series)
     made = replace(o, record=r, series=series, name="motion", thin=None)
 
     white = noise.whiten(linearise(at, made)[:-1])
-    if not unknown_gradient.unknown(o):
+    if not unknown_gradient.is_unknown(o):
         return white
     cosine, sine = r.carriers
     gradient = unknown_gradient.splines(time, cosine, sine)[:, None] * o.signs[:, None]
-    Q = orthonormal(noise.whiten(gradient))
+    Q = orthonormalise(noise.whiten(gradient))
     return white - (white @ Q) @ Q.T
 
 
@@ -298,7 +298,7 @@ def _continued(f: Fitted, samples: int) -> dict[str, Array]:
     return found
 
 
-def proposals(
+def propose_motions(
     f: Fitted, field: Field, pairs: Sequence[tuple[str, str]], limits: Mapping[str, float] = LIMITS
 ) -> list[Proposal]:
     """The best motion for every pair (effect, rival), the predicted separation next to today's."""
@@ -308,7 +308,9 @@ def proposals(
     first = f.prepared[0].observation.record
     spin = abs(first.spin_frequency) or AT_REST
     ratios = [x for x in RATIOS if x * spin <= HIGHEST * first.rate]
-    motions = [(ratio, (axis, ratio * spin, limits[kind(axis)], 0.0)) for axis in AXES for ratio in ratios]
+    motions = [
+        (ratio, (axis, ratio * spin, limits[find_kind(axis)], 0.0)) for axis in AXES for ratio in ratios
+    ]
     still = asked.separations(asked.rows(()))
     moving = [asked.separations(asked.rows([sinusoid])) for _, sinusoid in motions]
     found = []
@@ -321,7 +323,7 @@ def proposals(
     return found
 
 
-def moved(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: Array) -> dict[str, Array]:
+def move_channels(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: Array) -> dict[str, Array]:
     """The channels (N,) that sinusoids move, and their angular accelerations, added to their means."""
     found: dict[str, Array] = {}
     for axis, frequency, amplitude, phase in motion:
@@ -333,16 +335,16 @@ def moved(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: Array) ->
     return found
 
 
-def unit_of(axis: str) -> str:
+def find_unit(axis: str) -> str:
     """SI unit of the motion about an axis."""
     return "m/s^2" if axis.startswith("a_") else "rad/s"
 
 
-def kind(axis: str) -> str:
+def find_kind(axis: str) -> str:
     """Which of the limits an axis has."""
     return axis.partition("_")[0]
 
 
-def pairs_of(groups: Mapping[str, Sequence[str]]) -> list[tuple[str, str]]:
+def list_pairs(groups: Mapping[str, Sequence[str]]) -> list[tuple[str, str]]:
     """(effect, rival) of groups that the record cannot split."""
     return [(e, r) for e, alternatives in groups.items() for r in alternatives[:ALTERNATIVES]]

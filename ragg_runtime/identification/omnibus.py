@@ -23,9 +23,9 @@ from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.regressors import predict_observed
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, flight_segments
-from ragg_runtime.identification.dictionary import Dictionary, Directions, Term, products, squares
+from ragg_runtime.identification.dictionary import Dictionary, Directions, Term, multiply, sum_squares
 from ragg_runtime.identification.features import term_unit
-from ragg_runtime.identification.likelihood_ratio import Variance, pooled
+from ragg_runtime.identification.likelihood_ratio import Variance, pool_variances
 from ragg_runtime.identification.spectral_line import Periodogram
 from ragg_runtime.identification.time_varying import BlockScores
 
@@ -154,7 +154,7 @@ class Scores:
         o = prepared.observation
         self.dictionary = Dictionary(o.record, _predicted(prepared))
         self._excluded = None
-        if unknown_gradient.unknown(o):  # there nothing is left of the noise either
+        if unknown_gradient.is_unknown(o):  # there nothing is left of the noise either
             double, width = 2 * o.record.spin_frequency, 2 / unknown_gradient.KNOT_SECONDS
             self._excluded = (double - width, double + width)
         self._longest = max(s.rows.stop - s.rows.start for s in flight_segments(o))
@@ -195,13 +195,13 @@ class Scores:
         for at, x, X in Directions(self.prepared, self.dictionary, piece, self.only).whitened(
             self.dictionary.terms
         ):
-            inner = products(X, singles)
+            inner = multiply(X, singles)
             s.dot[at] = inner[:, 0]
             s.along[at] = inner[:, 1:]
-            s.norm2[at] = squares(X)
+            s.norm2[at] = sum_squares(X)
             s.blocks.add(piece, y, at, X)
-            s.raw[0, at] = products(x, ones)[:, 0]
-            s.raw[1, at] = squares(x)
+            s.raw[0, at] = multiply(x, ones)[:, 0]
+            s.raw[1, at] = sum_squares(x)
         return s
 
     @property
@@ -441,7 +441,7 @@ def search(
         scores = Scores(lean, projector, only)
         counted += scores.collect(sum_variances)
         searches.append(choose(scores))
-    variances = {e: pooled([own[n] for own in counted]) for n, e in enumerate(random)}
+    variances = {e: pool_variances([own[n] for own in counted]) for n, e in enumerate(random)}
     return Remainder(tuple(searches)), variances
 
 
@@ -451,7 +451,7 @@ def remainders(f: Fitted) -> list[Remainder]:
     return [remainder(f), *(remainder(f, only=k) for k in range(count) if count > 1)]
 
 
-def terms_json(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, object]]:
+def list_terms(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, object]]:
     """Generic terms in residuals of these mean squares, V^2, largest first; ``share`` is of the power."""
     best: dict[tuple[str, str], dict[str, object]] = {}
     for s, power in zip(rem.searches, mean_squares, strict=True):

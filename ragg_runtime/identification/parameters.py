@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.regressors import Column, spelt
+from ragg_runtime.estimation.regressors import Column, spell_name
 from ragg_runtime.instrument.layout import PAPER, Layout
-from ragg_runtime.model.evaluate import named
+from ragg_runtime.model.evaluate import name_values
 from ragg_runtime.model.model import DerivedParameter, Model
 
 Array = NDArray[np.float64]
@@ -51,7 +51,7 @@ class ParameterValue:
             "value": self.value,
             "std": self.std,
             "unit": self.unit,
-            **spelt(self.accelerometer, self.accelerometer_name),
+            **spell_name(self.accelerometer, self.accelerometer_name),
         }
         return own | ({"weights": list(self.weights)} if self.weights else {})
 
@@ -60,7 +60,7 @@ def gains(model: Model, p: Array, name: str) -> Array:
     """(n,) weight of each accelerometer in G_out, k_VI K1 (Eq. 1), for a parameter of this name, over their mean; ``p`` is the
     model's parameter vector.
     """
-    values = named(model.chain, p)
+    values = name_values(model.chain, p)
     g = values["k_VI"] if name == "K1" else values["k_VI"] * values["K1"]
     return np.asarray(g / np.mean(g))
 
@@ -119,7 +119,7 @@ class Combination:
     shares: tuple[float, ...] = ()
 
 
-def combinations_seen(
+def find_combinations(
     model: Model, p: Array, columns: Sequence[Column], std: Callable[[Array], float]
 ) -> list[Combination]:
     """The combinations of accelerometers' values that the record determines, or the single values that it determines far better.
@@ -175,7 +175,7 @@ class Estimates:
         return tuple(parameter_values(self.columns, self.values, self.covariance))
 
     def list_combinations(self) -> tuple[ParameterValue, ...]:
-        """What the record sees of the accelerometers' values together (:func:`combinations_seen`)."""
+        """What the record sees of the accelerometers' values together (:func:`find_combinations`)."""
 
         def std(w: Array) -> float:
             return float(np.sqrt(max(0.0, float(w @ self.covariance @ w))))
@@ -189,7 +189,7 @@ class Estimates:
                 unit=q.unit,
                 weights=q.shares,
             )
-            for q in combinations_seen(self.model, self.p, self.columns, std)
+            for q in find_combinations(self.model, self.p, self.columns, std)
         )
 
 

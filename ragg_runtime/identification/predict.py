@@ -13,10 +13,10 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import HELD_OUT_BLOCKS, Fitted
 from ragg_runtime.estimation.least_squares import join, r_factor
-from ragg_runtime.estimation.observation import BLOCKS, ROWS, as_output
+from ragg_runtime.estimation.observation import BLOCKS, ROWS, combine_output
 from ragg_runtime.estimation.whitening import Piece, flight_segments
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.identification.selection import Field, field_of
+from ragg_runtime.identification.selection import Field, make_field
 
 Array = NDArray[np.float64]
 
@@ -49,7 +49,9 @@ def pass_unwhitened(f: Fitted) -> Unwhitened:
 
     def own(piece: Piece) -> list[tuple[int, Array, int]]:
         r = piece.observation.record
-        e = as_output(piece.observation, unknown_gradient.without(piece.columns, piece.windows, r.valid))
+        e = combine_output(
+            piece.observation, unknown_gradient.take_out(piece.columns, piece.windows, r.valid)
+        )
         parts = []
         for b, rows in piece.segment.blocks:
             here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
@@ -81,19 +83,19 @@ class Prediction:
         return {**asdict(self), "effects": list(self.effects)}
 
 
-def field_of_diagnosis(d: Diagnosis) -> Field:
+def make_field_of(d: Diagnosis) -> Field:
     """The testable effects, steps included, on the R factors of everything."""
-    return field_of(d.fitted, [r.effect for r in d.ranking])
+    return make_field(d.fitted, [r.effect for r in d.ranking])
 
 
-def columns_of(field: Field, effects: Sequence[str]) -> list[int]:
+def list_columns(field: Field, effects: Sequence[str]) -> list[int]:
     """The testable candidate columns of some effects."""
     return [n for e in effects if e in field.candidates for n in field.testable(e)]
 
 
 def fit_effects(f: Fitted, field: Field, effects: Sequence[str], *, held_out: bool = False) -> Array:
     """(size,): fitted coefficients of all columns with these effects in."""
-    extra = columns_of(field, effects)
+    extra = list_columns(field, effects)
     fitted, _ = f.coefficients(extra, held_out=held_out)
     return f.vector(fitted, extra)
 
@@ -101,7 +103,7 @@ def fit_effects(f: Fitted, field: Field, effects: Sequence[str], *, held_out: bo
 @one_thread
 def predict_error(f: Fitted, known: Unwhitened, field: Field, effects: Sequence[str]) -> Prediction:
     """The error that the flights would leave with these effects in the model."""
-    chi2, rank = field.joint([columns_of(field, [e]) for e in effects]) if effects else (0.0, 0)
+    chi2, rank = field.joint([list_columns(field, [e]) for e in effects]) if effects else (0.0, 0)
     return Prediction(
         effects=tuple(effects),
         rms_Eo=known.rms(fit_effects(f, field, effects), range(BLOCKS)) / f.k_ggi,

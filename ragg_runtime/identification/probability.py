@@ -90,7 +90,7 @@ class _Subspace:
     weight: float
 
 
-def weighed(f: Field) -> Sets:
+def weigh_sets(f: Field) -> Sets:
     """All sets of up to :data:`LARGEST` of the field's effects, weighed."""
     norms = np.linalg.norm(f.P, axis=0)
     seen = norms > f.floor

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.fitted import Fitted, with_held
+from ragg_runtime.estimation.fitted import Fitted, release_held
 from ragg_runtime.estimation.scores import Error, finite
 from ragg_runtime.identification import likelihood_ratio, probability, selection, sheet
 from ragg_runtime.identification.likelihood_ratio import Test
@@ -135,13 +135,13 @@ def rank_effects(
     return ranked, before
 
 
-def staged(
+def rank_stages(
     steps: Sequence[AddedEffect], chosen: Sequence[Ranked], others: Sequence[Ranked], target: Fitted
 ) -> list[Ranked]:
     """The ranking where effects were derived into the model: each by what the model with those before leaves without and with it;
     the rest against the model as it was.
     """
-    free = with_held(target)
+    free = release_held(target)
     found = [_ranked_taken(t, free) for t in steps] + list(chosen)
     names = {r.effect for r in found}
     return [*found, *(r for r in others if r.effect not in names)]
@@ -164,7 +164,7 @@ def _ranked_taken(t: AddedEffect, free: Fitted) -> Ranked:
     return row.with_estimates(stepped.select(t.effect), t.instant)
 
 
-def placed(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
+def sort_by_choice(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
     """Order of the ranking: chosen effects as they were chosen, then by significance."""
     order = {e: n for n, e in enumerate(dict.fromkeys(chosen))}
     return lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect)
@@ -182,7 +182,7 @@ def list_not_testable(f: Fitted, field: Field) -> list[NotTestable]:
             )
         elif e.id in field.candidates and not field.testable(e.id):
             found.append(NotTestable(e.id, _absorbed(f, field, e)))
-        elif e.kind == "deterministic" and (why := sheet.doubtful(f, e.id)):
+        elif e.kind == "deterministic" and (why := sheet.describe_doubt(f, e.id)):
             found.append(NotTestable(e.id, why))
     return found
 
@@ -201,7 +201,7 @@ def _absorbed(f: Fitted, field: Field, e: DerivedEffect) -> str:
     strongest = columns[k]
     if left[k] > WEAK * whole[k] or whole[k] < likelihood_ratio.TESTABLE:
         # what an unknown gradient can be has been taken out of the columns before
-        unknown = any(map(unknown_gradient.unknown, f.observations))
+        unknown = any(map(unknown_gradient.is_unknown, f.observations))
         beside = "beside a gradient that is not recorded" if unknown else "in this flight"
         return f"not observable {beside}, even at a hundred times its plausible size"
     solution = np.linalg.solve(field.T[:n, :n], field.T[:n, n + strongest])
@@ -243,15 +243,15 @@ def list_detectable(f: Fitted, field: Field) -> list[Detectable]:
     return rows
 
 
-def weighed(field: Field, steps: Sequence[AddedEffect]) -> Probabilities:
+def weigh_effects(field: Field, steps: Sequence[AddedEffect]) -> Probabilities:
     """The probabilities of the remaining effects, and of those in the model: equivalent alternatives share there."""
-    sets = probability.weighed(field)
+    sets = probability.weigh_sets(field)
     for t in steps:
         sets = sets.with_one_of((t.effect, *t.alternatives))
     return sets.probabilities()
 
 
-def with_probability(r: Ranked, found: Probabilities, columns: Container[str]) -> Ranked:
+def add_probability(r: Ranked, found: Probabilities, columns: Container[str]) -> Ranked:
     """The row with its effect's probability: none where the model has another effect that explains the same; ``None`` of a random
     effect, of which there is no evidence but its p-value.
     """

@@ -17,7 +17,7 @@ from ragg_runtime.identification.comparison import Explained
 from ragg_runtime.identification.features import channel_unit
 from ragg_runtime.identification.line_rival import Steady
 from ragg_runtime.identification.next_motion import Proposal
-from ragg_runtime.identification.omnibus import Remainder, ResidualTerm, terms_json
+from ragg_runtime.identification.omnibus import Remainder, ResidualTerm, list_terms
 from ragg_runtime.identification.ranking import Detectable, NotTestable, Ranked
 from ragg_runtime.identification.sequential import ChangePoint, SequentialTest
 from ragg_runtime.wording import describe
@@ -111,8 +111,8 @@ class Diagnosis:
         return self.target.residuals_of(self.coefficients)
 
     def terms(self) -> list[dict[str, object]]:
-        """Generic terms in what remains (see :func:`ragg_runtime.identification.omnibus.terms_json`)."""
-        return terms_json(self.remainder, self.scored.mean_square)
+        """Generic terms in what remains (see :func:`ragg_runtime.identification.omnibus.list_terms`)."""
+        return list_terms(self.remainder, self.scored.mean_square)
 
     def expression(self) -> str | None:
         """The strongest unexplained term as a line for ``effects`` in model.toml, under a name of one's own."""
@@ -168,7 +168,7 @@ class Diagnosis:
                 "needs": self.needs(),
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
-            "noise_floor": series.noise_floor_json(self.target, self.noise_floor),
+            "noise_floor": series.list_noise_floor(self.target, self.noise_floor),
             "explained": None if self.explained is None else {"share": self.explained.share},
             "credible_set": [list(s) for s in self.credible_set],
             "holds_until_s": None if self.change is None else self.change.until,
@@ -197,7 +197,7 @@ class Disagreement:
         return {"flights": list(self.flights), "found": list(self.found)}
 
 
-def words(apart: Sequence[Disagreement]) -> str | None:
+def describe_disagreement(apart: Sequence[Disagreement]) -> str | None:
     """How flights disagree, in a sentence; ``None`` if they do not."""
     if not apart:
         return None
@@ -227,7 +227,7 @@ class Group:
         return {"name": self.name, "effects": list(self.effects)}
 
 
-def groups(
+def group_findings(
     found: Sequence[str], ranking: Sequence[Ranked], steady: Sequence[Steady], shared: ResidualTerm | None
 ) -> tuple[Group, ...]:
     """One group of each effect that is found; ``shared``: a generic term that explains as much as the only one."""

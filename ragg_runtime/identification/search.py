@@ -15,7 +15,7 @@ from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.fitted import Fitted, Scored, fit
 from ragg_runtime.identification import comparison, contenders, omnibus, selection, strong
 from ragg_runtime.identification.claims import SECOND_ORDER, Regression, Robust, Significance
-from ragg_runtime.identification.comparison import Explained, explained
+from ragg_runtime.identification.comparison import Explained, measure_explained
 from ragg_runtime.identification.contenders import Extend
 from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.omnibus import Remainder
@@ -67,7 +67,7 @@ class Outcome:
 
     @cached_property
     def explained(self) -> Explained:
-        return explained(self.target, self.scored)
+        return measure_explained(self.target, self.scored)
 
     @property
     def complaint(self) -> str | None:
@@ -180,12 +180,14 @@ class Evidence:
             return first.model, first.instrument
         instants = dict(last.instants) | {t.effect: t.instant for t in self.steps if t.instant is not None}
         held = last.fitted.instrument.held | _held(last, [e for e in kept if e in last.choice.blocks])
-        return contenders.derived(first, kept, instants, self.extend, held=held)
+        return contenders.derive_with(first, kept, instants, self.extend, held=held)
 
 
 def _held(last: Stage, chosen: Sequence[str]) -> frozenset[str]:
     """Coefficients of the chosen effects that their tests do not need: free, those that a record does not determine would wander."""
-    return frozenset[str]().union(*(strong.unneeded(last.field, e, last.choice.blocks[e]) for e in chosen))
+    return frozenset[str]().union(
+        *(strong.list_unneeded(last.field, e, last.choice.blocks[e]) for e in chosen)
+    )
 
 
 def _given(last: Stage, chosen: Sequence[str]) -> list[int]:
@@ -196,16 +198,16 @@ def _given(last: Stage, chosen: Sequence[str]) -> list[int]:
 def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
     """Search forward; nothing is searched in flights that are kept ``apart``."""
     budget = strong.Budget()
-    steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend, budget)
-    last, outcome = confirmed(steps, last, extend)
+    steps, last = ([], first.without_choice()) if apart else strong.select_strong(first, extend, budget)
+    last, outcome = confirm_choice(steps, last, extend)
     return Evidence(first, steps, last, outcome, extend, budget.spent)
 
 
-def confirmed(steps: Sequence[AddedEffect], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:
+def confirm_choice(steps: Sequence[AddedEffect], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:
     """The chosen effects fitted in the model; and the last stage without those that then have an impossible size."""
     f = last.fitted
     final = _derived(last, extend)
-    while final is not None and (wrong := strong.impossible(final, last.choice.chosen)):
+    while final is not None and (wrong := strong.find_impossible(final, last.choice.chosen)):
         kept = {e: c for e, c in last.field.candidates.items() if e not in wrong}
         field = replace(last.field, candidates=kept)
         last = replace(last, field=field, choice=selection.choose(field))

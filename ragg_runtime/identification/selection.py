@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.regressors import Column, grouped
+from ragg_runtime.estimation.regressors import Column, group_by_effect
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.identification import likelihood_ratio, sheet, uneven
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
@@ -123,7 +123,7 @@ class Field:
     def _tempered(self, t: Test, beside: uneven.ProjectedBlocks, floor: Array) -> Test:
         """A test as sure as the scores in blocks of time are."""
         tested = [self.n_base + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
-        return uneven.tempered(t, uneven.inflation(beside, tested), self.freedom, len(self.blocks))
+        return uneven.temper_test(t, uneven.inflation(beside, tested), self.freedom, len(self.blocks))
 
     @cached_property
     def count(self) -> int:
@@ -142,11 +142,11 @@ class Field:
         log_p = t.log_p if t.rank else 0.0
         if not np.log(family) - np.log(max(self.count, 1)) <= log_p < np.log(family):
             return bool(log_p < np.log(family))
-        return significant(t, self.effective_count, family)
+        return is_significant(t, self.effective_count, family)
 
     def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
         """(chi-square, rank) of the union of column blocks."""
-        return likelihood_ratio.explained(self.P, [n for b in blocks for n in b], self.floor)
+        return likelihood_ratio.measure_explained(self.P, [n for b in blocks for n in b], self.floor)
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,7 @@ class Choice:
     chi2: float
 
 
-def significant(t: Test, count: float, family: float = FAMILY) -> bool:
+def is_significant(t: Test, count: float, family: float = FAMILY) -> bool:
     """Whether a test of one of ``count`` effects is significant over the family."""
     return bool(t.rank > 0 and t.log_p + np.log(max(count, 1.0)) < np.log(family))
 
@@ -222,7 +222,7 @@ def _evidence(f: Field, blocks: Mapping[str, tuple[int, ...]]) -> float:
     return float(log_bayes(chi2, rank)) - len(blocks) * float(np.log(max(f.count, 1)))
 
 
-def alike(a: Test, b: Test) -> bool:
+def are_alike(a: Test, b: Test) -> bool:
     """Whether the second explains as much as the first, or is not distinguishable by its evidence."""
     as_much = a.chi2 - b.chi2 < INDISTINGUISHABLE and b.log_b > a.log_b - AS_SURE
     return as_much or b.log_b > a.log_b - DISTINGUISHABLE
@@ -235,20 +235,20 @@ def alternatives(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
         others = [o for o in choice.chosen if o != e]
         conditional = f.tests(others)
         mine = conditional[e]
-        equal = (o for o, t in conditional.items() if o != e and t.rank and alike(mine, t))
+        equal = (o for o, t in conditional.items() if o != e and t.rank and are_alike(mine, t))
         result[e] = tuple(sorted(o for o in equal if e not in f.contains.get(o, ())))
     return result
 
 
-def field_of(
+def make_field(
     f: Fitted, available: Sequence[str], T: Array | None = None, within: Field | None = None
 ) -> Field:
     """The candidates among ``available`` effects, on the R factor of everything or another one of the same columns."""
-    candidates = grouped(f.candidates)
+    candidates = group_by_effect(f.candidates)
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
     uneven_noise = any(n.uneven for n in f.calibration.noise)
-    blocks = uneven.nonempty_blocks(t for own in f.r_factors for t in own) if uneven_noise else ()
+    blocks = uneven.list_nonempty_blocks(t for own in f.r_factors for t in own) if uneven_noise else ()
     return Field(
         T=f.whole if T is None else T,
         n_base=f.n_base,
@@ -261,7 +261,7 @@ def field_of(
     )
 
 
-def testable_effects(f: Fitted) -> list[str]:
+def list_testable(f: Fitted) -> list[str]:
     """Deterministic candidates of which every flight has the channels, and that are no error of the sheet."""
     have = [o.record.recorded for o in f.observations]
     return [
@@ -270,5 +270,5 @@ def testable_effects(f: Fitted) -> list[str]:
         if e.kind == "deterministic"
         and e.searched
         and not any(e.missing(h) for h in have)
-        and sheet.doubtful(f, e.id) is None
+        and sheet.describe_doubt(f, e.id) is None
     ]

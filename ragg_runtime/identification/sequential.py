@@ -18,7 +18,7 @@ from scipy.special import logsumexp
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.least_squares import r_factor, with_prior
+from ragg_runtime.estimation.least_squares import add_prior, r_factor
 
 Array = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ class SequentialTest:
     change: ChangePoint | None
 
 
-def evidence(f: Fitted) -> SequentialTest:
+def follow_model(f: Fitted) -> SequentialTest:
     """Follow the model through its flights."""
     names, times, path = [], [], []
     log_m, since = 0.0, 0
@@ -105,7 +105,7 @@ class _TimeBlock:
 def _blocks(f: Fitted) -> Iterator[_TimeBlock]:
     n = f.n_base
     nothing = np.zeros((n + 1, n + 1))
-    known = with_prior(nothing, range(n), f.to_nominal / WIDE)
+    known = add_prior(nothing, range(n), f.to_nominal / WIDE)
     known[:, :n] /= WIDE  # it holds the prior's rows alone: WIDE times as wide
     for x, r_factors in zip(f.prepared, f.r_factors, strict=True):
         r = x.observation.record

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import series_name
-from ragg_runtime.estimation.fitted import Fitted, estimated
+from ragg_runtime.estimation.fitted import Fitted, estimate_variance
 from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.scores import finite
 from ragg_runtime.estimation.whitening import PreparedFlight
@@ -57,7 +57,7 @@ def envelope(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POIN
     return SeriesEnvelope(middle, *(np.where(empty, np.nan, v) for v in (low, high, rms)))
 
 
-def measured(w: PreparedFlight) -> Array:
+def compute_measured(w: PreparedFlight) -> Array:
     """(N,) V: what was observed, as G_out; zero where a sample is not valid."""
     o = w.observation
     pairs = zip(o.signs, o.series, strict=True)
@@ -91,7 +91,7 @@ def spectrum(x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260)
     return _binned(f[2:], psd[2:], points)
 
 
-def within_band(x: Array, rate: float, low: float, high: float) -> Array:
+def pass_band(x: Array, rate: float, low: float, high: float) -> Array:
     """(N,): what of a series, zero where it has no value, oscillates between two frequencies (Hz)."""
     f = np.fft.rfftfreq(len(x), 1.0 / rate)
     return np.asarray(np.fft.irfft(np.where((f >= low) & (f <= high), np.fft.rfft(x), 0.0), len(x)))
@@ -122,7 +122,7 @@ def _noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
 
 def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
     """rms of the estimated noise of what was observed as G_out, Eo."""
-    return float(np.sqrt(estimated(w))) / abs(k_ggi)
+    return float(np.sqrt(estimate_variance(w))) / abs(k_ggi)
 
 
 def demodulated_noise(w: PreparedFlight, k_ggi: float, spin: float, multiple: int, amplitude: float) -> float:
@@ -152,7 +152,7 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
     return float(inline), float(cross)
 
 
-def noise_floor_json(f: Fitted, rms_Eo: float) -> dict[str, float | None]:
+def list_noise_floor(f: Fitted, rms_Eo: float) -> dict[str, float | None]:
     """The noise floor as JSON: before demodulation (Eo), and what the noise alone would give in the channels."""
     inline, cross = channel_noise(f)
     return {"rms_Eo": rms_Eo, "inline_Eo": finite(inline), "cross_Eo": finite(cross)}
@@ -190,7 +190,7 @@ def blocks(w: PreparedFlight, residual: Array, k_ggi: float) -> tuple[Array, Arr
     return edges, rms
 
 
-def broken(time: Array, x: Array) -> tuple[Array, Array]:
+def break_at_gaps(time: Array, x: Array) -> tuple[Array, Array]:
     """A series with NaN where its time leaps, so that no line is drawn over a gap."""
     if len(time) < 3:
         return time, x
@@ -204,7 +204,7 @@ def runs(x: Array) -> list[slice]:
     return derivative.runs(np.isfinite(x))
 
 
-def worst(f: Fitted, residuals: Sequence[Array], most: int) -> list[int]:
+def find_worst(f: Fitted, residuals: Sequence[Array], most: int) -> list[int]:
     """Positions of the ``most`` flights with the largest error over their noise, in the flights' own order."""
     ratio = []
     for w, e in zip(f.prepared, residuals, strict=True):

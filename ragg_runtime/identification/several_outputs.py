@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import regressors
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.observation import Observation, as_output, segments
-from ragg_runtime.estimation.scores import channels, error
+from ragg_runtime.estimation.observation import Observation, combine_output, segments
+from ragg_runtime.estimation.scores import channels, measure_error
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.evaluate import voltages
-from ragg_runtime.model.recorded import carried
+from ragg_runtime.model.recorded import put_on_carriers
 from ragg_runtime.signals.demodulate import low_pass
-from ragg_runtime.signals.tensor import Tensor, across, tensor
+from ragg_runtime.signals.tensor import Tensor, spread_across, tensor
 
 Array = NDArray[np.float64]
 
@@ -107,18 +107,18 @@ class Together:
         return figures
 
 
-def together(f: Fitted) -> list[Together]:
+def compare_outputs(f: Fitted) -> list[Together]:
     """Of every flight with several turning outputs what they saw."""
     found = []
     for first, last in pairwise([*f.first, len(f.observations)]):
         own = [n for n in range(first, last) if f.observations[n].record.turning]
-        seen = tuple(s for s in (gradient_seen(f, n) for n in own) if len(s.time))
+        seen = tuple(s for s in (estimate_gradient(f, n) for n in own) if len(s.time))
         if len(seen) > 1:
             found.append(Together(name=f.observations[first].flight_name, fitted=f, seen=seen))
     return found
 
 
-def gradient_seen(f: Fitted, n: int) -> Seen:
+def estimate_gradient(f: Fitted, n: int) -> Seen:
     """What an observation's output saw of the gradient: all that the calibrated model explains is taken out but it."""
     o, k_ggi = f.observations[n], f.scales[n]
     rows = [s.rows for s in segments(len(o.record.time))]
@@ -137,16 +137,16 @@ def gradient_seen(f: Fitted, n: int) -> Seen:
 
 
 def _without_motion(f: Fitted, o: Observation) -> Array:
-    return as_output(o, np.where(o.record.valid, o.data - _predicted(f, o, {}), 0.0))
+    return combine_output(o, np.where(o.record.valid, o.data - _predicted(f, o, {}), 0.0))
 
 
 def _beyond_ideal(f: Fitted, o: Observation, inline: Array, cross: Array, k_ggi: float) -> Array:
     """What the model makes of a gradient, Eo, in the output, less what an ideal instrument would, (N,) V."""
     axes = f.instrument.layout.discs[o.output.disc].across
-    seen = across(axes, inline, cross)
+    seen = spread_across(axes, inline, cross)
     wide = dict(zip(GRADIENT, (np.pad(EOTVOS * x, o.record.halo, mode="edge") for x in seen), strict=True))
-    response = as_output(o, _predicted(f, o, wide) - _predicted(f, o, {}))
-    ideal = o.recorded.through(carried(inline, cross, o.record, k_ggi), o.record)
+    response = combine_output(o, _predicted(f, o, wide) - _predicted(f, o, {}))
+    ideal = o.recorded.through(put_on_carriers(inline, cross, o.record, k_ggi), o.record)
     return np.where(o.record.valid, response - ideal, 0.0)
 
 
@@ -155,12 +155,12 @@ def _predicted(f: Fitted, o: Observation, gradient: Mapping[str, Array]) -> Arra
     wide = {name: x for name, x in o.record.wide.items() if name not in GRADIENT} | dict(gradient)
     other = replace(o.record, wide=wide)
     volts = voltages(f.model.chain, other, f.calibration.p, o.output)
-    return regressors.observed(replace(o, record=other), volts, None)
+    return regressors.observe_voltages(replace(o, record=other), volts, None)
 
 
 def errors(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:
     """The error object of every output of every flight."""
     return [
-        {"observation": o.name, "output": o.output.name, **error(e, o.record, k).as_json()}
+        {"observation": o.name, "output": o.output.name, **measure_error(e, o.record, k).as_json()}
         for o, e, k in zip(f.observations, residuals, f.scales, strict=True)
     ]

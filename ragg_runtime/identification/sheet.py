@@ -16,7 +16,7 @@ itself.
 """
 
 
-def doubtful(f: Fitted, effect: str) -> str | None:
+def describe_doubt(f: Fitted, effect: str) -> str | None:
     """Why an effect is not offered on these flights, in words: the sheet, if it was wrong, or a constant would do as well."""
     e = f.model.effect(effect)
     if e is None:
@@ -33,7 +33,7 @@ def doubtful(f: Fitted, effect: str) -> str | None:
             return f"degenerate with {name}: only the prior of {name} separates them"
     if e.common_of is not None:
         by_each = float(np.sum(P[:, -1] ** 2) - np.sum(_freed(f, e.common_of, own)[:, -1] ** 2))
-        by_all, _ = likelihood_ratio.explained(P, own, np.zeros(P.shape[1]))
+        by_all, _ = likelihood_ratio.measure_explained(P, own, np.zeros(P.shape[1]))
         if by_all < MOST * by_each:
             return f"the errors of {e.common_of} in this record are not common to all accelerometers"
     return None

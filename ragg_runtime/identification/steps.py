@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.least_squares import below, fold, join, r_factor
+from ragg_runtime.estimation.least_squares import fold, join, pick_columns, r_factor
 from ragg_runtime.estimation.least_squares import prior as prior_rows
 from ragg_runtime.estimation.observation import BLOCKS, ROWS
 from ragg_runtime.estimation.regressors import Column
@@ -32,7 +32,7 @@ class Step:
     test: Test
 
 
-def best_steps(
+def find_best_steps(
     r_factors: Sequence[Sequence[Array]],
     edges: Sequence[int],
     n_base: int,
@@ -47,7 +47,7 @@ def best_steps(
     columns = [c for own in owned for c in own]
     k, m = n_base + len(given), len(columns)
     others = [*(n_base + n for n in given), *(n_base + n for n, _ in columns), -1]
-    picked = [fold([below(t, n_base, others) for t in each]) for each in zip(*r_factors, strict=True)]
+    picked = [fold([pick_columns(t, n_base, others) for t in each]) for each in zip(*r_factors, strict=True)]
     # The segments after an edge count with the steps' columns, those before it without; the prior in them.
     sheet = prior_rows(range(n_base), k + m + 1, prior)
     after: list[Array] = [np.pad(sheet, ((0, k + m + 1 - n_base), (0, 0)))]
@@ -72,7 +72,7 @@ FINE = 192
 """Stretches into which the neighbourhood of a step is divided in each round that looks for its instant."""
 
 
-def refined(
+def refine_step(
     prepared: Sequence[PreparedFlight],
     step: Step,
     n_base: int,
@@ -105,7 +105,7 @@ def refined(
                     r_factors[k] = T if before is None else join([before, T])
         empty = np.zeros((len(places) + 1, len(places) + 1))
         known = [empty if t is None else t for t in r_factors]
-        (step,) = best_steps([known], [int(e) for e in edges], n_base, range(len(given)), [named], prior)
+        (step,) = find_best_steps([known], [int(e) for e in edges], n_base, range(len(given)), [named], prior)
         reach = int(np.max(np.diff(edges), initial=1))
     return step
 
@@ -120,7 +120,7 @@ POINTS = 16
 """Instants on either side that are tried in each round that looks for the sample."""
 
 
-def sharpened(
+def sharpen_step(
     prepared: Sequence[PreparedFlight], sample: int, projector: Projector, places: Sequence[int]
 ) -> int:
     """Move the first sample of a step to where its own columns, put through the filter from there on, explain most.

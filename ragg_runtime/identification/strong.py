@@ -15,8 +15,8 @@ from scipy.special import comb
 
 from ragg_runtime.estimation import calibration, whitening
 from ragg_runtime.estimation.calibration import QUIET, prior_volume, restore_priors
-from ragg_runtime.estimation.fitted import Fitted, about, fit, with_held
-from ragg_runtime.estimation.least_squares import below, fold, prior
+from ragg_runtime.estimation.fitted import Fitted, fit, prepare_evidence, release_held
+from ragg_runtime.estimation.least_squares import fold, pick_columns, prior
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.regressors import Column
@@ -26,7 +26,7 @@ from ragg_runtime.identification import steps as special
 from ragg_runtime.identification.contenders import Contest, Extend
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.parameters import physical_columns
-from ragg_runtime.identification.selection import Choice, Field, field_of, testable_effects
+from ragg_runtime.identification.selection import Choice, Field, list_testable, make_field
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
 
@@ -69,7 +69,7 @@ class Stage:
 
     @staticmethod
     def _of(f: Fitted, beside: bool) -> Stage:
-        field, fitted, instants = with_steps(f)
+        field, fitted, instants = add_steps(f)
         return Stage(field, fitted, instants, selection.choose(field, beside=beside))
 
     def _deviance(self, f: Fitted) -> float:
@@ -125,10 +125,10 @@ def _with_priors_of_sheet(f: Fitted) -> Fitted | None:
     if sheet.widths == f.instrument.widths:
         return None
     c = calibration.fit(f.model, sheet, f.observations, noise=f.calibration.noise, start=f.calibration.p)
-    return about(f.model, sheet, f.observations, c)
+    return prepare_evidence(f.model, sheet, f.observations, c)
 
 
-def taken(first: Stage, extend: Extend | None, budget: Budget) -> tuple[list[AddedEffect], Stage]:
+def select_strong(first: Stage, extend: Extend | None, budget: Budget) -> tuple[list[AddedEffect], Stage]:
     """The strong effects, the strongest first, and the stage at which none is left, or what is missing is not in the catalogue, or
     the budget is spent.
     """
@@ -143,7 +143,7 @@ def taken(first: Stage, extend: Extend | None, budget: Budget) -> tuple[list[Add
     return found, stage
 
 
-def unneeded(field: Field, effect: str, which: Sequence[int]) -> frozenset[str]:
+def list_unneeded(field: Field, effect: str, which: Sequence[int]) -> frozenset[str]:
     """Labels of an effect's columns that its test does not need."""
     return frozenset(c.label for n, c in field.candidates[effect] if n not in which)
 
@@ -156,8 +156,8 @@ def _strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect | No
     f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
 
     def entered(e: str) -> tuple[Model, Instrument]:
-        held = unneeded(stage.field, e, tests[e].which)
-        return contenders.derived(f, [e], stage.instants, extend, held=held)
+        held = list_unneeded(stage.field, e, tests[e].which)
+        return contenders.derive_with(f, [e], stage.instants, extend, held=held)
 
     def left(ids: Sequence[str]) -> dict[str, float]:
         budget.left -= len(ids)
@@ -170,7 +170,7 @@ def _strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect | No
             return None
         found = _in_model(stage, effect, alternatives, extend)
         budget.left -= 1
-        if len(tests) == 1 or budget.spent or not impossible(found.after, (effect,)):
+        if len(tests) == 1 or budget.spent or not find_impossible(found.after, (effect,)):
             return found
         if found.after.calibration.excess <= QUIET and not alternatives:
             return None
@@ -184,7 +184,7 @@ ROOM = 0.1
 """What an estimate may be off besides, as a share of that value: by what else the model leaves out."""
 
 
-def impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
+def find_impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
     """Those of the effects, all in the fitted model, whose parameter has a size that it cannot have."""
     calibration, found = f.calibration, []
     for n, c, q in physical_columns(f):
@@ -227,8 +227,10 @@ def _evidence(t: Test, columns: int) -> float:
 def _in_model(stage: Stage, effect: str, alternatives: tuple[str, ...], extend: Extend) -> AddedEffect:
     """An effect of a stage derived into the model, with the coefficients that its test needs, and everything fitted anew."""
     f = stage.fitted
-    held = unneeded(stage.field, effect, stage.choice.tests[effect].which)
-    model, instrument = contenders.derived(f, [effect], stage.instants, extend, candidates=True, held=held)
+    held = list_unneeded(stage.field, effect, stage.choice.tests[effect].which)
+    model, instrument = contenders.derive_with(
+        f, [effect], stage.instants, extend, candidates=True, held=held
+    )
     return AddedEffect(
         effect=effect,
         test=stage.choice.tests[effect],
@@ -243,7 +245,7 @@ def _with_released(f: Fitted) -> Fitted:
     """The fit with all coefficients of its effects, if those that were held are plainly needed: beside the strongest a test sees few."""
     if not f.instrument.held:
         return f
-    free = with_held(f)
+    free = release_held(f)
     gain = float(np.sum(f.whole[f.n_base :, -1] ** 2) - np.sum(free.whole[free.n_base :, -1] ** 2))
     if log_bayes(gain, free.n_base - f.n_base) < selection.DISTINGUISHABLE:
         return f
@@ -273,7 +275,7 @@ class _Found:
     given: Sequence[int]
 
 
-def with_steps(
+def add_steps(
     f: Fitted, known: Mapping[str, _Found] = MappingProxyType({})
 ) -> tuple[Field, Fitted, dict[str, float]]:
     """The field of all deterministic candidates, steps at their most likely instant, the flight with the steps' columns put in, and
@@ -281,10 +283,10 @@ def with_steps(
 
     Once the instant of a step is ``known`` the noise is estimated again, and everything with it.
     """
-    available = testable_effects(f)
+    available = list_testable(f)
     steps = [e for e in f.model.candidates if e.kind == "step"]
     if len(f.flights) != 1 or not steps:
-        return field_of(f, available), f, {}
+        return make_field(f, available), f, {}
     owned = {e.id: [(n, c) for n, c in enumerate(f.candidates) if c.effect == e.id] for e in steps}
     places = {e: [f.n_base + n for n, _ in own] for e, own in owned.items()}
     time, edges = f.observations[0].record.time, f.prepared[0].edges
@@ -306,7 +308,7 @@ def with_steps(
         so_far = [*samples][: n + 1]
         field = _with_penalty(f, [*available, *exact, *so_far], _picked(root, f, so_far, scanned), unjudged)
         if e in selection.choose(replace(field, blocks=())).chosen:
-            step = special.refined(f.prepared, step, f.n_base, given, owned[e], f.to_nominal)
+            step = special.refine_step(f.prepared, step, f.n_base, given, owned[e], f.to_nominal)
             found[e] = _Found(_sharpened(f, _Found(step.sample, given), places[e]), given)
             samples[e] = found[e].sample
             root = _root(f, edges, samples, places)
@@ -314,7 +316,7 @@ def with_steps(
         instants = {e: float(time[x.sample]) for e, x in found.items()}
         noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
         calmer = fit(f.model, f.instrument, f.observations, noise, f.calibration.p)
-        return with_steps(calmer, found)
+        return add_steps(calmer, found)
     if found:  # the columns themselves, to the sample, and through the filter
         exact |= {e: x.sample for e, x in found.items()}
         f = _from(f, exact)
@@ -328,7 +330,7 @@ def with_steps(
 def _sharpened(f: Fitted, step: _Found, places: Sequence[int]) -> int:
     everything = [t for own in f.r_factors for t in own]
     projector = whitening.projector(everything, f.n_base, step.given)
-    return special.sharpened(f.prepared, step.sample, projector, places)
+    return special.sharpen_step(f.prepared, step.sample, projector, places)
 
 
 def _from(f: Fitted, exact: Mapping[str, int]) -> Fitted:
@@ -347,7 +349,7 @@ def _scanned(
     edges = [int(k) for k in f.prepared[0].edges[1:-1]]
 
     def steps(given: Sequence[int]) -> list[tuple[special.Step, Sequence[int]]]:
-        found = special.best_steps(f.r_factors, edges, f.n_base, given, owned, f.to_nominal)
+        found = special.find_best_steps(f.r_factors, edges, f.n_base, given, owned, f.to_nominal)
         return [(step, given) for step in found]
 
     # Alone, unless it explains far more next to the first choice.
@@ -400,7 +402,7 @@ def _picked(root: Array, f: Fitted, steps: Sequence[str], places: Mapping[str, S
             if e in steps:
                 column[k - f.n_base] = first + n
         first += len(own)
-    return below(root, f.n_base, column)
+    return pick_columns(root, f.n_base, column)
 
 
 def _with_penalty(
@@ -408,4 +410,4 @@ def _with_penalty(
 ) -> Field:
     """The field of effects, steps among them charged for the choice of their instant; on another R factor if one is given."""
     steps = [e.id for e in f.model.candidates if e.kind == "step"]
-    return replace(field_of(f, effects, T, within), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
+    return replace(make_field(f, effects, T, within), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))

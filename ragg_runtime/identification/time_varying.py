@@ -18,7 +18,7 @@ from scipy import special
 from ragg_runtime.estimation.observation import block_edges
 from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.estimation.whitening import Piece
-from ragg_runtime.identification.dictionary import products, squares
+from ragg_runtime.identification.dictionary import multiply, sum_squares
 
 Array = NDArray[np.float64]
 
@@ -96,8 +96,8 @@ class BlockScores:
         X = X[: at.stop - at.start]
         starts, intervals = self._runs(piece)
         for a, b, interval in zip(starts, [*starts[1:], len(y)], intervals, strict=True):
-            self.dot[interval, at] += products(X[:, a:b], y[a:b, None])[:, 0]
-            self.norm2[interval, at] += squares(X[:, a:b])
+            self.dot[interval, at] += multiply(X[:, a:b], y[a:b, None])[:, 0]
+            self.norm2[interval, at] += sum_squares(X[:, a:b])
 
     def best(self, good: NDArray[np.bool_]) -> Varying | None:
         """The most variable of the ``good`` terms."""

@@ -83,12 +83,12 @@ def inflation(beside: ProjectedBlocks, tested: Sequence[int]) -> float:
     return max(1.0, power / float(along @ along))
 
 
-def nonempty_blocks(blocks: Iterable[Array]) -> tuple[Array, ...]:
+def list_nonempty_blocks(blocks: Iterable[Array]) -> tuple[Array, ...]:
     """Those in which there is any sample."""
     return tuple(t for t in blocks if np.any(t))
 
 
-def tempered(t: Test, by: float, freedom: float, blocks: int) -> Test:
+def temper_test(t: Test, by: float, freedom: float, blocks: int) -> Test:
     """A test whose chi-square is divided by the variance of the blocks; corrections for variants stay."""
     if by <= 1.0:
         return t

@@ -12,12 +12,12 @@ from ragg_runtime.estimation.calibration import QUIET
 from ragg_runtime.identification import claims, comparison, omnibus, selection, strong
 from ragg_runtime.identification.claims import Significance
 from ragg_runtime.identification.likelihood_ratio import Test
-from ragg_runtime.identification.line_rival import LineAlternative, Steady, line_rival
+from ragg_runtime.identification.line_rival import LineAlternative, Steady, find_line_rival
 from ragg_runtime.identification.omnibus import Remainder, ResidualTerm
 from ragg_runtime.identification.result import Reason, name_verdict
 from ragg_runtime.identification.search import Evidence, Outcome
 from ragg_runtime.identification.strong import Stage
-from ragg_runtime.wording.numbers import listed
+from ragg_runtime.wording.numbers import join_names
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +49,7 @@ class Conclusion:
     def of(found: Evidence, output: Sequence[str], *, apart: bool) -> Conclusion:
         """Judge what the search has found; ``output``: what the recorder did."""
         outcome, last, first = found.outcome, found.last, found.first
-        line, steady = line_rival(found.steps, last)
+        line, steady = find_line_rival(found.steps, last)
         if line is not None and not line.better(outcome.remainder):
             line = None
         if line is not None and line.effect in outcome.effects:
@@ -61,7 +61,9 @@ class Conclusion:
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         # next to the noise model, whose level has shapes of its own
         tests = outcome.random.items()
-        random = sorted((t.log_p, e) for e, t in tests if selection.significant(t, count, selection.FURTHER))
+        random = sorted(
+            (t.log_p, e) for e, t in tests if selection.is_significant(t, count, selection.FURTHER)
+        )
         # noise that follows the motion grows with the motion: a random effect models just that
         remains = line is not None or left.significant or outcome.complaint is not None
         remains = remains or (outcome.exceeds_noise and not random)
@@ -105,7 +107,7 @@ class Conclusion:
         doubt = apart or self.outcome.explained.complaint
         if doubt is not None:
             return [doubt]
-        disturbed = comparison.disturbed(self.outcome.target)
+        disturbed = comparison.describe_disturbance(self.outcome.target)
         said = [] if self.line is None else [self.line.words]
         said += [s.words for s in self.steady]
         said += [f"the search stopped after {strong.FITS} fits"] if spent and self.remains else []
@@ -120,11 +122,11 @@ class Conclusion:
         if self.claims:
             sure = "is certain" if len(self.claims) == 1 else "are certain"
             how = sure if self.remains else "is missing" if len(self.claims) == 1 else "are missing"
-            found.append(Reason(f"{listed(self.claims)} {how}", is_verdict=True))
+            found.append(Reason(f"{join_names(self.claims)} {how}", is_verdict=True))
         if self.remains:
             found += self._left()
         if self.open:
-            names = listed(self.open[:3], "or")
+            names = join_names(self.open[:3], "or")
             found.append(Reason(f"the record is not sufficient to decide whether {names} is also present"))
         return [*found, *remarks]
 
@@ -133,11 +135,11 @@ class Conclusion:
         o = self.outcome
         terms = [f"{t.term.harmonic} x {t.term.product}" for x in self.left.searches for t in x.terms]
         if self.one:
-            cases = f"{listed(o.effects)} would explain it together, as {self.one} may alone"
+            cases = f"{join_names(o.effects)} would explain it together, as {self.one} may alone"
             return [Reason(f"{cases}: add {self.one} and compare")]
         if self.rival:
             generic = f"a generic term, {terms[0]}" if terms else "generic terms"
-            return [Reason(f"{listed(o.effects)} would explain it no better than {generic}")]
+            return [Reason(f"{join_names(o.effects)} would explain it no better than {generic}")]
         found = [] if o.complaint is None else [Reason(o.complaint)]
         if terms:
             found.append(
@@ -188,7 +190,7 @@ def _weakest(found: Evidence, o: Outcome, needed: Sequence[str]) -> str | None:
 
 def _log_p(o: Outcome, s: Significance, log_p: float | None) -> float:
     """Of an effect; 0 if it does not explain plainly more than the best generic term does of what is left."""
-    left = claims.strongest(o.remainder) if o.remainder.significant else None
+    left = claims.find_strongest(o.remainder) if o.remainder.significant else None
     if left is not None and s.chi2 - s.rank < claims.MORE * left.z**2:
         return 0.0
     return s.log_p(log_p, doubted=o.remainder.significant)
@@ -256,7 +258,7 @@ def _shared(found: Evidence, o: Outcome, base: Sequence[Remainder]) -> ResidualT
 def _ahead(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> float:
     """Log evidence by which an outcome's effects are ahead of the best generic terms of as many coefficients."""
     chi2, rank = found.explained(o)
-    spread = max(claims.spread_of(o.remainder), o.target.calibration.excess) if o.remains else 1.0
+    spread = max(claims.measure_spread(o.remainder), o.target.calibration.excess) if o.remains else 1.0
     # with a cap, if nothing remains: no terms explain more than all
     terms, _ = claims.generic_evidence(base, np.inf if o.remains else chi2, rank, spread)
     charge = len(o.effects) * float(np.log(count)) + found.charge(o)

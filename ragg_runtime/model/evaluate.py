@@ -33,12 +33,12 @@ def output(chain: ChainModule, r: Record, p: Array, o: Output = PAPER.outputs[0]
 
 def scale_factor(model: Model, p: Array, output: int = 0) -> float:
     """k_ggi of an output, V/Eo (Eq. 30)."""
-    values = named(model.chain, p)
+    values = name_values(model.chain, p)
     k1, R = values["k_VI"] * values["K1"], values["radius"] + values["dR"]
     return scale(model.layout.outputs[output], k1, R) * EOTVOS
 
 
-def named(chain: ChainModule, p: Array) -> dict[str, Array]:
+def name_values(chain: ChainModule, p: Array) -> dict[str, Array]:
     """A parameter vector as name -> values (one or four)."""
     return {name: p[place] for name, place in find_places(chain).items()}
 

@@ -12,24 +12,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.model.evaluator import find_places
-from ragg_runtime.model.memory import list_memories, with_responses
+from ragg_runtime.model.memory import add_responses, list_memories
 from ragg_runtime.model.model import DerivedParameter, Model
 from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]
 
 
-def about(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
+def move_record(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
     """The record with its motion shifted, and the parameters p (size,), SI, without what moved it.
 
     What describes a memory is left at its neutral values, about which the chain has its series.
     """
     memories = [*list_memories(model, p)]
     if memories:
-        r, p = with_responses(r, memories, model.chain.INPUTS), _at_neutral(model, p)
+        r, p = add_responses(r, memories, model.chain.INPUTS), _at_neutral(model, p)
     rest = p.copy()
     moves: dict[str, tuple[float, float]] = {}
-    for k, q in late(model):
+    for k, q in list_late(model):
         if not p[k]:
             continue
         rest[k] = 0.0
@@ -47,7 +47,7 @@ def _at_neutral(model: Model, p: Array) -> Array:
     return rest
 
 
-def late(model: Model) -> Iterator[tuple[int, DerivedParameter]]:
+def list_late(model: Model) -> Iterator[tuple[int, DerivedParameter]]:
     """Parameters of a model that make motion late, each with its place in the parameter vector."""
     found = [q for e in model.effects for q in e.parameters if q.late]
     places = find_places(model.chain) if found else {}

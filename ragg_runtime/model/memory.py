@@ -98,7 +98,7 @@ def first_memories(effects: Iterable[DerivedEffect], r: Record) -> Iterator[tupl
         yield e, Memory(str(e.memory), values)
 
 
-def with_responses(r: Record, memories: Iterable[Memory], wanted: Container[str]) -> Record:
+def add_responses(r: Record, memories: Iterable[Memory], wanted: Container[str]) -> Record:
     """The record with the ``wanted`` series that these memories make of it."""
     wide = dict(r.wide)
     for m in memories:

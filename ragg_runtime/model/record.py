@@ -24,7 +24,7 @@ from ragg_runtime.signals.derivative import (
     DEGREES,
     best_degree,
     differentiate,
-    interpolated,
+    interpolate_even,
     runs,
     smooth_slope,
     steady_and_swing,
@@ -252,10 +252,10 @@ class Record:
                 slopes = [self.wide[f"omegadot_{n[-1]}"] / self.rate for n in names]
                 there = at + later.get("omegadot", 0.0)
                 ends = [np.clip(x, -1.0, samples) for x in (there, there - by)]
-                upper, lower = (interpolated(slopes, x, integral=True) for x in ends)
+                upper, lower = (interpolate_even(slopes, x, integral=True) for x in ends)
                 moved = np.stack(own) + upper - lower
             else:
-                moved = interpolated(own, np.clip(at + by, -1.0, samples))
+                moved = interpolate_even(own, np.clip(at + by, -1.0, samples))
             wide |= dict(zip(names, moved, strict=True))
         return replace(self, wide=wide)
 
@@ -358,7 +358,7 @@ def phase(g: complex) -> float:
     return 0.0 if abs(g.imag) <= 1e-12 * abs(g) else float(np.angle(g))
 
 
-def start_of(flight: Flight, instrument: Instrument) -> float:
+def find_start(flight: Flight, instrument: Instrument) -> float:
     """Time, s, from angle 0 of a disc without an encoder to the first sample of a flight.
 
     Seconds count from 0 of ``time`` whatever the first sample is; instants from the first sample of the record, of which the flight
@@ -391,7 +391,7 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         turning=turning,
         axes=None if disc.level else disc.across,
         demodulation=flight.demodulation or instrument.demodulation or OURS,
-        start=start_of(flight, instrument),
+        start=find_start(flight, instrument),
         input_axes=tuple((*cs, float(w)) for cs, w in zip(o.angles, power / np.sum(power), strict=True)),
     )
 
@@ -402,17 +402,17 @@ def recorded_channels(flight: Flight, layout: Layout) -> frozenset[str]:
     return frozenset((*flight.channels, *([READING] if read else [])))
 
 
-def differentiated(name: str) -> str:
+def strip_derivative(name: str) -> str:
     """What a series ``d_<channel>`` or ``d2_<channel>`` is the time derivative of; any other is itself."""
     return name.removeprefix("d2_").removeprefix("d_")
 
 
-def made_of(names: Iterable[str]) -> frozenset[str]:
+def list_channels(names: Iterable[str]) -> frozenset[str]:
     """The channels that series of these names need: themselves, and what they are time derivatives of."""
-    return frozenset(x for n in names for x in (n, differentiated(n)))
+    return frozenset(x for n in names for x in (n, strip_derivative(n)))
 
 
-def quantities_of(r: Record, rows: slice) -> Callable[[str], Array]:
+def take_quantities(r: Record, rows: slice) -> Callable[[str], Array]:
     """:meth:`Record.quantity` of some samples, which are copied only if one is asked for."""
     return lambda name: r.part(rows).quantity(name)
 
@@ -448,7 +448,7 @@ def kernel(d: Demodulation, rate: float) -> Demodulator:
 
 def _at(d: Demodulation, rate: float) -> Demodulator:
     if d.kind == "none":
-        return demodulators.none(rate)
+        return demodulators.make_none(rate)
     if d.kind == "fir" or (d.cutoff is None and d.length is None):
         return demodulators.fir(rate, CUTOFF if d.cutoff is None else d.cutoff)
     if d.length is not None:

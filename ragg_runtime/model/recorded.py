@@ -13,7 +13,7 @@ from ragg_runtime.instrument.layout import Layout, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.fir import convolved
+from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ class RecordedSeries:
         if not self.demodulated:
             return tuple(columns)
         inline, cross = columns
-        return (carried(inline, cross, r, k_ggi),)
+        return (put_on_carriers(inline, cross, r, k_ggi),)
 
     def signs(self, o: Output) -> Array:
         """(m,): how each series counts in the output."""
@@ -72,8 +72,8 @@ class RecordedSeries:
             return G
         taps = r.low_pass.centred
         cosine, sine = r.quadratures
-        in_phase = convolved(2 * G * sine, taps, "same")
-        quadrature = convolved(2 * G * cosine, taps, "same")
+        in_phase = convolve(2 * G * sine, taps, "same")
+        quadrature = convolve(2 * G * cosine, taps, "same")
         cosine, sine = r.carriers
         return np.asarray(in_phase * sine + quadrature * cosine)
 
@@ -90,13 +90,13 @@ FORMS = (
 """The most informative first."""
 
 
-def recorded(flight: Flight, layout: Layout, place: int) -> RecordedSeries | None:
+def find_recorded(flight: Flight, layout: Layout, place: int) -> RecordedSeries | None:
     """Which series of an output a flight has, the most informative; ``None``: none."""
     o = layout.outputs[place]
     return next((form for form in FORMS if form.columns(layout, o, flight.outputs) is not None), None)
 
 
-def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
+def put_on_carriers(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
     """Demodulated channels put back on carriers: k_ggi (inline/2 sin 2 phi - cross cos 2 phi), V; k_ggi in V per unit
     of the channels.
     """

@@ -66,7 +66,7 @@ def write_comparison(c: Comparison, origin: Origin, frozen: Held | None = None) 
 
 def _ask_whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
     """Whether the residual of the worst flight is noise, folded; nothing where only the channels were recorded."""
-    (n,) = series.worst(f, residual, 1)
+    (n,) = series.find_worst(f, residual, 1)
     if f.observations[n].recorded.demodulated:
         return []
     channel = whiteness.find_worst_channel(f, n, residual[n])
@@ -151,7 +151,7 @@ def write_addition(
 
 def write_history(steps: Sequence[Json], origin: Origin) -> str:
     """The report of ``history``."""
-    first = Section(sentences=(f"{describe.counted(len(steps), 'step')}.",))
+    first = Section(sentences=(f"{describe.count_nouns(len(steps), 'step')}.",))
     table = Section(title="Steps", table=describe.tabulate_history(steps))
     drawn = panels.plot_history(steps, float("nan"))
     return render_page("History", [_with_plots(first, drawn), table], origin)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.unknown_gradient import unknown
+from ragg_runtime.estimation.unknown_gradient import is_unknown
 from ragg_runtime.identification import budget, comparison, series
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Axes, Bar, Bars, Curve, Curves
@@ -45,7 +45,7 @@ def _role(name: str) -> Any:
 
 def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
     """The error in blocks of time of every line; with ``envelope`` also the last residual itself, above it."""
-    chosen = series.worst(f, lines[0][1], FLIGHTS)
+    chosen = series.find_worst(f, lines[0][1], FLIGHTS)
     axes = []
     for n in chosen:
         w, k = f.prepared[n], f.scales[n]
@@ -74,7 +74,7 @@ def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
 def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
     """Amplitude densities of residuals and of the noise; ``None`` where no part of a record is long enough."""
     axes = []
-    for n in series.worst(f, lines[0][1], FLIGHTS):
+    for n in series.find_worst(f, lines[0][1], FLIGHTS):
         w, k = f.prepared[n], f.scales[n]
         r = w.observation.record
         found = [(label, series.spectrum(x[n] / k, r.valid, r.rate)) for label, x in lines]
@@ -94,7 +94,7 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
     caption = "Amplitude density of the residual and the estimated noise."
     if any(a.marks for a in axes):
         caption += " Dotted: multiples of the spin rate."
-    if any(a.marks for a in axes) and any(unknown(o) for o in f.observations):
+    if any(a.marks for a in axes) and any(is_unknown(o) for o in f.observations):
         caption += " The notch at 2Ω: the gravity gradient is not recorded, so slow variation there is fitted as gradient."
     return Curves("spectrum", caption, tuple(axes), "frequency before demodulation, Hz", 2.9)
 
@@ -102,10 +102,10 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
 def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
     """The demodulated residual of every line, inline and cross; ``None`` where a record is too short for the low-pass."""
     axes = []
-    for n in series.worst(f, lines[-1][1], FLIGHTS):
+    for n in series.find_worst(f, lines[-1][1], FLIGHTS):
         w, k = f.prepared[n], f.scales[n]
         r = w.observation.record
-        made = [(label, comparison.demodulated_one(f, n, x[n])) for label, x in lines]
+        made = [(label, comparison.demodulate_one(f, n, x[n])) for label, x in lines]
         time = made[0][1][0]
         if not len(time):
             continue
@@ -123,7 +123,7 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
 
 def _channel(label: str, time: Array, x: Array) -> list[Curve]:
     """A line, broken at gaps; its envelope where it has more points than can be drawn."""
-    time, x = series.broken(time, x)
+    time, x = series.break_at_gaps(time, x)
     if len(x) <= MOST_POINTS:
         return [Curve(label, time, x, _role(label), width=0.8)]
     found: list[Curve] = []
@@ -136,9 +136,9 @@ def _channel(label: str, time: Array, x: Array) -> list[Curve]:
 
 def plot_measured(f: Fitted, residual: Residuals) -> Curves:
     """The measured output over the model's: the whole of the worst flight, and a few turns of the disc where it is worst."""
-    (n,) = series.worst(f, residual, 1)
+    (n,) = series.find_worst(f, residual, 1)
     w = f.prepared[n]
-    r, y = w.observation.record, series.measured(w)
+    r, y = w.observation.record, series.compute_measured(w)
     edges, rms = series.blocks(w, residual[n], f.scales[n])
     k, spin = int(np.nanargmax(rms)), abs(r.spin_frequency)
     count = int(min(SAMPLES, TURNS * r.rate / spin if spin > 0.0 else SAMPLES, len(r.time)))
@@ -166,7 +166,9 @@ def plot_measured(f: Fitted, residual: Residuals) -> Curves:
 
 def plot_harmonics(f: Fitted, coefficients: Array) -> Bars | None:
     """The slow error at every harmonic of the spin, with what noise alone gives."""
-    rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.harmonic_errors(f, coefficients)}
+    rows = {
+        str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.measure_harmonics(f, coefficients)
+    }
     noise = series.harmonic_noise(f, rows)
     # four times the relative uncertainty of the rms of noise in the demodulator's bandwidth
     seconds = sum(float(w.observation.record.time[-1]) for w in f.prepared)
@@ -229,7 +231,7 @@ def plot_history(steps: Sequence[Mapping[str, Any]], noise: float) -> Bars | Non
 
 def plot_budget(f: Fitted, noise: float) -> Bars:
     """What each group of calibrated parameters contributes to the output."""
-    rows = budget.contributions(f)
+    rows = budget.list_contributions(f)
     bars = tuple(Bar(r.label, r.rms, strong=r.strong, dots=(r.inline, r.cross)) for r in rows)
     caption = (
         "What each group of parameters contributes to the output: the change when it is set to zero. Bars: rms before"
@@ -264,11 +266,11 @@ def describe_record(f: Fitted) -> list[tuple[str, str]]:
     if thin:
         used += f"; thinned to {numbers.number(min(thin), 4)} Hz without loss of information"
     return [
-        ("flights", numbers.listed([numbers.clean(o.name) for o in f.observations])),
+        ("flights", numbers.join_names([numbers.clean(o.name) for o in f.observations])),
         ("duration", numbers.seconds(sum(float(r.time[-1]) + 1.0 / r.rate for r in records))),
         ("samples", used),
         ("output", f.observations[0].recorded.words),
-        ("effects in the model", numbers.listed([e.id for e in f.model.effects]) or "none"),
+        ("effects in the model", numbers.join_names([e.id for e in f.model.effects]) or "none"),
         ("k_ggi", f"{numbers.number(f.k_ggi, 4)} V/Eo"),
         ("spin", f"{numbers.number(f.instrument.spin_frequency, 4)} Hz"),
     ]

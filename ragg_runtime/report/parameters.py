@@ -158,7 +158,7 @@ def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...
     if unseen:
         text.append(f"Not observable: {'; '.join(p + ', '.join(x) for p, x in unseen.items())}.")
     for group, seen in v.groups:
-        members, sums = numbers.listed([*map(str, group)]), numbers.listed([*seen])
+        members, sums = numbers.join_names([*map(str, group)]), numbers.join_names([*seen])
         verb = "is" if len(seen) == 1 else "are"
         text.append(f"Degenerate: {f'of {members} only {sums} {verb} determined' if sums else members}.")
     matrix, pairs = correlate_parameters(f)

@@ -13,7 +13,7 @@ from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE, Flag
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import recorded_channels, start_of
+from ragg_runtime.model.record import find_start, recorded_channels
 from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
@@ -163,7 +163,7 @@ def _angle_origin(instrument: Instrument, flight: Flight) -> list[str]:
     turning = [d for d in instrument.layout.discs if d.spin_frequency != 0.0]
     if all(d.angle_column in flight.channels for d in turning):
         return []
-    first, start = float(flight.time[0]), start_of(flight, instrument)
+    first, start = float(flight.time[0]), find_start(flight, instrument)
     if instrument.angle_origin is None and flight.instants:
         return [
             "time is given as instants: the disc angle counts from the first sample (a column spin_angle, or angle_origin"

@@ -15,9 +15,9 @@ from ragg_runtime.instrument.layout import Disc, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.evaluator import ChainModule
-from ragg_runtime.model.record import SPIN, differentiated, disc_angle, kernel, record, spin, start_of
-from ragg_runtime.model.recorded import RecordedSeries, recorded
-from ragg_runtime.signals.fir import convolved
+from ragg_runtime.model.record import SPIN, disc_angle, find_start, kernel, record, spin, strip_derivative
+from ragg_runtime.model.recorded import RecordedSeries, find_recorded
+from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
@@ -82,7 +82,7 @@ class Rows:
         if not self.recorded.demodulated:
             return raw
         carriers = 2 * np.stack([np.sin(2 * self.phi), np.cos(2 * self.phi)])
-        return convolved(raw * carriers, self.taps, "same")
+        return convolve(raw * carriers, self.taps, "same")
 
     @property
     def inner(self) -> Index:
@@ -164,14 +164,14 @@ class Sampler:
         at = np.array([rows, rows + motion_later, rows + output_later])
         inside = ((at >= 0) & (at < n)).all(axis=0)
         rows, moved_to, output_at = at[:, inside]
-        time, start = x.time[rows] - x.time[0], start_of(x, self.instrument)
+        time, start = x.time[rows] - x.time[0], find_start(x, self.instrument)
         f = self.disc.spin_frequency if spin_frequency is None else spin_frequency
         if self.has_encoder and spin_frequency is None:
             phi = x.channels[self.disc.angle_column][rows]
         else:
             phi = disc_angle(time, f, start)
         moved = {
-            name for name in (*x.channels, *self.derived) if {find_stem(name), differentiated(name)} & {*of}
+            name for name in (*x.channels, *self.derived) if {find_stem(name), strip_derivative(name)} & {*of}
         }
         channels = {
             name: v[moved_to] if name in moved else v[rows]
@@ -200,7 +200,7 @@ class Sampler:
 
 def find_stem(name: str) -> str:
     """``a`` of ``a_x`` and of its time derivative ``d_a_x``."""
-    return differentiated(name).rsplit("_", 1)[0]
+    return strip_derivative(name).rsplit("_", 1)[0]
 
 
 def make_sampler(
@@ -215,7 +215,7 @@ def make_sampler(
     """
     layout = instrument.layout
     output = layout.outputs[place]
-    form = recorded(flight, layout, place)
+    form = find_recorded(flight, layout, place)
     columns = None if form is None else form.columns(layout, output, flight.outputs)
     if form is None or columns is None:
         raise ValueError("the flight lacks this output")
@@ -224,7 +224,7 @@ def make_sampler(
         usable &= ~clipped(flight.outputs[output.name], usable)
     how = flight.demodulation or instrument.demodulation or OURS
     whole = record(flight, instrument, place)
-    rates = {n: x for n in inputs if differentiated(n) != n and (x := whole.series(n)) is not None}
+    rates = {n: x for n in inputs if strip_derivative(n) != n and (x := whole.series(n)) is not None}
     return Sampler(
         flight=flight,
         instrument=instrument,

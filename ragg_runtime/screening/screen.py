@@ -17,7 +17,7 @@ from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, find_clock_steps, 
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import EVEN
-from ragg_runtime.model.recorded import recorded
+from ragg_runtime.model.recorded import find_recorded
 from ragg_runtime.screening import checks
 from ragg_runtime.screening.linear_fit import INDEPENDENT, LinearFit, fit_rows
 from ragg_runtime.screening.mistakes import Finding, find_mistake
@@ -69,7 +69,7 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     checks.require_comparable(model, instrument, flight)
     flight = leave_out_glitches(flight).flagged(checks.list_remarks(instrument, flight))
     layout, inputs = instrument.layout, tuple(model.chain.INPUTS)
-    places = [k for k in range(len(layout.outputs)) if recorded(flight, layout, k)]
+    places = [k for k in range(len(layout.outputs)) if find_recorded(flight, layout, k)]
     s = make_sampler(flight, instrument, inputs, places[0])
     if not s.usable.any():
         return flight

@@ -14,7 +14,7 @@ from scipy import fft, optimize
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.sampling import find_clock_steps
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import disc_angle, start_of
+from ragg_runtime.model.record import disc_angle, find_start
 from ragg_runtime.screening.linear_fit import (
     Hypothesis,
     LinearFit,
@@ -24,7 +24,7 @@ from ragg_runtime.screening.linear_fit import (
     list_systems,
 )
 from ragg_runtime.screening.sampler import Index, Rows, Sampler
-from ragg_runtime.signals.demodulate import demodulable, low_pass
+from ragg_runtime.signals.demodulate import is_demodulable, low_pass
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
@@ -127,7 +127,7 @@ def _propose_spin(t: _Trial) -> list[Hypothesis]:
     s, x, f0 = t.s, t.s.flight, t.s.disc.spin_frequency
     remedy = "reverse the sign of spin_angle, or turn the axes of the record (y and z reversed)"
     backwards = t.propose("the disc turns the other way", remedy, COST - 1.0, backwards=True, calming=False)
-    late = 0.0 if s.has_encoder else abs(start_of(x, t.instrument))
+    late = 0.0 if s.has_encoder else abs(find_start(x, t.instrument))
     if late > LATEST:
         return [backwards]
     best, width, last = f0, SPIN_RANGE * abs(f0), 0
@@ -176,11 +176,11 @@ def write_rate(f: float, duration: float) -> str:
 def _propose_origin(t: _Trial) -> list[Hypothesis]:
     """The disc angle counted from the first sample in the place of t = 0, or the other way round."""
     x = t.s.flight
-    here = start_of(x, t.instrument)
+    here = find_start(x, t.instrument)
     origin, other = "first-sample", "zero"
     if here == float(x.time[0]) - (x.began or 0.0):
         origin, other = other, origin
-    there = start_of(x, replace(t.instrument, angle_origin=origin))
+    there = find_start(x, replace(t.instrument, angle_origin=origin))
     phase = _angle_at(t, there) - _angle_at(t, here)
     if abs(_wrapped(phase)) < LEAST_PHASE:
         return []
@@ -207,7 +207,7 @@ def _propose_phase(t: _Trial) -> list[Hypothesis]:
     best = _wrapped(best)
     if abs(best) < LEAST_PHASE:
         return []
-    taken = _angle_at(t, start_of(t.s.flight, t.instrument))
+    taken = _angle_at(t, find_start(t.s.flight, t.instrument))
     true, believed = (np.rad2deg(_wrapped(a)) for a in (taken + best, taken))
     what = (
         f"the disc was at {true:.4g} degrees at the first sample, not at {believed:.4g}"
@@ -486,7 +486,7 @@ def _lags(s: Sampler, first: int = 0, last: int | None = None) -> Sequence[int]:
     x, f = s.flight, abs(s.disc.spin_frequency)
     rows = np.arange(first, min(len(x) if last is None else last, first + LONGEST))
     n = len(rows)
-    if s.recorded.demodulated or not demodulable(x.rate) or (f > 0 and n < 3 * x.rate / f):
+    if s.recorded.demodulated or not is_demodulable(x.rate) or (f > 0 and n < 3 * x.rate / f):
         return ()
     carried, in_plane = _mix(s, rows)
     rates = x.channels["omega_x"][rows] + 1j * x.channels["omega_y"][rows]

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import i0
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.signals.fir import convolved
+from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ def low_pass(rate: float, *, cutoff: float = CUTOFF, attenuation: float = ATTENU
     return np.asarray(taps / np.sum(taps), dtype=np.float64)
 
 
-def demodulable(rate: float) -> bool:
+def is_demodulable(rate: float) -> bool:
     """Whether a record of this rate, Hz, is long enough for the low-pass; of a disc at rest it need not be."""
     return rate / 2 > CUTOFF + WIDTH / 2
 
@@ -130,6 +130,6 @@ def demodulate(
             remedy="record longer",
         )
     half = taps.size // 2
-    inline = convolved(4 * G * np.sin(2 * angle), taps) / k_ggi
-    cross = -convolved(2 * G * np.cos(2 * angle), taps) / k_ggi
+    inline = convolve(4 * G * np.sin(2 * angle), taps) / k_ggi
+    cross = -convolve(2 * G * np.cos(2 * angle), taps) / k_ggi
     return Demodulated(inline, cross, slice(half, G.size - half))

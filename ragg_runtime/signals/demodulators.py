@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.signals.demodulate import CUTOFF as HALF_AMPLITUDE
 from ragg_runtime.signals.demodulate import low_pass
-from ragg_runtime.signals.fir import Series, convolved
+from ragg_runtime.signals.fir import Series, convolve
 
 Array = NDArray[np.float64]
 
@@ -110,7 +110,7 @@ class Demodulator:
         """Series (..., N) through the kernel; beyond their ends they are taken as zero."""
         ends = [(0, 0)] * (x.ndim - 1) + [(self.before, self.ahead)]
         padded: Series = np.pad(x, ends)
-        return convolved(padded, self.taps)
+        return convolve(padded, self.taps)
 
 
 def fir(rate: float, cutoff: float = HALF_AMPLITUDE) -> Demodulator:
@@ -155,7 +155,7 @@ def butterworth(rate: float, order: int = ORDER, cutoff: float = CUTOFF) -> Demo
         name="butterworth",
         description=f"Butterworth of order {order} at {cutoff:g} Hz, forward and backward",
         rate=rate,
-        taps=convolved(h, h[::-1], "full"),
+        taps=convolve(h, h[::-1], "full"),
         ahead=len(h) - 1,
         latency=0.0,
     )
@@ -174,7 +174,7 @@ def causal(rate: float, order: int = ORDER, cutoff: float = CUTOFF) -> Demodulat
     )
 
 
-def none(rate: float) -> Demodulator:
+def make_none(rate: float) -> Demodulator:
     """Mixed alone: every value is of its own instant."""
     return Demodulator(
         name="none", description="no low-pass", rate=rate, taps=np.ones(1), ahead=0, latency=0.0
@@ -206,7 +206,7 @@ DEMODULATORS: Mapping[str, Callable[[float], Demodulator]] = MappingProxyType(
 
 
 @cache
-def demodulator(name: str, rate: float) -> Demodulator:
+def find_demodulator(name: str, rate: float) -> Demodulator:
     """The demodulator of this name; UserError if there is none."""
     if name not in DEMODULATORS:
         raise UserError("there is no such demodulator", found=repr(name), expected=", ".join(DEMODULATORS))

@@ -123,7 +123,7 @@ SPLINE = 9
 """Degree of the spline that interpolates: at 42 % of the Nyquist frequency it is as good as the derivative, 2e-6."""
 
 
-def interpolated(x: Sequence[Array], at: Array, *, integral: bool = False) -> Array:
+def interpolate_even(x: Sequence[Array], at: Array, *, integral: bool = False) -> Array:
     """Evenly sampled series (N,), or their integrals, at places between their samples, (n,), counted in samples: (series, n).
 
     Of an N too short for the spline, by a polynomial.

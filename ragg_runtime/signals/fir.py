@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])
 
 BLOCK = 1 << 18
-"""Numbers that :func:`convolved` transforms at a time; longer series by overlap and add."""
+"""Numbers that :func:`convolve` transforms at a time; longer series by overlap and add."""
 
 GROUP = 4
 """Columns that are transformed at a time: more leave the cache."""
@@ -29,13 +29,13 @@ accelerometers.
 """
 
 
-def not_zero(columns: Floats) -> NDArray[np.bool_]:
+def find_nonzero(columns: Floats) -> NDArray[np.bool_]:
     """(n,): which of the columns (n, rows) are not zero: those of channels that were not recorded, and of other outputs, are."""
     begins = np.asarray(columns[:, :1].any(axis=1))
     return np.array([bool(begins[k] or x.any()) for k, x in enumerate(columns)], dtype=np.bool_)
 
 
-def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int = 0) -> Floats:
+def filter_columns(columns: Floats, taps: Array, tail: Floats | None = None, lead: int = 0) -> Floats:
     """Columns (n, N) through a causal FIR filter, in their own precision: (n, N - lead).
 
     ``tail`` (n, T) holds the samples before them (none: the filter starts from rest); of the result the first
@@ -48,10 +48,10 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
     if len(taps) == 1:
         return np.asarray(columns[:, lead:] * columns.dtype.type(taps[0]))
     reach = min(before + n, len(taps))
-    own = not_zero(columns) if tail is None else not_zero(columns) | not_zero(tail)
+    own = find_nonzero(columns) if tail is None else find_nonzero(columns) | find_nonzero(tail)
     if np.count_nonzero(own) < SPARSE * len(columns):
         result = np.zeros((len(columns), n - lead), dtype=columns.dtype)
-        result[own] = filtered(columns[own], taps, None if tail is None else tail[own], lead)
+        result[own] = filter_columns(columns[own], taps, None if tail is None else tail[own], lead)
         return result
     # What goes round in the transform may fall on samples that are not wanted.
     size = fft.next_fast_len(before + n + max(0, reach - 1 - before - lead), real=True)
@@ -73,7 +73,7 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
 Series = TypeVar("Series", NDArray[np.float64], NDArray[np.complex64], NDArray[np.complex128])
 
 
-def convolved(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "valid") -> Series:
+def convolve(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "valid") -> Series:
     """Series x (..., N), real or complex, convolved with taps (k,) along the last axis, in the series' own precision.
 
     ``valid``: N - k + 1 samples, where the filter has seen nothing but the series; ``same`` and ``full``: the series continued

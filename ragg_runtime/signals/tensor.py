@@ -50,7 +50,7 @@ class Tensor:
         return float(np.sqrt(np.mean(self.closure**2))) if self.closure.size else float("nan")
 
 
-def seen(first: Array, second: Array) -> Array:
+def project_components(first: Array, second: Array) -> Array:
     """(2, 6): inline and cross of a disc with these axes (3,), by the six components."""
     inline = np.outer(first, first) - np.outer(second, second)
     cross = (np.outer(first, second) + np.outer(second, first)) / 2
@@ -60,7 +60,7 @@ def seen(first: Array, second: Array) -> Array:
     return np.array(rows)
 
 
-def across(axes: tuple[Axis, Axis], inline: Array, cross: Array) -> Array:
+def spread_across(axes: tuple[Axis, Axis], inline: Array, cross: Array) -> Array:
     """(6, N): the tensor across a disc's two axes that it sees as these channels (N,); in their unit."""
     first, second = (np.array(a, dtype=np.float64) for a in axes)
     one = (np.outer(first, first) - np.outer(second, second)) / 2
@@ -90,7 +90,10 @@ def tensor(axes: Sequence[tuple[Axis, Axis]], channels: Array, std: Array) -> Te
     UserError
         If the discs do not determine it: fewer than three, or axes in one plane.
     """
-    A = np.concatenate([seen(np.asarray(a, float), np.asarray(b, float)) for a, b in axes]) @ _TRACELESS
+    A = (
+        np.concatenate([project_components(np.asarray(a, float), np.asarray(b, float)) for a, b in axes])
+        @ _TRACELESS
+    )
     W = A / std[:, None]
     U, s, Vt = np.linalg.svd(W)
     if len(s) < 5 or s[4] < ILL * s[0]:

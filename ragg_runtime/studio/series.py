@@ -180,7 +180,7 @@ class View:
             raise UserError("disc not spinning: no demodulation")
         if len(x) < len(r.time):
             raise UserError("in so long a flight the signature of an effect is drawn in V or Eo only")
-        found = comparison.demodulated_one(self.f, self.n, x)
+        found = comparison.demodulate_one(self.f, self.n, x)
         if not len(found[0]):
             where = self.prepared.observation.name
             raise UserError("the flight is too short to be demodulated", where=where)
@@ -194,7 +194,7 @@ class View:
         rows = predict.choose_rows(d.fitted, self.n, (a.first, a.last))
 
         def make() -> tuple[slice, Array]:
-            v = predict.fit_effects(d.fitted, predict.field_of_diagnosis(d), a.effects)
+            v = predict.fit_effects(d.fitted, predict.make_field_of(d), a.effects)
             return predict.compute_signature(d.fitted, self.n, v, rows)
 
         found: tuple[slice, Array] = self.remember(("signature", a.effects, rows.start, rows.stop), make)
@@ -216,11 +216,11 @@ class View:
                 taken = taken[rows.start - known.start : rows.stop - known.start]
                 return taken if kind == "effect" else self.residual[rows] - taken
             case "measured":
-                x = reported.measured(self.prepared)
+                x = reported.compute_measured(self.prepared)
             case "residual":
                 x = self.residual
             case "modelled":
-                x = reported.measured(self.prepared) - self.residual
+                x = reported.compute_measured(self.prepared) - self.residual
             case "before":
                 x = self._find_previous()
             case "term":
@@ -252,7 +252,7 @@ class View:
         if self.kept:
             d, effects = None, ()
         f = self.f if d is None else d.fitted
-        given = [] if d is None else predict.columns_of(predict.field_of_diagnosis(d), effects)
+        given = [] if d is None else predict.list_columns(predict.make_field_of(d), effects)
         make = lambda: heat.heat(f.prepared[self.n], f.r_factors[self.n], f.n_base, given)  # noqa: E731
         found: heat.Heat = self.remember(("heat", effects, d is None), make)
         return found
@@ -273,7 +273,7 @@ class View:
         except ValueError:
             expected = "band:0.2:0.3"
             raise UserError("a band is needed", found=repr(name[:40]), expected=expected) from None
-        return reported.within_band(self.residual, self.record.rate, low, high)
+        return reported.pass_band(self.residual, self.record.rate, low, high)
 
     def rows(self) -> slice:
         """The samples of the window; UserError if these are too few for a spectrum."""
@@ -292,7 +292,7 @@ class View:
 def predict_error(s: State, a: Asked) -> dict[str, Any]:
     """The error that the ticked effects would leave, and that without them."""
     d, unwhitened = s.require("diagnosed"), s.require("unwhitened")
-    known = predict.field_of_diagnosis(d)
+    known = predict.make_field_of(d)
 
     def predicted(*effects: str) -> predict.Prediction:
         make = lambda: predict.predict_error(d.fitted, unwhitened, known, effects)  # noqa: E731

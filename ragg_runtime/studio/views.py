@@ -110,7 +110,7 @@ def _describe_kept(m: Loaded) -> str | None:
         saved = api.saved_calibration(m)
     except UserError as e:
         return f"not used: {e.what}"
-    return f"of {saved.time[:16].replace('T', ' ')} UTC, on {numbers.listed(list(saved.flights))}"
+    return f"of {saved.time[:16].replace('T', ' ')} UTC, on {numbers.join_names(list(saved.flights))}"
 
 
 def show_sheet(i: Instrument) -> Json:

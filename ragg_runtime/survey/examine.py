@@ -23,7 +23,7 @@ import ragg_runtime
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.scores import finite
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.diagnose import diagnose_fitted
@@ -145,7 +145,7 @@ def _diagnose_file(job: Job, file: str) -> Record:
     model = derive.model_of(instrument)
     read = read_flight(path, instrument.g0, accelerometers=instrument.layout, mapping=job.mapped(), line=line)
     flight = screen(model, instrument, read)
-    return _make_record(fit(model, instrument, observations_of([flight], instrument)), flight)
+    return _make_record(fit(model, instrument, observe_flights([flight], instrument)), flight)
 
 
 @lru_cache(maxsize=8)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ragg_runtime.wording import numbers
-from ragg_runtime.wording.numbers import listed, number
+from ragg_runtime.wording.numbers import join_names, number
 from ragg_runtime.wording.sections import Section, Table, tabulate
 
 Json = Mapping[str, Any]
@@ -67,14 +67,14 @@ def write_errors(before: Json | None, after: Json | None) -> str:
 
 
 def write_flights(names: Sequence[str]) -> str:
-    return listed([str(n) for n in names]) if len(names) < 4 else f"{len(names)} flights"
+    return join_names([str(n) for n in names]) if len(names) < 4 else f"{len(names)} flights"
 
 
 def write_effects(names: Sequence[str]) -> str:
     return f"effects in the model: {', '.join(map(str, names)) or 'none'}"
 
 
-def counted(count: int, noun: str) -> str:
+def count_nouns(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
@@ -228,7 +228,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
 def write_verdict(d: Json) -> str:
     """What a diagnosis concludes, with its numbers, in one sentence or two."""
     before, after, noise = d["error"]["before"], d["error"]["after"], d["noise_floor"]
-    found = listed([_name_alternatives(e, d["groups"]) for e in d["found"]])
+    found = join_names([_name_alternatives(e, d["groups"]) for e in d["found"]])
     it = "it" if len(d["found"]) == 1 else "them"
     terms = d["unexplained"]["terms"]
     mostly = f", mostly at {label_term(terms[0])}" if terms else ""
@@ -263,7 +263,7 @@ def write_verdict(d: Json) -> str:
 def _name_alternatives(effect: str, groups: Sequence[Json]) -> str:
     """The effect, or those of which the record shows one."""
     same = next((g["effects"] for g in groups if g["effects"][0] == effect), [effect])
-    return f"one of {listed(list(map(str, same)), 'or')}" if len(same) > 1 else str(effect)
+    return f"one of {join_names(list(map(str, same)), 'or')}" if len(same) > 1 else str(effect)
 
 
 def choose_values(r: Json) -> list[Json]:
@@ -280,7 +280,7 @@ def significance(p: Json) -> float:
     return abs(p["value"]) / p["std"] if p["std"] > 0.0 else math.inf
 
 
-def finding(r: Json) -> str:
+def describe_finding(r: Json) -> str:
     """An effect in one line: what, its value, the error before and after, held out."""
     values = ", ".join(write_parameter(p) for p in choose_values(r)[:3])
     held = r.get("error_after_holdout")
@@ -327,7 +327,7 @@ def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sect
     note = "" if explained else " ".join(explain_patterns([p for _, p in clear]))
     found = [Section("Values", table=tabulate(clear, columns, words=3, note=note))] if clear else []
     if hidden := len(every) - len(clear):
-        summary = f"{counted(hidden, 'value')} of little significance"
+        summary = f"{count_nouns(hidden, 'value')} of little significance"
         table = tabulate(every, columns, words=3)
         found.append(Section("All values", table=table, detail=True, summary=summary))
     return tuple(found)
@@ -341,12 +341,17 @@ def describe_diagnosis(d: Json, then: str = "") -> Sections:
         d["verdict"], "bad"
     )
     first = Section(
-        sentences=(write_verdict(d), *map(finding, claimed), *_remarks(d), *explain_patterns(values)),
+        sentences=(
+            write_verdict(d),
+            *map(describe_finding, claimed),
+            *_remarks(d),
+            *explain_patterns(values),
+        ),
         state=state,
     )
     rows = [("current model", d["error"]["before"])]
     if d["found"]:
-        rows.append((f"with {listed([str(e) for e in d['found']])}", d["error"]["after"]))
+        rows.append((f"with {join_names([str(e) for e in d['found']])}", d["error"]["after"]))
     found = [first, tabulate_errors([*rows, make_floor_row(d)]), *describe_values(claimed, explained=True)]
     terms = d["unexplained"]["terms"]
     if terms and d["verdict"] in ("unexplained", "partly-explained"):
@@ -367,10 +372,10 @@ def _remarks(d: Json) -> list[str]:
         if others:
             term = f"; {g['name']!s} explains as much" if g["name"] else ""
             said.append(
-                f"This record cannot distinguish {main} from {listed(others, 'or')}{term}: they are one finding."
+                f"This record cannot distinguish {main} from {join_names(others, 'or')}{term}: they are one finding."
             )
     for x in d.get("disagree") or ():
-        what = listed([str(e) for e in x["found"]]) or "no effect"
+        what = join_names([str(e) for e in x["found"]]) or "no effect"
         said.append(
             f"Alone, {write_flights(x['flights'])} {'needs' if len(x['flights']) == 1 else 'need'} {what}."
         )
@@ -420,7 +425,9 @@ def chance(p: float | None, log10_p: float | None = None) -> str:
 def _own_effect(u: Json) -> Sections:
     if not u["expression"]:
         return ()
-    needs = (f"The flight then needs further columns: {listed(list(u['needs']))}.",) if u.get("needs") else ()
+    needs = (
+        (f"The flight then needs further columns: {join_names(list(u['needs']))}.",) if u.get("needs") else ()
+    )
     text = "To make the strongest term an effect of your own, put this line into `effects` in model.toml, then add it:"
     return (Section(title="As an effect of your own", sentences=(text, *needs), code=(u["expression"],)),)
 
@@ -437,11 +444,11 @@ def motion_sentence(p: Json) -> str:
     return (
         f"to separate {p['effect']} from {p['rival']}: {number(p['duration_s'])} s of {p['axis']} = {size} at"
         f" {number(p['frequency_Hz'])} Hz ({p['frequency_over_spin']:g} times the spin), {number(p['separation_now'], 2)} →"
-        f" {promised(p['separation_then'], p['separation_spread'])} σ"
+        f" {write_promise(p['separation_then'], p['separation_spread'])} σ"
     )
 
 
-def promised(then: float, spread: float) -> str:
+def write_promise(then: float, spread: float) -> str:
     """A separation that a motion promises, with its spread where that shows."""
     return number(then) if spread < 0.05 * then else numbers.plus_minus(then, spread)
 
@@ -468,7 +475,7 @@ def _untestable(d: Json) -> Sections:
         sizes.setdefault(s["effect"], []).append(_write_size(str(s["three_sigma"])))
     found = []
     if silent:
-        count = f"{counted(len(silent), 'effect')} of the catalogue cannot be tested on this record"
+        count = f"{count_nouns(len(silent), 'effect')} of the catalogue cannot be tested on this record"
         table = Table(("effect", "why"), silent, words=2)
         found.append(Section("Not testable", table=table, detail=True, summary=count))
     if sizes:
@@ -487,13 +494,13 @@ def describe_step(
     ``values`` are the effects of the model afterwards with their parameters.
     """
     done = [
-        f"{what} {listed([str(e) for e in names])}"
+        f"{what} {join_names([str(e) for e in names])}"
         for what, names in (("added", added), ("removed", removed))
         if names
     ]
     old, new = (x.get("error", x) for x in (before, after))
     end = "the model is now adequate" if after["adequate"] else "the model is still NOT adequate"
-    head = listed(done) or "the test sheet changed"
+    head = join_names(done) or "the test sheet changed"
     text = [
         f"{head[:1].upper()}{head[1:]}: {write_errors(old['calibrated'], new['calibrated'])}, held out {format_error(new['holdout'])} Eo;"
         f" the noise floor is {format_error(after['noise_floor'])} Eo, and {end}."

@@ -10,14 +10,13 @@ from ragg_runtime.wording.describe import (
     Columns,
     Json,
     Sections,
-    counted,
+    count_nouns,
     explain_patterns,
     format_error,
     format_value,
     label_parameter,
     label_term,
     make_floor_row,
-    promised,
     say_plainly,
     significance,
     suggest_next,
@@ -25,6 +24,7 @@ from ragg_runtime.wording.describe import (
     write_effects,
     write_errors,
     write_flights,
+    write_promise,
 )
 from ragg_runtime.wording.numbers import number
 from ragg_runtime.wording.sections import Section, Table, tabulate
@@ -310,7 +310,7 @@ def _survey_notes(done: Sequence[Json]) -> list[Section]:
         return []
     noted = tuple((note, write_flights(names)) for note, names in about.items())
     table = Table(("note", "flights"), noted, words=2)
-    summary = f"{counted(len(noted), 'note')} on the flights"
+    summary = f"{count_nouns(len(noted), 'note')} on the flights"
     return [Section(title="Notes", table=table, detail=True, summary=summary)]
 
 
@@ -350,7 +350,7 @@ def describe_next_motion(r: Json, output: str) -> Sections:
             head, "No effects remain to be separated: a multisine about all axes, which excites every effect."
         )
     said = [
-        f"if it is {x['effect']!s}: {x['rival']!s} is ruled out ({number(x['now'], 2)} → {promised(x['then'], x['spread'])} σ)"
+        f"if it is {x['effect']!s}: {x['rival']!s} is ruled out ({number(x['now'], 2)} → {write_promise(x['then'], x['spread'])} σ)"
         if x["then"] > 3.0
         else f"if it is {x['effect']!s}: no motion within the limits rules out {x['rival']!s}, which acts alike"
         f" ({number(x['now'], 2)} → {number(x['then'])} σ)"
@@ -361,7 +361,7 @@ def describe_next_motion(r: Json, output: str) -> Sections:
 
 def describe_flight_file(f: Json) -> Sections:
     """What a flight file holds, and what is assumed: the result of ``info``."""
-    head = f"{f['path']!s}: {f['format']}, {numbers.fixed(f['bytes'] / 1e6, 2)} MB, {counted(len(f['records']), 'record')}."
+    head = f"{f['path']!s}: {f['format']}, {numbers.fixed(f['bytes'] / 1e6, 2)} MB, {count_nouns(len(f['records']), 'record')}."
     found = [Section(sentences=(head,), state="bad" if any(r["refused"] for r in f["records"]) else "good")]
     for r in f["records"]:
         found += _record_sections(r)
@@ -380,7 +380,7 @@ def _record_sections(r: Json) -> list[Section]:
     if r["gap_count"]:
         longest = max(r["gaps"], key=lambda g: g["samples"])
         text.append(
-            f"{counted(r['gap_count'], 'gap')}, {counted(r['missing'], 'sample')} missing; the longest from"
+            f"{count_nouns(r['gap_count'], 'gap')}, {count_nouns(r['missing'], 'sample')} missing; the longest from"
             f" {number(longest['from_s'], 5)} to {number(longest['to_s'], 5)} s."
         )
     text += [f"note: {n!s}" for n in r["notes"]]

@@ -221,7 +221,7 @@ def _differentiated(name: str, order: int) -> str:
 _MOTION = re.compile(r"(a|omega|omegadot|f)_([xyzio])")
 
 
-def listed(names: Sequence[str], conjunction: str = "and") -> str:
+def join_names(names: Sequence[str], conjunction: str = "and") -> str:
     """``a, b and c``."""
     if len(names) < 2:
         return "".join(names)

@@ -22,7 +22,7 @@ from pathlib import Path
 from ragg_runtime import api
 from ragg_runtime.io import write_flight
 from ragg_runtime.model.directory import load_model_dir
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 
 SURVEY = ["survey", "model", "flight.parquet", "--jobs", "1", "--resume", "r.jsonl", "--json", "s.json"]
 OLD = ([], ["new"], False)
@@ -42,7 +42,7 @@ ENVIRONMENT = os.environ | {
 def prepared(base: Path) -> Path:
     """A folder with a model and a short flight."""
     m = api.new(base / "model")
-    write_flight(simulated(m.instrument, [], seed=1, duration=60.0, rate=8.0), base / "flight.parquet")
+    write_flight(simulate_flight(m.instrument, [], seed=1, duration=60.0, rate=8.0), base / "flight.parquet")
     return base
 
 

@@ -17,7 +17,7 @@ from ragg_runtime.api import Loaded
 from ragg_runtime.compensation.export.contents import Contents, unit_of
 from ragg_runtime.compensation.export.program import format_csv
 from ragg_runtime.compensation.recursive import Online, Tuning
-from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.model import derive
 from ragg_runtime.model.directory import ModelDir
@@ -97,7 +97,7 @@ def test_the_filter_is_that_of_the_output_that_sees_a_gradient(program: Path, tm
     x = flown(tmp_path / "flight.csv")
     c = contents()
     sigma = 4 * c.outputs()[0].scale_factor
-    o = observations_of([x], c.instrument)[0]
+    o = observe_flights([x], c.instrument)[0]
     G = np.where(o.record.valid, x.outputs["G_out_A"], np.nan)
     columns = {f"{n} [{unit_of(n)}]": v for n, v in {"time": o.record.time, **o.record.channels}.items()}
     done = subprocess.run(

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ragg_runtime.estimation.regressors import list_base_columns, spelt
+from ragg_runtime.estimation.regressors import list_base_columns, spell_name
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model import derive
@@ -32,11 +32,11 @@ def test_what_is_far_off_its_sheet_is_called_by_its_name_there() -> None:
     assert farthest.as_json()["accelerometer_name"] == "south"
     assert {c.accelerometer_name for c, _ in list_base_columns(model, sheet)} == set(NAMES)
     said = {"name": "K1", "accelerometer": 2, "value": 1.0, "std": 0.1, "unit": "mA/g"}
-    assert write_parameter({**said, **spelt(2, "south")}).startswith("K1 of south = ")
+    assert write_parameter({**said, **spell_name(2, "south")}).startswith("K1 of south = ")
 
 
 def test_usual_names_are_not_repeated_in_json() -> None:
-    assert spelt(2, "A2") == spelt(None, "") == {}
+    assert spell_name(2, "A2") == spell_name(None, "") == {}
     assert write_parameter(
         {"name": "K1", "accelerometer": 2, "value": 1.0, "std": 0.1, "unit": "g"}
     ).startswith("K1 of A2 = ")

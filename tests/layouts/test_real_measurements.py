@@ -12,8 +12,8 @@ from examples.mimu import elsewhere, record, story
 from examples.mimu.sheet import sheet
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.identification.sheet import doubtful
+from ragg_runtime.estimation.observation import observe_flights
+from ragg_runtime.identification.sheet import describe_doubt
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import read_flight
@@ -28,7 +28,7 @@ RADIUS = 0.013364
 def calibrated(i: Instrument, *names: str) -> Fitted:
     model, _ = derive.derived((), (), i.form, i.layout)
     flights = [read_flight(HERE / f"{n}.parquet", i.g0, accelerometers=i.layout) for n in names]
-    return fit(model, i, observations_of(flights, i))
+    return fit(model, i, observe_flights(flights, i))
 
 
 def calibrated_beside(i: Instrument) -> Fitted:
@@ -36,7 +36,7 @@ def calibrated_beside(i: Instrument) -> Fitted:
     return fit(
         derive.model_of(i),
         i,
-        observations_of([read_flight(HERE / "motion.parquet", i.g0, accelerometers=i.layout)], i),
+        observe_flights([read_flight(HERE / "motion.parquet", i.g0, accelerometers=i.layout)], i),
     )
 
 
@@ -102,8 +102,8 @@ def test_the_length_of_one_arm_alone_is_no_arm_length() -> None:
     text = story.LEFT_OUT["arm length"].replace("11.964 mm", "13.364 mm")
     i = parse_instrument(text.replace("dR = { value = 0,", "dR = { value = [-3, 0, 0, 0],"))
     f = calibrated_beside(i)
-    assert "not common to all accelerometers" in str(doubtful(f, "arm-length"))
-    assert "does not spin" in str(doubtful(f, "bearing-run-out"))
+    assert "not common to all accelerometers" in str(describe_doubt(f, "arm-length"))
+    assert "does not spin" in str(describe_doubt(f, "bearing-run-out"))
 
 
 def test_the_grade_of_a_sheet_is_that_of_its_sigmas() -> None:

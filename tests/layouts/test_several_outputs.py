@@ -8,7 +8,7 @@ import pytest
 from derive.effects import catalogue
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.fitted import fit
-from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification import several_outputs
 from ragg_runtime.identification.strong import Stage
 from ragg_runtime.instrument.read_toml import parse_instrument
@@ -64,8 +64,8 @@ def test_two_discs_are_refused() -> None:
 def flown(discs: list[str], count: int, duration: float = 600.0) -> several_outputs.Together:
     sheet = parse_instrument(sheets.sheet(discs, count, sheets.FULL))
     model, _ = derive.derived((), (), sheet.form, sheet.layout)
-    (found,) = several_outputs.together(
-        fit(model, sheet, observations_of([flown_by(sheet, duration)], sheet))
+    (found,) = several_outputs.compare_outputs(
+        fit(model, sheet, observe_flights([flown_by(sheet, duration)], sheet))
     )
     return found
 
@@ -118,7 +118,7 @@ def test_a_step_is_found_in_several_outputs(hidden: str | None, values: dict[str
     model, _ = derive.derived((), candidates, sheet.form, sheet.layout)
     effects: EffectValues = {} if hidden is None else {hidden: {**values, "t_step": AT}}
     flight = flown_by(sheet, 120.0, effects)
-    stage = Stage.of(fit(model, sheet, observations_of([flight], sheet)))
+    stage = Stage.of(fit(model, sheet, observe_flights([flight], sheet)))
     assert stage.choice.chosen == (() if hidden is None else (hidden,))
     if hidden is None:
         return

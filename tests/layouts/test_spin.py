@@ -14,7 +14,7 @@ from ragg_runtime.io import read_flight, write_flight
 from ragg_runtime.model.record import Record, spin_degree
 from ragg_runtime.model.record import spin as turning_rate
 from ragg_runtime.signals.derivative import DEGREES
-from ragg_runtime.simulate import simulated, turning_of
+from ragg_runtime.simulate import parse_turning, simulate_flight
 from tests.layouts import sheets
 from tests.layouts.test_layouts_physics import instrument, worst
 from tests.runtime.commands import ragg
@@ -32,12 +32,12 @@ def of_paper() -> Instrument:
 @pytest.mark.parametrize(("layout", "spin"), [("paper", "varies"), *(("complements", n) for n in SPINS)])
 def test_exact_model_of_full_kinematics_is_the_simulated_instrument(layout: str, spin: str) -> None:
     i = of_paper() if layout == "paper" else instrument(layout, sheets.EXACT)
-    flight = simulated(
+    flight = simulate_flight(
         i, (), duration=60.0, noise=0.0, sheet_error=0.0, no_gradient=False, spin=[SPINS[spin]]
     )
     assert "spin_angle" in flight.channels
     assert worst(i, flight) < LIMIT
-    steady = simulated(i, (), duration=60.0, noise=0.0, sheet_error=0.0, no_gradient=False)
+    steady = simulate_flight(i, (), duration=60.0, noise=0.0, sheet_error=0.0, no_gradient=False)
     name = i.layout.output_names[0]
     away = np.std(flight.outputs[name] - steady.outputs[name])
     assert away > 0.1 * np.std(steady.outputs[name])  # it does matter how the disc turns
@@ -51,7 +51,9 @@ def test_the_rate_of_a_clean_encoder_follows_a_fast_swing(five: bool, spin: str)
     places = zip((0.0, 70.0, 100.0, 200.0, 300.0), (1, 1, -1, 1, -1), strict=True)
     disc = sheets.disc("A", [sheets.accelerometer(f"A{k}", a, s) for k, (a, s) in enumerate(places)])
     i = parse_instrument(sheets.sheet([disc], 5, sheets.EXACT)) if five else of_paper()
-    flight = simulated(i, (), duration=120.0, noise=0.0, sheet_error=0.0, no_gradient=False, spin=[spin])
+    flight = simulate_flight(
+        i, (), duration=120.0, noise=0.0, sheet_error=0.0, no_gradient=False, spin=[spin]
+    )
     assert worst(i, flight, slice(None)) < LIMIT
 
 
@@ -77,7 +79,7 @@ def test_a_gap_in_the_encoder_stays_where_it_is() -> None:
 
 def test_each_disc_turns_as_it_is_told() -> None:
     i = instrument("umbrella", sheets.EXACT)
-    flight = simulated(
+    flight = simulate_flight(
         i, (), duration=60.0, noise=0.0, sheet_error=0.0, no_gradient=False, spin=["A:0.2", "C:0,3@0.02"]
     )
     assert {"spin_angle_A", "spin_angle_C"} == {n for n in flight.channels if n.startswith("spin_angle")}
@@ -91,24 +93,26 @@ def test_each_disc_turns_as_it_is_told() -> None:
 
 def test_the_encoder_of_a_record_is_flown(tmp_path: Path) -> None:
     i = instrument("complements", sheets.EXACT)
-    first = simulated(
+    first = simulate_flight(
         i, (), duration=60.0, noise=0.0, sheet_error=0.0, no_gradient=False, spin=[SPINS["varies"]]
     )
     write_flight(first, tmp_path / "first.csv")
-    again = simulated(i, (), noise=0.0, sheet_error=0.0, no_gradient=False, motion=tmp_path / "first.csv")
+    again = simulate_flight(
+        i, (), noise=0.0, sheet_error=0.0, no_gradient=False, motion=tmp_path / "first.csv"
+    )
     read = read_flight(tmp_path / "first.csv", i.g0, accelerometers=i.layout).channels["spin_angle"]
     np.testing.assert_allclose(again.time, first.time, atol=1e-9)  # as many samples
     gap = np.angle(np.exp(1j * (again.channels["spin_angle"] - read)))
     assert np.max(np.abs(gap)) < 1e-11
     assert worst(i, again) < LIMIT
-    stated = turning_of(["0.3"], i.layout, first)["A"]
+    stated = parse_turning(["0.3"], i.layout, first)["A"]
     assert (stated.frequency, stated.recorded) == (0.3, None)  # what is asked for goes before
 
 
 @pytest.mark.parametrize("text", ["", "a", "0.25,1", "0.25,1@-2", "nan", "0.25,1@2@3@4", "B:0.25"])
 def test_what_is_no_turning_is_said(text: str) -> None:
     with pytest.raises(UserError, match="disc"):
-        turning_of([text], instrument("complements").layout)
+        parse_turning([text], instrument("complements").layout)
 
 
 def test_the_option(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 
 from ragg_runtime import api
 from ragg_runtime.io import write_flight
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.survey.examine import Job, Record, examine
 
 HIDDEN = "thermal-scale:dK1_dT=0/0/6e-7/0"
@@ -25,7 +25,7 @@ def make(folder: Path) -> tuple[Path, list[Path]]:
     for k in range(COUNT):
         path = folder / f"flight-{k}.parquet"
         hidden = [HIDDEN] if path.name in WITH_EFFECT else []
-        write_flight(simulated(m.instrument, hidden, seed=k + 50, duration=150.0, rate=8.0), path)
+        write_flight(simulate_flight(m.instrument, hidden, seed=k + 50, duration=150.0, rate=8.0), path)
         paths.append(path)
     damaged = folder / "flight-2b.parquet"
     shutil.copy(paths[1], damaged)

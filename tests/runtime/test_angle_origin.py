@@ -19,7 +19,7 @@ from ragg_runtime.model.record import record
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import screen
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 from tests.rate import RATE
 
 S = scenario(5, trim="table-v", duration=120.0, rate=RATE)
@@ -88,7 +88,7 @@ def test_what_is_converted_keeps_its_angle(stamp: str, tmp_path: Path) -> None:
 
 def test_a_motion_that_is_flown_keeps_its_time(tmp_path: Path) -> None:
     write_flight(flown(11.0), tmp_path / "motion.parquet")
-    x = simulated(
+    x = simulate_flight(
         S.sheet, [], motion=tmp_path / "motion.parquet", noise=0.0, sheet_error=0.0, no_gradient=False
     )
     assert x.time[0] == 11.0

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from benchmarks.diagnosis import fly, plan, records
 from benchmarks.diagnosis.strength import NEVER, Oracle
 from ragg_runtime.estimation.observation import observe
-from ragg_runtime.estimation.regressors import LinearisationPoint, grouped, linearise
+from ragg_runtime.estimation.regressors import LinearisationPoint, group_by_effect, linearise
 from ragg_runtime.identification.selection import Field, alternatives, choose
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import packaged
@@ -50,7 +50,9 @@ class WhitenedFlight:
         return Field(
             T=T,
             n_base=o.n,
-            candidates={e: tuple(c) for e, c in grouped(o.columns).items() if e in (*SEARCHED, *ABSORBED)},
+            candidates={
+                e: tuple(c) for e, c in group_by_effect(o.columns).items() if e in (*SEARCHED, *ABSORBED)
+            },
             rows=len(y),
             contains={e.id: e.contains for e in o.model.candidates},
         )

@@ -30,7 +30,7 @@ from ragg_runtime.compensation.segment import ChannelSegment, Compensated, Outpu
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.signals.demodulators import CUTOFF, DEMODULATORS, ORDER, demodulator
+from ragg_runtime.signals.demodulators import CUTOFF, DEMODULATORS, ORDER, find_demodulator
 from tests.rate import RATE
 from tests.runtime.flown_twice import BRIEF, DURATION, files, flights, new_model, run, truth
 
@@ -77,7 +77,7 @@ def test_frozen_parameters_compensate_another_flight_as_well(tmp_path: Path) -> 
     assert table.schema.field("inline").metadata[b"units"] == b"Eo"
     found = table.to_pandas()
     assert list(found) == ["time", "inline", "cross", "inline_std", "cross_std", "quality"]
-    g = truth(flights()[1], demodulator("fir", RATE))
+    g = truth(flights()[1], find_demodulator("fir", RATE))
     g = g[np.searchsorted(flights()[1].time, found["time"])]
     good = np.asarray(found["quality"] & ~int(Quality.MOTION) == 0)
     assert not found["quality"].iloc[[0, -1]].any(), "it begins and ends where there are values"
@@ -188,7 +188,7 @@ def test_kernels_are_the_filters_that_they_stand_for() -> None:
     sections = signal.butter(ORDER, CUTOFF, fs=rate, output="sos")
     inner = slice(2500, -2500)
     expected = signal.sosfilt(sections, signal.sosfilt(sections, x)[::-1])[::-1]
-    both, causal = demodulator("butterworth", rate), demodulator("causal", rate)
+    both, causal = find_demodulator("butterworth", rate), find_demodulator("causal", rate)
     assert np.max(np.abs(both.low_passed(x + 0j).real - expected)[inner]) < 1e-8
     assert np.max(np.abs(causal.low_passed(x + 0j).real - signal.sosfilt(sections, x))) < 1e-8
     assert causal.ahead == 0
@@ -197,7 +197,7 @@ def test_kernels_are_the_filters_that_they_stand_for() -> None:
     phase = np.angle(signal.freqs(b, a, w)[1])
     assert causal.latency == pytest.approx(-np.diff(phase)[0] / np.diff(w)[0], rel=1e-3)
     for name in DEMODULATORS:
-        gain = np.abs(demodulator(name, rate).response(np.array([0.0, 0.05, 0.5])))
+        gain = np.abs(find_demodulator(name, rate).response(np.array([0.0, 0.05, 0.5])))
         assert gain[0] == pytest.approx(1.0)
         assert gain[1] > 0.99
         assert gain[2] < 0.003
@@ -256,6 +256,6 @@ def test_bad_input_is_one_message_and_leaves_no_file(message: str, tmp_path: Pat
 
 def test_no_such_kind_or_demodulator() -> None:
     with pytest.raises(UserError, match="no such demodulator"):
-        demodulator("box", RATE)
+        find_demodulator("box", RATE)
     with pytest.raises(UserError, match="no such calibration"):
         prepare(load.packaged(), scenario(11, duration=60.0).sheet, [], "none")  # type: ignore[arg-type]

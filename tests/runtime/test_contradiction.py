@@ -19,7 +19,9 @@ def flown(s: Scenario, name: str, hidden: dict[str, Any] | None = None) -> Fligh
 
 
 def test_flights_of_two_instruments_are_told_apart_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(contenders, "left", lambda *arguments: pytest.fail("no effect is to be tried"))
+    monkeypatch.setattr(
+        contenders, "fit_contender", lambda *arguments: pytest.fail("no effect is to be tried")
+    )
     one, other, third = (scenario(k, duration=100.0, rate=RATE) for k in (57, 58, 59))
     again = dataclasses.replace(third, instrument=one.instrument)
     d = diagnosed(one, flown(one, "monday"), flown(other, "tuesday"), flown(again, "friday"))

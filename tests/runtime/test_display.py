@@ -42,7 +42,7 @@ def result(tmp_path_factory: pytest.TempPathFactory) -> Result:
     whole = pq.read_table(EXAMPLES / "demo-flight.parquet")
     pq.write_table(whole.slice(0, 2880), folder / "examples" / "demo-flight.parquet")
     with contextlib.chdir(folder), pytest.MonkeyPatch.context() as patch:
-        patch.setattr(next_motion, "proposals", lambda *_: ())  # test_next_motion.py has these
+        patch.setattr(next_motion, "propose_motions", lambda *_: ())  # test_next_motion.py has these
         exec(PYTHON, made)
     assert made["analytical"] and made["simplified"]
     return Result(made["step"].before, made["d"], made["step"])

@@ -11,7 +11,7 @@ import pytest
 from ragg_runtime.compensation import drift
 from ragg_runtime.compensation.compensate import compensate_channel, make_channel, prepare
 from ragg_runtime.estimation.fitted import fit
-from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import scenario
 from tests.rate import RATE
@@ -59,7 +59,7 @@ def test_parameters_walk_on_between_flights(monkeypatch: pytest.MonkeyPatch) -> 
         dataclasses.replace(dataclasses.replace(s, instrument=k).simulate({}).flight(), origin=at)
         for k, at in ((later, day + timedelta(hours=1)), (i, day))
     ]
-    f = fit(packaged(), s.sheet, observations_of(flights, s.sheet), candidates=False)
+    f = fit(packaged(), s.sheet, observe_flights(flights, s.sheet), candidates=False)
     monkeypatch.setattr(drift, "_find_rates", lambda *_: {"K1": 1e-4})  # the search takes most of the time
     d = drift.smooth_drift(f, flights)
     assert [e.flight for e in d.epochs] == [1] * 24 + [0] * 24
@@ -73,7 +73,7 @@ def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
     """What is compensated with them is as sure as it says; with constant parameters it is not."""
     s = scenario(3, duration=600.0, rate=RATE, gradient_rms=50e-9)
     still = s.simulate({}).flight()
-    f = fit(packaged(), s.sheet, observations_of([still], s.sheet), candidates=False)
+    f = fit(packaged(), s.sheet, observe_flights([still], s.sheet), candidates=False)
     assert drift.smooth_drift(f, [still]).rates == {}
     x = s.simulate(
         {"gain-drift": {"dK1_dt": [2e-10, -2e-10, 4e-11, -4e-11]}}

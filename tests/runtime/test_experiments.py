@@ -13,33 +13,38 @@ from ragg_runtime.experiments import paper
 from ragg_runtime.experiments.__main__ import main
 from ragg_runtime.experiments.dynamic import (
     ANGLES_DROPPED,
-    dynamic,
+    repeat_dynamic,
     run_regular,
 )
-from ragg_runtime.experiments.multifrequency import find_centre, multifrequency, run_mass, subtract_centre
+from ragg_runtime.experiments.multifrequency import (
+    find_centre,
+    repeat_multifrequency,
+    run_mass,
+    subtract_centre,
+)
 from ragg_runtime.experiments.paper import Experiment, Printed, PrintedEntry, judge, write_page
 from ragg_runtime.experiments.runs import (
     Channels,
     find_error,
 )
-from ragg_runtime.experiments.turbulence import draw_motion, turbulence
+from ragg_runtime.experiments.turbulence import draw_motion, repeat_turbulence
 from ragg_runtime.reference.gravity import G
 from ragg_runtime.reference.instruments import table_v
 
 
 @pytest.fixture(scope="module")
 def third_a() -> Experiment:
-    return multifrequency()
+    return repeat_multifrequency()
 
 
 @pytest.fixture(scope="module")
 def third_b() -> Experiment:
-    return dynamic()
+    return repeat_dynamic()
 
 
 @pytest.fixture(scope="module")
 def third_c() -> Experiment:
-    return turbulence()
+    return repeat_turbulence()
 
 
 @pytest.fixture(scope="module")

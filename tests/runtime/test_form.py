@@ -19,7 +19,7 @@ from ragg_runtime.model import derive
 from ragg_runtime.model.evaluate import output, scale_factor, vector
 from ragg_runtime.model.model import packaged
 from ragg_runtime.model.record import SPIN, Record, record, spin, spin_degree
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 from tests.rate import RATE
 
 EXAMPLE = (Path(__file__).parents[2] / "ragg_runtime" / "example.toml").read_text("utf-8")
@@ -116,7 +116,7 @@ def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> No
 def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -> None:
     """Nominal error below 0.1 Eo; measured below 1e-5."""
     instrument = replace(parse_instrument(EXAMPLE), form=form)
-    flight = simulated(instrument, (), noise=0.0, sheet_error=0.0, duration=120.0, no_gradient=False)
+    flight = simulate_flight(instrument, (), noise=0.0, sheet_error=0.0, duration=120.0, no_gradient=False)
     model = derive.without_signatures(instrument, form)
     p = vector(model, instrument)
     r = record(flight, instrument)
@@ -132,7 +132,7 @@ def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -
 def test_folded_and_chain_of_full_kinematics_are_one_model() -> None:
     """Two derived forms, in NumPy and in C, to rounding: 1e-6 Eo."""
     model, instrument = packaged("full"), parse_instrument(EXAMPLE)
-    flight = simulated(instrument, (), noise=0.0, sheet_error=0.0, duration=30.0, no_gradient=False)
+    flight = simulate_flight(instrument, (), noise=0.0, sheet_error=0.0, duration=30.0, no_gradient=False)
     r = record(flight, instrument)
     p = vector(model, instrument)
     chain = output(model.chain, r, p)
@@ -184,10 +184,10 @@ def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
 def test_a_paper_model_lacks_the_spin_and_with_it_the_error_is_the_noise(tmp_path: Path) -> None:
     (tmp_path / "sheet.toml").write_text(sheet("[model]"))
     m = api.new(tmp_path / "paper", tmp_path / "sheet.toml")
-    flight = simulated(
+    flight = simulate_flight(
         replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=150.0, rate=RATE
     )
-    same = simulated(m.instrument, ["disc-spin:share=1"], seed=4, duration=150.0, rate=RATE)
+    same = simulate_flight(m.instrument, ["disc-spin:share=1"], seed=4, duration=150.0, rate=RATE)
     np.testing.assert_array_equal(flight.outputs["G_out"], same.outputs["G_out"])
     d = api.diagnose(m, [flight])
     assert (d.verdict, d.found) == ("missing-effect", ("disc-spin",))

@@ -9,11 +9,11 @@ import pytest
 
 from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.observation import observe
-from ragg_runtime.estimation.thinning import certain
+from ragg_runtime.estimation.thinning import leave_out_uncertain
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model.lateness import about, late
+from ragg_runtime.model.lateness import list_late, move_record
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.scenario import Scenario, scenario
 
@@ -26,7 +26,7 @@ def world() -> tuple[Scenario, load.Model]:
 
 def _parameters(s: Scenario, model: load.Model, values: dict[str, float]) -> np.ndarray:
     p = vector(model, s.sheet)
-    for k, q in late(model):
+    for k, q in list_late(model):
         p[k] = values[q.name]
     return p
 
@@ -38,15 +38,15 @@ def test_motion_is_moved_to_where_it_was_true(world: tuple[Scenario, load.Model]
     values = {"epsilon": 0.5 / true.rate / true.time[-1], "delta_t": 3 / true.rate}
     drift, offset = {"epsilon": values["epsilon"]}, {"delta_t": values["delta_t"]}
     r = record(s.simulate({"clock-drift": drift, "time-offset": offset}).flight(), s.sheet)
-    moved, rest = about(model, r, _parameters(s, model, values))
+    moved, rest = move_record(model, r, _parameters(s, model, values))
     inner = slice(20, -20)
     for name in ("a_x", "omega_y", "omegadot_z", "d_a_z"):
         was, got = true.series(name), moved.series(name)
         assert was is not None and got is not None
         assert np.max(np.abs(got - was)[inner]) < 1e-3 * np.std(was)
-    assert max(abs(rest[k]) for k, _ in late(model)) < 1e-12
+    assert max(abs(rest[k]) for k, _ in list_late(model)) < 1e-12
     part, whole = r.part(slice(1000, 1400)), moved.series("d2_a_x")
-    of_part = about(model, part, _parameters(s, model, values))[0].series("d2_a_x")
+    of_part = move_record(model, part, _parameters(s, model, values))[0].series("d2_a_x")
     assert whole is not None and of_part is not None
     assert np.max(np.abs(of_part - whole[1000:1400])) < 1e-6 * np.std(whole)
 
@@ -56,17 +56,17 @@ def test_noise_of_the_motion_makes_no_jumps(world: tuple[Scenario, load.Model]) 
     r = record(s.simulate().flight(), s.sheet)
     noise = np.random.default_rng(1).normal(size=len(r.wide["a_x"]))
     r = replace(r, wide={**r.wide, "a_x": noise})
-    (offset,) = (k for k, q in late(model) if q.name == "delta_t")
+    (offset,) = (k for k, q in list_late(model) if q.name == "delta_t")
 
     def at(delta: float) -> np.ndarray:
-        moved, rest = about(model, r, _parameters(s, model, {"epsilon": 0.0, "delta_t": delta}))
+        moved, rest = move_record(model, r, _parameters(s, model, {"epsilon": 0.0, "delta_t": delta}))
         assert rest[offset] == 0.0
         return moved.wide["a_x"][20:-20]
 
     tick = 1e-6 / r.rate
     for delta in np.arange(1.0, 33.0) / (64 * r.rate):
         assert np.max(np.abs(at(delta + tick) - at(delta - tick))) < 1e-4
-    same, _ = about(model, r, _parameters(s, model, {"epsilon": 0.0, "delta_t": 0.0}))
+    same, _ = move_record(model, r, _parameters(s, model, {"epsilon": 0.0, "delta_t": 0.0}))
     assert same is r
 
 
@@ -80,15 +80,15 @@ def test_a_drift_of_half_a_sample_and_more_is_fitted_down_to_noise() -> None:
     kept = f.observations[0].record.valid
     assert 0 < np.sum(~kept) < 10
     assert np.std(f.residuals(np.zeros(f.n_base))[0][kept]) < 1.02 * noise
-    ((k, _),) = late(model)
+    ((k, _),) = list_late(model)
     assert f.calibration.p[k] == pytest.approx(4e-4, rel=1e-3)
 
 
 def test_the_ends_are_left_out_where_motion_is_late(world: tuple[Scenario, load.Model]) -> None:
     s, model = world
     o = observe(s.simulate().flight(), s.sheet)
-    assert certain(load.packaged(), s.sheet, [o])[0] is o
-    (kept,) = certain(model, s.sheet, [o])
+    assert leave_out_uncertain(load.packaged(), s.sheet, [o])[0] is o
+    (kept,) = leave_out_uncertain(model, s.sheet, [o])
     assert np.flatnonzero(~kept.record.valid).tolist() == [0, len(o.record.time) - 1]
     short = o.part(slice(0, 8))
-    assert certain(model, s.sheet, [short])[0] is short
+    assert leave_out_uncertain(model, s.sheet, [short])[0] is short

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ragg_runtime.identification.comparison import compare, nominal_residual
+from ragg_runtime.identification.comparison import compare, compute_nominal_residual
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model as load
@@ -80,7 +80,7 @@ def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
     assert d.verdict == "adequate"
     # as `ragg add` scores the values it has written: no linearised residual is asked for
     at = d.fitted.calibration.p
-    (scored,) = d.fitted.score((), lambda x: nominal_residual(d.fitted, at, x)[None], 1)
+    (scored,) = d.fitted.score((), lambda x: compute_nominal_residual(d.fitted, at, x)[None], 1)
     assert scored.whole.rms_Eo == pytest.approx(d.before.rms_Eo, rel=1e-3)
     hidden = s.simulate({"thermal-scale": HIDDEN["thermal-scale"]}, record_gradient=False).flight()
     assert "thermal-scale" in claimed(diagnosed(s, hidden))

@@ -10,7 +10,7 @@ from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
-from ragg_runtime.model.memory import first_memories, stop, with_responses
+from ragg_runtime.model.memory import add_responses, first_memories, stop
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.scenario import scenario
@@ -89,7 +89,7 @@ def test_a_part_of_a_record_hears_what_the_whole_one_does() -> None:
         *("mount_a_x", "curvature_tangential", "rate_radial_by_f_0", "rate_radial_by_Q"),
         *("slip_radial", "play_axial", "play_axial_by_w", "heat_rt", "heat_start_by_tau"),
     )
-    whole, part = (with_responses(x, known, names) for x in (r, r.part(slice(900, 1000))))
+    whole, part = (add_responses(x, known, names) for x in (r, r.part(slice(900, 1000))))
     for name in names:
         expected, got = whole.series(name), part.series(name)
         assert expected is not None and got is not None

@@ -13,18 +13,18 @@ from commands import ragg
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.estimation.fitted import Fitted, about, fit
-from ragg_runtime.estimation.observation import Observation, observations_of
-from ragg_runtime.estimation.regressors import LinearisationPoint, grouped, residual_of
+from ragg_runtime.estimation.fitted import Fitted, fit, prepare_evidence
+from ragg_runtime.estimation.observation import Observation, observe_flights
+from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual, group_by_effect
 from ragg_runtime.identification import motion_design, next_motion, selection
-from ragg_runtime.identification.selection import Field, field_of
+from ragg_runtime.identification.selection import Field, make_field
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model.model import packaged
 from ragg_runtime.next_flight import next_flight, write_motion
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 from tests.rate import RATE
 
 LAG = {"lag": {"tau": [2e-9, 0, 0, 0]}}
@@ -32,7 +32,7 @@ PAIRS = [("lag", "time-offset"), ("lag", "arm-stretch")]
 
 
 def fitted(s: Scenario, *flights: Flight) -> Fitted:
-    return fit(packaged(), s.sheet, observations_of(flights, s.sheet))
+    return fit(packaged(), s.sheet, observe_flights(flights, s.sheet))
 
 
 def flown(
@@ -59,14 +59,14 @@ def flown(
     clean: list[Observation] = []
     for k, (with_it, without) in enumerate(runs):
         a, b = (
-            observations_of([replace(q.flight(), outputs=dict(q.outputs_noise_free))], s.sheet)[0]
+            observe_flights([replace(q.flight(), outputs=dict(q.outputs_noise_free))], s.sheet)[0]
             for q in (with_it, without)
         )
-        rest = residual_of(at, b)
+        rest = compute_residual(at, b)
         clean.append(replace(a, series=tuple(np.atleast_2d(a.data - rest)), flight=k))
-    signal = about(both.model, both.instrument, clean, both.calibration)
+    signal = prepare_evidence(both.model, both.instrument, clean, both.calibration)
     n = both.n_base
-    columns = grouped(both.candidates)
+    columns = group_by_effect(both.candidates)
 
     def shown(rival: str) -> float:
         picked = [*range(n), *(n + k for k, _ in columns[rival]), -1]
@@ -82,7 +82,7 @@ def weak() -> tuple[Scenario, Fitted, Field]:
     """A weak lag, which its alternatives imitate."""
     s = scenario(52, duration=300.0, rate=RATE)
     f = fitted(s, s.simulate(LAG).flight())
-    return s, f, field_of(f, selection.testable_effects(f))
+    return s, f, make_field(f, selection.list_testable(f))
 
 
 def test_promises_are_kept_when_the_motion_is_flown(weak: tuple[Scenario, Fitted, Field]) -> None:
@@ -98,7 +98,7 @@ def test_promises_are_kept_when_the_motion_is_flown(weak: tuple[Scenario, Fitted
     assert p.then > max(6.0, p.now)
     assert 0.0 < p.spread < p.then
     assert max(shown("arm-stretch"), promised["lag", "arm-stretch"].then) < 3.0, "they act alike"
-    sinusoids = {p.separation.rival: p for p in next_motion.proposals(f, field, PAIRS)}
+    sinusoids = {p.separation.rival: p for p in next_motion.propose_motions(f, field, PAIRS)}
     best = sinusoids["time-offset"]
     alone = flown(s, [best.sinusoid], LAG)
     then = best.separation.then
@@ -115,8 +115,8 @@ def test_what_the_flight_does_not_determine_is_not_promised(weak: tuple[Scenario
     s = scenario(53, duration=300.0, rate=RATE)
     g = fitted(s, s.simulate({"cubic-input": {"K_iii": [4e-8, 0, 0, 0]}}).flight())
     # K_iii of one accelerometer and K_ooo of its neighbour weigh the same force: no motion separates them
-    for q in next_motion.proposals(
-        g, field_of(g, selection.testable_effects(g)), [("cubic-input", "cubic-cross")]
+    for q in next_motion.propose_motions(
+        g, make_field(g, selection.list_testable(g)), [("cubic-input", "cubic-cross")]
     ):
         assert not q.separates
 
@@ -124,13 +124,13 @@ def test_what_the_flight_does_not_determine_is_not_promised(weak: tuple[Scenario
 def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None:
     """Where nothing is left to separate, it excites everything."""
     m = api.new(tmp_path / "m")
-    x = simulated(m.instrument, [], seed=8, duration=120.0)
-    limits = api.motion_limits(m, ["a=30mg", "jerk=1m/s^3", "alpha=1deg/s^2"])
+    x = simulate_flight(m.instrument, [], seed=8, duration=120.0)
+    limits = api.parse_limits(m, ["a=30mg", "jerk=1m/s^3", "alpha=1deg/s^2"])
     n = next_flight(m, [x], limits, duration=60.0, band=(0.1, 2.0))
     assert n.design.separations == ()
     assert {axis for axis, *_ in n.sinusoids} == set(next_motion.AXES)
     write_motion(n, tmp_path / "motion.csv")
-    motion = simulated(m.instrument, [], motion=tmp_path / "motion.csv")
+    motion = simulate_flight(m.instrument, [], motion=tmp_path / "motion.csv")
     assert len(motion) == 60 * 16
     for axis in "xyz":
         a = n.motion().channels[f"a_{axis}"] - n.mean[f"a_{axis}"]
@@ -144,13 +144,13 @@ def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None
     assert limits["omega"] == next_motion.LIMITS["omega"]
     for wrong in ("b=1mg", "a", "a=-1mg", "omega=1mg", "jerk=1m/s^2"):
         with pytest.raises(UserError):
-            api.motion_limits(m, [wrong])
+            api.parse_limits(m, [wrong])
 
 
 def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     """Through the commands, and in half the time that an even multisine of the same size takes."""
     m = api.new(tmp_path / "m")
-    write_flight(simulated(m.instrument, [], seed=3, duration=150.0), tmp_path / "x.parquet")
+    write_flight(simulate_flight(m.instrument, [], seed=3, duration=150.0), tmp_path / "x.parquet")
     names = ("m", "x.parquet", "motion.csv", "y.parquet", "sheet.md", "plan.json", "c.json")
     files = {n: str(tmp_path / n) for n in names}
     words = ["--for", "calibration", "--criterion", "D"]
@@ -159,7 +159,9 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     plan = json.loads((tmp_path / "plan.json").read_text())
     assert plan["channels"]["planned"]["inline_Eo"] < 0.5 * plan["channels"]["now"]["inline_Eo"]
     assert f"| {plan['sinusoids'][0]['axis']} |" in (tmp_path / "sheet.md").read_text()
-    write_flight(simulated(m.instrument, [], seed=3, motion=files["motion.csv"]), tmp_path / "y.parquet")
+    write_flight(
+        simulate_flight(m.instrument, [], seed=3, motion=files["motion.csv"]), tmp_path / "y.parquet"
+    )
     flown = (files["x.parquet"], files["y.parquet"])
     ragg("calibrate", files["m"], *flown, "--plan", files["plan.json"], "--json", files["c.json"])
     found = json.loads((tmp_path / "c.json").read_text())
@@ -172,9 +174,9 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     assert all(q["reached"] for q in combinations)
     assert all(x["reached"] == pytest.approx(x["planned"], rel=0.1) for x in channels.values())
     assert all(f"| {q['name']} |" in (tmp_path / "sheet.md").read_text() for q in combinations)
-    f = fit(m.model, m.instrument, observations_of(api.read_flights(m, [files["x.parquet"]]), m.instrument))
+    f = fit(m.model, m.instrument, observe_flights(api.read_flights(m, [files["x.parquet"]]), m.instrument))
     made = motion_design.design_calibration(f, next_motion.LIMITS, duration=600.0, band=(0.0, 3.2))
     known = motion_design.Information.of(f)
-    tones = motion_design.tones_of(0.25, next_motion.LIMITS, (0.0, 3.2))
-    even = motion_design.multisine(tones, motion_design.even(tones))
+    tones = motion_design.list_tones(0.25, next_motion.LIMITS, (0.0, 3.2))
+    even = motion_design.multisine(tones, motion_design.share_evenly(tones))
     assert made.then < known.channels(known.with_motion(even, 600.0, 1200.0))

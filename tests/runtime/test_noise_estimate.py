@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation import calibration, observation
-from ragg_runtime.estimation.noise_level import estimated, in_words
+from ragg_runtime.estimation.noise_level import describe_level, estimate_level
 from ragg_runtime.estimation.residual import fit_columns
 from ragg_runtime.estimation.scores import log_sf, log_sf_f, log_sf_t
 from ragg_runtime.estimation.spectrum import estimate
@@ -114,8 +114,8 @@ def test_even_noise_has_no_level_even_if_its_tails_are_heavy() -> None:
     for seed in range(20):
         rng = np.random.default_rng(seed)
         x = quantities(4800, rng)
-        assert not estimated(rng.normal(size=4800), x, {}).parts
-        assert not estimated(rng.standard_t(3, size=4800), x, {}).parts
+        assert not estimate_level(rng.normal(size=4800), x, {}).parts
+        assert not estimate_level(rng.standard_t(3, size=4800), x, {}).parts
 
 
 @pytest.mark.parametrize("name", ["time", "abs(a_x)", "phi"])
@@ -127,13 +127,13 @@ def test_the_level_is_found_and_undone(name: str) -> None:
         "abs(a_x)": 0.2 + x["abs(a_x)"],
         "phi": 1.0 + 0.8 * np.cos(2 * x["phi"]),
     }[name]
-    level = estimated(loud * rng.normal(size=4800), x, {})
+    level = estimate_level(loud * rng.normal(size=4800), x, {})
     assert level.parts[0].name == name
     found = level.of(x.__getitem__)
     assert np.mean(found**2) == pytest.approx(1.0)
     ratio = found / loud
     assert np.std(ratio) < 0.2 * np.mean(ratio)
-    said = in_words(level)
+    said = describe_level(level)
     assert said is not None and "level changes" in said
 
 
@@ -141,7 +141,7 @@ def test_what_a_random_effect_explains_best_is_left_to_its_test() -> None:
     rng = np.random.default_rng(8)
     x = quantities(4800, rng)
     share = (x["abs(a_x)"] * np.cos(x["phi"])) ** 2
-    assert not estimated(np.sqrt(0.1 + share) * rng.normal(size=4800), x, {"jitter": share}).parts
+    assert not estimate_level(np.sqrt(0.1 + share) * rng.normal(size=4800), x, {"jitter": share}).parts
 
 
 def test_few_degrees_of_freedom_have_heavier_tails() -> None:
@@ -173,7 +173,7 @@ def test_noise_in_proportion_to_a_force_is_no_random_effect() -> None:
         (np.hypot(0.2 + across, 0.2 + along), ("input-rms", "input")),
         (0.2 + along, ("input(2)",)),
     ):
-        level = estimated(loud * rng.normal(size=4800), x, {"jitter": jitter})
+        level = estimate_level(loud * rng.normal(size=4800), x, {"jitter": jitter})
         assert level.parts[0].name in names
 
 

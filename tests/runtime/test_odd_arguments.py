@@ -14,7 +14,7 @@ from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 
 
 @pytest.mark.parametrize("option", ["--duration", "--noise"])
@@ -38,7 +38,7 @@ def test_a_test_sheet_that_never_ends(tmp_path: Path) -> None:
 
 def test_a_flight_longer_than_memory(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="too long to be simulated"):
-        simulated(api.new(tmp_path / "m").instrument, [], duration=1e18)
+        simulate_flight(api.new(tmp_path / "m").instrument, [], duration=1e18)
 
 
 @pytest.mark.parametrize(
@@ -54,4 +54,4 @@ def test_a_flight_beyond_all_numbers_is_refused(asked: dict[str, Any]) -> None:
     """It ended in a traceback, or in a file of NaN."""
     instrument = parse_instrument(resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8"))
     with pytest.raises(UserError, match="values are not finite"):
-        simulated(instrument, [], duration=20.0, rate=8.0, **asked)
+        simulate_flight(instrument, [], duration=20.0, rate=8.0, **asked)

@@ -14,7 +14,7 @@ import pytest
 
 from ragg_runtime import api
 from ragg_runtime.io import write_flight
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="devices, links and pipes of Unix")
 
@@ -24,7 +24,9 @@ def given(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     """A model directory with an effect, and a flight of 150 s."""
     place = tmp_path_factory.mktemp("outputs")
     m = api.new(place / "model")
-    write_flight(simulated(m.instrument, [], seed=3, duration=150.0, rate=8.0), place / "flight.parquet")
+    write_flight(
+        simulate_flight(m.instrument, [], seed=3, duration=150.0, rate=8.0), place / "flight.parquet"
+    )
     api.add(m, "thermal-scale")
     return place / "model", place / "flight.parquet"
 

@@ -11,8 +11,8 @@ from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.identification import likelihood_ratio
 from ragg_runtime.identification.likelihood_ratio import STRENGTHS
-from ragg_runtime.identification.probability import HELD, Probabilities, weighed
-from ragg_runtime.identification.ranking import Ranked, with_probability
+from ragg_runtime.identification.probability import HELD, Probabilities, weigh_sets
+from ragg_runtime.identification.ranking import Ranked, add_probability
 from ragg_runtime.identification.selection import Field
 
 Array = NDArray[np.float64]
@@ -44,7 +44,7 @@ def test_evidence_is_that_of_the_gaussian_itself() -> None:
         logs = [stats.multivariate_normal(np.zeros(30), np.eye(30) + g * H).logpdf(y) for g in STRENGTHS]
         expected[s] = np.exp(logs).mean() * (1 / 3) ** len(s) * (2 / 3) ** (3 - len(s))
     total = sum(expected.values())
-    sets = weighed(field(X, y))
+    sets = weigh_sets(field(X, y))
     found = {tuple(np.flatnonzero(s).tolist()): log for s, log in zip(sets.holds, sets.logs, strict=True)}
     assert sets.effects == ("e0", "e1", "e2") and found.keys() == expected.keys()
     for s, weight in expected.items():
@@ -64,7 +64,7 @@ def test_the_credible_set_holds_the_truth_as_often_as_it_says() -> None:
             R = np.linalg.qr(Z, mode="r")
             b = np.linalg.solve(R, rng.normal(size=len(truth))) * np.sqrt(rng.choice(STRENGTHS))
         y = Z @ b + rng.normal(size=len(X))
-        held += tuple(f"e{k}" for k in truth) in weighed(field(X, y)).probabilities().credible
+        held += tuple(f"e{k}" for k in truth) in weigh_sets(field(X, y)).probabilities().credible
     assert held >= stats.binom.ppf(0.001, 400, HELD)
 
 
@@ -73,7 +73,7 @@ def test_two_that_the_record_cannot_tell_apart_share_the_probability() -> None:
     X = drawn(rng)
     X[:, 1] = X[:, 0]
     y = X[:, 0] * 4.0 + rng.normal(size=len(X))
-    found = weighed(field(X, y)).probabilities()
+    found = weigh_sets(field(X, y)).probabilities()
     assert found.of["e0"] == pytest.approx(found.of["e1"])
     assert 0.4 < found.of["e0"] < 0.6
     assert {("e0",), ("e1",)} <= set(found.credible)
@@ -82,14 +82,14 @@ def test_two_that_the_record_cannot_tell_apart_share_the_probability() -> None:
 def test_nothing_is_missing_in_noise() -> None:
     rng = np.random.default_rng(5)
     X = drawn(rng)
-    found = weighed(field(X, rng.normal(size=len(X)))).probabilities()
+    found = weigh_sets(field(X, rng.normal(size=len(X)))).probabilities()
     assert found.credible[0] == ()
     assert max(found.of.values()) < 0.3
 
 
 def test_what_is_sure_shares_its_place_with_its_rivals() -> None:
     """Sets of one of two rivals more: each half of the weight, and what two ways make alike is added."""
-    sets = weighed(field(*_alike()))
+    sets = weigh_sets(field(*_alike()))
     beside = sets.with_one_of(("e1", "z"))
     found = dict(zip((tuple(np.flatnonzero(s)) for s in beside.holds), np.exp(beside.logs), strict=True))
     before = dict(zip((tuple(np.flatnonzero(s)) for s in sets.holds), np.exp(sets.logs), strict=True))
@@ -115,6 +115,6 @@ def test_of_an_effect_that_the_model_explains_otherwise_or_does_without_it_is_no
     said = {}
     for effect, log_p in (("right", -900.0), ("faint", -3.0), ("twin", -890.0), ("random", -9.0)):
         row = Ranked.without_columns(effect, likelihood_ratio.Test(1.0, 1, log_p, ()), error)
-        said[effect] = with_probability(row, found, {"right", "faint", "twin"}).probability
+        said[effect] = add_probability(row, found, {"right", "faint", "twin"}).probability
     assert (said["right"], said["faint"], said["twin"]) == (1.0, 0.02, 0.0)
     assert said["random"] is None

@@ -19,7 +19,7 @@ import pytest
 from ragg_runtime import api
 from ragg_runtime.cli.main import main
 from ragg_runtime.io import write_flight
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 
 DAY = re.compile(r"20\d\d-\d\d-\d\d")
 
@@ -29,7 +29,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A model and a flight of two minutes."""
     folder = tmp_path_factory.mktemp("provenance")
     m = api.new(folder / "model")
-    flight = simulated(m.instrument, [], seed=1, duration=120.0, rate=8.0)
+    flight = simulate_flight(m.instrument, [], seed=1, duration=120.0, rate=8.0)
     write_flight(flight, folder / "flight.parquet")
     return folder
 

@@ -45,7 +45,7 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(place)
         patch.setattr(plots, "draw_plot", lambda _: "<svg></svg>")  # test_report.py has figures
-        patch.setattr(next_motion, "proposals", lambda *_: ())  # and test_next_motion.py these
+        patch.setattr(next_motion, "propose_motions", lambda *_: ())  # and test_next_motion.py these
         yield place
 
 

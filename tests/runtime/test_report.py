@@ -26,7 +26,7 @@ from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import named, output, vector
+from ragg_runtime.model.evaluate import name_values, output, vector
 from ragg_runtime.model.record import record
 from ragg_runtime.report import parameters, plots, whiteness
 from ragg_runtime.report.page import Origin
@@ -280,7 +280,7 @@ def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
     said = Page(write_addition([step | errors], before, after, ORIGIN)).text
     a, b = numbers.number(before.calibrated.rms_Eo), numbers.number(after.calibrated.rms_Eo)
     assert f"Added cubic-input: error {a} → {b} Eo" in said
-    rows = {c.label: c for c in budget.contributions(after.fitted)}
+    rows = {c.label: c for c in budget.list_contributions(after.fitted)}
     # what the effect contributes is more than what the calibration of the others left of it
     excess = math.sqrt(before.calibrated.rms_Eo**2 - after.calibrated.rms_Eo**2)
     assert rows["cubic-input"].rms > 0.9 * excess
@@ -319,10 +319,10 @@ def test_combinations_are_known_better_than_single_values(clean: compare.Compari
 def test_budget_of_the_bias_is_its_analytical_value(clean: compare.Comparison) -> None:
     """V_j = k_VI K1 K0: a constant in G_out, D1234 of k_VI K1 K0 over k_ggi, and nothing in the channels."""
     f = clean.fitted
-    p = named(f.model.chain, f.calibration.p)
+    p = name_values(f.model.chain, f.calibration.p)
     volts = p["k_VI"] * p["K1"] * p["K0"]
     expected = abs(volts[0] + volts[1] - volts[2] - volts[3]) / f.k_ggi
-    row = next(r for r in budget.contributions(f) if r.label.startswith("K0"))
+    row = next(r for r in budget.list_contributions(f) if r.label.startswith("K0"))
     assert row.rms == pytest.approx(expected, rel=1e-6)
     assert row.inline < 1e-4 * row.rms
     assert row.cross < 1e-4 * row.rms

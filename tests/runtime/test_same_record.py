@@ -14,7 +14,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.io.record import distinct
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.survey import run
 
 
@@ -25,7 +25,7 @@ def model(tmp_path_factory: pytest.TempPathFactory) -> api.Loaded:
 
 @pytest.fixture(scope="module")
 def flight(model: api.Loaded) -> Flight:
-    return simulated(model.instrument, [], seed=1, duration=150.0, rate=8.0)
+    return simulate_flight(model.instrument, [], seed=1, duration=150.0, rate=8.0)
 
 
 def test_in_two_formats_it_is_refused_everywhere(model: api.Loaded, flight: Flight, tmp_path: Path) -> None:

@@ -10,11 +10,11 @@ import pytest
 from ragg_runtime.estimation import fitted, noise_estimate, observation, scores, whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.observation import BLOCKS, beginnings, segments, spread
+from ragg_runtime.estimation.observation import BLOCKS, segments, spread, take_beginnings
 from ragg_runtime.estimation.regressors import LinearisationPoint
 from ragg_runtime.identification import contenders, omnibus, selection
 from ragg_runtime.identification.contenders import ContenderFit
-from ragg_runtime.identification.selection import field_of
+from ragg_runtime.identification.selection import make_field
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import vector
@@ -60,8 +60,8 @@ def test_the_division_leaves_no_trace(
     scale = np.array([c.scale for c in whole.calibration.columns])
     moved = (parts.calibration.p - whole.calibration.p)[whole.calibration.index] / scale
     assert np.max(np.abs(moved)) < 1e-5  # along what the record hardly sees; nothing in the figures
-    effects = selection.testable_effects(whole)
-    expected, found = (field_of(f, effects).tests() for f in (whole, parts))
+    effects = selection.list_testable(whole)
+    expected, found = (make_field(f, effects).tests() for f in (whole, parts))
     for e in effects:
         # of an effect that the calibration absorbs nearly whole rounding leaves seven digits at one place, six between two
         assert found[e].chi2 == pytest.approx(expected[e].chi2, rel=1e-5, abs=1e-6)
@@ -86,7 +86,7 @@ def test_single_missing_samples_do_not_silence_the_demodulator(flown: tuple[Scen
     found = {}
     for name, valid in (("whole", np.ones(len(flight.time), dtype=bool)), ("scattered", scattered)):
         x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
-        f = fitted.fit(model.packaged(), s.sheet, observation.observations_of([x], s.sheet), candidates=False)
+        f = fitted.fit(model.packaged(), s.sheet, observation.observe_flights([x], s.sheet), candidates=False)
         (found[name],) = f.score([np.zeros(f.size)])
     for part in ("whole", "held_out"):
         a, b = getattr(found["whole"], part), getattr(found["scattered"], part)
@@ -134,8 +134,8 @@ def test_contenders_of_a_long_flight_are_told_apart_on_an_excerpt(
         fitted_to.append(int(np.sum(f.observations[0].record.valid)))
         return original(f, *given)
 
-    original = contenders.left
-    monkeypatch.setattr(contenders, "left", left)
+    original = contenders.fit_contender
+    monkeypatch.setattr(contenders, "fit_contender", left)
     long = diagnosed(s, flight)
     assert long.staged and long.found == ("thermal-scale",)
     whole = fitted_to.count(int(np.sum(flight.valid)))
@@ -162,7 +162,7 @@ def test_noise_slower_than_a_segment_is_seen(monkeypatch: pytest.MonkeyPatch) ->
 def test_of_long_flights_as_many_samples_are_taken_whatever_their_length() -> None:
     for samples in (1_000_000, 3_000_000, 16_000_000):
         found = spread(segments(samples), 4)
-        found_segments = beginnings(found, 80_000)
+        found_segments = take_beginnings(found, 80_000)
         assert [s.rows.start for s in found_segments] == [s.rows.start for s in found]
         assert [s.rows.stop - s.rows.start for s in found_segments] == [20_000] * 4
-    assert [s.rows for s in beginnings(segments(28_800), 80_000)] == [slice(0, 28_800)]
+    assert [s.rows for s in take_beginnings(segments(28_800), 80_000)] == [slice(0, 28_800)]

@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import trapezoid
 
 from ragg_runtime.estimation import fitted
-from ragg_runtime.estimation.observation import observations_of
-from ragg_runtime.identification.sequential import SequentialTest, evidence, log_e
+from ragg_runtime.estimation.observation import observe_flights
+from ragg_runtime.identification.sequential import SequentialTest, follow_model, log_e
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
 
@@ -24,7 +24,7 @@ def test_an_e_value_has_mean_one_under_the_null() -> None:
 def followed(*hidden: dict[str, dict[str, list[float]]]) -> SequentialTest:
     s = scenario(3, duration=480.0)
     flights = [s.simulate(h).flight(f"leg {n}") for n, h in enumerate(hidden)]
-    return evidence(fitted.fit(model.packaged(), s.sheet, observations_of(flights, s.sheet)))
+    return follow_model(fitted.fit(model.packaged(), s.sheet, observe_flights(flights, s.sheet)))
 
 
 def test_a_model_that_holds_is_let_be() -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 
 from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, harmonic, series
-from ragg_runtime.identification.dictionary import generic, harmonics
+from ragg_runtime.identification.dictionary import harmonics, list_generic
 
 
 def test_every_name_of_the_dictionary_is_printed_as_it_was_parsed() -> None:
-    names = {n for product in generic(["temperature", "time"]) for n in product}
+    names = {n for product in list_generic(["temperature", "time"]) for n in product}
     assert len(names) > 50
     assert [str(series(n)) for n in sorted(names)] == sorted(names)
     assert [str(harmonic(h)) for h in harmonics()] == list(harmonics())

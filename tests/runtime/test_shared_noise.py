@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from ragg_runtime.api import example
-from ragg_runtime.estimation.fitted import estimated
-from ragg_runtime.simulate import simulated
+from ragg_runtime.estimation.fitted import estimate_variance
+from ragg_runtime.simulate import simulate_flight
 from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
@@ -17,7 +17,7 @@ SIGNS = np.array([1.0, 1.0, -1.0, -1.0])
 
 def test_an_effect_is_found_beside_a_shake_that_all_accelerometers_share() -> None:
     i = example()
-    x = simulated(
+    x = simulate_flight(
         i, ["cubic-input:K_iii=0/3/0/0"], seed=4, duration=100.0, rate=RATE, voltages=True, no_gradient=False
     )
     G = sum(s * x.outputs[f"V_{j}"] for j, s in enumerate(SIGNS, 1))
@@ -27,4 +27,4 @@ def test_an_effect_is_found_beside_a_shake_that_all_accelerometers_share() -> No
     assert d.found == ("cubic-input",)
     assert d.final is not None
     (prepared,) = d.final.prepared
-    assert np.sqrt(estimated(prepared)) < 0.1 * np.std(shake)
+    assert np.sqrt(estimate_variance(prepared)) < 0.1 * np.std(shake)

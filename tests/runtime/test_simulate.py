@@ -9,7 +9,7 @@ import pytest
 
 from ragg_runtime import api, reference
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 
 
 def test_flights_are_of_one_instrument_unless_another_is_asked_for(
@@ -26,7 +26,7 @@ def test_flights_are_of_one_instrument_unless_another_is_asked_for(
     monkeypatch.setattr(reference, "simulate", watched)
     m = api.new(tmp_path / "m")
     one, two, _ = (
-        simulated(m.instrument, [], seed=k, instrument_seed=n, duration=10.0)
+        simulate_flight(m.instrument, [], seed=k, instrument_seed=n, duration=10.0)
         for k, n in ((1, 0), (2, 0), (1, 3))
     )
     first, second, third = (i.accelerometers["K0"] for i in true)

@@ -12,7 +12,7 @@ from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.assemble import BRIDGED_STEPS, interpolate_slow
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 
 G0 = 9.8
 
@@ -24,7 +24,7 @@ def model(tmp_path_factory: pytest.TempPathFactory) -> api.Loaded:
 
 @pytest.fixture(scope="module")
 def hot(model: api.Loaded) -> Flight:
-    return simulated(model.instrument, [], seed=4, duration=400.0, rate=8.0)
+    return simulate_flight(model.instrument, [], seed=4, duration=400.0, rate=8.0)
 
 
 def rarely(flight: Flight, every: int, names: tuple[str, ...], path: Path) -> Path:

@@ -27,7 +27,7 @@ from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.info import describe_flight
 from ragg_runtime.io.mapping import parse_mapping
 from ragg_runtime.io.recording import find_codes
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 
 G0, N, RATE = 9.8, 60, 16
 UNITS = {"time": "s", "a_x": "g", "a_y": "g", "a_z": "g"}
@@ -365,7 +365,7 @@ def test_flights_in_memory() -> None:
 
 def test_what_is_in_memory_is_compared(tmp_path: Path) -> None:
     m = api.new(tmp_path / "m")
-    x = simulated(m.instrument, [], seed=1, duration=60.0, rate=8.0)
+    x = simulate_flight(m.instrument, [], seed=1, duration=60.0, rate=8.0)
     data = {"time [s]": x.time} | {f"{n} [{x.units[n]}]": v for n, v in {**x.channels, **x.outputs}.items()}
     pd.DataFrame(data).to_csv(tmp_path / "x.csv", index=False)
     values = [

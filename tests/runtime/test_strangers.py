@@ -16,7 +16,7 @@ from ragg_runtime import api
 from ragg_runtime.base.errors import printable
 from ragg_runtime.cli.main import main
 from ragg_runtime.io import write_flight
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 
 NAME = "\x1b[31m<script>alert(1)\u202e&\"'"
 NOTE = "samples are spikes"
@@ -33,7 +33,7 @@ def test_a_flight_with_such_a_name_and_spikes_in_it(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     m = api.new("model")
-    x = simulated(m.instrument, [], seed=1, duration=120.0, rate=8.0)
+    x = simulate_flight(m.instrument, [], seed=1, duration=120.0, rate=8.0)
     G = x.outputs["G_out"] + np.where(np.arange(len(x)) % 97 == 50, 5 * np.std(x.outputs["G_out"]), 0.0)
     write_flight(dataclasses.replace(x, outputs={"G_out": G}), "plain.parquet")
     flight = Path("plain.parquet").rename(f"{NAME}.parquet")

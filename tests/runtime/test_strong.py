@@ -15,9 +15,9 @@ import pytest
 import ragg_runtime.api as ragg
 from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.fitted import fit
-from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification.comparison import compare
-from ragg_runtime.identification.strong import Stage, with_steps
+from ragg_runtime.identification.strong import Stage, add_steps
 from ragg_runtime.io.files import write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -184,7 +184,7 @@ def test_a_step_in_red_noise_is_placed_to_the_sample() -> None:
     """Whitened columns that are cut off before the step lack its edge: they put it elsewhere."""
     s = scenario(33, duration=300.0, red_corner=0.05, noise_density=5e-9)
     flight = s.simulate({"bias-step": {"dK0": [1e-8, 0, 0, 0], "t_step": 141.2}}).flight()
-    stage = Stage.of(fit(load.packaged(), s.sheet, observations_of([flight], s.sheet)))
+    stage = Stage.of(fit(load.packaged(), s.sheet, observe_flights([flight], s.sheet)))
     assert stage.choice.chosen == ("bias-step",)
     assert (
         stage.instants["bias-step"] == 141.25
@@ -196,5 +196,5 @@ def test_a_step_in_one_voltage_is_placed_to_the_sample() -> None:
     s = scenario(6, duration=120.0, rate=8.0, trim="table-v")
     effects = {"gain-step": {"dK1": [0, 3e-6, 0, 0], "t_step": 65.3}}
     flight = s.simulate(effects).flight(voltages=True)
-    _, _, instants = with_steps(fit(load.packaged(), s.sheet, observations_of([flight], s.sheet)))
+    _, _, instants = add_steps(fit(load.packaged(), s.sheet, observe_flights([flight], s.sheet)))
     assert instants["gain-step"] == 65.375  # the first sample after it

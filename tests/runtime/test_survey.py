@@ -26,7 +26,7 @@ from flights_of_a_survey import COUNT, WITH_EFFECT, in_process, lines_of, make, 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io.tables import DataColumn, DataTable
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.survey import run
 from ragg_runtime.survey.examine import Job, Record, examine, expand_lines, make_job, split_line
 from ragg_runtime.survey.result import Survey, make_parquet
@@ -295,7 +295,7 @@ def made(tmp_path: Path) -> tuple[Path, str, Path]:
     m = api.new(tmp_path / "model")
     tables, entries = [], []
     for seed in (1, 2):
-        x = simulated(m.instrument, [], seed=seed, duration=120.0, rate=16.0)
+        x = simulate_flight(m.instrument, [], seed=seed, duration=120.0, rate=16.0)
         columns = {**x.channels, **x.outputs}
         names = {n: f"C{k}" for k, n in enumerate(columns)}
         entries = [f'{n} = {{ column = "{c}", unit = "{x.units[n]}" }}' for n, c in names.items()]

@@ -9,7 +9,7 @@ import pytest
 
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe
-from ragg_runtime.estimation.thinning import certain
+from ragg_runtime.estimation.thinning import leave_out_uncertain
 from ragg_runtime.estimation.unknown_gradient import windows
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import derive
@@ -29,7 +29,7 @@ def test_what_is_kept_is_on_the_same_side_for_every_instrument_that_the_sheet_al
 ) -> None:
     s, model = world
     o = observe(s.simulate().flight(), s.sheet)
-    (kept,) = certain(model, s.sheet, [o])
+    (kept,) = leave_out_uncertain(model, s.sheet, [o])
     left_out = o.record.valid & ~kept.record.valid
     assert 0 < np.sum(left_out) < 0.1 * np.sum(o.record.valid)
     side = np.sign(voltages(model.chain, o.record, vector(model, s.sheet)))
@@ -55,14 +55,14 @@ def test_what_was_found_for_all_samples_does_not_serve_those_that_are_kept(
     o = observe(s.simulate(record_gradient=False).flight(), s.sheet)
     noise, every = NoiseModel.white(o.record.rate, 1), slice(0, len(o.record.time))
     assert len(windows(o, every, noise)[0].places) == np.sum(o.record.valid)
-    (kept,) = certain(model, s.sheet, [o])
+    (kept,) = leave_out_uncertain(model, s.sheet, [o])
     assert len(windows(kept, every, noise)[0].places) == np.sum(kept.record.valid)
 
 
 def test_a_model_that_does_not_switch_keeps_every_sample(world: tuple[Scenario, load.Model]) -> None:
     s, _ = world
     o = observe(s.simulate().flight(), s.sheet)
-    assert certain(load.packaged(), s.sheet, [o]) == [o]
+    assert leave_out_uncertain(load.packaged(), s.sheet, [o]) == [o]
 
 
 def test_a_sheet_that_knows_nothing_of_the_side_leaves_nothing_out(
@@ -71,5 +71,5 @@ def test_a_sheet_that_knows_nothing_of_the_side_leaves_nothing_out(
     s, model = world
     o = observe(s.simulate().flight(), s.sheet)
     unsure = replace(s.sheet, sigmas={**s.sheet.sigmas, "K0": np.full(4, 0.2)})
-    (kept,) = certain(model, unsure, [o])
+    (kept,) = leave_out_uncertain(model, unsure, [o])
     assert np.array_equal(kept.record.valid, o.record.valid)

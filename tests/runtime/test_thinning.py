@@ -10,7 +10,7 @@ from ragg_runtime.estimation import fitted, observation, thinning
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.identification.diagnose import diagnose
-from ragg_runtime.identification.selection import field_of
+from ragg_runtime.identification.selection import make_field
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model
@@ -37,12 +37,12 @@ def whole(flown: tuple[Scenario, Flight]) -> Observation:
 
 @pytest.fixture(scope="module")
 def thin(flown: tuple[Scenario, Flight], whole: Observation) -> Observation:
-    (found,) = thinning.thinned(model.packaged(), flown[0].sheet, [whole])
+    (found,) = thinning.thin_observations(model.packaged(), flown[0].sheet, [whole])
     return found
 
 
 def thinned(sheet: Instrument, flight: Flight) -> Observation:
-    (found,) = thinning.thinned(model.packaged(), sheet, [observation.observe(flight, sheet)])
+    (found,) = thinning.thin_observations(model.packaged(), sheet, [observation.observe(flight, sheet)])
     return found
 
 
@@ -108,7 +108,7 @@ def test_the_diagnosis_is_that_of_the_whole_record(
     assert d.before.rms_V == pytest.approx(before.whole.rms_V, rel=1e-3)
     assert d.before.rms_Eo == pytest.approx(before.whole.rms_Eo, rel=1e-3)
     assert d.before.inline_Eo == pytest.approx(before.whole.inline_Eo, rel=0.03)
-    chi2 = field_of(f, ["thermal-scale"]).tests()["thermal-scale"].chi2
+    chi2 = make_field(f, ["thermal-scale"]).tests()["thermal-scale"].chi2
     assert d.ranking[0].test.chi2 == pytest.approx(chi2, rel=0.1)  # the slow noise is known to some per cent
 
 
@@ -129,10 +129,10 @@ def test_short_flights_and_slow_ones_stay_as_they_are(flown: tuple[Scenario, Fli
     s, flight = flown
     m = model.packaged()
     short = observation.observe(_cut(flight, 25_000), s.sheet)
-    assert thinning.thinned(m, s.sheet, [short]) == [short]
+    assert thinning.thin_observations(m, s.sheet, [short]) == [short]
     slow = scenario(78, duration=2200.0, rate=16.0)
     o = observation.observe(slow.simulate().flight(), slow.sheet)
-    assert len(o.record.time) > 30_000 and thinning.thinned(m, slow.sheet, [o]) == [o]
+    assert len(o.record.time) > 30_000 and thinning.thin_observations(m, slow.sheet, [o]) == [o]
 
 
 def _cut(flight: Flight, n: int) -> Flight:

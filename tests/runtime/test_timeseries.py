@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ragg_runtime.signals.derivative import WINDOW, differentiate, interpolated
+from ragg_runtime.signals.derivative import WINDOW, differentiate, interpolate_even
 
 RATE = 16.0
 
@@ -72,7 +72,7 @@ def test_noise_is_not_blown_up() -> None:
 def test_a_series_is_interpolated_between_its_samples(share: float, most: float) -> None:
     n, w = np.arange(400), share * np.pi
     at = n + 0.43
-    found = interpolated([9.8 + np.sin(w * n), np.cos(w * n)], at)
+    found = interpolate_even([9.8 + np.sin(w * n), np.cos(w * n)], at)
     error = np.abs(found - [9.8 + np.sin(w * at), np.cos(w * at)])
     assert error[:, 40:-40].max() < most
-    assert interpolated([np.arange(5.0)], np.array([2.5]))[0] == pytest.approx([2.5])
+    assert interpolate_even([np.arange(5.0)], np.array([2.5]))[0] == pytest.approx([2.5])

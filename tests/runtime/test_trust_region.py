@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import optimize
 
-from ragg_runtime.estimation.least_squares import SETTLED, VALLEY, Linear, minimise, settled, with_prior
+from ragg_runtime.estimation.least_squares import SETTLED, VALLEY, Linear, add_prior, is_settled, minimise
 
 Array = NDArray[np.float64]
 Residual = Callable[[Array], Array]
@@ -95,7 +95,7 @@ def test_a_model_that_does_not_follow_its_slope_has_not_converged() -> None:
     found = minimise(liar, np.zeros(2))
     assert not found.converged
     assert "no step reduces the misfit" in found.reason
-    assert not settled(found.at)
+    assert not is_settled(found.at)
 
 
 @pytest.mark.parametrize(("promise", "converged"), [(0.8, True), (2.5, True), (12.0, False)])
@@ -114,7 +114,7 @@ def test_a_point_where_the_model_has_no_output_is_left_alone() -> None:
         if not np.isfinite(r):
             return Linear(np.eye(1), np.zeros(1), np.inf)
         slope = np.array([[-0.5 / r]])
-        T = with_prior(np.array([[slope[0, 0], -r], [0.0, 0.0]]), [0], 0.0 - x)
+        T = add_prior(np.array([[slope[0, 0], -r], [0.0, 0.0]]), [0], 0.0 - x)
         return Linear(T[:1, :1], T[:1, 1], float(T[1, 1] ** 2))
 
     found = minimise(edge, np.zeros(1))

@@ -31,8 +31,8 @@ def test_a_column_that_is_large_where_the_noise_is_loud_raises_no_alarm() -> Non
         y = rng.normal(size=ROWS) * (1.0 + 0.5 * swing)
         y /= np.std(y)
         naive, sober = (field(X, y, tempered=t).tests()["e"] for t in (False, True))
-        plain += selection.significant(naive, 1, selection.FURTHER)
-        tempered += selection.significant(sober, 1, selection.FURTHER)
+        plain += selection.is_significant(naive, 1, selection.FURTHER)
+        tempered += selection.is_significant(sober, 1, selection.FURTHER)
     assert plain > 20
     assert tempered <= 6
 
@@ -55,5 +55,5 @@ def test_few_blocks_say_nothing() -> None:
     blocks = np.split(M, 7)
     assert uneven.inflation(uneven.ProjectedBlocks(M, blocks, 2, []), [2]) == 1.0
     t = likelihood_ratio.Test(30.0, 1, -14.0, (2,))
-    assert uneven.tempered(t, 1.0, np.inf, 24) is t
-    assert -6.0 < uneven.tempered(t, 3.0, np.inf, 24).log_p < -4.0 + np.log(10.0)
+    assert uneven.temper_test(t, 1.0, np.inf, 24) is t
+    assert -6.0 < uneven.temper_test(t, 3.0, np.inf, 24).log_p < -4.0 + np.log(10.0)

@@ -8,7 +8,7 @@ from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
-from ragg_runtime.estimation.unknown_gradient import windows, without
+from ragg_runtime.estimation.unknown_gradient import take_out, windows
 from ragg_runtime.identification import selection
 from ragg_runtime.identification.ranking import list_not_testable
 from ragg_runtime.model import model as load
@@ -24,7 +24,7 @@ def test_an_unknown_gradient_is_taken_out_of_each_voltage_by_its_scale_factor() 
     true = s.sheet.replace(**s.instrument.accelerometers)
     e = linearise(LinearisationPoint(model, s.sheet, vector(model, true), with_candidates=False), o)[-1:]
     n = len(o.record.time)
-    left = without(e, windows(o, slice(0, n), NoiseModel.white(o.record.rate, 4)), o.record.valid)
+    left = take_out(e, windows(o, slice(0, n), NoiseModel.white(o.record.rate, 4)), o.record.valid)
     assert np.std(e) > 1e-3
     assert np.std(left) < 0.01 * np.std(e)
 
@@ -33,7 +33,5 @@ def test_of_a_constant_gradient_it_leaves_nothing_and_the_report_says_why() -> N
     """What it leaves is small before the calibration: to say that this absorbs the rest would be wrong."""
     s = scenario(62, duration=200.0, noise_density=1e-8)
     f = fitted.fit(load.packaged(), s.sheet, [observe(s.simulate(record_gradient=False).flight(), s.sheet)])
-    why = {
-        x.effect: x.why for x in list_not_testable(f, selection.field_of(f, selection.testable_effects(f)))
-    }
+    why = {x.effect: x.why for x in list_not_testable(f, selection.make_field(f, selection.list_testable(f)))}
     assert "a gradient that is not recorded" in why["gradient-offset"]

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 from ragg_runtime.estimation.fitted import fit
-from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification import selection
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.identification.diagnose import complete_ranking, diagnose
 from ragg_runtime.identification.dictionary import Term
-from ragg_runtime.identification.result import groups
+from ragg_runtime.identification.result import group_findings
 from ragg_runtime.identification.verdict import _of_one_kind
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
@@ -92,12 +92,12 @@ def test_a_line_beside_a_multiple_of_the_spin_rate_accuses_nothing(frequency: fl
 def test_effects_that_look_alike_are_named_by_what_they_share() -> None:
     alike: Any = [SimpleNamespace(effect="spin-axis-tilt", indistinguishable_from=("imu-misalignment",))]
     shared: Any = SimpleNamespace(term=Term("cos 1", ("a_z",)))
-    (group,) = groups(("spin-axis-tilt",), alike, (), shared)
+    (group,) = group_findings(("spin-axis-tilt",), alike, (), shared)
     assert group.as_json() == {
         "name": "a term proportional to a_z at the spin rate",
         "effects": ["spin-axis-tilt", "imu-misalignment"],
     }
-    (alone,) = groups(("bias-drift",), alike, (), shared)
+    (alone,) = group_findings(("bias-drift",), alike, (), shared)
     assert alone.name is None
 
 
@@ -115,7 +115,7 @@ def test_an_effect_is_tested_with_the_channels_that_are_there(
 ) -> None:
     sheet, x = flown(duration=40.0)
     x = replace(x, channels={n: v for n, v in x.channels.items() if n not in lost})
-    found = selection.testable_effects(fit(packaged(), sheet, observations_of([x], sheet)))
+    found = selection.list_testable(fit(packaged(), sheet, observe_flights([x], sheet)))
     assert {"magnetic-bias", "self-gradient"} & set(found) == testable
 
 

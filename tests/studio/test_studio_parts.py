@@ -18,14 +18,14 @@ from serving import brief, foreign, new
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.estimation.observation import observations_of
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification import heat, next_motion, predict
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.identification.selection import field_of
+from ragg_runtime.identification.selection import make_field
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import write_flight
 from ragg_runtime.model.directory import HistoryStep
-from ragg_runtime.simulate import simulated
+from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.studio import mapping, session, views
 from ragg_runtime.studio.files import Places
 from ragg_runtime.studio.routes import ACTIONS
@@ -43,7 +43,7 @@ def diagnosis(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
     brief(folder / "flight.parquet")
     m = api.load(folder / "model")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(next_motion, "proposals", lambda *_: ())
+        patch.setattr(next_motion, "propose_motions", lambda *_: ())
         return api.diagnose(m, api.read_flights(m, [folder / "flight.parquet"]))
 
 
@@ -54,7 +54,7 @@ def test_what_is_predicted_is_what_a_pass_over_the_flight_finds(
     diagnosis: Diagnosis, effects: tuple[str, ...]
 ) -> None:
     f = diagnosis.fitted
-    field = field_of(f, [r.effect for r in diagnosis.ranking])
+    field = make_field(f, [r.effect for r in diagnosis.ranking])
     found = predict.predict_error(f, predict.pass_unwhitened(f), field, effects)
     vectors = [predict.fit_effects(f, field, effects, held_out=h) for h in (False, True)]
     whole, half = f.score(vectors)
@@ -64,7 +64,7 @@ def test_what_is_predicted_is_what_a_pass_over_the_flight_finds(
 
 def test_a_signature_is_the_residual_that_goes(diagnosis: Diagnosis) -> None:
     f = diagnosis.fitted
-    v = predict.fit_effects(f, field_of(f, ["thermal-scale"]), ["thermal-scale"])
+    v = predict.fit_effects(f, make_field(f, ["thermal-scale"]), ["thermal-scale"])
     rows, taken = predict.compute_signature(f, 0, v)
     assert rows == slice(0, 1920)
     before, after = (f.residuals_of(x)[0] for x in (np.zeros(f.size), v))
@@ -81,7 +81,9 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
     assert h.z[at] == pytest.approx(best.z, rel=1e-6)
     assert abs(best.z) > h.level
     found = list(diagnosis.found)
-    given = heat.heat(f.prepared[0], f.r_factors[0], f.n_base, predict.columns_of(field_of(f, found), found))
+    given = heat.heat(
+        f.prepared[0], f.r_factors[0], f.n_base, predict.list_columns(make_field(f, found), found)
+    )
     assert np.nanmax(np.abs(given.z)) < h.level
 
 
@@ -202,7 +204,7 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
 def test_another_flight_that_cannot_be_read_leaves_a_page_to_look_at(tmp_path: Path) -> None:
     """Its reading, and its failure, ended in a fault of the program: what was left out of the flight before was kept."""
     m = api.new(tmp_path / "model")
-    flight = simulated(m.instrument, [], seed=3, duration=30.0, rate=8.0)
+    flight = simulate_flight(m.instrument, [], seed=3, duration=30.0, rate=8.0)
     write_flight(flight, tmp_path / "x.csv")
     (tmp_path / "y.csv").write_bytes(b"\x00\x01")
     s = Session(Places((tmp_path,)))
@@ -217,9 +219,9 @@ def test_another_flight_that_cannot_be_read_leaves_a_page_to_look_at(tmp_path: P
 def test_an_output_is_told_from_those_of_other_flights(tmp_path: Path) -> None:
     """Two flights of one name, each with another of two outputs, were taken for one."""
     both = parse_instrument(sheets.sheet(sheets.complements(), 8, sheets.FULL))
-    x = simulated(both, [], seed=3, duration=30.0, rate=8.0)
+    x = simulate_flight(both, [], seed=3, duration=30.0, rate=8.0)
     halves = [replace(x, outputs={n: x.outputs[n]}) for n in ("G_out_A", "G_out_B")]
-    found = observations_of([*halves, x], both)
+    found = observe_flights([*halves, x], both)
     assert [(o.flight, o.place) for o in found] == [(0, 0), (1, 1), (2, 0), (2, 1)]
     assert [o.part(slice(0, 9)).flight for o in found] == [0, 1, 2, 2]
 

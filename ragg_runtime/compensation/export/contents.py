@@ -17,8 +17,8 @@ from ragg_runtime.instrument.layout import column_endings, gain, sees
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS, is_disc_angle
-from ragg_runtime.model.evaluate import named, scale_factor
-from ragg_runtime.model.lateness import late
+from ragg_runtime.model.evaluate import name_values, scale_factor
+from ragg_runtime.model.lateness import list_late
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import SPIN, Record, phase
 from ragg_runtime.signals.angular_acceleration import RateDerivative
@@ -86,7 +86,7 @@ class Contents:
 
     def outputs(self) -> list[ExportedOutput]:
         """In the order of model.toml."""
-        layout, values = self.instrument.layout, named(self.model.chain, self.p)
+        layout, values = self.instrument.layout, name_values(self.model.chain, self.p)
         k1, R = values["k_VI"] * values["K1"], values["radius"] + values["dR"]
         return [
             ExportedOutput(
@@ -113,7 +113,7 @@ class Contents:
         texts |= {n: (unit, "of the disc") for n, unit in DISC_UNITS.items()}
         for e in self.model.effects:
             texts |= {q.symbol: (known.base_unit(q.unit), f"{e.id}: {q.meaning}") for q in e.parameters}
-        values = named(self.model.chain, self.p)
+        values = name_values(self.model.chain, self.p)
         return [
             {"name": n, "unit": texts[n][0], "meaning": texts[n][1], "values": x.tolist()}
             for n, x in values.items()
@@ -154,7 +154,7 @@ class Contents:
         return [
             f"{q.symbol} delays the motion: a series of second order in it, accurate while it is far below the time scale of the "
             "motion (ragg itself interpolates the motion at the delayed instants)"
-            for k, q in late(self.model)
+            for k, q in list_late(self.model)
             if self.p[k]
         ]
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
 from ragg_runtime.compensation.export.contents import DISC, Contents, ExportedOutput, unit_of
-from ragg_runtime.estimation.least_squares import of_some
+from ragg_runtime.estimation.least_squares import marginalise
 from ragg_runtime.estimation.regressors import list_base_columns, own_columns
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT
 from ragg_runtime.model.evaluate import vector
@@ -313,7 +313,7 @@ def _start(c: Contents, place: int, size: int) -> list[str]:
     own = own_columns([q for q, _ in list_base_columns(c.model, c.instrument)], c.instrument, place)
     whole = np.eye(size)
     if c.saved is not None:
-        whole[: len(own), : len(own)] = of_some(c.saved.information, own)
+        whole[: len(own), : len(own)] = marginalise(c.saved.information, own)
     return [f"{x:.17g}," for x in whole[np.triu_indices(size)]]
 
 
