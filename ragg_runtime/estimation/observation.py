@@ -114,14 +114,7 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
         inside = np.zeros(len(r.time), dtype=bool)  # elsewhere the demodulator has not seen enough
         inside[r.low_pass.before : len(r.time) - r.low_pass.ahead] = True
         r = replace(r, valid=r.valid & inside)
-    valid = np.array(r.valid)
-    for x in series:
-        valid &= np.isfinite(x)
-    if o.name in flight.outputs and _at_top(flight.outputs[o.name], valid):
-        valid &= ~saturation.clipped(flight.outputs[o.name], valid)
-    for name in imu_saturation.CHANNELS:
-        if name in flight.channels and _at_top(flight.channels[name], valid):
-            valid &= ~imu_saturation.clipped(flight.channels[name], valid)
+    valid = _find_usable(flight, o, r.valid, series)
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
         r = replace(r, wide={n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()})
         r = replace(r, reading=None if r.reading is None else np.nan_to_num(r.reading))
@@ -136,6 +129,21 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
         place=place,
         gains=slopes / np.mean(slopes) if form.separate else np.ones(len(series)),
     )
+
+
+def _find_usable(
+    flight: Flight, o: Output, valid: NDArray[np.bool_], series: Sequence[Array]
+) -> NDArray[np.bool_]:
+    """Which samples hold a number in every series, and neither output nor motion at the end of its range."""
+    usable = np.array(valid)
+    for x in series:
+        usable &= np.isfinite(x)
+    if o.name in flight.outputs and _at_top(flight.outputs[o.name], usable):
+        usable &= ~saturation.clipped(flight.outputs[o.name], usable)
+    for name in imu_saturation.CHANNELS:
+        if name in flight.channels and _at_top(flight.channels[name], usable):
+            usable &= ~imu_saturation.clipped(flight.channels[name], usable)
+    return usable
 
 
 @dataclass(frozen=True)

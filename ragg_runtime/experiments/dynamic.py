@@ -5,13 +5,14 @@ Left open by the paper: sampling (here 16 Hz, 64 turns), vartheta_x (here 0), an
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.paper import Experiment, judge
+from ragg_runtime.experiments.paper import Experiment, PrintedEntry, judge
 from ragg_runtime.experiments.runs import (
     DERIVED,
     LARGEST,
@@ -66,22 +67,7 @@ def repeat_dynamic() -> Experiment:
             unexplained="no gradient is stated for this experiment",
         ),
     ]
-    for name, e in errors.items():
-        for k, ours in enumerate(average_turns(e, run)):
-            channel = ("inline", "cross")[k]
-            rows.append(
-                judge(
-                    f"{name} model error, {channel}",
-                    paper.DYNAMIC[name, channel],
-                    ours,
-                    reach=bounds(reached[:, k]) if name == "analytical" else None,
-                    open_input="the analytical model's error is the product of second-order coefficients and "
-                    "angles (misalignments and mounting errors) alone, vartheta_x among them, which Table V does not give; four "
-                    f"vartheta_x within {LARGEST:g} arcsec, the largest misalignment of Table V, reach it",
-                    unexplained="analytical minus simplified follows from Eq. 17-19 and 42-47 with Tables V "
-                    "and VI alone, whatever the numerical model",
-                )
-            )
+    rows += _judge_channels(run, errors, reached)
     settings = {
         "instrument": "Table V, R = 0.1 m, 0.25 Hz; vartheta_x = 0 (not stated), g = 9.8 m/s^2",
         "motion": "Table VI; angular acceleration is the derivative of the angular rate",
@@ -90,6 +76,29 @@ def repeat_dynamic() -> Experiment:
     }
     title = "Dynamic experiment (Section III.B, Tables V and VI)"
     return Experiment(title, settings, tuple(rows))
+
+
+def _judge_channels(run: Simulation, errors: Mapping[str, Array], reached: Array) -> list[PrintedEntry]:
+    """The models' errors in the two channels; ``reached`` (draws, 2): those of the analytical model within what is open."""
+    rows = []
+    for name, e in errors.items():
+        for channel, ours, by_draws in zip(
+            ("inline", "cross"), average_turns(e, run), reached.T, strict=True
+        ):
+            rows.append(
+                judge(
+                    f"{name} model error, {channel}",
+                    paper.DYNAMIC[name, channel],
+                    ours,
+                    reach=bounds(by_draws) if name == "analytical" else None,
+                    open_input="the analytical model's error is the product of second-order coefficients and "
+                    "angles (misalignments and mounting errors) alone, vartheta_x among them, which Table V does not give; four "
+                    f"vartheta_x within {LARGEST:g} arcsec, the largest misalignment of Table V, reach it",
+                    unexplained="analytical minus simplified follows from Eq. 17-19 and 42-47 with Tables V "
+                    "and VI alone, whatever the numerical model",
+                )
+            )
+    return rows
 
 
 def measure_analytical(instrument: Instrument) -> Array:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,47 +20,55 @@ Array = NDArray[np.float64]
 def record_motion(
     motion: MotionSignals, time: Array, effects: Injected, temperature: Array | float = REFERENCE_TEMPERATURE
 ) -> MotionState:
-    """What the motion sensor, at a temperature in K, reports at (N,) s: lever arm, misalignment, scale, lean, stray and delay, in
-    that order.
+    """What the motion sensor, at a temperature in K, reports at (N,) s: where it sits and when, how it is turned, and how its
+    accelerometers are off, in that order.
     """
     delay = float(effects["time-offset"]["delta_t"]) if "time-offset" in effects else 0.0
     if drift := effects.get("clock-drift"):
         time = time - drift["epsilon"] * time
+    there = _carry_to_sensor(motion, time, delay, effects)
+    turned = _sense_rotation(motion, time, delay, there, effects)
+    return _clip(replace(turned, a=_sense_force(turned.a, effects, temperature)), effects)
+
+
+def _carry_to_sensor(motion: MotionSignals, time: Array, delay: float, effects: Injected) -> MotionState:
+    """The motion where the sensor sits, as late as its filters and its mount make it."""
     true = motion.at(time, delay)
     a, omega, omegadot = true.a, true.omega, true.omegadot
     if skewed := effects.get("imu-skew"):
-        a = np.stack(
-            [
-                motion.a[0].value(time, delay + float(skewed["delta_x"])),
-                motion.a[1].value(time, delay + float(skewed["delta_y"])),
-                a[2],
-            ]
-        )
+        late = [motion.a[n].value(time, delay + float(skewed[f"delta_{k}"])) for n, k in enumerate("xy")]
+        a = np.stack([*late, a[2]])
     if lever := effects.get("imu-lever-arm"):
         arm = np.array([lever["l_x"], lever["l_y"], lever["l_z"]])[:, None]
         a = a + np.cross(omegadot, arm, axis=0) + np.cross(omega, np.cross(omega, arm, axis=0), axis=0)
-    if late := effects.get("gyro-delay"):
-        omega = motion.at(time, delay + float(late["delta_w"])).omega
-        omegadot = motion.at(time, delay + float(late["delta_d"])).omegadot
+    if slow := effects.get("gyro-delay"):
+        omega = motion.at(time, delay + float(slow["delta_w"])).omega
+        omegadot = motion.at(time, delay + float(slow["delta_d"])).omegadot
     if filtered := effects.get("imu-filter"):
         a = a + sum(w * (motion.at(time, delay + d).a - true.a) for d, w in averaging(float(filtered["b_a"])))
         for d, w in averaging(float(filtered["b_w"])):
             past = motion.at(time, delay + d)
-            omega, omegadot = (
-                omega + w * (past.omega - true.omega),
-                omegadot + w * (past.omegadot - true.omegadot),
-            )
+            omega = omega + w * (past.omega - true.omega)
+            omegadot = omegadot + w * (past.omegadot - true.omegadot)
     if mount := effects.get("mount-resonance"):
         a = a + np.stack([recoil(mount, x, time, delay)[0] for x in motion.a])
         turning = [recoil(mount, x, time, delay) for x in motion.omega]
         omega = omega + np.stack([swing for swing, _ in turning])
         omegadot = omegadot + np.stack([rate for _, rate in turning])
+    return MotionState(a, omega, omegadot)
+
+
+def _sense_rotation(
+    motion: MotionSignals, time: Array, delay: float, there: MotionState, effects: Injected
+) -> MotionState:
+    """The same by a sensor that is turned, and by its gyroscopes."""
+    a, omega, omegadot = there.a, there.omega, there.omegadot
     if turned := effects.get("imu-misalignment"):
         # Components along axes turned by e: the inverse rotation of the vector.
         to_sensor = by_vector([turned["e_x"], turned["e_y"], turned["e_z"]]).T
         a, omega, omegadot = to_sensor @ a, to_sensor @ omega, to_sensor @ omegadot
     if scale := effects.get("gyro-scale"):
-        factor = 1 + np.array([scale["s_x"], scale["s_y"], scale["s_z"]])[:, None]
+        factor = 1 + _vector(scale, "s")
         omega, omegadot = factor * omega, factor * omegadot
     if leaning := effects.get("gyro-misalignment"):
         axes = _leaning(leaning)
@@ -69,13 +79,16 @@ def record_motion(
         omega, omegadot = omega + D @ a, omegadot + D @ jerk
     if rates := effects.get("gyro-bias"):
         omega = omega + _vector(rates, "b")
+    return MotionState(a, omega, omegadot)
+
+
+def _sense_force(a: Array, effects: Injected, temperature: Array | float) -> Array:
+    """(3, N): the specific force (3, N) by its accelerometers."""
     if skew := effects.get("imu-acceleration-misalignment"):
         a = _leaning(skew) @ a
     if curved := effects.get("imu-acceleration-quadratic"):
-        a = np.stack(
-            [2 * x / (1 + np.sqrt(1 - 4 * curved[f"q_{k}"] * x)) for k, x in zip("xy", a, strict=False)]
-            + [a[2]]
-        )
+        bent = [2 * x / (1 + np.sqrt(1 - 4 * curved[f"q_{k}"] * x)) for k, x in zip("xy", a, strict=False)]
+        a = np.stack([*bent, a[2]])
     if scale := effects.get("imu-acceleration-scale"):
         a = (1 + _vector(scale, "s")) * a
     if offset := effects.get("imu-acceleration-bias"):
@@ -86,17 +99,22 @@ def record_motion(
             (1 + warm[f"ds_{k}_dT"] * warmer) * a[n] + warm[f"db_{k}_dT"] * warmer for n, k in enumerate("xy")
         ]
         a = np.stack([*level, a[2]])
-    if ends := effects.get("imu-saturation"):
-        a_max, omega_max = float(ends["a_max"]), float(ends["omega_max"])
-        if min(a_max, omega_max) <= 0:
-            raise UserError(
-                "the range of imu-saturation must be positive", found=f"{a_max:g} m/s^2, {omega_max:g} rad/s"
-            )
-        omegadot = np.where(
-            np.abs(omega) > omega_max, 0.0, omegadot
-        )  # a gyroscope at the end of its range is constant
-        a, omega = np.clip(a, -a_max, a_max), np.clip(omega, -omega_max, omega_max)
-    return MotionState(a, omega, omegadot)
+    return a
+
+
+def _clip(sensed: MotionState, effects: Injected) -> MotionState:
+    """The same within the sensor's range."""
+    ends = effects.get("imu-saturation")
+    if not ends:
+        return sensed
+    a_max, omega_max = float(ends["a_max"]), float(ends["omega_max"])
+    if min(a_max, omega_max) <= 0:
+        raise UserError(
+            "the range of imu-saturation must be positive", found=f"{a_max:g} m/s^2, {omega_max:g} rad/s"
+        )
+    a, omega = np.clip(sensed.a, -a_max, a_max), np.clip(sensed.omega, -omega_max, omega_max)
+    # a gyroscope at the end of its range is constant
+    return MotionState(a, omega, np.where(np.abs(sensed.omega) > omega_max, 0.0, sensed.omegadot))
 
 
 def _leaning(skew: Values) -> Array:
