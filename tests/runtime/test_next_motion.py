@@ -128,7 +128,7 @@ def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None
     limits = api.parse_limits(m, ["a=30mg", "jerk=1m/s^3", "alpha=1deg/s^2"])
     n = next_flight(m, [x], limits, duration=60.0, band=(0.1, 2.0))
     assert n.design.separations == ()
-    assert {axis for axis, *_ in n.sinusoids} == set(next_motion.AXES)
+    assert {axis for axis, *_ in n.design.sinusoids} == set(next_motion.AXES)
     write_motion(n, tmp_path / "motion.csv")
     motion = simulate_flight(m.instrument, [], motion=tmp_path / "motion.csv")
     assert len(motion) == 60 * 16
