@@ -176,11 +176,11 @@ def _scipy(linearise: Callable[[Array], Any], start: Array, most: int = 150, cei
 
     x = np.array(start, dtype=np.float64)
     if not np.isfinite(at(x).cost):
-        return Minimum(x=x, at=at(x), converged=False, reason="no finite output", trials=1)
+        return Minimum(x=x, at=at(x), converged=False, reason="no finite output")
     got = optimize.least_squares(residual, x, jac=jacobian, ftol=1e-7, xtol=1e-10, gtol=1e-10, max_nfev=most)
     end = at(got.x)
     arrived = bool(got.status > 0 or is_settled(end))
-    return Minimum(x=got.x, at=end, converged=arrived, reason=got.message, trials=got.nfev, faithful=True)
+    return Minimum(x=got.x, at=end, converged=arrived, reason=got.message, faithful=True)
 
 
 # fmt: off
