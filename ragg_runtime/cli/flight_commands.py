@@ -200,7 +200,7 @@ def next_motion(
             write_text(Path(run_sheet), next_flight.write_run_sheet(planned))
     next_flight.write_motion(found, Path(output))
     said = describe_other.describe_next_motion(found.as_json(), output)
-    page = lambda origin: pages.write_info(said, [found.motion()], origin)  # noqa: E731
+    page = lambda origin: pages.write_info(said, [found.motion()], origin, "The next motion")  # noqa: E731
     conclude(found.as_json(), said, Source(m, records), page)
 
 
@@ -370,5 +370,5 @@ def survey(
     origin, about = api.of_survey(m, s, command_line())
     if table_file is not None:
         write_bytes(Path(table_file), make_parquet(s.records))
-    page = lambda _: pages.write_survey(s, Origin(**about))  # noqa: E731
+    page = lambda _: pages.write_survey(s, Origin(**about), model_dir)  # noqa: E731
     conclude(s.as_json() | origin, s.sections(model_dir), page=page)

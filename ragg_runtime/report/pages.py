@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -174,15 +175,17 @@ def write_compensation(said: Sequence[Section], made: Sequence[Mapping[str, Arra
     return render_page("Compensation", [*said, *_figure("Channels", plot)], origin)
 
 
-def write_info(said: Sequence[Section], flights: Sequence[Flight], origin: Origin) -> str:
-    """The report of ``info``: ``said``, and every column of the flights over time."""
+def write_info(
+    said: Sequence[Section], flights: Sequence[Flight], origin: Origin, kind: str = "A flight"
+) -> str:
+    """The report of ``info``, or of another ``kind``: ``said``, and every column of the flights over time."""
     sections = list(said)
     for n, x in enumerate(flights[: panels.FLIGHTS]):
         axes = tuple(_draw_columns(x, max(1, len(x.time) // panels.MOST_POINTS)))
         caption = "Every column over time, in SI."
         plot = Curves(f"columns{n}", caption, axes, "time, s", height=1.6)
         sections += _figure(f"Columns of {x.name}", plot)
-    return render_page("A flight", sections, origin)
+    return render_page(kind, sections, origin)
 
 
 def _draw_columns(x: Flight, step: int) -> Iterator[Axes]:
@@ -194,9 +197,9 @@ def _draw_columns(x: Flight, step: int) -> Iterator[Axes]:
 # --- many flights --------------------------------------------------------------------------------------
 
 
-def write_survey(s: Survey, origin: Origin) -> str:
-    """The report of ``survey``."""
-    said = s.sections("MODEL_DIR")
+def write_survey(s: Survey, origin: Origin, model_dir: Path | str = "MODEL_DIR") -> str:
+    """The report of ``survey``; ``model_dir`` is named in the commands that come next."""
+    said = s.sections(model_dir)
     trends = [_plot_trend(t, n) for n, t in enumerate(find_trends(s.done)[:6])]
     first = _with_plots(said[0], _plot_errors(s) if s.done else None)
     return render_page(
@@ -219,7 +222,7 @@ def _plot_errors(s: Survey) -> Plot:
 
 def _plot_trend(t: Json, n: int) -> Plot:
     """A calibrated parameter over the flights, less its mean, with one standard deviation."""
-    at = np.array([k for k, v in enumerate(t["values"]) if v is not None], dtype=np.float64)
+    at = np.array([k for k, v in enumerate(t["values"], 1) if v is not None], dtype=np.float64)
     v, std = (np.array([x for x in t[k] if x is not None]) for k in ("values", "stds"))
     middle = numbers.with_unit(numbers.rounded(t["mean"], float(np.min(std))), t["unit"])
     name = t["name"] if t["accelerometer"] is None else f"{t['name']}[{t['accelerometer']}]"
@@ -227,4 +230,4 @@ def _plot_trend(t: Json, n: int) -> Plot:
     band = Curve("± 1 sigma", at, away - std, "envelope", "band", away + std)
     axes = Axes((band, Curve("value", at, away)), numbers.unit(t["unit"]), f"{label} − {middle}")
     caption = f"{label} over the flights."
-    return Curves(f"trend{n}", caption, (axes,), "flight, by number in the table", 1.5)
+    return Curves(f"trend{n}", caption, (axes,), "number of the flight in the table", 1.5)
