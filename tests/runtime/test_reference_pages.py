@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import click
+import pyarrow.parquet as pq
 import pytest
+from commands import ragg
 
 from docs import made
 from ragg_runtime.base.errors import UserError
@@ -58,3 +61,24 @@ def test_the_page_of_json_has_every_command_that_writes_any() -> None:
 def test_a_key_without_a_meaning_is_an_error() -> None:
     with pytest.raises(KeyError, match="odd of compare"):
         made.meaning("compare", "error.odd", made.read_meanings())
+
+
+def test_the_json_of_commands_that_fit_nothing_has_meanings(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of the others the tests of these commands: ``commands.ragg`` looks up every key."""
+    monkeypatch.chdir(tmp_path)
+    pq.write_table(pq.read_table(made.FLIGHT).slice(0, 960), "flight.parquet")
+    for line in (
+        "new model",
+        "effects",
+        "effects lag",
+        "info flight.parquet",
+        "convert flight.parquet flight.csv",
+        "simulate model -o simulated.parquet --duration 60",
+        "add model bias-drift",
+        "history model",
+        "remove model bias-drift",
+    ):
+        done = ragg(*line.split(), "--json", "written.json")
+        assert done.returncode == 0, line + done.stderr
