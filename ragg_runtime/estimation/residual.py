@@ -26,7 +26,7 @@ WINDOW = 10.0
 
 
 MOST_DISTURBANCES = 8
-"""Most lines, and most jumps, of a stretch."""
+"""Most lines, and most jumps, of a segment."""
 
 
 @dataclass(frozen=True)

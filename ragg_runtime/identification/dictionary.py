@@ -279,7 +279,7 @@ MEMORY = 16384
 """Most taps of the filter that terms are whitened with: a direction need not be the best one for its
 score to be a standard normal deviate, and slower memory than this buys little."""
 
-STRETCH = 2048
+SEGMENT = 2048
 """Samples that are summed in single precision."""
 
 
@@ -287,16 +287,16 @@ def multiply(X: Singles, right: Array | Singles) -> Array:
     """X (terms, N) times right (N, k): single precision within a segment, double between segments."""
     singles = right.astype(np.float32, copy=False)
     total = np.zeros((len(X), right.shape[1]))
-    for start in range(0, X.shape[1], STRETCH):
-        total += X[:, start : start + STRETCH] @ singles[start : start + STRETCH]
+    for start in range(0, X.shape[1], SEGMENT):
+        total += X[:, start : start + SEGMENT] @ singles[start : start + SEGMENT]
     return total
 
 
 def sum_squares(X: Singles) -> Array:
     """(terms,): sums of squares of X (terms, N), as :func:`multiply` sums."""
     total = np.zeros(len(X))
-    for start in range(0, X.shape[1], STRETCH):
-        part = X[:, start : start + STRETCH]
+    for start in range(0, X.shape[1], SEGMENT):
+        part = X[:, start : start + SEGMENT]
         total += np.matmul(part[:, None, :], part[:, :, None])[:, 0, 0]
     return total
 

@@ -1,4 +1,4 @@
-"""What an effect would do before it is derived: the error left, and its signature, from R factors of the unwhitened columns."""
+"""What an effect would do before it is derived, and a generic term by itself: the error left, signatures, significances."""
 
 from __future__ import annotations
 
@@ -7,14 +7,18 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import special
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.estimation import unknown_gradient
+from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import HELD_OUT_BLOCKS, Fitted
 from ragg_runtime.estimation.least_squares import join, r_factor
 from ragg_runtime.estimation.observation import BLOCKS, ROWS, combine_output
-from ragg_runtime.estimation.whitening import Piece, flight_segments
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight, flight_segments
+from ragg_runtime.identification import omnibus
+from ragg_runtime.identification.dictionary import Dictionary, Term, harmonics
+from ragg_runtime.identification.omnibus import Scores
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import Field, make_field
 
@@ -145,3 +149,56 @@ def compute_signature(f: Fitted, flight: int, v: Array, rows: slice | None = Non
 
     parts = [*x.each(taken, chosen=chosen, whitened=False)]
     return slice(chosen[0].rows.start, chosen[-1].rows.stop), np.concatenate(parts)
+
+
+# --- harmonic x motion term: the significance of every generic term in the residual of a flight
+
+
+@dataclass(frozen=True)
+class Heat:
+    """Significance ``z`` (harmonics, products of channels) of generic terms, each alone, in standard deviations (NaN: not
+    asked); ``coefficient`` in V per SI unit of the product; from ``level`` on one of all the terms is significant.
+    """
+
+    harmonics: tuple[str, ...]
+    products: tuple[str, ...]
+    z: Array
+    coefficient: Array
+    level: float
+
+
+@one_thread
+def score_terms(
+    prepared: PreparedFlight, r_factors: Sequence[Array], n_base: int, given: Sequence[int] = ()
+) -> Heat:
+    """The scores of all terms once base and ``given`` candidate columns are projected out, in one pass."""
+    prepared, projector, _ = whitening.projector(r_factors, n_base, given).lean(prepared)
+    scores = Scores(prepared, projector)
+    scores.collect(lambda piece, y: None)
+    return _tabulate_scores(scores)
+
+
+def _tabulate_scores(s: Scores) -> Heat:
+    norm = np.where(np.isfinite(s.norms), s.norms, np.nan)
+    terms = s.dictionary.terms
+    rows = harmonics()
+    columns = tuple(dict.fromkeys(t.product for t in terms if t.harmonic in rows))
+    z, coefficient = (np.full((len(rows), len(columns)), np.nan) for _ in range(2))
+    row, column = ({name: k for k, name in enumerate(names)} for names in (rows, columns))
+    for k, t in enumerate(terms):
+        if t.harmonic in row:
+            at = row[t.harmonic], column[t.product]
+            z[at] = s.sums.dot[k] / norm[k]
+            coefficient[at] = z[at] / (norm[k] * s.dictionary.size(t))
+    share = omnibus.FAMILY * omnibus.SHARES[0] / (2 * max(int(np.sum(np.isfinite(norm))), 1))
+    return Heat(
+        harmonics=rows, products=columns, z=z, coefficient=coefficient, level=-float(special.ndtri(share))
+    )
+
+
+def compute_term(prepared: PreparedFlight, harmonic: str, product: str, coefficient: float) -> Array:
+    """(N,) V: a generic term over a whole flight, with this coefficient."""
+    r = prepared.observation.record
+    channels = () if product == "1" else tuple(product.split("*"))
+    x = coefficient * Dictionary(r).series(Term(harmonic, channels), r)
+    return np.asarray(np.where(r.valid, x, 0.0))

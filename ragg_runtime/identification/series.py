@@ -200,7 +200,7 @@ def break_at_gaps(time: Array, x: Array) -> tuple[Array, Array]:
 
 
 def runs(x: Array) -> list[slice]:
-    """Stretches of a series between its NaNs."""
+    """Segments of a series between its NaNs."""
     return derivative.runs(np.isfinite(x))
 
 

@@ -69,7 +69,7 @@ def find_best_steps(
 
 
 FINE = 192
-"""Stretches into which the neighbourhood of a step is divided in each round that looks for its instant."""
+"""Segments into which the neighbourhood of a step is divided in each round that looks for its instant."""
 
 
 def refine_step(

@@ -23,7 +23,7 @@ from ragg_runtime.identification.dictionary import multiply, sum_squares
 Array = NDArray[np.float64]
 
 PARTS = 4
-"""Stretches in a block of time."""
+"""Intervals in a block of time."""
 
 WINDOWS = (1, 2, 4, 8, 16)
 """Lengths of windows, in intervals; each is moved by half of it."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.calibrate import information, invert_root
-from ragg_runtime.identification import comparison, heat, predict
+from ragg_runtime.identification import comparison, predict
 from ragg_runtime.identification import series as reported
 from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.report import panels, parameters, whiteness
@@ -246,15 +246,15 @@ class View:
             raise UserError("there is no step before this one")
         return other.residual[self.n]
 
-    def terms(self, effects: tuple[str, ...]) -> heat.Heat:
+    def terms(self, effects: tuple[str, ...]) -> predict.Heat:
         """Harmonic x motion term of the residual once these effects are in."""
         d = self.s.diagnosed
         if self.kept:
             d, effects = None, ()
         f = self.f if d is None else d.fitted
         given = [] if d is None else predict.list_columns(predict.make_field_of(d), effects)
-        make = lambda: heat.heat(f.prepared[self.n], f.r_factors[self.n], f.n_base, given)  # noqa: E731
-        found: heat.Heat = self.remember(("heat", effects, d is None), make)
+        make = lambda: predict.score_terms(f.prepared[self.n], f.r_factors[self.n], f.n_base, given)  # noqa: E731
+        found: predict.Heat = self.remember(("heat", effects, d is None), make)
         return found
 
     def _fit_term(self, name: str) -> Array:
@@ -265,7 +265,7 @@ class View:
         c = float(h.coefficient[h.harmonics.index(harmonic), h.products.index(product)])
         if not np.isfinite(c):
             raise UserError("the model already has this term", found=f"{harmonic} x {product}")
-        return heat.series(self.prepared, harmonic, product, c)
+        return predict.compute_term(self.prepared, harmonic, product, c)
 
     def _pass_band(self, name: str) -> Array:
         try:

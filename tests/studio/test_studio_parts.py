@@ -19,7 +19,7 @@ from serving import brief, foreign, new
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.observation import observe_flights
-from ragg_runtime.identification import heat, next_motion, predict
+from ragg_runtime.identification import next_motion, predict
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import make_field
 from ragg_runtime.instrument.read_toml import parse_instrument
@@ -75,13 +75,13 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
     from ragg_runtime.identification import omnibus
 
     f = diagnosis.fitted
-    h = heat.heat(f.prepared[0], f.r_factors[0], f.n_base)
+    h = predict.score_terms(f.prepared[0], f.r_factors[0], f.n_base)
     best = omnibus.remainder(f).searches[0].terms[0]
     at = h.harmonics.index(best.term.harmonic), h.products.index(best.term.product)
     assert h.z[at] == pytest.approx(best.z, rel=1e-6)
     assert abs(best.z) > h.level
     found = list(diagnosis.found)
-    given = heat.heat(
+    given = predict.score_terms(
         f.prepared[0], f.r_factors[0], f.n_base, predict.list_columns(make_field(f, found), found)
     )
     assert np.nanmax(np.abs(given.z)) < h.level
