@@ -205,7 +205,7 @@ RULES: tuple[Rule, ...] = (
     Rule("uneven", "where the level changes, tests are tempered by the spread of scores in blocks of time",
          (*quiet("ramp", "along-axes", "with-ax", "with-size"), ("ten", "along-axes"), ("five", "with-size")),
          ("identification/uneven.py", "identification/omnibus.py:inflation"),
-         (Patch("identification.selection:uneven.nonempty_blocks", lambda blocks: (), acts=lambda r: bool(r)),
+         (Patch("identification.selection:uneven.list_nonempty_blocks", lambda blocks: (), acts=lambda r: bool(r)),
           Patch("identification.omnibus:Scores.inflation", lambda self, places: np.ones(len(places))),)),
     Rule("off-sheet", "priors are widened where the record requires it",
          (*OFF, ("ten", "elsewhere")), ("estimation/calibration.py:widen_priors", "estimation/calibration.py:_widths"),
