@@ -8,6 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import linalg
 
 from ragg_runtime.base import progress
 from ragg_runtime.estimation import regressors as design
@@ -325,12 +326,14 @@ class Projector:
     """Projects base and given columns out of whitened rows.
 
     Whitened columns (rows, len(taken)) times ``to_basis`` (len(taken), k) are orthonormal over all rows, without the directions
-    that the data see worse than the prior; ``along`` (k,) are the residual's components.
+    that the data see worse than the prior; ``along`` (k,) are the residual's components. ``centre`` (len(taken),): of the priors of unit
+    width that hold the columns' coefficients (NaN: none does).
     """
 
     taken: NDArray[np.intp]
     to_basis: Array
     along: Array
+    centre: Array
 
     def basis(self, piece: Piece) -> Array:
         """(rows, k): the piece's rows of the orthonormal basis."""
@@ -339,6 +342,26 @@ class Projector:
     def left(self, piece: Piece, Q: Array) -> Array:
         """(rows,): the whitened residual less its components along the basis."""
         return np.asarray(piece.white[-1] - Q @ self.along)
+
+    def explained(self, along: Array, gram: Array, scores: Array) -> Array:
+        """(m,): chi-square that the first 1, 2, ... m of further columns explain if the priors hold the coefficients of the taken ones.
+
+        ``along`` (m, k): their components along the basis; ``gram`` (m, m), ``scores`` (m,): their inner products beside it, with one
+        another and with the residual.
+        """
+        m, held = len(scores), np.flatnonzero(np.isfinite(self.centre))
+        C = np.linalg.cholesky(gram)
+        basis, prior = np.linalg.pinv(self.to_basis), np.eye(len(self.taken))[held]
+        X = np.vstack(
+            [
+                np.hstack([basis, along.T]),
+                np.hstack([np.zeros((m, len(self.taken))), C.T]),
+                np.hstack([prior, np.zeros((len(held), m))]),
+            ]
+        )
+        y = np.concatenate([self.along, linalg.solve_triangular(C, scores, lower=True), self.centre[held]])
+        R = np.asarray(np.linalg.qr(np.column_stack([X, y]), mode="r"))
+        return np.asarray(np.cumsum(R[-m - 1 : -1, -1] ** 2))
 
     def lean(
         self, x: PreparedFlight, further: Sequence[int] = ()
@@ -349,10 +372,17 @@ class Projector:
         return x, replace(self, taken=np.array(places[:k], dtype=np.intp)), places[k:]
 
 
-def projector(r_factors: Sequence[Array], n_base: int, given: Sequence[int]) -> Projector:
-    """The projector onto base and ``given`` candidate columns, from the block R factors of a flight."""
+def projector(
+    r_factors: Sequence[Array], n_base: int, given: Sequence[int], to_nominal: Array | None = None
+) -> Projector:
+    """The projector onto base and ``given`` candidate columns, from the block R factors of a flight; ``to_nominal`` (n_base,): where the
+    priors of the base are centred.
+    """
     taken = np.array([*range(n_base), *(n_base + n for n in given)], dtype=np.intp)
     T = join([t[:, [*taken, t.shape[1] - 1]] for t in r_factors])
     U, s, Vt = np.linalg.svd(T[:, :-1], full_matrices=False)
     seen = s > 1.0
-    return Projector(taken, np.asarray(Vt[seen].T / s[seen]), np.asarray(U[:, seen].T @ T[:, -1]))
+    centre = np.full(len(taken), np.nan)
+    if to_nominal is not None:
+        centre[:n_base] = to_nominal
+    return Projector(taken, np.asarray(Vt[seen].T / s[seen]), np.asarray(U[:, seen].T @ T[:, -1]), centre)

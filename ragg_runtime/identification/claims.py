@@ -233,10 +233,8 @@ def _of_terms(s: Omnibus, claimed: float, most: int, spread: float) -> list[floa
     def explained(chi2: float, rank: int) -> float:
         return min(chi2, claimed + rank) if chi2 < (1.0 + SECOND_ORDER) * claimed + rank else chi2
 
-    sets = [
-        (float(np.sum([t.chi2 for t in s.steady[:n]])), n) for n in range(1, min(most, len(s.steady)) + 1)
-    ]
-    found = [float(log_bayes(explained(x, n) / spread, n)) - n * charge for x, n in sets]
+    sets = enumerate(s.explained[:most], start=1)
+    found = [float(log_bayes(explained(x, n) / spread, n)) - n * charge for n, x in sets]
     return found + [float(log_bayes(explained(t.chi2, t.rank) / spread, t.rank)) - charge for t in s.varying]
 
 

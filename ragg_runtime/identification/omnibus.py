@@ -103,6 +103,8 @@ class Omnibus:
         What is left, in terms, and what these explain of the whitened residual's sum of squares.
     steady, varying
         The significant terms, fitted jointly, and those that come and go, each alone.
+    explained
+        Chi-square of the first 1, 2, ... of the steady terms, with the priors of the base.
     spread
         Mean square of all terms' scores.
     shift
@@ -115,6 +117,7 @@ class Omnibus:
     chi2: float
     square: float
     steady: tuple[ResidualTerm, ...] = ()
+    explained: tuple[float, ...] = ()
     varying: tuple[ResidualTerm, ...] = ()
     spread: float = 1.0
     shift: Array | None = None
@@ -338,10 +341,18 @@ def _steady(s: Scores) -> Omnibus:
         return replace(nothing, log_p=first)
     # together the terms take so much of each, in whitened units, and with it what of each the columns explain
     own = [t.k for t in taken]
-    each = np.linalg.lstsq(G[np.ix_(own, own)], z[places[own]], rcond=None)[0] / norm[places[own]]
+    gram, scores = G[np.ix_(own, own)], z[places[own]]
+    each = np.linalg.lstsq(gram, scores, rcond=None)[0] / norm[places[own]]
     shift = -s.projector.to_basis @ (s.sums.along[places[own]].T @ each)
-    terms = tuple(_as_term(s, int(places[t.k]), float(norm[places[t.k]]), t) for t in taken)
-    return replace(nothing, log_p=first, terms=terms, chi2=sum(t.amount**2 for t in taken), shift=shift)
+    along = s.sums.along[places[own]] / norm[places[own], None]
+    return replace(
+        nothing,
+        log_p=first,
+        terms=tuple(_as_term(s, int(places[t.k]), float(norm[places[t.k]]), t) for t in taken),
+        chi2=sum(t.amount**2 for t in taken),
+        explained=tuple(float(x) for x in s.projector.explained(along, gram, scores)),
+        shift=shift,
+    )
 
 
 class _Taken(NamedTuple):
@@ -433,7 +444,9 @@ def search(
     """The same, and the sums of ``random`` effects, of which it has the places of their columns, in one pass."""
     searches, counted = [], []
     for x, r_factors in zip(f.prepared, f.r_factors, strict=True):
-        lean, projector, places = whitening.projector(r_factors, f.n_base, given).lean(x, [*random.values()])
+        lean, projector, places = whitening.projector(r_factors, f.n_base, given, f.to_nominal).lean(
+            x, [*random.values()]
+        )
 
         def sum_variances(piece: Piece, y: Array, places: Sequence[int] = places) -> list[Variance]:
             return [Variance.of(piece, k, y) for k in places]
