@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation import calibration
+from ragg_runtime.estimation import calibration, whitening
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS
 from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.regressors import list_base_columns
@@ -61,3 +61,22 @@ def test_coefficients_that_are_held_are_not_fitted_and_large_ones_widen_their_pr
         p, columns, np.array(index), np.diag(known), (), 100, 100.0, 1.0, 1.0, converged=True, reason=""
     )
     assert calibration._widths(extended, s.sheet, c) == {"cubic-input.K_iii": pytest.approx(20.0, rel=0.02)}
+
+
+def test_terms_explain_what_a_joint_fit_with_the_priors_of_the_base_does() -> None:
+    rng = np.random.default_rng(3)
+    base = np.concatenate([rng.normal(size=(ROWS, 3)), np.eye(3)])  # a prior's rows last
+    terms = rng.normal(size=(ROWS, 2)) + base[:ROWS, :2]
+    data = base[:ROWS] @ [5.0, -3.0, 0.0] + terms @ [2.0, 0.3] + rng.normal(size=ROWS)
+    y = np.concatenate([data, [0.5, -0.5, 0.1]])
+
+    def left(columns: int) -> float:
+        X = np.hstack([base, np.concatenate([terms[:, :columns], np.zeros((3, columns))])])
+        return float(np.sum((y - X @ np.linalg.lstsq(X, y, rcond=None)[0]) ** 2))
+
+    T = np.linalg.qr(np.column_stack([base[:ROWS], data]), mode="r")
+    p = whitening.projector([T], 3, (), y[ROWS:])
+    Q = base[:ROWS] @ p.to_basis
+    along, beside = terms.T @ Q, terms - Q @ (Q.T @ terms)
+    found = p.explained(along, beside.T @ beside, beside.T @ data)
+    assert found == pytest.approx([left(0) - left(1), left(0) - left(2)], rel=1e-9)
