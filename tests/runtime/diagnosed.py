@@ -17,5 +17,5 @@ from ragg_runtime.reference.scenario import Scenario
 def diagnosed(known: Scenario | Instrument, *flights: Flight) -> Diagnosis:
     """``known``: the sheet, or a scenario that has one."""
     sheet = known.sheet if isinstance(known, Scenario) else known
-    with mock.patch.object(next_motion, "proposals", lambda *_: ()):
+    with mock.patch.object(next_motion, "propose_motions", lambda *_: ()):
         return diagnose(derive.model_of(sheet), sheet, flights, partial(derive.with_effects, sheet))
