@@ -33,3 +33,15 @@ def test_lines_tell_share_and_time_left(
     assert ["", *capsys.readouterr().err.splitlines()][-1] == last
     progress.step(1.0)  # nobody listens any more
     assert capsys.readouterr().err == ""
+
+
+def test_lines_beyond_the_estimate_become_rare(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    now = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    with progress.shown("diagnose", 1000):
+        for _ in range(120):
+            now[0] += 5.0
+            progress.step(progress.PASSES["diagnose"] * 1000)
+    assert len(capsys.readouterr().err.splitlines()) < 12  # in ten minutes
