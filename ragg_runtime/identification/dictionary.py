@@ -29,6 +29,7 @@ from ragg_runtime.identification.features import OUTPUT, Relaxations
 from ragg_runtime.io.record import GRADIENT, RATES, is_disc_angle
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.fir import filter_columns
+from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -90,7 +91,7 @@ class Term:
         if not self.channels:
             return f"a constant term at {name_multiple(int(turns))}" if turns else "a constant offset"
         where = "" if kind == "const" else f" at {name_multiple(int(turns))}"
-        return f"a term proportional to {self.product}{where}"
+        return f"a term proportional to {numbers.product(self.product)}{where}"
 
 
 def name_multiple(turns: int) -> str:
