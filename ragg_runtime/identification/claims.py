@@ -14,14 +14,18 @@ A model is never complete: y = h(theta) + d + n, with d what no effect explains.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtri
 
+from ragg_runtime.estimation import calibration
+from ragg_runtime.estimation.calibration import restore_priors
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, Fitted
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf, log_sf_f
+from ragg_runtime.identification.dictionary import Dictionary
+from ragg_runtime.identification.features import OUTPUT
 from ragg_runtime.identification.likelihood_ratio import TESTABLE, log_bayes
 from ragg_runtime.identification.omnibus import Omnibus, Remainder, ResidualTerm
 from ragg_runtime.identification.parameters import physical_columns
@@ -236,6 +240,32 @@ def _of_terms(s: Omnibus, claimed: float, most: int, spread: float) -> list[floa
     sets = enumerate(s.explained[:most], start=1)
     found = [float(log_bayes(explained(x, n) / spread, n)) - n * charge for n, x in sets]
     return found + [float(log_bayes(explained(t.chi2, t.rank) / spread, t.rank)) - charge for t in s.varying]
+
+
+STEP = 0.01
+"""Relative step of a strong term's coefficient: what its chi-square is of is a parabola over a few per cent."""
+
+
+def refit_beside(f: Fitted, t: ResidualTerm) -> float | None:
+    """Chi-square that the model leaves of a flight beside a steady term, all its parameters fitted again, by the noise of ``f``.
+
+    Without the term they were moved so far that a linear fit about them is wrong by more than noise. ``None`` where the term cannot be
+    taken off the record: of several or of thinned ones, of channels, of what the model predicts.
+    """
+    o = f.observations[0]
+    known = all(OUTPUT not in name for name in t.term.channels)
+    if len(f.observations) > 1 or o.thin is not None or o.recorded.demodulated or not known:
+        return None
+    x = np.outer(o.weights, Dictionary(o.record).series(t.term, o.record))
+    sheet = restore_priors(f.instrument)
+
+    def left(coefficient: float) -> float:
+        without = replace(o, series=tuple(np.stack(o.series) - coefficient * x))
+        return calibration.fit(f.model, sheet, [without], noise=f.calibration.noise).chi2
+
+    at = t.coefficient * np.array([1.0 - STEP, 1.0, 1.0 + STEP])
+    parabola = np.polynomial.Polynomial.fit(at, [left(c) for c in at], 2)
+    return left(float(parabola.deriv().roots()[0].real))
 
 
 def best_single(bases: Sequence[Remainder]) -> float:

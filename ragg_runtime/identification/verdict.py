@@ -261,5 +261,19 @@ def _ahead(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -
     spread = max(claims.measure_spread(o.remainder), o.target.calibration.excess) if o.remains else 1.0
     # with a cap, if nothing remains: no terms explain more than all
     terms, _ = claims.generic_evidence(base, np.inf if o.remains else chi2, rank, spread)
+    if not o.remains and len(o.effects) > 1:
+        terms = max(terms, _of_strong_term(found, chi2, base))
     charge = len(o.effects) * float(np.log(count)) + found.charge(o)
     return claims.evidence(chi2, rank, charge, spread) - terms
+
+
+def _of_strong_term(found: Evidence, chi2: float, base: Sequence[Remainder]) -> float:
+    """Log evidence of the strongest generic term, if a linear fit is too rough for it, with the model fitted again beside it."""
+    (s, *more) = base[0].searches
+    if more or not s.steady or s.steady[0].chi2 < strong.STRONG:
+        return -np.inf
+    left = claims.refit_beside(found.first.fitted, s.steady[0])
+    if left is None:
+        return -np.inf
+    explained = float(np.sum(found.first.field.P[:, -1] ** 2)) - left
+    return claims.evidence(min(explained, chi2 + 1.0), 1, float(np.log(s.tried)))

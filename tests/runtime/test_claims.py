@@ -9,10 +9,10 @@ import pytest
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation import calibration, whitening
-from ragg_runtime.estimation.fitted import FITTED_BLOCKS
-from ragg_runtime.estimation.observation import BLOCKS
+from ragg_runtime.estimation.fitted import FITTED_BLOCKS, fit
+from ragg_runtime.estimation.observation import BLOCKS, observe_flights
 from ragg_runtime.estimation.regressors import list_base_columns
-from ragg_runtime.identification import claims
+from ragg_runtime.identification import claims, omnibus
 from ragg_runtime.identification.claims import Regression
 from ragg_runtime.model import model
 from ragg_runtime.model.derive import with_effects
@@ -80,3 +80,17 @@ def test_terms_explain_what_a_joint_fit_with_the_priors_of_the_base_does() -> No
     along, beside = terms.T @ Q, terms - Q @ (Q.T @ terms)
     found = p.explained(along, beside.T @ beside, beside.T @ data)
     assert found == pytest.approx([left(0) - left(1), left(0) - left(2)], rel=1e-9)
+
+
+def test_a_strong_term_leaves_but_noise_once_the_model_is_fitted_again_beside_it() -> None:
+    s, derived = scenario(3, duration=120.0, rate=8.0, trim="table-v"), model.packaged()
+    sim = s.simulate()
+    flight, rate = sim.flight(), sim.channels["omega_z"]
+    size = 100.0 * np.std(sim.G_out - sim.G_out_noise_free) / np.std(rate)
+    changed = flight.outputs["G_out"] + size * rate
+    f = fit(derived, s.sheet, observe_flights([replace(flight, outputs={"G_out": changed})], s.sheet))
+    (searched,) = omnibus.remainder(f).searches
+    term = searched.steady[0]
+    assert (term.term.harmonic, term.term.product) == ("const", "omega_z") and term.chi2 > 1e5
+    left = claims.refit_beside(f, term)
+    assert left is not None and left < 1.15 * len(flight)
