@@ -38,6 +38,9 @@ two sigma."""
 NOTICED = float(np.sqrt(1.0 - FALLS**2))
 """Share of the residual that noise must make for that."""
 
+TOLD = 0.01
+"""Per cent by which coefficients would be too small from which that is told."""
+
 MOSTLY = 0.5
 """Factor by which the residual falls from which noise of a recorded gradient is most of it: what smoothing leaves of that is seen."""
 
@@ -70,10 +73,13 @@ frequencies have a correlation of 0.44 (P. Welch, IEEE Trans. AU 15, 1967, 70)."
 
 @dataclass(frozen=True)
 class MotionNoise:
-    """White noise of a column: its standard deviation, SI, and the ``step`` in which it is recorded (0: none)."""
+    """White noise of a column: its standard deviation, SI, the ``step`` in which it is recorded (0: none), and the share ``weaker`` by
+    which coefficients of it come out too small.
+    """
 
     std: float
     step: float
+    weaker: float
 
 
 def measure_noise(x: Array) -> MotionNoise:
@@ -86,7 +92,8 @@ def measure_noise(x: Array) -> MotionNoise:
         float(np.mean(b)) for b in np.array_split(_measure_spectrum(x).density[2:-1], BANDS) if len(b)
     )[:2]
     floor = float(np.sqrt(0.5 * lowest)) if next_one < FLAT * lowest else 0.0
-    return MotionNoise(max(step / float(np.sqrt(12.0)), floor), step)
+    std = max(step / float(np.sqrt(12.0)), floor)
+    return MotionNoise(std, step, min(1.0, std**2 / max(float(np.var(x)), 1e-300)))
 
 
 @dataclass(frozen=True)
@@ -234,5 +241,8 @@ def _describe(x: Flight, known: Units, noise: Mapping[str, MotionNoise], before:
         if stepped
         else f"{have} a noise floor of {size:.2g} {unit} rms"
     )
+    weaker = 100.0 * max(q.weaker for q in noise.values())
     text = f"{', '.join(noise)} {what}: the noise is smoothed, and the model leaves {after:.3g} instead of {before:.3g} Eo"
+    if weaker > TOLD:
+        text += f" (with it coefficients would be up to {weaker:.2g} % too small)"
     return Flag(tuple(noise), text, kind="motion-noise")
