@@ -243,6 +243,6 @@ def _describe(x: Flight, known: Units, noise: Mapping[str, MotionNoise], before:
     )
     weaker = 100.0 * max(q.weaker for q in noise.values())
     text = f"{', '.join(noise)} {what}: the noise is smoothed, and the model leaves {after:.3g} instead of {before:.3g} Eo"
-    if weaker > TOLD:
+    if weaker > TOLD and loudest not in GRADIENT:  # which hardly varies
         text += f" (with it coefficients would be up to {weaker:.2g} % too small)"
     return Flag(tuple(noise), text, kind="motion-noise")
