@@ -86,6 +86,7 @@ export function filesView(main) {
 
 // What the columns of a foreign file are: only what the file leaves open is asked; the rest can be looked over.
 
+const TWO = ["date clock", "gps"], DATES = ["d/m/y", "m/d/y"]; // ways of writing time in two columns, and in one or two
 const FORMATS = [["seconds", "seconds"], ["iso", "date and time"], ["d/m/y", "day/month/year"], ["m/d/y", "month/day/year"], ["clock", "time of the day"], ["date clock", "date, time of the day"], ["gps", "GPS week, second"]];
 const AXES = ["x", "y", "z", "-x", "-y", "-z"];
 const OPEN = "?";
@@ -130,14 +131,14 @@ export async function mappingPane(box, path, trouble) {
   const table = (found) => h("div.wide", {}, h("table.numbers.mapping", {}, h("thead", {}, h("tr", {}, ["channel", "column of the file", "unit there", "sign", "factor", "preview"].map((t) => h("th", { scope: "col" }, t)))), h("tbody", {}, found.map(row))));
 
   const clock = () => {
-    const two = ["date clock", "gps"].includes(time.format), given = [time.column].flat();
+    const two = TWO.includes(time.format), perhaps = DATES.includes(time.format), given = [time.column].flat();
     const pick = (k) => h("select", { "aria-label": k ? "second column of time" : "column of time", onchange: (e) => {
       given[k] = e.target.value || OPEN;
-      time.column = two ? [given[0] || OPEN, given[1] || OPEN] : given[0];
+      time.column = two || (perhaps && given[1] && given[1] !== OPEN) ? [given[0] || OPEN, given[1] || OPEN] : given[0];
       again();
     } }, names(known.columns, given[k]));
-    return [h("label", {}, "time ", pick(0)), two ? pick(1) : null,
-      h("label", {}, "written as ", h("select", { "aria-label": "how time is written", onchange: (e) => ((time.format = e.target.value), (time.column = two ? given[0] : given[0]), fill(clocks, clock()), again()) }, FORMATS.map(([v, name]) => h("option", { value: v, selected: v === time.format }, name)))),
+    return [h("label", {}, "time ", pick(0)), two || perhaps ? pick(1) : null,
+      h("label", {}, "written as ", h("select", { "aria-label": "how time is written", onchange: (e) => ((time.format = e.target.value), (time.column = given[1] && [...TWO, ...DATES].includes(time.format) ? given : given[0]), fill(clocks, clock()), again()) }, FORMATS.map(([v, name]) => h("option", { value: v, selected: v === time.format }, name)))),
       time.format === "seconds" ? h("label", {}, "unit ", h("input", { type: "text", value: time.unit === OPEN ? "" : time.unit, "aria-label": "unit of time", oninput: (e) => ((time.unit = e.target.value.trim() || OPEN), again()) })) : null];
   };
   const clocks = h("div.row.choices");
