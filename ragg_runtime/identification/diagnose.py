@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.calibration import QUIET, list_off_sheet
-from ragg_runtime.estimation.fitted import Fitted, calibrate, fit, release_held
+from ragg_runtime.estimation.fitted import Fitted, calibrate, fit, noise_floor, release_held
 from ragg_runtime.estimation.observation import Observation, observe_flights
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.estimation.thinning import thin_observations
@@ -84,7 +84,18 @@ def diagnose_fitted(
         apart = find_disagreement(f, flights, extend)
         found = replace(found, verdict="unexplained", claims=()) if apart else found
     ranking = complete_ranking(*ranked, evidence, found)
-    return _make_diagnosis(evidence, found, ranking, ranked[1], apart, limits)
+    noise = _choose_noise(f, found.outcome.target)
+    return _make_diagnosis(evidence, found, ranking, ranked[1], noise, apart, limits)
+
+
+SAME = 1.1
+"""Factor up to which two estimates of a noise floor are one number: of slow noise it is hardly known better."""
+
+
+def _choose_noise(f: Fitted, target: Fitted) -> Fitted:
+    """The fit whose noise floor is stated: without effects, as `compare` has it, unless that took what effects explain for noise."""
+    ratio = noise_floor(f) / noise_floor(target)
+    return f if 1.0 / SAME < ratio < SAME else target
 
 
 def _make_diagnosis(
@@ -92,10 +103,13 @@ def _make_diagnosis(
     found: Conclusion,
     ranking: Sequence[Ranked],
     before: Error,
+    noise: Fitted,
     apart: tuple[Disagreement, ...],
     limits: Mapping[str, float],
 ) -> Diagnosis:
-    """What is reported; ``before``: the error without any effect, ``apart``: how flights disagree."""
+    """What is reported; ``before``: the error without any effect, ``noise``: the fit of the noise floor, ``apart``: how flights
+    disagree.
+    """
     first, outcome, left, target = evidence.first, found.outcome, found.left, found.outcome.target
     credence = weigh_effects(evidence.last.field, evidence.steps).within(found.share)
     rows = (add_probability(r, credence, first.field.candidates) for r in ranking)
@@ -110,7 +124,7 @@ def _make_diagnosis(
         remainder_share=_share(outcome, left) if found.remains else 0.0,
         before=before,
         scored=outcome.scored,
-        noise_floor=outcome.noise_floor,
+        noise=noise,
         sizes=tuple(list_detectable(first.fitted, first.field)),
         target=target,
         coefficients=outcome.coefficients,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.calibration import OffSheet
-from ragg_runtime.estimation.fitted import Fitted, Scored
+from ragg_runtime.estimation.fitted import Fitted, Scored, noise_floor
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.identification import dictionary, series
 from ragg_runtime.identification.comparison import Explained
@@ -46,7 +46,8 @@ class Diagnosis:
     remainder_share: float
     before: Error
     scored: Scored
-    noise_floor: float
+    noise: Fitted
+    """The fit of the noise floor."""
     sizes: tuple[Detectable, ...]
     target: Fitted
     coefficients: Array
@@ -89,6 +90,11 @@ class Diagnosis:
     def change(self) -> ChangePoint | None:
         """Where the model ceased to hold, if it held in the beginning."""
         return None if self.holds is None else self.holds.change
+
+    @cached_property
+    def noise_floor(self) -> float:
+        """rms of the noise before demodulation, Eo."""
+        return noise_floor(self.noise)
 
     @property
     def after(self) -> Error:
@@ -168,7 +174,7 @@ class Diagnosis:
                 "needs": self.needs(),
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
-            "noise_floor": series.list_noise_floor(self.target, self.noise_floor),
+            "noise_floor": series.list_noise_floor(self.noise, self.noise_floor),
             "explained": None if self.explained is None else {"share": self.explained.share},
             "credible_set": [list(s) for s in self.credible_set],
             "holds_until_s": None if self.change is None else self.change.until,

@@ -109,7 +109,7 @@ def test_the_terminal_says_what_a_physicist_would(result: Result) -> None:
     assert "1e-2" not in brief and "< 1e-16" in brief
     a = result.step.as_json()
     floors = [result.before.as_json()["noise_floor"], a["before"]["noise_floor"]]  # type: ignore[index]
-    assert floors[0] == floors[1]
+    assert floors[0] == floors[1] == d["noise_floor"]
     assert (a["before"]["adequate"], a["after"]["adequate"]) == (False, True)  # type: ignore[index]
     assert set(a["after"]["noise_floor"]) == {"rms_Eo", "inline_Eo", "cross_Eo"}  # type: ignore[index]
 
