@@ -167,6 +167,33 @@ BAD = {
 }
 
 
+def test_the_functions_are_called_from_cpp(base: tuple[Path, Path, Path], tmp_path: Path) -> None:
+    _, folder, _ = base
+    headers = sorted(x.name for x in folder.glob("*.h"))
+    calls = (
+        "static const double t = 0.0, p[RAGG_FOLDED_PARAMETERS] = {}; double G = 1.0; const double *in[RAGG_FOLDED_INPUTS];"
+        " for (const double *&x : in) x = &t; ragg_folded_output(1, &t, in, p, nullptr, &G);"
+    )
+    text = "".join(f'#include "{h}"\n' for h in headers) + f"int main() {{ {calls} return 0; }}\n"
+    (tmp_path / "use.cpp").write_text(text, "utf-8")
+    compiled = ["gcc", "-std=c17", "-O0", "-c", str(folder / "folded.c"), "-o", str(tmp_path / "folded.o")]
+    linked = [
+        "g++",
+        "-std=c++17",
+        "-O0",
+        "-Wall",
+        "-Wextra",
+        "-pedantic",
+        "-Werror",
+        "-Wno-unused-function",
+        f"-I{folder}",
+    ]
+    linked += [str(tmp_path / "use.cpp"), str(tmp_path / "folded.o"), "-lm", "-o", str(tmp_path / "use")]
+    for command in (compiled, linked, [str(tmp_path / "use")]):
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+
+
 def test_a_wrong_header_or_row_is_one_message(base: tuple[Path, Path, Path]) -> None:
     _, folder, flight = base
     lines = flight.read_text().splitlines()[:40]

@@ -2,6 +2,11 @@
 #ifndef RAGG_DERIVATIVE_H
 #define RAGG_DERIVATIVE_H
 
+#include <math.h>
+#include <stddef.h>
+
+#include "values.h"
+
 /* By least squares over WINDOW samples; towards the end of the run the window is that at its beginning, turned round. */
 static void short_slope(size_t n, double rate, const double *x, double *slope) {
     const size_t half = WINDOW / 2;
@@ -113,7 +118,7 @@ static int best_degree(size_t n, const double *x, int half) {
  * samples around each. x holds n numbers: what the angle has beyond its mean step. */
 static void smooth_slope(size_t n, double rate, const double *angle, int order, double *slope, double *x) {
     const double turn = 2.0 * 3.141592653589793, wanted = nearbyint(SPIN_WINDOW * rate);
-    const size_t most = wanted < LEAST_DEGREE ? LEAST_DEGREE : wanted < SPIN_MOST ? (size_t)wanted : SPIN_MOST;
+    const size_t most = (size_t)fmax(LEAST_DEGREE, fmin(wanted, SPIN_MOST));
     const size_t half = (n - 1) / 2 < most ? (n - 1) / 2 : most;
     double weights[2 * SPIN_MOST + 1], steady = 0.0;
     for (size_t i = 1; i < n; ++i) {
