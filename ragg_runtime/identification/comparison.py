@@ -207,7 +207,10 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
         noise = f.calibration.noise
         f = fit(model, instrument, observations, noise, unweighted=True)
         calibrated, half, nominal = _three_scores(f)
-    return conclude(f, nominal.whole, calibrated, half.held_out)
+    made = conclude(f, nominal.whole, calibrated, half.held_out)
+    still = tuple(q.reason for x in flights for q in x.flags if q.kind == "still")
+    # an output that exceeds stationary noise, where motion was not recorded, is not explained
+    return replace(made, adequate=False, grounds=still) if made.adequate and made.remark and still else made
 
 
 def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:

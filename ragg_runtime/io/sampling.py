@@ -24,6 +24,9 @@ JITTER_TRACKED = 0.48
 
 _MOST_MISSING = 0.9  # of all samples; beyond it the gaps are not gaps but the file is a collection of pieces
 
+FEW_LEAPS = 3
+"""Leaps of the stamps in a record that are named one by one, where they last longer than the record."""
+
 NO_GAPS = 0.05
 """Relative difference of the mean from the median step below which a record may have no gaps: its mean step is then exact."""
 
@@ -106,6 +109,15 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
     index = np.concatenate([[0], np.cumsum(jumps)])
     count = int(index[-1]) + 1
     if count > len(time) / (1 - _MOST_MISSING) or not span / step < 2.0**53:
+        leaps = np.flatnonzero(jumps > 1)
+        if len(leaps) <= FEW_LEAPS:  # a clock that was set, to summer time or to another day
+            by = ", ".join(f"by {steps[k]:.6g} s at t = {time[k]:.10g} s" for k in leaps)
+            raise UserError(
+                f"the time stamps jump {by}: was the clock adjusted?",
+                where=where,
+                found=f"{len(time)} samples in {span:.6g} s, with steps of {step:.6g} s",
+                remedy=_BY_COUNT.format(rate=1 / step),
+            )
         raise UserError(
             "more than nine samples in ten are missing",
             where=where,

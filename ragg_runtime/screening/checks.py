@@ -134,9 +134,12 @@ def _overflown(flight: Flight) -> list[Flag]:
     """Motion columns that leap from one end of their range to the other and move on there, as whole numbers do that overflow."""
     found = []
     for name in (n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE) if n in flight.channels):
-        x, time = flight.channels[name][flight.valid], flight.time[flight.valid]
-        steps = np.diff(x)
-        usual, span = (float(np.median(np.abs(steps))), float(np.ptp(x))) if len(steps) else (0.0, 0.0)
+        x, valid = flight.channels[name], flight.valid
+        pairs = valid[1:] & valid[:-1]  # over a gap it moves on unseen
+        steps = np.where(pairs, np.diff(x), 0.0)
+        usual, span = (
+            (float(np.median(np.abs(steps[pairs]))), float(np.ptp(x[valid]))) if pairs.any() else (0.0, 0.0)
+        )
         leaps = np.flatnonzero(np.abs(steps) > LEAP * span)
         leaps = leaps[(leaps >= SIDE) & (leaps < len(steps) - SIDE)]
         if not len(leaps) or usual > SMOOTH * span:
@@ -147,7 +150,7 @@ def _overflown(flight: Flight) -> list[Flag]:
         if len(moves) and np.median(moves) > 2 * usual and np.min(moves) > -2 * usual:
             text = (
                 f"{name} leaps from one end of its range to the other and moves on there, {len(leaps)} time{'s' * (len(leaps) > 1)}, first"
-                f" at t = {time[leaps[0] + 1]:.6g} s: did the numbers of a converter overflow?"
+                f" at t = {flight.time[leaps[0] + 1]:.6g} s: did the numbers of a converter overflow?"
             )
             found.append(Flag((name,), text, open=True))
     return found

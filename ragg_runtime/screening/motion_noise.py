@@ -179,44 +179,44 @@ def smooth(flight: Flight, noise: Mapping[str, float]) -> Flight:
 
 
 def predict_true(x: Array, there: Mask, std: float) -> Array:
-    """The best linear prediction of a column (N,) without its white noise, from its samples that are ``there`` (N,).
+    """The best linear prediction of a column (N,) without its white noise, everywhere, from its samples that are ``there`` (N,).
 
-    It is x - std^2 C^-1 x, C the covariance of the measured column: with the ends and gaps that the record has.
+    It is B C^-1 x, C the covariance of the measured column, B that of the true one with it: with the ends and gaps that the record has.
     """
     found = np.array(x)
     spectrum = _measure_spectrum(x[_longest(there)])
     for block in np.array_split(np.arange(len(x)), -(-len(x) // BLOCK)):
         rows = block[there[block]]
         if len(rows) > 2:
-            found[rows] -= std * _noise_of(x[rows], rows - block[0], std, spectrum)
+            found[block] = _predict_block(x[rows], rows - block[0], len(block), std, spectrum)
     return found
 
 
-def _noise_of(x: Array, at: NDArray[np.intp], std: float, q: _Spectrum) -> Array:
-    """(n,): the noise that samples x (n,) at some rows of a block have, in standard deviations."""
+def _predict_block(x: Array, at: NDArray[np.intp], count: int, std: float, q: _Spectrum) -> Array:
+    """(count,): the prediction for a block of which samples x (n,) at some rows are there."""
     white = 2.0 * std**2  # one-sided, per cycle per sample
     surely = q.density > white * (1.0 + SURE * q.scatter)
-    size = fft.next_fast_len(2 * int(at[-1] + 1), real=True)
+    size = fft.next_fast_len(2 * count, real=True)
     S = np.interp(fft.rfftfreq(size), q.f, np.where(surely, q.density / white, 1.0))
 
-    def filtered(gain: Array) -> LinearOperator:
-        def apply(v: Array) -> Array:
-            whole = np.zeros(size)
-            whole[at] = v
-            return np.asarray(fft.irfft(fft.rfft(whole) * gain, size)[at])
+    def filtered(gain: Array, v: Array) -> Array:
+        whole = np.zeros(size)
+        whole[at] = v
+        return np.asarray(fft.irfft(fft.rfft(whole) * gain, size))
 
-        return LinearOperator((len(at), len(at)), apply, dtype=np.float64)
+    def operator(gain: Array) -> LinearOperator:
+        return LinearOperator((len(at), len(at)), lambda v: filtered(gain, v)[at], dtype=np.float64)
 
-    trend = np.polynomial.Polynomial.fit(at, x, 1)(at)
+    trend = np.polynomial.Polynomial.fit(at, x, 1)
     whitened, _ = cg(
-        filtered(S),
-        (x - trend) / std,
+        operator(S),
+        (x - trend(at)) / std,
         rtol=0.0,
         atol=CLOSE * np.sqrt(len(at)),
-        M=filtered(1.0 / S),
+        M=operator(1.0 / S),
         maxiter=MOST,
     )
-    return np.asarray(whitened)
+    return np.asarray(trend(np.arange(count)) + std * filtered(S - 1.0, whitened)[:count])
 
 
 def _longest(there: Mask) -> slice:

@@ -220,6 +220,9 @@ def test_numbers_that_overflow_are_said() -> None:
     spiked = np.where(np.arange(N) % 1000 == 7, -9.0, SMOOTH)
     for x in (SMOOTH, spiked, NOISE, np.sign(np.sin(TIME / 7)) + 0.01 * NOISE):
         assert _overflown(Flight(TIME, {"a_x": x}, {})) == []
+    fast, valid = np.sin(2 * np.pi * TIME / 5.0), np.ones(N, dtype=bool)
+    valid[20:60] = False  # from one end of the range to the other, unseen
+    assert _overflown(Flight(TIME, {"a_x": fast}, {}, valid=valid)) == []
 
 
 # --- the clock -----------------------------------------------------------------------------------------
@@ -277,6 +280,8 @@ def test_steps_that_cannot_be_followed_are_named_with_the_rate_between_them() ->
     ) as caught:
         make_grid(stamps, None)
     assert "row / 16 Hz" in str(caught.value)
+    with pytest.raises(UserError, match=r"jump by 36000[.\d]* s at t = 99[.\d]* s: was the clock adjusted"):
+        make_grid(TIME + 36000.0 * (TIME >= 100), None)
 
 
 def test_jitter_and_pauses_are_no_steps() -> None:
