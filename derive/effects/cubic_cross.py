@@ -27,7 +27,11 @@ EFFECT = Effect(
         r" + K_{iop} f_i f_o f_p + K_{ipp} f_i f_p^2 + K_{ooo} f_o^3"
         r" + K_{oop} f_o^2 f_p + K_{opp} f_o f_p^2 + K_{ppp} f_p^3"
     ),
-    limits="Orders above the third are neglected.",
+    limits=(
+        "Orders above the third are neglected. f_i of an accelerometer is f_o of its neighbours on the disc: K_ooo acts like their K_iii "
+        "(cubic-input), K_iio like their K_ioo. Under a steady weight K_iip, K_iop and K_oop are K2, K6 and K5; K_ipp and K_opp are K1 "
+        "and vartheta_z, K_ppp is K0."
+    ),
     parameters=tuple(
         EffectParameter(
             f"K_{m}",

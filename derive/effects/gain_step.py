@@ -9,7 +9,10 @@ EFFECT = Effect(
     physics="A shock, a relay or a range switch changes the gain of an accelerometer's circuit at once.",
     source="common fault of analogue front ends",
     equation=r"K_1 \leftarrow K_1 (1 + \Delta K_1 [t \ge t_s])",
-    limits="One step a record; its instant is scanned, not fitted.",
+    limits=(
+        "One step a record; its instant is scanned, not fitted. In G_out it is also a step of the neighbours' vartheta_z; of all four "
+        "accelerometers at once output-gain-step."
+    ),
     kind="step",
     parameters=(
         EffectParameter("dK1", r"\Delta K_1", "1", "relative step of the scale factor", 1e-6),

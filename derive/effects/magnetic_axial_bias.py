@@ -21,9 +21,10 @@ EFFECT = Effect(
     source="IEEE Std 1293, magnetic sensitivity of the bias, along the pendulous axis",
     equation=r"I_j/K_{j1} \mathrel{+}= \partial_{B_z} K_0\, \bm B \cdot \bm\tau_{jz}",
     limits=(
-        "Linear, in the recorded field; a bias that follows the slow changes of B_z as others do temperature or pressure. "
-        "The field along the input axis is magnetic-bias, which eddy currents of a steady field in the turning disc, Omega B "
-        "a quarter of a turn ahead, are too, in the neighbours' coefficients."
+        "Linear, in the recorded field; a bias that follows the slow changes of B_z as others do temperature or pressure. The field along "
+        "the input axis is magnetic-bias, which eddy currents of a steady field in the turning disc, Omega B a quarter of a turn ahead, "
+        "are too, in the neighbours' coefficients. What follows dB_z/dt is neglected: eddy currents of a shield last 1 ms to 0.1 s, so "
+        "that 0.1 uT/s is below 1e-4 ug."
     ),
     channels=FIELD,
     either=True,

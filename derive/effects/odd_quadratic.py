@@ -20,7 +20,10 @@ EFFECT = Effect(
     ),
     source="IEEE Std 1293, odd quadratic coefficient of the model equation",
     equation=r"I_j/K_{j1} \mathrel{+}= K_{oq} f_i |f_i|",
-    limits="f_i is the recorded force: unrecorded vibration is not rectified here.",
+    limits=(
+        "f_i is the recorded force: unrecorded vibration is not rectified here. Where the force hardly changes its size it acts like "
+        "cubic-input."
+    ),
     parameters=(EffectParameter("K_oq", "K_{oq}", "ug/g^2", "coefficient of f_i |f_i|", 5.0, like="K2"),),
     transducer=transducer,
 )

@@ -27,7 +27,7 @@ EFFECT = Effect(
     limits=(
         "Added by name, not searched for: in a record in which the temperature only rises it is a bias that settles, and looks like "
         "inner-temperature, thermal-lag, a drift or a step; it needs turns by more than 2 w. While the temperature changes by less than w "
-        "it is thermal-bias; play besides has a share of that. S begins at 0."
+        "it is thermal-bias; play besides has a share of that. S begins at 0. That of vartheta_y acts alike where a_z hardly changes."
     ),
     channels=("temperature",),
     parameters=(
