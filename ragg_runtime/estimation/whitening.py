@@ -8,7 +8,6 @@ from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import linalg
 
 from ragg_runtime.base import progress
 from ragg_runtime.estimation import regressors as design
@@ -321,6 +320,10 @@ def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
     )
 
 
+DEPENDENT = 1e-6
+"""Ratio of eigenvalues of inner products in single precision below which they are rounding."""
+
+
 @dataclass(frozen=True)
 class Projector:
     """Projects base and given columns out of whitened rows.
@@ -349,19 +352,22 @@ class Projector:
         ``along`` (m, k): their components along the basis; ``gram`` (m, m), ``scores`` (m,): their inner products beside it, with one
         another and with the residual.
         """
-        m, held = len(scores), np.flatnonzero(np.isfinite(self.centre))
-        C = np.linalg.cholesky(gram)
-        basis, prior = np.linalg.pinv(self.to_basis), np.eye(len(self.taken))[held]
+        n, m, held = len(self.taken), len(scores), np.flatnonzero(np.isfinite(self.centre))
+        sizes, U = np.linalg.eigh(gram)
+        known = sizes > DEPENDENT * sizes[-1]  # columns that are nearly the same, in single precision
+        root = np.sqrt(np.where(known, sizes, 0.0))
+        beside = np.where(known, U.T @ scores, 0.0) / np.where(known, root, 1.0)
         X = np.vstack(
             [
-                np.hstack([basis, along.T]),
-                np.hstack([np.zeros((m, len(self.taken))), C.T]),
-                np.hstack([prior, np.zeros((len(held), m))]),
+                np.hstack([np.linalg.pinv(self.to_basis), along.T]),
+                np.hstack([np.zeros((m, n)), root[:, None] * U.T]),
+                np.hstack([np.eye(n)[held], np.zeros((len(held), m))]),
             ]
         )
-        y = np.concatenate([self.along, linalg.solve_triangular(C, scores, lower=True), self.centre[held]])
+        y = np.concatenate([self.along, beside, self.centre[held]])
         R = np.asarray(np.linalg.qr(np.column_stack([X, y]), mode="r"))
-        return np.asarray(np.cumsum(R[-m - 1 : -1, -1] ** 2))
+        new = np.abs(np.diag(R)[n : n + m]) > np.sqrt(DEPENDENT) * np.linalg.norm(X[:, n:], axis=0)
+        return np.asarray(np.cumsum(np.where(new, R[n : n + m, -1], 0.0) ** 2))
 
     def lean(
         self, x: PreparedFlight, further: Sequence[int] = ()

@@ -80,6 +80,9 @@ def test_terms_explain_what_a_joint_fit_with_the_priors_of_the_base_does() -> No
     along, beside = terms.T @ Q, terms - Q @ (Q.T @ terms)
     found = p.explained(along, beside.T @ beside, beside.T @ data)
     assert found == pytest.approx([left(0) - left(1), left(0) - left(2)], rel=1e-9)
+    twice = np.column_stack([beside, beside[:, 1] * (1 + 1e-9)])  # two terms that are nearly the same
+    more = p.explained(np.vstack([along, along[1]]), twice.T @ twice - 1e-9, twice.T @ data)
+    assert more == pytest.approx([*found, found[1]], rel=1e-3, abs=1.0)
 
 
 def test_a_strong_term_leaves_but_noise_once_the_model_is_fitted_again_beside_it() -> None:
