@@ -88,7 +88,7 @@ def diagnose_fitted(
     return _make_diagnosis(evidence, found, ranking, ranked[1], noise, apart, limits)
 
 
-SAME = 1.1
+SAME = 1.05
 """Factor up to which two estimates of a noise floor are one number: of slow noise it is hardly known better."""
 
 

@@ -247,7 +247,7 @@ T = np.arange(N) / RATE
         (edited(time=T[::-1]), ("backwards",)),
         (edited(time=swapped(10, 11)), ("runs back", "row 11", "row 12", "0.6875 s")),
         (edited(time=np.repeat(T[: N // 2], 2)), ("too coarse", "100 different stamps in 200 rows")),
-        (edited(time=np.where(T < 6, T, T + 1e6)), ("nine samples in ten", "split")),
+        (edited(time=np.where(T < 6, T, T + 1e6)), ("jump by 1e+06 s at t = 5.9375 s", "split")),
         (edited(G_out=np.full(N, np.nan), time=T), ("output is missing",)),
     ],
 )
