@@ -141,8 +141,8 @@ def demonstration(reports: Path) -> Demonstration:
     steps = [s.as_json() for s in step.loaded.directory.history]
     (reports / "report.html").write_text(write_addition(steps, c, step.after, origin, d), "utf-8")
     documents = {
-        name: x.as_json() | api.origin(m, flights, f"ragg {name} model")
-        for name, x in {"compare": c, "diagnose": d}.items()
+        name: made | api.origin(m, flights, f"ragg {name} model")
+        for name, made in {"compare": c.as_json(), "diagnose": d.as_json()}.items()
     }
     documents["add"] = step.as_json() | api.origin(step.loaded, flights, "ragg add model", before=m)
     for line in LINES:
