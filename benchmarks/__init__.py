@@ -1,4 +1,6 @@
-"""Measurements of speed. A benchmark is a module of this package with a function ``run() -> list[Row]``; nothing is registered.
+"""Measurements: of speed, of compensation (``compensation``) and of the diagnosis (``diagnosis``).
+
+A benchmark of speed is a module of this package with a function ``run() -> list[Row]``; nothing is registered.
 
 ``python -m benchmarks [NAME ...]`` runs all or those named, each in a process of its own (so import heavy things inside
 ``run``; ``ENVIRONMENT`` adds to the environment of that process), prints tables and keeps ``build/bench.json``; a run of all

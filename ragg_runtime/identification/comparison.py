@@ -129,7 +129,7 @@ class Comparison:
         return measure_harmonics(self.fitted, self.fitted.vector(np.zeros(self.fitted.n_base)))
 
     def terms(self) -> list[dict[str, object]]:
-        """Generic terms in the calibrated residual (see :func:`terms_json`)."""
+        """Generic terms in the calibrated residual (see :func:`list_terms`)."""
         return list_terms(self.remainder, self.scored.mean_square)
 
     def by_time(self) -> list[dict[str, object]]:

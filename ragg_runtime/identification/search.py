@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -101,7 +101,6 @@ class Evidence:
     outcome: Outcome
     extend: Extend | None
     spent: bool
-    _explained: dict[Outcome, tuple[float, int]] = field(init=False, default_factory=dict)
 
     @property
     def instants(self) -> list[tuple[str, float | None]]:
@@ -122,11 +121,6 @@ class Evidence:
 
     def explained(self, o: Outcome) -> tuple[float, int]:
         """Chi-square that an outcome's effects explain of what the model leaves without them, and with how many coefficients."""
-        if o not in self._explained:
-            self._explained[o] = self._explain(o)
-        return self._explained[o]
-
-    def _explain(self, o: Outcome) -> tuple[float, int]:
         first = self.first
         known = [e for e in o.effects if e in first.field.candidates]
         linear, _ = first.field.joint([self._block(e) for e in known]) if known else (0.0, 0)
@@ -138,7 +132,7 @@ class Evidence:
         # second orders of strong effects: what is left once they are derived into the model, by the noise of the model without them
         f, noise = o.target, first.fitted.calibration.noise
         left = calibration.fit(f.model, f.instrument, f.observations, noise=noise, start=f.calibration.p).chi2
-        fitted = float(np.sum(first.field.P[:, -1] ** 2)) - left
+        fitted = first.field.chi2 - left
         return max(linear, min(fitted, (1.0 + SECOND_ORDER) * linear) if o.remains else fitted), rank
 
     def _block(self, effect: str) -> tuple[int, ...]:

@@ -68,6 +68,11 @@ class Field:
         object.__setattr__(self, "P", likelihood_ratio.project(self.T, self.n_base))
 
     @property
+    def chi2(self) -> float:
+        """Of what the base leaves, its priors included."""
+        return float(np.sum(self.P[:, -1] ** 2))
+
+    @property
     def floor(self) -> Array:
         return np.maximum(likelihood_ratio.TESTABLE, likelihood_ratio.COLLINEAR * self.norms)
 

@@ -199,7 +199,7 @@ def _best(
     stage: Stage, tests: Mapping[str, Test], score: Callable[[Sequence[str]], dict[str, float]]
 ) -> tuple[str, tuple[str, ...]]:
     """The effect that leaves least by its ``score``, that of the greatest linear evidence among equals, and those equals."""
-    total = float(np.sum(stage.field.P[:, -1] ** 2))
+    total = stage.field.chi2
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
     near = sorted(near, key=lambda e: (-_evidence(tests[e], len(stage.field.candidates[e])), e))

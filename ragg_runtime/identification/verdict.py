@@ -56,8 +56,12 @@ class Conclusion:
             outcome = found.without(outcome, line.effect)
         count = first.field.count + len(outcome.random)
         base = omnibus.remainders(first.fitted) if outcome.effects else None
-        share = 1.0 if base is None else float(expit(_ahead(found, outcome, count, base)))
+        lead = None if base is None else _Lead.of(found, outcome, count, base)
+        share = 1.0 if lead is None else float(expit(lead.ahead))
+        chosen = outcome
         outcome, weak = (outcome, []) if apart else _drop_unfounded(found, outcome)
+        if base is not None and outcome is not chosen:
+            lead = _Lead.of(found, outcome, count, base) if outcome.effects else None
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         # next to the noise model, whose level has shapes of its own
         tests = outcome.random.items()
@@ -70,11 +74,13 @@ class Conclusion:
         claimed: tuple[str, ...] = ()
         doubted = apart or outcome.explained.complaint is not None
         one = _of_one_kind(found, outcome.effects)
-        if base is not None and not doubted and one is None:
-            claimed = _claims(found, outcome, count, base)
+        if base is not None and lead is not None and not doubted and one is None:
+            claimed = _claims(outcome, lead, base)
         rival = bool(outcome.effects) and not claimed and not remains
-        if rival and base is not None:  # generic terms do as well as what was chosen: they are what is left
-            _, left = claims.generic_evidence(base, np.inf, found.explained(outcome)[1])
+        if (
+            rival and base is not None and lead is not None
+        ):  # generic terms do as well as what was chosen: they are what is left
+            _, left = claims.generic_evidence(base, np.inf, lead.rank)
         remains = remains or rival or doubted
         if not remains:
             claimed = (*claimed, *(e for _, e in random[:1]))
@@ -91,8 +97,8 @@ class Conclusion:
             share=share,
             rival=rival,
             one=None if claimed else one,
-            shared=_shared(found, outcome, base or ())
-            if len(claimed) == 1 and claimed == outcome.effects
+            shared=_shared(lead.chi2, base or ())
+            if lead is not None and len(claimed) == 1 and claimed == outcome.effects
             else None,
         )
 
@@ -221,19 +227,30 @@ def _unfitted(found: Evidence, o: Outcome) -> str | None:
     return max(log_p, key=lambda e: (log_p[e], e), default=None)
 
 
-def _claims(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> tuple[str, ...]:
-    """What of an outcome's effects may be claimed (``claims``)."""
-    if not o.effects:
-        return ()
-    ahead = _ahead(found, o, count, base)
-    if o.remains:
+@dataclass(frozen=True)
+class _Lead:
+    """What an outcome's effects explain, a chi-square with ``rank`` coefficients, and the log evidence by which they are ahead of generic
+    terms.
+    """
+
+    chi2: float
+    rank: int
+    ahead: float
+
+    @staticmethod
+    def of(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> _Lead:
         chi2, rank = found.explained(o)
-        more = chi2 - rank > claims.MORE * claims.best_single(base)
-        return o.effects if more and ahead > claims.PLAINLY else ()
+        return _Lead(chi2, rank, _ahead(found, o, chi2, rank, count, base))
+
+
+def _claims(o: Outcome, lead: _Lead, base: Sequence[Remainder]) -> tuple[str, ...]:
+    """What of an outcome's effects may be claimed (``claims``)."""
+    if o.remains:
+        more = lead.chi2 - lead.rank > claims.MORE * claims.best_single(base)
+        return o.effects if more and lead.ahead > claims.PLAINLY else ()
     # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
-    if len(o.effects) == 1:
-        return o.effects if ahead > -claims.PLAINLY else ()
-    return o.effects if ahead > 0.0 else ()
+    least = -claims.PLAINLY if len(o.effects) == 1 else 0.0
+    return o.effects if lead.ahead > least else ()
 
 
 def _of_one_kind(found: Evidence, effects: Sequence[str]) -> str | None:
@@ -245,9 +262,9 @@ def _of_one_kind(found: Evidence, effects: Sequence[str]) -> str | None:
     return next((k for k, own in kinds.items() if sum(bool(own & g) for g in groups) > 1), None)
 
 
-def _shared(found: Evidence, o: Outcome, base: Sequence[Remainder]) -> ResidualTerm | None:
-    """The generic term, cosine and sine of it, that explains what an outcome's effect does, up to what the filter of such terms changes."""
-    enough = (1.0 - claims.SECOND_ORDER) * found.explained(o)[0]
+def _shared(chi2: float, base: Sequence[Remainder]) -> ResidualTerm | None:
+    """The generic term, cosine and sine of it, that explains what an effect does, up to what the filter of such terms changes."""
+    enough = (1.0 - claims.SECOND_ORDER) * chi2
     for s in (s for b in base for s in b.searches if s.steady):
         both = [t.chi2 for t in s.steady[:2] if t.term.words == s.steady[0].term.words]
         if sum(both) >= enough:
@@ -255,9 +272,10 @@ def _shared(found: Evidence, o: Outcome, base: Sequence[Remainder]) -> ResidualT
     return None
 
 
-def _ahead(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> float:
+def _ahead(
+    found: Evidence, o: Outcome, chi2: float, rank: int, count: int, base: Sequence[Remainder]
+) -> float:
     """Log evidence by which an outcome's effects are ahead of the best generic terms of as many coefficients."""
-    chi2, rank = found.explained(o)
     spread = max(claims.measure_spread(o.remainder), o.target.calibration.excess) if o.remains else 1.0
     # with a cap, if nothing remains: no terms explain more than all
     terms, _ = claims.generic_evidence(base, np.inf if o.remains else chi2, rank, spread)
@@ -275,5 +293,5 @@ def _of_strong_term(found: Evidence, chi2: float, base: Sequence[Remainder]) -> 
     left = claims.refit_beside(found.first.fitted, s.steady[0])
     if left is None:
         return -np.inf
-    explained = float(np.sum(found.first.field.P[:, -1] ** 2)) - left
+    explained = found.first.field.chi2 - left
     return claims.evidence(min(explained, chi2 + 1.0), 1, float(np.log(s.tried)))

@@ -22,9 +22,9 @@ from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT, SPECIFIC_FORCE, Flag
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
-from ragg_runtime.screening.linear_fit import LinearFit, fit_rows
+from ragg_runtime.screening.linear_fit import fit_rows
 from ragg_runtime.screening.repeated import derive_acceleration
-from ragg_runtime.screening.sampler import make_sampler
+from ragg_runtime.screening.sampler import Rows, make_sampler
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.resolution import find_step
 
@@ -120,62 +120,65 @@ def smooth_noisy_motion(model: Model, instrument: Instrument, flight: Flight, pl
     """
     start = flight.part(slice(LONGEST))
     some = _longest(start.valid)
-    left = _fit(model, instrument, start, place)
+
+    def take(x: Flight) -> Rows:
+        s = make_sampler(x, instrument, tuple(model.chain.INPUTS), place)
+        return s.take(s.rows())
+
+    rows = take(start)
+    left = fit_rows(model, instrument, rows)
     for names in (SPECIFIC_FORCE, ANGULAR_RATE, ANGULAR_ACCELERATION, GRADIENT):
         if names is ANGULAR_ACCELERATION and names[0] not in flight.written:
             continue  # derived from the rates
         noise = {n: measure_noise(flight.channels[n][some]) for n in names if n in flight.channels}
-        noise = {n: q for n, q in noise.items() if q.std > 0.0}
-        if not noise:
+        stds = {n: q.std for n, q in noise.items() if q.std > 0.0}
+        if (
+            not stds
+            or _compare(model, left.p, rows, take(_add_noise(start, stds)), place) < NOTICED * left.rms
+        ):
             continue
-        stds = {n: q.std for n, q in noise.items()}
-        if _made_of(model, instrument, start, stds, left, place) < NOTICED * left.rms:
-            continue
-        after = _fit(model, instrument, smoothed := smooth(start, stds), place)
+        smoothed = smooth(start, stds)
+        again = take(smoothed)
+        after = fit_rows(model, instrument, again)
         if after.rms >= FALLS * left.rms:
             continue
-        flag = _describe(flight, instrument.units, noise, left.rms, after.rms)
+        flag = _describe(flight, instrument.units, {n: noise[n] for n in stds}, left.rms, after.rms)
         if names is GRADIENT and after.rms < MOSTLY * left.rms:
             known = {n: x for n, x in flight.channels.items() if n not in GRADIENT}
             text = f"{flag.reason}; it is not used but taken to be unknown and to vary slowly"
             return replace(flight, channels=known).flagged([replace(flag, reason=text)])
-        flight, start, left = smooth(flight, stds).flagged([flag]), smoothed, after
+        start, rows, left = smoothed.flagged([flag]), again, after
+        flight = start if len(start) == len(flight) else smooth(flight, stds).flagged([flag])
     return flight
 
 
-def _fit(model: Model, instrument: Instrument, flight: Flight, place: int) -> LinearFit:
-    s = make_sampler(flight, instrument, tuple(model.chain.INPUTS), place)
-    return fit_rows(model, instrument, s.take(s.rows()))
+def _compare(model: Model, p: Array, one: Rows, other: Rows, place: int) -> float:
+    """Eo rms: how far apart the outputs of a model with parameters ``p`` are at the rows of two flights."""
+    evaluate = model.compiled("numpy").output
+    first, second = (evaluate(r.time, r.inputs(model.chain), p, r.phi, which=place) for r in (one, other))
+    return float(np.std(second - first)) / abs(scale_factor(model, p, place))
 
 
-def _made_of(
-    model: Model,
-    instrument: Instrument,
-    flight: Flight,
-    noise: Mapping[str, float],
-    fitted: LinearFit,
-    place: int,
-) -> float:
-    """Eo rms: what as much noise, SI, makes of the output."""
+def _add_noise(flight: Flight, noise: Mapping[str, float]) -> Flight:
+    """The flight with as much noise, SI, once more."""
     rng = np.random.default_rng(0)
-    noisy = {n: flight.channels[n] + std * rng.standard_normal(len(flight)) for n, std in noise.items()}
-    changed = replace(flight, channels={**flight.channels, **noisy})
-    if any(n in noise for n in ANGULAR_RATE):
-        changed = derive_acceleration(changed)
-    evaluate, inputs = model.compiled("numpy").output, tuple(model.chain.INPUTS)
-    both = []
-    for x in (flight, changed):
-        s = make_sampler(x, instrument, inputs, place)
-        rows = s.take(s.rows())
-        both.append(evaluate(rows.time, rows.inputs(model.chain), fitted.p, rows.phi, which=place))
-    return float(np.std(both[1] - both[0])) / abs(scale_factor(model, fitted.p, place))
+    return _change(
+        flight,
+        {n: flight.channels[n] + std * rng.standard_normal(len(flight)) for n, std in noise.items()},
+    )
 
 
 def smooth(flight: Flight, noise: Mapping[str, float]) -> Flight:
     """The flight with Wiener's prediction of columns that have white noise of these standard deviations, SI."""
-    channels = {n: predict_true(flight.channels[n], flight.valid, std) for n, std in noise.items()}
-    smoothed = replace(flight, channels={**flight.channels, **channels})
-    return derive_acceleration(smoothed) if any(n in channels for n in ANGULAR_RATE) else smoothed
+    return _change(
+        flight, {n: predict_true(flight.channels[n], flight.valid, std) for n, std in noise.items()}
+    )
+
+
+def _change(flight: Flight, columns: Mapping[str, Array]) -> Flight:
+    """The flight with other columns, and the angular acceleration that follows from them."""
+    changed = replace(flight, channels={**flight.channels, **columns})
+    return derive_acceleration(changed) if any(n in columns for n in ANGULAR_RATE) else changed
 
 
 def predict_true(x: Array, there: Mask, std: float) -> Array:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import fft, optimize
 
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io import Flight
 from ragg_runtime.io.sampling import find_clock_steps
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import disc_angle, find_start
@@ -414,17 +415,22 @@ def _propose_slips(t: _Trial) -> list[Hypothesis]:
     if not len(here) or len(here) > MOST_SLIPS:
         return []
 
-    def describe(k: int) -> str:
-        way = "late" if (k > 0) == (name != "the output is") else "early"
-        return (
-            f"{abs(k) / s.flight.rate:.6g} s ({abs(k)} sample{'s' * (abs(k) > 1)}) {way}" if k else "in time"
-        )
-
-    parts = [f"{describe(int(late[k]))} from t = {s.flight.time[rows[k]]:.5g} s on" for k in here]
-    parts = [f"{describe(int(late[0]))} at first", *parts] if late[0] else parts
+    parts = _describe_slips(
+        s.flight, name, [(0, int(late[0])), *((int(rows[k]), int(late[k])) for k in here)]
+    )
     what = f"{name} {', '.join(parts)}, against {against}: did one of two recorders lose samples, or repeat some?"
     remedy = f"shift the {columns} back from there on, or cut the record there and diagnose the parts"
     return [t.propose(what, remedy, COST + 1.0, s.take(rows, **shift(late)), calming=False)]
+
+
+def _describe_slips(x: Flight, name: str, slips: Sequence[tuple[int, int]]) -> list[str]:
+    """By how much what is ``name`` is late from which rows on, in words; the first is that of the beginning."""
+    found = []
+    for n, (row, k) in enumerate(slips):
+        way = "late" if (k > 0) == (name != "the output is") else "early"
+        size = f"{abs(k) / x.rate:.6g} s ({abs(k)} sample{'s' * (abs(k) > 1)}) {way}" if k else "in time"
+        found.append(f"{size} from t = {x.time[row]:.5g} s on" if n else f"{size} at first")
+    return found if slips[0][1] else found[1:]
 
 
 def _find_lag(t: _Trial, rows: Index, lags: Sequence[int], shift: Callable[[Any], dict[str, Any]]) -> int:
