@@ -14,7 +14,7 @@ from sympy.printing.numpy import NumPyPrinter
 from derive.chain import accelerometer
 from derive.effect import Effect
 from derive.stages import Kinematics, Order
-from derive.symbols import ACCELEROMETER, QUARTER_TURNS, symbol
+from derive.symbols import QUARTER_TURNS
 from derive.tape import Program, settled
 from ragg_runtime.instrument.units import units
 
@@ -85,16 +85,6 @@ def signatures(effects: tuple[Effect, ...], order: Order) -> Evaluated:
     at, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, neutral_values(effects)))
     rows = [(e.symbol(q).name, by(e.symbol(q))) for e in effects for q in e.parameters if q.fitted]
     return Evaluated(at.program([("V", a.voltage), *rows]))
-
-
-@cache
-def base_derivatives(order: Order) -> Evaluated:
-    """dV/d(parameter) of the paper's instrument, by parameter name."""
-    a = accelerometer((), order)
-    at, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, {}))
-    gamma = [f"Gamma_{k}" for k in ("xx", "xy", "xz", "yy", "yz", "zz")]
-    names = [q.name for q in ACCELEROMETER] + gamma
-    return Evaluated(at.program([(n, by(symbol(n))) for n in names]))
 
 
 def si(unit: str) -> float:

@@ -10,13 +10,10 @@ from collections.abc import Callable
 
 import mpmath as mp
 import pytest
-import sympy as sp
 from evaluated import place, voltage
 
-from derive import stages
-from derive.chain import recorded_motion
 from derive.effects import catalogue
-from derive.stages import EXACT, PAPER, Spin
+from derive.stages import EXACT
 from derive.symbols import ACCELEROMETER, MOTION, SPIN_ACCELERATION, SPIN_RATE
 
 DIGITS = 50
@@ -100,28 +97,6 @@ def fifty_digits():
         yield
 
 
-def test_coriolis_centripetal_and_euler_terms_are_those_of_a_turning_disc() -> None:
-    """f = a + M r, with M of the platform and what the spin adds, at a point out of the plane."""
-    known = inputs(NOW)
-    motion = recorded_motion()
-    M = stages.gradient(motion) + stages.spin_gradient(motion, Spin(SPIN_RATE, SPIN_ACCELERATION))
-    values = {s: sp.Float(str(known[s.name]), DIGITS) for s in sorted(M.free_symbols, key=str)}
-    arm = mp.matrix([mp.mpf("0.1"), mp.mpf("0.03"), mp.mpf("-0.02")])
-    r = about(2, angle(NOW)) * arm
-    numbers = mp.matrix(3, 3)
-    for i in range(3):
-        for k in range(3):
-            numbers[i, k] = mp.mpf(str(M[i, k].xreplace(values).evalf(DIGITS)))
-    a = mp.matrix([known[f"a_{k}"] for k in "xyz"])
-    assert mp.norm(a + numbers * r - force(arm, NOW)) < mp.mpf(10) ** -20
-    platform = stages.gradient(motion).xreplace(values)
-    left = mp.matrix(3, 3)
-    for i in range(3):
-        for k in range(3):
-            left[i, k] = mp.mpf(str(platform[i, k].evalf(DIGITS)))
-    assert mp.norm(a + left * r - force(arm, NOW)) > 0.1  # Eq. 9 alone is far from it
-
-
 @pytest.mark.parametrize("way", ["full kinematics", "disc-spin, share 1"])
 @pytest.mark.parametrize("j", range(4))
 def test_the_chain_feels_what_its_place_on_the_disc_does(way: str, j: int) -> None:
@@ -146,10 +121,3 @@ def test_the_chain_feels_what_its_place_on_the_disc_does(way: str, j: int) -> No
     axis = mp.cos(k["vartheta_z"]) * tau_x + mp.sin(k["vartheta_z"]) * tau_y
     expected = (axis.T * on_disc)[0]
     assert abs(found - float(expected)) < 1e-15
-
-
-def test_share_zero_is_equation_9() -> None:
-    known = {n: float(v) for n, v in inputs(NOW).items()}
-    k = {q.name: 0.01 for q in ACCELEROMETER} | {"radius": 0.1, "spin_frequency": 0.25}
-    with_effect = voltage((DISC_SPIN,), PAPER)(known | k | place(1) | {"disc_spin__share": 0.0})["V"]
-    assert float(with_effect) == float(voltage((), PAPER)(known | k | place(1))["V"])

@@ -5,10 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Mapping
-from fractions import Fraction
 from pathlib import Path
-from random import Random
 
 import numpy as np
 import pytest
@@ -54,88 +51,6 @@ def size_of(envelope: Envelope, harmonic: int, motion: str, parameters: str) -> 
 
 
 # --- Eq. 42-47 -----------------------------------------------------------------------------------------
-
-
-def as_printed(m: Mapping[str, Fraction], p: Mapping[str, list[Fraction]]) -> dict[str, Fraction]:
-    """Eq. 43 to 47, transcribed: theta is k1 vartheta, small k_p is k1 K_p (Eq. 6a)."""
-    k1, R, bx, bz, vy, vz = (p[n] for n in ("k1", "R", "beta_x", "beta_z", "vartheta_y", "vartheta_z"))
-    j4 = range(4)
-    k0, k2, k4, k5, k6, k7, k8 = (
-        [k1[j] * p[n][j] for j in j4] for n in ("K0", "K2", "K4", "K5", "K6", "K7", "K8")
-    )
-    th_y, th_z = [k1[j] * vy[j] for j in j4], [k1[j] * vz[j] for j in j4]
-    ax, ay, az, T1, T2, T3, T4, T5, T6, S1, S2 = (
-        m[n] for n in ("a_x", "a_y", "a_z", "T_1", "T_2", "T_3", "T_4", "T_5", "T_6", "S_1", "S_2")
-    )
-
-    def total(x: list[Fraction]) -> Fraction:
-        return sum(x, Fraction(0))
-
-    def D12_34(x: list[Fraction], y: list[Fraction]) -> Fraction:
-        return x[0] - x[1] + y[2] - y[3]
-
-    def D1234(x: list[Fraction]) -> Fraction:
-        return x[0] + x[1] - x[2] - x[3]
-
-    def minus(x: list[Fraction]) -> list[Fraction]:
-        return [-v for v in x]
-
-    none = [Fraction(0)] * 4
-    half = Fraction(1, 2)
-    k1R = [k1[j] * R[j] for j in j4]
-    turned = [(vz[j] - 2 * bz[j]) * k1R[j] for j in j4]
-    k52 = [k5[j] - k2[j] for j in j4]
-    A = [(1 + bz[j] * vz[j]) * k1[j] for j in j4]
-    B = [(vz[j] - bz[j] + bx[j] * vy[j]) * k1[j] for j in j4]
-    th_yR, bxk1R = [th_y[j] * R[j] for j in j4], [bx[j] * k1R[j] for j in j4]
-    return {
-        "A_2s": T1 * total(k1R) + T2 * total(turned) + ax * ay * total(k52)
-        - half * total(k6) * (ax**2 - ay**2),
-        "A_2c": -T1 * total(turned) + T2 * total(k1R) + half * (ax**2 - ay**2) * total(k52)
-        + ax * ay * total(k6),
-        "A_1s": D12_34(minus(A), B) * ax + D12_34(B, A) * ay + D12_34(k4, minus(k8)) * ax * az
-        - D12_34(k8, k4) * ay * az - D12_34(th_yR, none) * T3 - D12_34(none, th_yR) * T4
-        + D12_34(bxk1R, none) * S1 - D12_34(none, bxk1R) * S2,
-        "A_1c": D12_34(B, A) * ax + D12_34(A, minus(B)) * ay - D12_34(k8, k4) * ax * az
-        + D12_34(minus(k4), k8) * ay * az - D12_34(th_yR, none) * T4 + D12_34(none, th_yR) * T3
-        - D12_34(none, bxk1R) * S1 - D12_34(bxk1R, none) * S2,
-        "A_0": half * D1234([k2[j] + k5[j] for j in j4]) * (ax**2 + ay**2) + D1234(k7) * az**2
-        + D1234([th_y[j] - bx[j] * th_z[j] for j in j4]) * az
-        - D1234([th_z[j] * R[j] for j in j4]) * T5 + D1234(k1R) * T6 + D1234(k0),
-    }  # fmt: skip
-
-
-def amplitudes(
-    model: Collected, m: Mapping[str, Fraction], p: Mapping[str, list[Fraction]]
-) -> dict[str, Fraction]:
-    """The amplitudes of a collected model at a point, exactly."""
-    weights = {"Sigma": (1, 1, 1, 1), "D1234": (1, 1, -1, -1), "D12": (1, -1, 0, 0), "D34": (0, 0, 1, -1)}
-    result = {}
-    for name, terms in model.amplitudes.items():
-        value = Fraction(0)
-        for t in terms:
-            factor = math.prod(
-                (m[n] ** k for n, k in zip(MOTION_NUMBERS, t.motion, strict=True)), start=Fraction(1)
-            )
-            for j, w in enumerate(weights[t.combination]):
-                value += w * factor * sum(
-                    Fraction(int(c.numerator), int(c.denominator))
-                    * math.prod(p[n][j] ** k for n, k in zip(COEFFICIENT_PARAMETERS, powers, strict=True))
-                    for powers, c in t.coefficient.terms()
-                )  # fmt: skip
-        result[name] = value
-    return result
-
-
-def test_the_papers_envelope_gives_the_printed_equations() -> None:
-    """Exactly, in rational numbers, at more random points than a difference could hide from."""
-    random = Random(7)
-    model = simplified()
-    assert sorted(model.amplitudes) == ["A_0", "A_1c", "A_1s", "A_2c", "A_2s"]
-    for _ in range(5):
-        m = {n: Fraction(random.randint(-99, 99), 7) for n in MOTION_NUMBERS}
-        p = {n: [Fraction(random.randint(-99, 99), 11) for _ in range(4)] for n in COEFFICIENT_PARAMETERS}
-        assert amplitudes(model, m, p) == as_printed(m, p)
 
 
 def test_the_dynamic_experiment_needs_what_the_paper_drops_by_mistake() -> None:

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-from random import Random
-
 import numpy as np
 import pytest
 import sympy as sp
 
 from derive import ir
+from derive.chain import recorded_motion
+from derive.context import Context
 from derive.effects import catalogue
-from derive.pipeline import STARRED, starred
 from derive.propagation import MOTION_NUMBERS, collect, ideal
+from derive.rotation import small_rotation
 from derive.tape import About, Tape, partials
 from tests.derive.evaluated import Evaluated, neutral_values
 
@@ -131,34 +130,6 @@ def test_degrees_and_rates_up_to_them() -> None:
         assert sp.expand(sp.diff(exact - linear, s).subs(zero)) == 0
 
 
-def draw(rng: Random) -> Fraction:
-    return Fraction(rng.randint(-99, 99), 97)
-
-
-@pytest.mark.parametrize("seed", range(5))
-def test_starred_coefficients_give_the_transducer_of_turned_forces(seed: int) -> None:
-    rng = Random(seed)
-    fx, fy, fz, tx, ty, tz = (draw(rng) for _ in range(6))
-    K = {n: draw(rng) for n in ("K2", "K4", "K5", "K6", "K7", "K8")}
-    # about x, then y, then z, each rotation to first order, written out by hand on the components
-    y, z = fy + tx * fz, fz - tx * fy
-    x, z = fx - ty * z, z + ty * fx
-    i, o, p = x + tz * y, y - tz * x, z
-    direct = (
-        i + K["K2"] * i * i + K["K5"] * o * o + K["K7"] * p * p
-        + K["K4"] * i * p + K["K6"] * i * o + K["K8"] * o * p
-    )  # fmt: skip
-    values = {sp.Symbol(n, real=True): sp.Rational(v.numerator, v.denominator) for n, v in
-              {**K, "vartheta_x": tx, "vartheta_y": ty, "vartheta_z": tz}.items()}  # fmt: skip
-    star = {n: e.xreplace(values) for n, e in starred().items()}
-    total = sp.Rational(fx.numerator, fx.denominator)
-    for name, (a, b, c) in STARRED.items():
-        sign = -1 if name == "vartheta_y" else 1
-        powers = fx**a * fy**b * fz**c
-        total += sign * star[name] * sp.Rational(powers.numerator, powers.denominator)
-    assert total == sp.Rational(direct.numerator, direct.denominator)
-
-
 def test_a_perfect_instrument_sees_two_gradients_at_twice_the_spin_rate() -> None:
     found = {
         (
@@ -170,3 +141,13 @@ def test_a_perfect_instrument_sees_two_gradients_at_twice_the_spin_rate() -> Non
         for t in terms
     }
     assert found == {("A_2s", ("T_1",), "R*k1"), ("A_2c", ("T_2",), "R*k1")}
+
+
+def test_small_rotations_are_rotations_to_second_order() -> None:
+    e = sp.symbols("e_x e_y e_z", real=True)
+    scale = sp.Symbol("scale", positive=True)
+    c = Context(Tape(), recorded_motion())
+    turn = small_rotation(scale * sp.Matrix(e), "turn", c)
+    named = dict(c.tape.assignments)
+    excess = (turn * turn.T).applyfunc(lambda v: sp.expand(v.xreplace(named))) - sp.eye(3)
+    assert all(sp.Poly(v, scale).monoms()[-1][0] >= 4 for v in excess if v != 0)
