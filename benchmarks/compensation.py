@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.compensation.compensate import (
-    compensate_channel,
     make_channel,
     prepare,
 )
@@ -58,7 +57,7 @@ def transfer(duration: float = 7200.0) -> dict[str, tuple[Complex, Complex]]:
     found, both = {}, [prepare(packaged(), s.sheet, [y], "self") for y in (more, x)]
     for name in DEMODULATORS:
         c, other = (make_channel(p, 0, name) for p in both)
-        difference = compensate_channel(c).gradient - compensate_channel(other).gradient
+        difference = c.compensate().gradient - other.compensate().gradient
         ok = np.isfinite(difference.real)
         gains = np.linalg.lstsq(basis[ok], difference[ok] / SIZE, rcond=None)[0]
         found[name] = gains, np.asarray(c.demodulator.response(1 / PERIODS))
@@ -186,7 +185,7 @@ def score_survey(seed: int, kind: str) -> Array:
     found = []
     for n, x in enumerate(flights):
         c = make_channel(p, n, "fir")
-        y = compensate_channel(c)
+        y = c.compensate()
         g = x.channels["Gamma_xx"] - x.channels["Gamma_yy"] + 1j * x.channels["Gamma_xy"]
         off = y.gradient - c.demodulator.low_passed(g / 1e-9)
         found += [(off.real / y.std[0])[::8], (off.imag / y.std[1])[::8]]

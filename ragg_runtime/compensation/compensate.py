@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation.calibrate import fit_some, information, invert_root, list_base_r_factors
+from ragg_runtime.compensation.channel import (
+    MEANING,
+    NO_VALUE,
+    Block,
+    Compensated,
+    OutputChannel,
+    Quality,
+    make_block,
+)
 from ragg_runtime.compensation.drift import find_starts, smooth_drift
 from ragg_runtime.compensation.frozen import (
     CalibrationChange,
@@ -23,26 +31,13 @@ from ragg_runtime.compensation.frozen import (
     warn_of_change,
 )
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.compensation.segment import (
-    MEANING,
-    NO_VALUE,
-    Block,
-    ChannelSegment,
-    Compensated,
-    OutputChannel,
-    Quality,
-    compensate_segment,
-    make_block,
-)
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.least_squares import orthonormalise
-from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import (
     BLOCKS,
     ROWS,
     Observation,
-    Segment,
     block_edges,
     combine_output,
     observe_flights,
@@ -51,7 +46,7 @@ from ragg_runtime.estimation.observation import (
 )
 from ragg_runtime.estimation.scores import finite, measure_error
 from ragg_runtime.estimation.spectrum import periodogram
-from ragg_runtime.estimation.unknown_gradient import spin_frequency, windows
+from ragg_runtime.estimation.unknown_gradient import windows
 from ragg_runtime.estimation.whitening import flight_segments
 from ragg_runtime.identification.budget import list_groups
 from ragg_runtime.instrument.instrument import Instrument
@@ -60,9 +55,9 @@ from ragg_runtime.io import Flight
 from ragg_runtime.io.files import write_tables
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.io.tables import DataColumn, DataTable
-from ragg_runtime.model.evaluate import scale_factor
-from ragg_runtime.model.model import MANY, Model
-from ragg_runtime.signals.demodulators import Demodulator, find_demodulator
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.model import Model
+from ragg_runtime.signals.demodulators import find_demodulator
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.tensor import COMPONENTS, tensor
 from ragg_runtime.wording import describe_other
@@ -76,9 +71,6 @@ BAND = (0.02, 0.15)
 
 WINDOW = 128.0
 """Length of the windows of a measured density, s."""
-
-GRID = 4001
-"""Frequencies at which the noise is integrated."""
 
 Kind = Literal["frozen", "self", "crossed", "smoothed"]
 KINDS: tuple[Kind, ...] = ("self", "crossed", "smoothed", "frozen")
@@ -291,7 +283,7 @@ def _crossed_block(f: Fitted, o: Observation, b: int, of_all: Sequence[Sequence[
 
 def make_channel(p: PreparedFlights, k: int, name: str) -> OutputChannel:
     """An observation ready to be compensated; ``name``: of the demodulator. UserError if the flight is too short for it."""
-    o, c = p.observations[k], p.calibration
+    o, c, blocks = p.observations[k], p.calibration, p.blocks[k]
     flight, d = p.flights[o.flight], find_demodulator(name, o.record.rate)
     least = sum(d.settling) + 1
     if len(flight.time) < least:
@@ -302,62 +294,34 @@ def make_channel(p: PreparedFlights, k: int, name: str) -> OutputChannel:
             expected=f"at least {least / d.rate:.3g} s for {d.name}",
             remedy="give a longer recording, or choose another --demodulator",
         )
-    k_ggi = scale_factor(p.model, c.p, o.place)
     recorded: Complex | None = None
     if o.recorded.demodulated:  # by its recorder: put right for the calibrated scale factor
         known: Complex = flight.outputs["inline"] + 1j * flight.outputs["cross"]
-        recorded = known * (p.instrument.scale_factor / k_ggi)
+        recorded = known * (p.instrument.scale_factor / scale_factor(p.model, c.p, o.place))
     return OutputChannel(
         model=p.model,
-        instrument=p.instrument,
-        evaluator=p.model.compiled("auto" if len(flight.time) >= MANY else "numpy"),
-        demodulator=d,
         observation=o,
-        recorded=recorded,
-        blocks=p.blocks[k],
         about=c.p,
+        blocks=tuple((b.rows, b.p) for b in blocks),
+        demodulator=d,
+        roots=tuple(b.root for b in blocks),
         columns=c.columns,
-        k_ggi=k_ggi,
-        spectrum=c.noise[k],
-        noise=predict_noise(o, c.noise[k], d, k_ggi),
+        noise=c.noise[k],
+        recorded=recorded,
         validity={} if p.saved is None else p.saved.validity,
         flags=0 if p.change is None or p.change.holds else int(Quality.CALIBRATION),
-    )
-
-
-def predict_noise(o: Observation, noise: NoiseModel, d: Demodulator, k_ggi: float) -> tuple[float, float]:
-    """Standard deviations of inline and cross, Eo, that stationary noise of G_out causes; ``k_ggi`` in V/Eo."""
-    f = np.linspace(-0.5, 0.5, GRID)
-    carrier = 2 * spin_frequency(o)
-    passed = np.abs(d.response(f)) ** 2 * noise.psd(np.abs(carrier + f), o.signs)
-    cross = float(np.sqrt(np.sum(passed) * (f[1] - f[0]))) / k_ggi
-    return 2 * cross, cross
-
-
-def _segments(c: OutputChannel) -> list[Segment]:
-    return segments(len(c.observation.record.time), max(ROWS, 4 * len(c.demodulator.taps)))
-
-
-def compensate_channel(c: OutputChannel) -> Compensated:
-    """Compensate a channel, segment after segment."""
-    holes, parts = not bool(np.all(c.observation.record.valid)), []
-    for s in _segments(c):
-        parts.append(compensate_segment(c, s.rows, holes=holes))
-        progress.step(float(s.rows.stop - s.rows.start))
-    return Compensated(
-        *(np.concatenate([getattr(x, q.name) for x in parts], axis=-1) for q in fields(Compensated))
     )
 
 
 # --- descriptions ------------------------------------------------------------------------------
 
 
-def describe_channel(c: OutputChannel, x: Compensated) -> dict[str, Any]:
+def describe_channel(c: OutputChannel, x: Compensated, instrument: Instrument) -> dict[str, Any]:
     """What was done and how good it is, for JSON."""
     o, d, names = c.observation, c.demodulator, ("inline_Eo", "cross_Eo")
     there = np.isfinite(x.gradient.real)
     rms = np.sqrt(np.mean(x.parameters[:, there] ** 2, axis=1)) if there.any() else np.full(2, np.nan)
-    nominal = measure_error(take_gradient_out(o, x.nominal, c.spectrum), o.record, c.k_ggi).as_json()
+    nominal = measure_error(find_nominal_residual(c, instrument), o.record, c.scale_factor).as_json()
     every = max(1, int(d.rate))  # the channels hold nothing above half a hertz
     return {
         "flight": o.flight_name,
@@ -371,27 +335,33 @@ def describe_channel(c: OutputChannel, x: Compensated) -> dict[str, Any]:
             "before": {k: v for k, v in nominal.items() if k.endswith("rtHz")},
             "after": measure_density(x.gradient[::every], d.rate / every),
             "noise": {
-                f"{n}_per_rtHz": finite(s / np.sqrt(d.bandwidth)) for n, s in zip(names, c.noise, strict=True)
+                f"{n}_per_rtHz": finite(s / np.sqrt(d.bandwidth))
+                for n, s in zip(names, c.noise_std, strict=True)
             },
         },
         "std": {
-            "noise": {n: finite(s) for n, s in zip(names, c.noise, strict=True)},
+            "noise": {n: finite(s) for n, s in zip(names, c.noise_std, strict=True)},
             "parameters": {n: finite(s) for n, s in zip(names, rms, strict=True)},
         },
-        "contributions": list_contributions(c),
+        "contributions": list_contributions(c, instrument),
     }
 
 
-def take_gradient_out(o: Observation, e: Array, noise: NoiseModel) -> Array:
-    """A residual of G_out (N,), V, without what a gradient can be of it: as a record is scored of which the gradient is not known."""
-    found, valid = e.copy(), o.record.valid
+def find_nominal_residual(c: OutputChannel, instrument: Instrument) -> Array:
+    """(N,) V: the residual with the sheet's values, without what a gradient can be of it: as a record is scored of which the gradient
+    is not known.
+    """
+    o, sheet = c.observation, vector(c.model, instrument)
+    r, rows = o.record, slice(0, len(o.record.time))
+    predicted = o.recorded.through(replace(c, about=sheet, blocks=((rows, sheet),)).predict(), r)
+    e = np.where(r.valid, combine_output(o, o.data) - predicted, 0.0)
     for s in flight_segments(o):
-        for w in (w for w in windows(o, s.rows, noise) if len(w.plain)):
-            rows = np.arange(s.rows.start, s.rows.stop)[w.samples]
-            rows = rows[valid[rows]]
-            Q = orthonormalise(combine_output(o, w.plain.reshape(len(w.plain), -1, len(rows))))
-            found[rows] -= (found[rows] @ Q) @ Q.T
-    return found
+        for w in (w for w in windows(o, s.rows, c.noise) if len(w.plain)):
+            own = np.arange(s.rows.start, s.rows.stop)[w.samples]
+            own = own[r.valid[own]]
+            Q = orthonormalise(combine_output(o, w.plain.reshape(len(w.plain), -1, len(own))))
+            e[own] -= (e[own] @ Q) @ Q.T
+    return e
 
 
 def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
@@ -416,26 +386,26 @@ def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
     }
 
 
-def list_contributions(c: OutputChannel) -> list[dict[str, Any]]:
+def list_contributions(c: OutputChannel, instrument: Instrument) -> list[dict[str, Any]]:
     """What was removed: root mean squares of inline and cross, Eo, on two segments of the flight, largest first."""
     totals: dict[tuple[str, str | None], Array] = {}
-    count = 0
-    whole = replace(c, blocks=(replace(c.blocks[0], rows=slice(0, len(c.observation.record.time))),))
-    for rows in (x.rows for x in spread(_segments(c), 2)):
-        s = ChannelSegment(whole, rows)
-        good = (s.quality()[s.own] & NO_VALUE) == 0
+    count, p = 0, c.blocks[0][1]
+    most = max(ROWS, 4 * len(c.demodulator.taps))
+    for s in spread(segments(len(c.observation.record.time), most), 2):
+        some = slice(0, s.rows.stop - s.rows.start)
+        part = replace(c, observation=c.observation.part(s.rows), blocks=((some, p),))
+        good = (part.flag_samples() & NO_VALUE) == 0
         count += int(np.sum(good))
-        removed: dict[tuple[str, str | None], Array] = {("everything", None): s.bare}
-        groups = list_groups(c.model, c.instrument, c.blocks[0].p)
-        removed |= {(x.name, x.effect): s.bare - s.predict_by(x.without) for x in groups}
+        bare = part.predict()
+        removed: dict[tuple[str, str | None], Array] = {("everything", None): bare}
+        for x in list_groups(c.model, instrument, p):
+            removed[x.name, x.effect] = bare - replace(part, blocks=((some, x.without),)).predict()
         for key, e in removed.items():
-            g = s.demodulate(e)[s.own][good]
-            part = np.array([np.sum(g.real**2), np.sum(g.imag**2)])
-            totals[key] = totals.get(key, np.zeros(2)) + part
-    if not count:
-        return []
+            g = part.demodulate(e)[good]
+            power = np.array([np.sum(g.real**2), np.sum(g.imag**2)])
+            totals[key] = totals.get(key, 0.0) + power
     found: list[dict[str, Any]] = []
-    for (name, effect), squares in totals.items():
+    for (name, effect), squares in totals.items() if count else ():
         inline, cross = np.sqrt(squares / count)
         if inline or cross:
             found.append({"of": name, "effect": effect, "inline_Eo": float(inline), "cross_Eo": float(cross)})
@@ -474,11 +444,11 @@ def compensate(
     _require_alike(p.flights, every)
     series, entries = [], []
     for k, (flight, channels) in enumerate(zip(p.flights, every, strict=True), 1):
-        found = [compensate_channel(c) for c in channels]
+        found = [c.compensate() for c in channels]
         columns = make_columns(instrument, channels, found)
         number = {"flight": np.full(len(flight.time), k, dtype=np.int64)} if len(p.flights) > 1 else {}
         series.append({"time": np.array(flight.time), **columns, **number})
-        entries += [describe_channel(c, x) for c, x in zip(channels, found, strict=True)]
+        entries += [describe_channel(c, x, instrument) for c, x in zip(channels, found, strict=True)]
     d = every[0][0].demodulator
     result = {
         "calibration": kind,
@@ -527,7 +497,7 @@ def make_columns(
         found |= {f"inline{end}": x.gradient.real, f"cross{end}": x.gradient.imag}
         found |= {f"inline{end}_std": x.std[0], f"cross{end}_std": x.std[1], f"quality{end}": x.quality}
     discs = [instrument.layout.discs[c.observation.output.disc] for c in channels]
-    noise = np.array([s for c in channels for s in c.noise])
+    noise = np.array([s for c in channels for s in c.noise_std])
     try:
         by_channels = tensor([d.across for d in discs], np.eye(2 * len(channels)), noise)
     except UserError:  # the outputs do not determine it

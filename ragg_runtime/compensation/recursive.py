@@ -18,9 +18,9 @@ from scipy import linalg
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread, split_range
+from ragg_runtime.compensation.channel import Quality
 from ragg_runtime.compensation.compensate import Compensation, find_seeing, leave_out_gradients
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.compensation.segment import Quality
 from ragg_runtime.estimation.least_squares import marginalise
 from ragg_runtime.estimation.observation import ROWS, Observation, combine_output, observe_flights
 from ragg_runtime.estimation.regressors import (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from ragg_runtime.estimation.scores import finite
 from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.signals import derivative
 from ragg_runtime.signals.demodulate import CUTOFF, WIDTH, low_pass
+from ragg_runtime.signals.demodulators import find_demodulator
 
 Array = NDArray[np.float64]
 
@@ -125,24 +127,19 @@ def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
     return float(np.sqrt(estimate_variance(w))) / abs(k_ggi)
 
 
-def demodulated_noise(w: PreparedFlight, k_ggi: float, spin: float, multiple: int, amplitude: float) -> float:
-    """Standard deviation, Eo, of LP(amplitude cos(2 pi multiple spin t) noise): a quarter of amplitude^2 to either side."""
-    rate = w.observation.record.rate
-    taps = low_pass(rate)
-    size = max(8192, 1 << (len(taps) - 1).bit_length())
-    f = np.fft.rfftfreq(size, 1.0 / rate)[:-1]
-    H2 = np.abs(np.fft.rfft(taps, size)[:-1]) ** 2
-    carrier = multiple * spin
-    sides = [np.maximum(np.abs(f + s * carrier), f[1]) for s in (1.0, -1.0)]
-    S = sum(_noise_psd(w, spin, g) for g in sides)
-    gain = 0.25 * amplitude**2 if multiple else 0.5
-    return float(np.sqrt(gain * np.sum(H2 * S) * (f[1] - f[0]))) / k_ggi
+def demodulated_noise(w: PreparedFlight, k_ggi: float, multiple: int, amplitude: float) -> float:
+    """Standard deviation, Eo, of LP(amplitude cos(2 pi multiple spin t) noise)."""
+    r = w.observation.record
+    spin = abs(r.spin_frequency)
+    power = find_demodulator("fir", r.rate).pass_power(partial(_noise_psd, w, spin), multiple * spin)
+    share = 0.25 if multiple else 0.5  # of the square of the amplitude: of a wave half of it is on average
+    return amplitude * float(np.sqrt(share * power)) / k_ggi
 
 
 def channel_noise(f: Fitted) -> tuple[float, float]:
     """Standard deviation of (inline, cross) that the noise alone would give, Eo; NaN if the low-pass is too long."""
     values = [
-        [demodulated_noise(w, k, abs(w.observation.record.spin_frequency), 2, a) for a in (4.0, 2.0)]
+        [demodulated_noise(w, k, 2, a) for a in (4.0, 2.0)]
         for w, k in zip(f.prepared, f.scales, strict=True)
         if w.observation.record.turning and _long(w)
     ]
@@ -164,10 +161,7 @@ def harmonic_noise(f: Fitted, harmonics: Iterable[str]) -> dict[str, float]:
     found = {}
     for h in harmonics:
         k = series_name.harmonic(h).multiple
-        squares = [
-            demodulated_noise(w, s, abs(w.observation.record.spin_frequency), k, 2.0 if k else 1.0) ** 2
-            for w, s in works
-        ]
+        squares = [demodulated_noise(w, s, k, 2.0 if k else 1.0) ** 2 for w, s in works]
         found[h] = float(np.sqrt(np.mean(squares))) if squares else float("nan")
     return found
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, pairwise
 
@@ -11,16 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.estimation import regressors
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.observation import Observation, combine_output, segments
-from ragg_runtime.estimation.scores import channels, measure_error
-from ragg_runtime.instrument.units import EOTVOS
-from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.evaluate import voltages
-from ragg_runtime.model.recorded import put_on_carriers
-from ragg_runtime.signals.demodulate import low_pass
-from ragg_runtime.signals.tensor import Tensor, spread_across, tensor
+from ragg_runtime.estimation.scores import find_supported, measure_error, shortest_demodulated
+from ragg_runtime.estimation.seen_gradient import ModelledOutput
+from ragg_runtime.signals.demodulators import find_demodulator
+from ragg_runtime.signals.tensor import Tensor, tensor
 
 Array = NDArray[np.float64]
 
@@ -111,7 +106,8 @@ def compare_outputs(f: Fitted) -> list[Together]:
     """Of every flight with several turning outputs what they saw."""
     found = []
     for first, last in pairwise([*f.first, len(f.observations)]):
-        own = [n for n in range(first, last) if f.observations[n].record.turning]
+        records = {n: f.observations[n].record for n in range(first, last)}
+        own = [n for n, r in records.items() if r.turning and len(r.time) >= shortest_demodulated(r.rate)]
         seen = tuple(s for s in (estimate_gradient(f, n) for n in own) if len(s.time))
         if len(seen) > 1:
             found.append(Together(name=f.observations[first].flight_name, fitted=f, seen=seen))
@@ -120,42 +116,14 @@ def compare_outputs(f: Fitted) -> list[Together]:
 
 def estimate_gradient(f: Fitted, n: int) -> Seen:
     """What an observation's output saw of the gradient: all that the calibrated model explains is taken out but it."""
-    o, k_ggi = f.observations[n], f.scales[n]
-    rows = [s.rows for s in segments(len(o.record.time))]
-    left = np.concatenate([_without_motion(f, o.part(some)) for some in rows])
-    time, inline, cross = channels(left, o.record, k_ggi, o.record.valid)
-    if len(
-        time
-    ):  # what the instrument makes of this gradient differs from what an ideal one does, by its angles above all
-        g = [np.interp(o.record.time, time, x) for x in (inline, cross)]
-        off = [_beyond_ideal(f, o.part(some), g[0][some], g[1][some], k_ggi) for some in rows]
-        time, inline, cross = channels(left - np.concatenate(off), o.record, k_ggi, o.record.valid)
-    rate = o.record.rate
-    psd = f.prepared[n].noise_psd(np.array([2 * abs(o.record.spin_frequency)]))
-    noise = float(np.sqrt(float(psd[0]) * rate * np.sum(low_pass(rate) ** 2))) / k_ggi
-    return Seen(place=o.place, time=time, inline=inline, cross=cross, inline_std=2 * noise, cross_std=noise)
-
-
-def _without_motion(f: Fitted, o: Observation) -> Array:
-    return combine_output(o, np.where(o.record.valid, o.data - _predicted(f, o, {}), 0.0))
-
-
-def _beyond_ideal(f: Fitted, o: Observation, inline: Array, cross: Array, k_ggi: float) -> Array:
-    """What the model makes of a gradient, Eo, in the output, less what an ideal instrument would, (N,) V."""
-    axes = f.instrument.layout.discs[o.output.disc].across
-    seen = spread_across(axes, inline, cross)
-    wide = dict(zip(GRADIENT, (np.pad(EOTVOS * x, o.record.halo, mode="edge") for x in seen), strict=True))
-    response = combine_output(o, _predicted(f, o, wide) - _predicted(f, o, {}))
-    ideal = o.recorded.through(put_on_carriers(inline, cross, o.record, k_ggi), o.record)
-    return np.where(o.record.valid, response - ideal, 0.0)
-
-
-def _predicted(f: Fitted, o: Observation, gradient: Mapping[str, Array]) -> Array:
-    """What the calibrated model predicts of what is observed, of another gradient than was recorded."""
-    wide = {name: x for name, x in o.record.wide.items() if name not in GRADIENT} | dict(gradient)
-    other = replace(o.record, wide=wide)
-    volts = voltages(f.model.chain, other, f.calibration.p, o.output)
-    return regressors.observe_voltages(replace(o, record=other), volts, None)
+    o, p, k_ggi = f.observations[n], f.calibration.p, f.scales[n]
+    r = o.record
+    d = find_demodulator("fir", r.rate)
+    g = ModelledOutput(f.model, o, p, ((slice(0, len(r.time)), p),), d).estimate_gradient()
+    there = np.zeros(len(g), dtype=np.bool_)
+    there[d.before : len(g) - d.ahead] = find_supported(r.valid[None], r.valid, len(d.taps))[0]
+    cross = float(np.sqrt(d.pass_power(f.prepared[n].noise_psd, 2 * abs(r.spin_frequency)))) / k_ggi
+    return Seen(o.place, r.time[there], g[there].real, g[there].imag, inline_std=2 * cross, cross_std=cross)
 
 
 def errors(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:

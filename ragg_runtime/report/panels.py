@@ -113,7 +113,7 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
         # four samples a cycle of the low-pass's edge draw the whole of it
         step = max(1, int(r.rate / (4.0 * series.DRAWN)))
         for j, (channel, amplitude) in enumerate((("inline", 4.0), ("cross", 2.0)), 1):
-            level = series.demodulated_noise(w, k, abs(r.spin_frequency), 2, amplitude)
+            level = series.demodulated_noise(w, k, 2, amplitude)
             curves = [c for label, x in made for c in _channel(label, time[::step], x[j][::step])]
             ends = (float(r.time[0]), float(r.time[-1]))
             axes.append(Axes(tuple(curves), "error, Eo", channel + name, ends, level))

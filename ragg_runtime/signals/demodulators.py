@@ -27,6 +27,9 @@ FORGOTTEN = 1e-9
 ROOM = 32
 """Samples on either side into which a delay of part of a sample may ring."""
 
+TOP, GRID = 0.5, 4001
+"""Highest frequency, Hz, and number of those at which power is summed: beyond it nothing passes."""
+
 EDGE = 1e-4
 """Share of the kernel that may lie beyond the record's end: of a gradient of 1000 Eo it is 0.1 Eo."""
 
@@ -105,6 +108,18 @@ class Demodulator:
         """Complex gain at frequencies, Hz; its phase is against the sample's own instant."""
         back = np.exp(-2j * np.pi * frequency / self.rate)
         return np.asarray(polyval(back, self.taps) * back ** (-float(self.ahead)))
+
+    @cached_property
+    def power_gain(self) -> tuple[Array, Array]:
+        """Frequencies, Hz, to either side of zero, and the power gain there."""
+        top = min(TOP, self.rate / 2)
+        f = np.linspace(-top, top, GRID)
+        return f, np.abs(self.response(f)) ** 2
+
+    def pass_power(self, psd: Callable[[Array], Array], carrier: float) -> float:
+        """Variance of the low-pass of 2 cos(2 pi carrier t) times a noise of one-sided density ``psd``, per Hz, of frequencies, Hz."""
+        f, gain = self.power_gain
+        return float(np.sum(gain * psd(np.abs(carrier + f))) * (f[1] - f[0]))
 
     def low_passed(self, x: Series) -> Series:
         """Series (..., N) through the kernel; beyond their ends they are taken as zero."""

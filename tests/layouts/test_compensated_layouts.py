@@ -11,15 +11,14 @@ import pytest
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.compensation.channel import OutputChannel
 from ragg_runtime.compensation.compensate import (
     Kind,
     PreparedFlights,
-    compensate_channel,
     make_channel,
     make_columns,
     prepare,
 )
-from ragg_runtime.compensation.segment import OutputChannel
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight
@@ -54,7 +53,7 @@ def compensated(
     model, _ = derive.derived((), (), sheet.form, sheet.layout)
     p = prepare(model, sheet, [flight], kind)
     channels = [make_channel(p, n, "fir") for n in p.of_flight(0)]
-    return p, channels, make_columns(sheet, channels, [compensate_channel(c) for c in channels])
+    return p, channels, make_columns(sheet, channels, [c.compensate() for c in channels])
 
 
 def low_passed(d: Demodulator, x: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -16,8 +16,8 @@ from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import frozen
 from ragg_runtime.compensation.calibrate import calibrate, make_saved
+from ragg_runtime.compensation.channel import Quality
 from ragg_runtime.compensation.saved import add_entry, read_saved
-from ragg_runtime.compensation.segment import Quality
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import scenario
 from tests.rate import RATE

@@ -18,15 +18,10 @@ from scipy import signal
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
-from ragg_runtime.compensation import compensate
-from ragg_runtime.compensation.compensate import (
-    Kind,
-    PreparedFlights,
-    compensate_channel,
-    make_channel,
-    prepare,
-)
-from ragg_runtime.compensation.segment import ChannelSegment, Compensated, OutputChannel, Quality
+from ragg_runtime.compensation import channel as output_channel
+from ragg_runtime.compensation.channel import Compensated, OutputChannel, Quality
+from ragg_runtime.compensation.compensate import Kind, PreparedFlights, make_channel, prepare
+from ragg_runtime.estimation import seen_gradient
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -39,7 +34,7 @@ def compensated(
     s: Scenario, x: Flight, kind: Kind = "self", name: str = "fir"
 ) -> tuple[OutputChannel, Compensated]:
     c = make_channel(prepare(load.packaged(), s.sheet, [x], kind), 0, name)
-    return c, compensate_channel(c)
+    return c, c.compensate()
 
 
 @cache
@@ -56,7 +51,7 @@ def test_the_truth_lies_within_the_stated_uncertainty_as_often_as_stated(kind: K
     for seed in (11, 12):
         x, p = flown(seed, kind)
         c = make_channel(p, 0, name)
-        found = compensate_channel(c)
+        found = c.compensate()
         error = found.gradient - truth(x, c.demodulator)
         good = np.isfinite(error)
         z = np.stack([error.real, error.imag]) / found.std
@@ -139,11 +134,10 @@ def test_a_gradient_of_the_surveys_wavelengths_is_not_eaten(period: float) -> No
 
 def test_the_division_into_segments_leaves_no_trace(monkeypatch: pytest.MonkeyPatch) -> None:
     _, p = flown(11, "self")
-    whole = compensate_channel(make_channel(p, 0, "fir"))
-    monkeypatch.setattr(compensate, "ROWS", 500)
-    c = make_channel(p, 0, "fir")
-    parts = compensate_channel(c)
-    assert len(compensate._segments(c)) > 3
+    whole = make_channel(p, 0, "fir").compensate()
+    for module in (output_channel, seen_gradient):
+        monkeypatch.setattr(module, "ROWS", 500)
+    parts = make_channel(p, 0, "fir").compensate()
     assert np.array_equal(whole.quality, parts.quality)
     assert np.nanmax(np.abs(whole.gradient - parts.gradient)) < 1e-6
     assert np.nanmax(np.abs(whole.std / parts.std - 1)) < 0.02
@@ -177,7 +171,7 @@ def test_the_instruments_own_response_to_the_gradient_is_undone() -> None:
     s = dataclasses.replace(s, sheet=sheet, instrument=sheet)
     x = s.simulate({}).flight()
     c, found = compensated(s, x)
-    true, ideal = truth(x, c.demodulator), ChannelSegment(c, slice(0, len(x.time))).first_estimate()
+    true, ideal = truth(x, c.demodulator), c.estimate_first(c.predict())
     ok = np.isfinite(found.gradient)
     assert np.std((found.gradient - true)[ok].imag) < 0.1 * np.std((ideal - true)[ok].imag)
 

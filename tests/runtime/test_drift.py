@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ragg_runtime.compensation import drift
-from ragg_runtime.compensation.compensate import compensate_channel, make_channel, prepare
+from ragg_runtime.compensation.compensate import make_channel, prepare
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.model.model import packaged
@@ -81,7 +81,7 @@ def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
     rms = {}
     for kind in ("self", "smoothed"):
         c = make_channel(prepare(packaged(), s.sheet, [x], kind), 0, "fir")  # type: ignore[arg-type]
-        found = compensate_channel(c)
+        found = c.compensate()
         z = ((found.gradient - truth(x, c.demodulator)).real / found.std[0])[:: int(2 * RATE)]
         rms[kind] = np.sqrt(np.nanmean(z**2))
     assert 0.7 < rms["smoothed"] < 1.4

@@ -1,0 +1,191 @@
+"""The gravity gradient by one output of a flight: the series, how sure it is, and what each sample is worth."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import IntFlag
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base import progress
+from ragg_runtime.base.threads import split_range
+from ragg_runtime.estimation.calibration import Calibration
+from ragg_runtime.estimation.noise import NoiseModel
+from ragg_runtime.estimation.observation import ROWS, combine_output
+from ragg_runtime.estimation.regressors import Column, put_derivatives
+from ragg_runtime.estimation.seen_gradient import ModelledOutput
+from ragg_runtime.estimation.unknown_gradient import spin_frequency
+from ragg_runtime.io.record import GRADIENT
+from ragg_runtime.signals.demodulators import find_demodulator
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+HOLES = 0.05
+"""Share of the kernel that may fall on missing samples; they are bridged by the gradient found around them."""
+
+FELT = 1e-4
+"""Share of the kernel on missing samples from which their bridging is reported."""
+
+FINE = 4.0
+"""Rate, Hz, at which the uncertainty is followed: what the low-pass lets through does not change faster than 0.25 Hz."""
+
+MARGIN = 0.1
+"""By this share of its calibrated range a channel may go beyond it before that is flagged."""
+
+
+class Quality(IntFlag):
+    """Bits of ``quality``; 0 is good."""
+
+    EDGE = 1
+    GAP = 2
+    BRIDGED = 4
+    MOTION = 8
+    AUXILIARY = 16
+    CALIBRATION = 32
+
+
+NO_VALUE = Quality.EDGE | Quality.GAP
+"""Bits of samples without a value."""
+
+MEANING = {
+    Quality.EDGE: "too near an end of the record for the low-pass: no value",
+    Quality.GAP: "with more than 5 % of the samples missing under the low-pass: no value",
+    Quality.BRIDGED: "with a missing or saturated sample that was bridged",
+    Quality.MOTION: "with a motion channel outside its range in the saved calibration",
+    Quality.AUXILIARY: "with another channel outside its range in the saved calibration",
+    Quality.CALIBRATION: "by a calibration that does not hold for this flight",
+}
+"""What each bit says of samples."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """Samples of a flight with parameters ``p`` (size,), SI; ``root`` (n, k): of the covariance of those fitted, in scales."""
+
+    rows: slice
+    p: Array
+    root: Array
+
+
+def make_block(c: Calibration, rows: slice, step: Array | float, root: Array) -> Block:
+    """Samples with parameters a ``step`` (n,) from the calibrated ones, in scales."""
+    p = c.p.copy()
+    p[c.index] += step * np.array([q.scale for q in c.columns])
+    return Block(rows, p, root)
+
+
+@dataclass(frozen=True)
+class Compensated:
+    """Compensated samples.
+
+    ``gradient`` (N,): inline + i cross, Eo, NaN where there is none. ``parameters`` (2, N): standard deviations by the parameters, Eo;
+    ``std`` (2, N): with the noise. ``quality`` (N,): bits of :class:`Quality`.
+    """
+
+    gradient: Complex
+    parameters: Array
+    std: Array
+    quality: NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class OutputChannel(ModelledOutput):
+    """One output of a flight, with what compensates it; ``about`` are the calibrated parameters.
+
+    ``roots``: of each block that of the covariance of the parameters ``columns``. ``noise``: of the output. ``recorded``: inline + i
+    cross (N,), Eo, if the flight was demodulated by its recorder. ``validity``: channel -> range, SI; empty: not flagged. ``flags``:
+    bits of the quality of all samples.
+    """
+
+    roots: tuple[Array, ...]
+    columns: tuple[Column, ...]
+    noise: NoiseModel
+    recorded: Complex | None
+    validity: Mapping[str, tuple[float, float]]
+    flags: int = 0
+
+    @property
+    def scale_factor(self) -> float:
+        """k_ggi, V/Eo, of the calibrated parameters."""
+        return self.find_scale_factor(self.about)
+
+    @property
+    def noise_std(self) -> tuple[float, float]:
+        """Standard deviations of inline and cross, Eo, that stationary noise of the output causes."""
+        carrier, signs = 2 * spin_frequency(self.observation), self.observation.signs
+        power = self.demodulator.pass_power(lambda f: self.noise.psd(f, signs), carrier)
+        cross = float(np.sqrt(power)) / self.scale_factor
+        return 2 * cross, cross
+
+    def estimate_first(self, bare: Array) -> Complex:
+        if self.recorded is None:
+            return super().estimate_first(bare)
+        recorded = np.where(self.observation.record.valid, self.recorded, 0.0)
+        return np.asarray(recorded - self.demodulate(bare))
+
+    def compensate(self) -> Compensated:
+        """The gradient at all samples."""
+        g = self.estimate_gradient()
+        variance, bits = self.propagate_parameters(g), self.flag_samples()
+        parameters = np.sqrt(variance)
+        std = np.sqrt(variance + np.square(self.noise_std)[:, None])
+        none = (bits & NO_VALUE) != 0
+        g[none] = complex(np.nan, np.nan)
+        parameters[:, none] = std[:, none] = np.nan
+        return Compensated(g, parameters, std, bits)
+
+    def propagate_parameters(self, g: Complex) -> Array:
+        """(2, N) Eo^2: variance of inline and cross by the parameters, beside a gradient (N,), Eo."""
+        few = max(1, int(self.demodulator.rate // FINE))
+        count = len(g) // few
+        along = np.empty((self.roots[0].shape[1], 2, count))  # independent steps of one standard deviation
+        for some in split_range(count, ROWS // few):
+            change = self._change_by_parameters(slice(some.start * few, some.stop * few), g, few)
+            for (rows, _), root in zip(self.blocks, self.roots, strict=True):
+                # a mean that two blocks share is that of the first
+                first = max(-(-rows.start // few), some.start)
+                last = min(-(-rows.stop // few), some.stop)
+                if first < last:
+                    own = change[..., first - some.start : last - some.start]
+                    along[..., first:last] = np.tensordot(root.T, own, 1)
+            progress.step(float(few * (some.stop - some.start)))
+        low_pass = find_demodulator(self.demodulator.name, self.demodulator.rate / few)
+        total = sum((low_pass.low_passed(x) ** 2 for x in along), np.zeros((2, count)))
+        centres = few * np.arange(count) + (few - 1) / 2  # the variance is linear between them
+        return np.stack([np.interp(np.arange(len(g)), centres, x) for x in total])
+
+    def _change_by_parameters(self, rows: slice, g: Complex, few: int) -> Array:
+        """(n, 2, rows / few) Eo: inline and cross by the fitted parameters, each times its scale, before the low-pass; means of ``few``."""
+        r, x, moved = self.make_inputs(rows, g)
+        o, count = self.observation, len(r.time) // few
+        J = np.zeros((len(self.columns), len(o.series), len(r.time)))
+        put_derivatives(J, self.model.evaluators("chain"), self.columns, x, r, o, self.about - moved)
+        mixer = np.stack([self.mixer[rows].real, self.mixer[rows].imag]).reshape(2, count, few) / few
+        return np.asarray(np.einsum("wcf,ncf->nwc", mixer, combine_output(o, J).reshape(len(J), count, few)))
+
+    def flag_samples(self) -> NDArray[np.int64]:
+        """(N,): bits of the samples."""
+        r, d = self.observation.record, self.demodulator
+        bits = np.full(len(r.time), self.flags, dtype=np.int64)
+        head, tail = d.settling
+        bits[:head] |= Quality.EDGE
+        bits[len(bits) - tail :] |= Quality.EDGE
+        missing = ~r.valid
+        if self.recorded is not None:
+            bits[missing] |= Quality.GAP
+        elif missing.any():
+            weights = replace(d, taps=np.abs(d.taps) / np.sum(np.abs(d.taps)))
+            share = weights.low_passed(missing.astype(np.float64))
+            bits[share > HOLES] |= Quality.GAP
+            bits[(share > FELT) & (share <= HOLES) & (bits & NO_VALUE == 0)] |= Quality.BRIDGED
+        for name, (low, high) in self.validity.items():
+            x = r.channels.get(name)
+            if x is None or name in ("time", "spin_angle", *GRADIENT):
+                continue
+            moving = name.partition("_")[0] in ("a", "omega", "omegadot")
+            beyond = np.maximum(low - x, x - high) > MARGIN * (high - low)
+            bits[beyond] |= Quality.MOTION if moving else Quality.AUXILIARY
+        return bits
