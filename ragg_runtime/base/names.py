@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from derive.names import EXPECTED, LONGEST, is_name
+from derive.names import EXPECTED, LONGEST, in_comment, is_name
 from ragg_runtime.base.errors import UserError
 
-__all__ = ["EXPECTED", "LONGEST", "is_column", "is_name", "read_name"]
+__all__ = ["EXPECTED", "LONGEST", "in_comment", "is_column", "is_name", "read_name"]
 
 _SHOWN = 80
 """Letters of what is no name that a message repeats."""

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import json
-import textwrap
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 
+import jinja2
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
+from ragg_runtime.base.names import in_comment
 from ragg_runtime.compensation.export.contents import DISC, Contents, ExportedOutput, unit_of
 from ragg_runtime.estimation.least_squares import marginalise
-from ragg_runtime.estimation.regressors import list_base_columns, own_columns
+from ragg_runtime.estimation.regressors import Column, list_base_columns, own_columns
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
@@ -42,14 +44,16 @@ SPELLINGS: Mapping[str, str] = {
 def make_program(c: Contents) -> dict[str, str]:
     """File name -> text of everything that `make` needs."""
     model = next(n.removesuffix(".c") for n in c.sources if n.endswith(".c"))
-    online = any(o.sees for o in c.outputs())
-    tolerance = TOLERANCE_EO * min(abs(o.scale_factor) for o in c.outputs())
+    outputs = c.outputs()
+    online = [(k, o) for k, o in enumerate(outputs) if o.sees]
+    tolerance = TOLERANCE_EO * min(abs(o.scale_factor) for o in outputs)
     makefile = _packaged("Makefile").replace("@MODEL@", model).replace("@TOLERANCE@", f"{tolerance:.3g}")
+    needed = [f"{n} [{unit_of(n)}]" for n in c.columns() if _is_needed(n)]
     return {
         "Makefile": makefile.replace("@PROGRAMS@", "ragg_model ragg_online" if online else "ragg_model"),
-        "README.txt": _readme(c, online),
+        "README.txt": _render("README.txt", c=c, outputs=outputs, needed=needed, online=online),
         **{n: _packaged(n) for n in (*PROGRAM, *(ONLINE if online else ()))},
-        **({"online_values.h": write_online_values(c)} if online else {}),
+        **({"online_values.h": write_online_values(c, online)} if online else {}),
         **{n: c.model.sources[n] for n in ("chain.c", "chain.h")},
         **c.sources,
         "values.h": write_values(c, model),
@@ -60,157 +64,22 @@ def _packaged(name: str) -> str:
     return resources.files("ragg_runtime.compensation.export").joinpath("c", name).read_text("utf-8")
 
 
-def _readme(c: Contents, online: bool) -> str:
-    effects = ", ".join(e.id for e in c.model.effects) or "none"
-    needed = ", ".join(f"{n} [{unit_of(n)}]" for n in c.columns() if _needed(n))
-    text = textwrap.dedent(
-        f"""\
-        The instrument model {c.name} as a C program.
-        Values: {c.origin}. Effects beyond the paper's instrument: {effects}.
-        Outputs, V: {", ".join(f"{o.name} = {o.formula}" for o in c.outputs())}.
-
-        make                                          builds ragg_model
-        make check                                    compares it with the results of Python
-        ./ragg_model < MOTION.csv > OUT.csv           the outputs of a record of motion
-        ./ragg_model --values                         the parameters that are built in
-
-        Columns that MOTION.csv must have, in SI units: time [s], {needed}.
-        omegadot_x, omegadot_y, omegadot_z [rad/s^2]: if missing, they are derived from omega as in Python
-        (even steps; runs shorter than 25 samples have none).
-        Gradients (Gamma_xx ... [s^-2]) are zero if missing; {", ".join(c.angles())} [rad] replaces 2 pi f t.
-        """
+@cache
+def _environment() -> jinja2.Environment:
+    env = jinja2.Environment(
+        loader=jinja2.PackageLoader("ragg_runtime.compensation.export", "templates"),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,  # the output is source code, not markup
     )
-    text += "".join(f"{limit}.\n" for limit in c.limits())
-    if not online:
-        return text
-    return text + textwrap.dedent(
-        """\
-
-        ./ragg_online NOISE_V WALK_EO FORGET_S < FLIGHT.csv > OUT.csv
-            calibrates and compensates sample by sample: the same columns and the recorded outputs in V.
-        online.h                                      the same for a program of your own, without allocation
-        """
-    )
+    env.filters |= {"text": _text, "comment": in_comment, "digits": "{:.17g}".format}
+    return env
 
 
-def _needed(column: str) -> bool:
-    """Whether a record must have a column: else it is zero, or derived."""
-    return column not in ANGULAR_ACCELERATION and column not in GRADIENT
-
-
-# --- values.h ------------------------------------------------------------------------------------------
-
-
-def write_values(c: Contents, name: str) -> str:
-    """values.h of a model whose C is ``name``.c."""
-    call = f"ragg_{name}_output(which, n, t, in, p, angle, G)"
-    if name == "folded":  # the paper's one output
-        call = "((void)(which), ragg_folded_output(n, t, in, p, angle, G))"
-    return "\n".join(
-        [
-            f"/* The model {_comment(c.name)}: {_comment(c.origin)}. Everything is in SI units. */",
-            "#ifndef RAGG_VALUES_H",
-            "#define RAGG_VALUES_H",
-            "",
-            f'#include "{name}.h"',
-            "",
-            "/* An output by the model. */",
-            f"#define MODEL(which, n, t, in, p, angle, G) {call}",
-            "",
-            *_columns(c),
-            *_parameters(c),
-            *_derivatives(),
-            "#endif",
-            "",
-        ]
-    )
-
-
-def _columns(c: Contents) -> list[str]:
-    """Columns of a record, discs, outputs, and which column each input is."""
-    outputs, angles, motion = c.outputs(), c.angles(), c.columns()
-    if {*motion} & {*ANGULAR_ACCELERATION}:  # three and three, one after the other
-        whole = [*ANGULAR_RATE, *ANGULAR_ACCELERATION]
-        motion = [*whole, *(n for n in motion if n not in whole)]
-    columns = ["time", *angles, *motion, *(o.name for o in outputs)]
-    place = {n: k for k, n in enumerate(columns)} | {DISC: -1}
-    needed = {"time", *filter(_needed, motion)}
-    units = {n: SPELLINGS.get(unit_of(n), unit_of(n)) for n in columns} | {o.name: "V" for o in outputs}
-    return [
-        _enum(COLUMNS=len(columns), INPUTS=len(c.inputs()), OUTPUTS=len(outputs), DISCS=len(angles)),
-        _enum(
-            TIME=0,
-            DISC_ANGLE=-1,
-            OMEGA=place.get(ANGULAR_RATE[0], -1),
-            OMEGADOT=place.get(ANGULAR_ACCELERATION[0], -1),
-            FIRST_OUTPUT=len(columns) - len(outputs),
-            FROM_FIRST=int(c.instrument.angle_origin == "first-sample"),
-        ),
-        "",
-        "/* Name, accepted spellings of the unit, and whether it must be there (else it is zero, or derived). */",
-        *_table(
-            "const struct { const char *name, *units; int needed; } COLUMN[COLUMNS]",
-            (f'{{"{_text(n)}", "{units[n]}", {int(n in needed)}}},' for n in columns),
-        ),
-        "/* Column of a disc's angle, and the parameter that is its rate. */",
-        *_table(
-            "const struct { int column, spin; } DISC[DISCS]",
-            (f"{{{place[n]}, {next(o.spin for o in outputs if o.angle_column == n)}}}," for n in angles),
-        ),
-        *_table(
-            "const struct { const char *name, *ending; int disc; } OUTPUT[OUTPUTS]",
-            (f'{{"{_text(o.name)}", "{_text(o.ending)}", {angles.index(o.angle_column)}}},' for o in outputs),
-        ),
-        "/* Which column each input of the model is (DISC_ANGLE: the disc's), and how often it is differentiated by time. */",
-        *_table(
-            "const struct { int column, derivative; } INPUT[INPUTS]",
-            (f"{{{place[x['column']]}, {x['derivative']}}}, /* {x['name']} */" for x in c.inputs()),
-        ),
-    ]
-
-
-def _parameters(c: Contents) -> list[str]:
-    rows = [
-        (x, v["name"] if len(v["values"]) == 1 else f"{v['name']}[{j}]", v["unit"], v["meaning"])
-        for v in c.parameters()
-        for j, x in enumerate(v["values"], 1)
-    ]
-    return [
-        _enum(PARAMETERS=len(rows)),
-        *_table(
-            "const double PARAMETER[PARAMETERS]",
-            (f"{x:.17g}, /* {_comment(f'{name}, {unit}: {meaning}')} */" for x, name, unit, meaning in rows),
-        ),
-        *_table("const char *const PARAMETER_NAME[PARAMETERS]", (f'"{_text(r[1])}",' for r in rows)),
-        *_table("const char *const PARAMETER_UNIT[PARAMETERS]", (f'"{_text(r[2])}",' for r in rows)),
-    ]
-
-
-def _derivatives() -> list[str]:
-    short = (weights(WINDOW, k) for k in range(WINDOW // 2 + 1))
-    return [
-        "/* Weights of a window of samples for the derivative, per sample, at its first, second ... middle sample. */",
-        _enum(WINDOW=WINDOW, REACH=REACH, SPIN_MOST=HALO),
-        *_table(
-            "const double DERIVATIVE[WINDOW / 2 + 1][WINDOW]",
-            (f"{{{', '.join(f'{x:.17g}' for x in row)}}}," for row in short),
-        ),
-        "/* Of the longer window of the angular acceleration, up to its middle; the other half is its mirror, negative. */",
-        *_table("const double WIDE[REACH + 1]", (f"{x:.17g}," for x in wide_weights()[: REACH + 1])),
-        "/* Half the stretch over which an encoder's angle is smoothed, s, and the degrees of polynomials to choose from. */",
-        f"static const double SPIN_WINDOW = {SPIN_WINDOW};",
-        _enum(DEGREES=len(DEGREES), LEAST_DEGREE=DEGREES[0], MOST_DEGREE=DEGREES[-1]),
-        f"static const int DEGREE[DEGREES] = {{{', '.join(map(str, DEGREES))}}};",
-        "",
-    ]
-
-
-def _table(head: str, rows: Iterable[str]) -> list[str]:
-    return [f"static {head} = {{", *(f"    {r}" for r in rows), "};", ""]
-
-
-def _enum(**values: int) -> str:
-    return f"enum {{ {', '.join(f'{n} = {k}' for n, k in values.items())} }};"
+def _render(template: str, **values: object) -> str:
+    return _environment().get_template(f"{template}.j2").render(values)
 
 
 def _text(x: str) -> str:
@@ -218,107 +87,81 @@ def _text(x: str) -> str:
     return "".join(ch if ch.isascii() and ch.isprintable() and ch not in '"\\?' else "_" for ch in x)
 
 
-def _comment(x: str) -> str:
-    """Inside a C comment."""
-    plain = "".join(ch if ch.isprintable() and ch != "\\" else "_" for ch in x)
-    return plain.replace("*/", "* /").replace("/*", "/ *")
+def _is_needed(column: str) -> bool:
+    """Whether a record must have a column: else it is zero, or derived."""
+    return column not in ANGULAR_ACCELERATION and column not in GRADIENT
 
 
-# --- online_values.h -----------------------------------------------------------------------------------
-
-
-def write_online_values(c: Contents) -> str:
-    """online_values.h: the point about which the model is linearised, what is fitted, what is known of it."""
-    outputs = [(k, o) for k, o in enumerate(c.outputs()) if o.sees]
-    fitted = [_fitted(c, k, o) for k, o in outputs]
-    most = max(map(len, fitted))
-    spans = [(min(o.members), max(o.members) + 1 - min(o.members)) for _, o in outputs]
-    return "\n".join(
-        [
-            "/* What the online filter begins with. SI units; scales are errors of the sheet. */",
-            "#ifndef RAGG_ONLINE_VALUES_H",
-            "#define RAGG_ONLINE_VALUES_H",
-            "",
-            _enum(
-                ONLINE_INPUTS=len(c.model.chain.INPUTS),
-                ONLINE_PARAMETERS=len(c.p),
-                ONLINE_OUTPUTS=len(outputs),
-                FITTED_PARAMETERS=most,
-            ),
-            "",
-            "/* Name and ending of an output that sees a gradient, its number in the model, how many accelerometers it has,",
-            " * scale factor, V/Eo, and phase, rad: k (inline/2 sin(2 phi + phase) - cross cos(2 phi + phase)). */",
-            *_table(
-                "const struct { const char *name, *ending; int which, members; double scale_factor, phase; }\n"
-                "    ONLINE_OUTPUT[ONLINE_OUTPUTS]",
-                (
-                    f'{{"{_text(o.name)}", "{_text(o.ending)}", {k}, {len(o.members)}, {o.scale_factor:.17g}, {o.phase:.17g}}},'
-                    for k, o in outputs
-                ),
-            ),
-            "#ifdef RAGG_CHAIN_H /* for online.c alone */",
-            "/* Accelerometers of an output and their signs, and those that it is among; the parameter that is the rate of its disc. */",
-            *_table(
-                f"const struct {{ int j; double sign; }} MEMBER[ONLINE_OUTPUTS][{max(len(o.members) for _, o in outputs)}]",
-                (
-                    f"{{{', '.join(f'{{{j}, {s}.0}}' for j, s in zip(o.members, o.signs, strict=True))}}},"
-                    for _, o in outputs
-                ),
-            ),
-            _enum(ACCELEROMETERS=max(count for _, count in spans)),
-            *_table(
-                "const struct { int first, count; } SPAN[ONLINE_OUTPUTS]",
-                (f"{{{first}, {count}}}," for first, count in spans),
-            ),
-            f"static const int SPIN[ONLINE_OUTPUTS] = {{{', '.join(str(o.spin) for _, o in outputs)}}};",
-            "",
-            *_table("const double POINT[ONLINE_PARAMETERS]", (f"{x:.17g}," for x in c.p)),
-            "/* Row of the derivatives, member (-1: all), place, scale (0: none of this output), the sheet's value from POINT on. */",
-            *_table(
-                "const struct { int row, member, place; double scale, sheet; }\n"
-                "    FITTED[ONLINE_OUTPUTS][FITTED_PARAMETERS]",
-                _blocks([*rows, *["{0, -1, 0, 0.0, 0.0},"] * (most - len(rows))] for rows in fitted),
-            ),
-            "/* Square root of the information of the calibration, row after row of the upper triangle. */",
-            *_table(
-                f"const double START[ONLINE_OUTPUTS][{most * (most + 1) // 2}]",
-                _blocks(_start(c, k, most) for k, _ in outputs),
-            ),
-            "#endif",
-            "",
-            "#endif",
-            "",
-        ]
+def write_values(c: Contents, name: str) -> str:
+    """values.h of a model whose C is ``name``.c."""
+    outputs, angles, motion = c.outputs(), c.angles(), c.columns()
+    if {*motion} & {*ANGULAR_ACCELERATION}:  # three and three, one after the other
+        whole = [*ANGULAR_RATE, *ANGULAR_ACCELERATION]
+        motion = [*whole, *(n for n in motion if n not in whole)]
+    columns = ["time", *angles, *motion, *(o.name for o in outputs)]
+    parameters = [
+        (x, v["name"] if len(v["values"]) == 1 else f"{v['name']}[{j}]", v["unit"], v["meaning"])
+        for v in c.parameters()
+        for j, x in enumerate(v["values"], 1)
+    ]
+    return _render(
+        "values.h",
+        c=c,
+        name=name,
+        outputs=outputs,
+        angles=angles,
+        columns=columns,
+        place={n: k for k, n in enumerate(columns)} | {DISC: -1},
+        needed={"time", *filter(_is_needed, motion)},
+        units={n: SPELLINGS.get(unit_of(n), unit_of(n)) for n in columns} | {o.name: "V" for o in outputs},
+        inputs=c.inputs(),
+        from_first=c.instrument.angle_origin == "first-sample",
+        parameters=parameters,
+        short=[weights(WINDOW, k).tolist() for k in range(WINDOW // 2 + 1)],
+        wide=wide_weights()[: REACH + 1],
+        spin_window=SPIN_WINDOW,
+        spin_most=HALO,
+        degrees=DEGREES,
     )
 
 
-def _fitted(c: Contents, place: int, o: ExportedOutput) -> list[str]:
-    """Initialisers of what an output's filter fits."""
+def write_online_values(c: Contents, outputs: Sequence[tuple[int, ExportedOutput]]) -> str:
+    """online_values.h: the point about which the model is linearised, what is fitted, what is known of it."""
     columns = list_base_columns(c.model, c.instrument)
+    owned = [own_columns([q for q, _ in columns], c.instrument, k) for k, _ in outputs]
+    most = max(map(len, owned))
+    return _render(
+        "online_values.h",
+        c=c,
+        outputs=outputs,
+        most=most,
+        spans=[(min(o.members), max(o.members) + 1 - min(o.members)) for _, o in outputs],
+        fitted=[
+            _list_fitted(c, o, [columns[k] for k in own]) for (_, o), own in zip(outputs, owned, strict=True)
+        ],
+        starts=[_find_start(c, own, most) for own in owned],
+    )
+
+
+def _list_fitted(
+    c: Contents, o: ExportedOutput, columns: Sequence[tuple[Column, int]]
+) -> list[tuple[int, int, int, float, float, str]]:
+    """What an output's filter fits: row of the derivatives, member, place, scale, the sheet's value, label."""
     rows = {name: k for k, (name, _) in enumerate(c.model.chain.ROWS)}
     nominal = vector(c.model, c.instrument)
     found = []
-    for k in own_columns([q for q, _ in columns], c.instrument, place):
-        q, at = columns[k]
+    for q, at in columns:
         j = -1 if q.accelerometer is None else o.members.index(q.accelerometer - 1)
-        sheet = float((nominal[at] - c.p[at]) / q.scale)
-        found.append(
-            f"{{{rows[q.name]}, {j}, {at}, {q.scale:.17g}, {sheet:.17g}}}, /* {_comment(q.label)} */"
-        )
+        found.append((rows[q.name], j, at, q.scale, float((nominal[at] - c.p[at]) / q.scale), q.label))
     return found
 
 
-def _start(c: Contents, place: int, size: int) -> list[str]:
+def _find_start(c: Contents, own: Sequence[int], size: int) -> NDArray[np.float64]:
     """Root of what is known of an output's parameters at the beginning, further ones of unit information."""
-    own = own_columns([q for q, _ in list_base_columns(c.model, c.instrument)], c.instrument, place)
     whole = np.eye(size)
     if c.saved is not None:
         whole[: len(own), : len(own)] = marginalise(c.saved.information, own)
-    return [f"{x:.17g}," for x in whole[np.triu_indices(size)]]
-
-
-def _blocks(each: Iterable[Sequence[str]]) -> list[str]:
-    return [line for lines in each for line in ("{", *(f"    {x}" for x in lines), "},")]
+    return np.asarray(whole[np.triu_indices(size)])
 
 
 # --- all forms ---------------------------------------------------------------------------------------
