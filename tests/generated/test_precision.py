@@ -123,12 +123,9 @@ def test_disc_angle_loses_nothing_with_time() -> None:
     assert np.max(np.abs(analytical.disc_angle(t, f))) <= np.pi
 
 
-@pytest.mark.parametrize("start", SECONDS)
-def test_jacobian_is_the_derivative_of_the_instrument(
-    start: float, library: dict[str, compiled.Library]
-) -> None:
+def test_jacobian_is_the_derivative_of_the_instrument(library: dict[str, compiled.Library]) -> None:
     """Against central differences at 50 digits, which are exact to 1e-30."""
-    t, inputs, p = cases(start, seed=4, count=1)[0]
+    t, inputs, p = cases(1e6, seed=4, count=1)[0]
     q = fifty.exact(p)
     true = np.empty((len(p), len(t)))
     for n, instant in enumerate(fifty.exact(t)):

@@ -46,19 +46,3 @@ def test_manifest_describes_what_the_modules_hold() -> None:
             assert entry["amplitudes"] == list(module.AMPLITUDES)
         elif name != "folded":
             assert entry["rows"] == [n for n, _ in module.ROWS]
-
-
-def test_amplitudes_and_output_are_one_model() -> None:
-    """Eq. 17 put together by hand; four quarters of a turn at constant motion give A_0."""
-    draw = np.random.default_rng(11)
-    p, inputs = draws.instrument(draw), np.repeat(draws.motion(draw, 1), 8, axis=1)
-    t = np.arange(8) / 2.0  # one turn at 0.25 Hz
-    for module in (analytical, simplified):
-        A = module.amplitudes(inputs, p)
-        G = module.output(t, inputs, p)
-        phi = 2 * np.pi * 0.25 * t
-        by_hand = A[0] + sum(
-            A[2 * n - 1] * np.cos(n * phi) + A[2 * n] * np.sin(n * phi) for n in range(1, (len(A) + 1) // 2)
-        )
-        np.testing.assert_allclose(G, by_hand, rtol=0, atol=1e-12 * np.max(np.abs(G)))
-        np.testing.assert_allclose(np.mean(G), A[0, 0], rtol=0, atol=1e-12 * np.max(np.abs(G)))

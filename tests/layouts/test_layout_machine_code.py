@@ -33,9 +33,8 @@ def drawn(chain_inputs: tuple[str, ...]) -> np.ndarray:
     return np.stack([rng.standard_normal(N) * size[n.split("_")[0]] for n in chain_inputs])
 
 
-@pytest.mark.parametrize("name", ["odd"])  # the others against fifty digits
-def test_c_agrees_with_numpy(name: str) -> None:
-    i = instrument(name, sheets.EXACT)
+def test_c_agrees_with_numpy() -> None:
+    i = instrument("odd", sheets.EXACT)  # the others against fifty digits
     model, _ = derive.derived((), (), i.form, i.layout)
     p = vector(model, i)
     x = drawn(model.chain.INPUTS)
@@ -59,7 +58,7 @@ INSTANTS = 4
 FEW = 3.0
 """Times the unavoidable: rotated channels are rounded, too, and added in some order."""
 
-BALANCED = ("two", "complements", "umbrella", "vertical")
+BALANCED = ("umbrella", "vertical")
 """Layouts whose accelerometers' places leave nothing of a specific force."""
 
 
@@ -114,7 +113,7 @@ def unavoidable(
 
 
 @pytest.mark.parametrize(
-    ("name", "head"), [*((n, sheets.EXACT) for n in ("complements", "vertical", "odd")), ("umbrella", "")]
+    ("name", "head"), [*((n, sheets.EXACT) for n in ("vertical", "odd")), ("umbrella", "")]
 )
 def test_round_off_against_fifty_digits(name: str, head: str) -> None:
     """With 1 g in all directions: as good as the paper's layout where the places balance, else as float64 can be."""

@@ -16,7 +16,6 @@ from ragg_runtime.model.evaluate import output, scale_factor, vector
 from ragg_runtime.model.record import record
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
-from ragg_runtime.reference.turning import Turning
 from tests.layouts import sheets
 
 LAYOUTS: dict[str, tuple[Callable[[], list[str]], int]] = {
@@ -34,9 +33,7 @@ def instrument(name: str, head: str = "", size: float = 1.0) -> Instrument:
     return parse_instrument(sheets.sheet(discs(), count, head, size=size))
 
 
-def flown(
-    i: Instrument, kinematics: str, rotations: str, turning: dict[str, Turning] | None = None
-) -> Flight:
+def flown(i: Instrument, kinematics: str, rotations: str) -> Flight:
     exact = rotations == "exact"
     s = simulate(
         i,
@@ -47,7 +44,6 @@ def flown(
         rotations="exact" if exact else "first-order",
         kinematics="full" if kinematics == "full" else "platform",
         effects={} if exact else {"second-order-misalignment": {"kappa": 0.0}},
-        turning=turning,
     )
     return s.flight(voltages=True)
 
@@ -76,26 +72,6 @@ def test_derived_agrees_with_reference(name: str, head: str, kinematics: str, ro
     gap = worst(i, flight)
     assert gap < 1e-4, gap  # rounding of a single accelerometer's volt is 1e-6 Eo and more
     assert size / (i.scale_factor * EOTVOS) > 1e3
-
-
-SWINGING = Turning(0.25, ((0.4, 0.05, 0.3), (0.02, 0.25, 1.0)))
-"""A spin rate that swings by half, and with the turn."""
-
-TO_AND_FRO = Turning(0.0, ((9.0, 0.02, 0.0),))
-"""One and a half turns to and fro in 50 s."""
-
-
-@pytest.mark.parametrize("turning", [SWINGING, TO_AND_FRO], ids=["swinging", "to and fro"])
-def test_spin_that_varies_or_reverses(turning: Turning) -> None:
-    i = instrument("complements")
-    assert worst(i, flown(i, "platform", "first-order", {"A": turning})) < 1e-4
-
-
-def test_discs_with_angles_of_their_own() -> None:
-    i = instrument("umbrella")
-    flight = flown(i, "platform", "first-order", {"A": SWINGING, "C": TO_AND_FRO})
-    assert {"spin_angle_A", "spin_angle_C"} <= set(flight.channels)
-    assert worst(i, flight) < 1e-4
 
 
 @pytest.mark.parametrize(
