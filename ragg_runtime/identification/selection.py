@@ -45,8 +45,8 @@ class Field:
 
     ``candidates`` are columns after the base, by effect; ``penalty`` the logarithm of the number of variants an effect was chosen
     from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``blocks``: R factors
-    of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``). ``within``: a field of some of
-    the effects on the same flights, whose tests hold here. ``contains``: the special cases of effects, which are no alternatives to them.
+    of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``).
+    ``contains``: the special cases of effects, which are no alternatives to them.
     """
 
     T: Array
@@ -56,7 +56,6 @@ class Field:
     penalty: Mapping[str, float] = field(default_factory=dict)
     freedom: float = np.inf
     blocks: tuple[Array, ...] = ()
-    within: Field | None = None
     contains: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     norms: Array = field(init=False)
     P: Array = field(init=False)
@@ -103,23 +102,19 @@ class Field:
         return self._known[key]
 
     def _tests(self, given: Sequence[str]) -> dict[str, Test]:
-        known: Mapping[str, Test] = {}
-        if self.within is not None and all(e in self.within.candidates for e in given):
-            known = self.within.tests(given)
         P, floor = self.P, self.floor
         if given:
             P, floor = self.onto([n for e in given for n, _ in self.candidates[e]])
         found = {
             e: likelihood_ratio.test(P, columns, floor, self.penalty.get(e, 0.0), self.freedom)
             for e, columns in self.candidates.items()
-            if e not in given and e not in known
+            if e not in given
         }
         if self.blocks and any(map(self._raises, found.values())):
             others = [self.n_base + n for e in given for n, _ in self.candidates[e]]
             beside = uneven.ProjectedBlocks(self.T, self.blocks, self.n_base, others)
             found |= {e: self._tempered(t, beside, floor) for e, t in found.items() if self._raises(t)}
-        found |= known
-        return {e: found[e] for e in self.candidates if e in found}
+        return found
 
     def _raises(self, t: Test) -> bool:
         """Whether a test says anything: those that do not stay as they are."""
@@ -245,23 +240,20 @@ def alternatives(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
     return result
 
 
-def make_field(
-    f: Fitted, available: Sequence[str], T: Array | None = None, within: Field | None = None
-) -> Field:
-    """The candidates among ``available`` effects, on the R factor of everything or another one of the same columns."""
+def make_field(f: Fitted, available: Sequence[str]) -> Field:
+    """The candidates among ``available`` effects, on the R factor of everything."""
     candidates = group_by_effect(f.candidates)
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
     uneven_noise = any(n.uneven for n in f.calibration.noise)
     blocks = uneven.list_nonempty_blocks(t for own in f.r_factors for t in own) if uneven_noise else ()
     return Field(
-        T=f.whole if T is None else T,
+        T=f.whole,
         n_base=f.n_base,
         candidates=kept,
         rows=f.calibration.rows,
         freedom=freedom,
         blocks=blocks,
-        within=within,
         contains={e.id: e.contains for e in f.model.candidates},
     )
 

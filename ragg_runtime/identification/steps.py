@@ -1,52 +1,141 @@
-"""Effects that no fixed column can express: steps at an unknown instant, random ones, and what the
-recorder does to the output channel.
-"""
+"""Effects that begin at an unknown instant: candidates like all others, whose columns begin at the most likely one."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import count
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation import unknown_gradient
+from ragg_runtime.estimation import unknown_gradient, whitening
+from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.least_squares import fold, join, pick_columns, r_factor
 from ragg_runtime.estimation.least_squares import prior as prior_rows
+from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS, ROWS
-from ragg_runtime.estimation.regressors import Column
-from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, whiten_columns
-from ragg_runtime.identification import likelihood_ratio
+from ragg_runtime.estimation.regressors import Column, group_by_effect
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight, whiten_columns
+from ragg_runtime.identification import likelihood_ratio, selection
 from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification.selection import Field, list_testable, make_field
 
 Array = NDArray[np.float64]
+
+Columns = Mapping[str, Sequence[tuple[int, Column]]]
+"""The columns of every step, with their places among the candidates."""
+
+BESIDE = 20.0
+"""Logarithm of the p-value by which a step must be surer beside the first effect than by itself to be taken at that instant."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """The first sample after the most likely instant of a step, and its test."""
+    """The first sample after a step, and the candidate columns of other effects beside which it was found."""
 
     sample: int
-    test: Test
+    given: Sequence[int]
 
 
-def find_best_steps(
+def add_steps(
+    f: Fitted, known: Mapping[str, Step] = MappingProxyType({})
+) -> tuple[Field, Fitted, dict[str, float]]:
+    """The field of all candidates, the fit in which the columns of each step begin at its most likely instant, and these instants by
+    effect, s.
+
+    Once a step is significant, and so its instant ``known``, the noise is estimated again, and everything with it.
+    """
+    available = list_testable(f)
+    kinds = [e.id for e in f.model.candidates if e.kind == "step"]
+    columns = {e: own for e, own in group_by_effect(f.candidates).items() if e in kinds}
+    if len(f.flights) != 1 or not columns:
+        return make_field(f, available), f, {}
+    known = {e: _sharpen(f, step, columns[e]) for e, step in known.items()}
+    f = _begin_at(f, known) if known else f
+    chosen = selection.choose(_make_field(f, [*available, *known])).chosen
+    beside = [n for n, c in enumerate(f.candidates) if c.effect in chosen]
+    likeliest = _scan(f, {e: own for e, own in columns.items() if e not in known}, beside)
+    begun = _zero_before(f, likeliest, columns)
+    field = _make_field(begun, [*available, *columns])
+    # blocks of time do not judge a step yet: one that is in the noise makes it uneven
+    found = [e for e in selection.choose(replace(field, blocks=())).chosen if e in likeliest]
+    if found:
+        refined = {e: _refine(f, likeliest[e], columns[e]) for e in found}
+        known = {**known, **{e: _sharpen(f, step, columns[e]) for e, step in refined.items()}}
+        return add_steps(_estimate_again(f, known), known)
+    instants = _instants(f, {**known, **likeliest})
+    return field, replace(begun, prepared=tuple(x.with_steps(instants) for x in f.prepared)), instants
+
+
+def _make_field(f: Fitted, effects: Sequence[str]) -> Field:
+    """The field of effects, steps among them charged for the choice of their instant."""
+    steps = [e.id for e in f.model.candidates if e.kind == "step"]
+    return replace(make_field(f, effects), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
+
+
+def _instants(f: Fitted, steps: Mapping[str, Step]) -> dict[str, float]:
+    """By effect, s."""
+    time = f.observations[0].record.time
+    return {e: float(time[s.sample]) for e, s in steps.items()}
+
+
+def _begin_at(f: Fitted, steps: Mapping[str, Step]) -> Fitted:
+    """The fit with the columns of steps from these samples on, made anew and put through the filter."""
+    prepared = tuple(x.with_steps(_instants(f, steps)) for x in f.prepared)
+    r_factors, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
+    return replace(f, prepared=prepared, r_factors=r_factors, sums=sums)
+
+
+def _zero_before(f: Fitted, steps: Mapping[str, Step], columns: Columns) -> Fitted:
+    """The fit with R factors and sums in which the columns of steps are zero in the blocks of time before them."""
+    sums = tuple(own.copy() for own in f.sums)
+    r_factors = tuple(tuple(t.copy() for t in own) for own in f.r_factors)
+    for e, step in steps.items():
+        places = [f.n_base + n for n, _ in columns[e]]
+        for block in np.flatnonzero(f.prepared[0].edges[:-1] < step.sample):
+            for own, factors in zip(sums, r_factors, strict=True):
+                own[block, places] = 0.0
+                factors[block][:, places] = 0.0
+    return replace(f, r_factors=r_factors, sums=sums)
+
+
+def _estimate_again(f: Fitted, steps: Mapping[str, Step]) -> Fitted:
+    """The fit by the noise that is left beside the columns of steps."""
+    instants = _instants(f, steps)
+    noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
+    return fit(f.model, f.instrument, f.observations, noise, f.calibration.p)
+
+
+def _scan(f: Fitted, columns: Columns, beside: Sequence[int]) -> dict[str, Step]:
+    """The most likely edge of a block of time for each step: alone, unless it explains far more ``beside`` what is chosen first."""
+    edges = [int(k) for k in f.prepared[0].edges[1:-1]]
+    best: dict[str, tuple[float, Step]] = {}
+    for given in ((), tuple(beside)) if beside else ((),):
+        found = _find_best_edges(f.r_factors, edges, f.n_base, given, columns, f.to_nominal)
+        for e, (edge, test) in found.items():
+            if e not in best or test.log_p < best[e][0] - BESIDE:
+                best[e] = test.log_p, Step(edge, given)
+    return {e: step for e, (_, step) in best.items()}
+
+
+def _find_best_edges(
     r_factors: Sequence[Sequence[Array]],
     edges: Sequence[int],
     n_base: int,
     given: Sequence[int],
-    owned: Sequence[Sequence[tuple[int, Column]]],
+    columns: Columns,
     prior: Array,
-) -> list[Step]:
-    """For each effect the edge between two segments of time, each with an R factor of every output, where its step explains most.
+) -> dict[str, tuple[int, Test]]:
+    """For each step the edge between two segments of time, each with an R factor of every output, from which on it explains most.
 
-    ``owned`` are each effect's columns, ``given`` those of chosen ones (positions after the base); ``prior`` (n_base,) the centre.
+    ``given``: places of other effects' columns among the candidates; ``prior`` (n_base,): its centre.
     """
-    columns = [c for own in owned for c in own]
-    k, m = n_base + len(given), len(columns)
-    others = [*(n_base + n for n in given), *(n_base + n for n, _ in columns), -1]
+    own = [c for each in columns.values() for c in each]
+    k, m = n_base + len(given), len(own)
+    others = [*(n_base + n for n in given), *(n_base + n for n, _ in own), -1]
     picked = [fold([pick_columns(t, n_base, others) for t in each]) for each in zip(*r_factors, strict=True)]
     # The segments after an edge count with the steps' columns, those before it without; the prior in them.
     sheet = prior_rows(range(n_base), k + m + 1, prior)
@@ -55,40 +144,35 @@ def find_best_steps(
         after.append(fold([after[-1], t]))
     before = np.zeros((k + m + 1, k + m + 1))
     place = count()
-    named = [[(next(place), c) for _, c in own] for own in owned]
+    named = {e: [(next(place), c) for _, c in each] for e, each in columns.items()}
     floor = np.full(m + 1, likelihood_ratio.TESTABLE)
-    tests = []
-    for n in range(len(edges)):
+    best: dict[str, tuple[int, Test]] = {}
+    for n, edge in enumerate(edges):
         off = picked[n].copy()
         off[:, k : k + m] = 0.0
         before = fold([before, off])
         P = likelihood_ratio.project(fold([before, after[len(edges) - n]]), k)
-        tests.append([likelihood_ratio.test(P, own, floor, float(np.log(2 * BLOCKS))) for own in named])
-    best = [min(zip(edges, own, strict=True), key=lambda at: at[1].log_p) for own in zip(*tests, strict=True)]
-    return [Step(edge, test) for edge, test in best]
+        for e, each in named.items():
+            test = likelihood_ratio.test(P, each, floor, float(np.log(2 * BLOCKS)))
+            if e not in best or test.log_p < best[e][1].log_p:
+                best[e] = edge, test
+    return best
 
 
 FINE = 192
 """Segments into which the neighbourhood of a step is divided in each round that looks for its instant."""
 
 
-def refine_step(
-    prepared: Sequence[PreparedFlight],
-    step: Step,
-    n_base: int,
-    given: Sequence[int],
-    columns: Sequence[tuple[int, Column]],
-    prior: Array,
-) -> Step:
-    """Move the instant of a step to the sample where it explains most, of all outputs of a flight."""
-    length = len(prepared[0].observation.record.time)
+def _refine(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> Step:
+    """Move the instant of a step to the sample where it explains most, of all outputs of the flight."""
+    length, sample = len(f.observations[0].record.time), step.sample
     reach = max(1, length // BLOCKS)
-    places = [*range(n_base), *(n_base + n for n in given), *(n_base + n for n, _ in columns)]
-    moved = list(range(n_base + len(given), len(places)))
-    flights = [x.lean(places) for x in prepared]
-    named = [(n - n_base, c) for n, (_, c) in zip(moved, columns, strict=True)]
+    places = [*range(f.n_base), *(f.n_base + n for n in step.given), *(f.n_base + n for n, _ in columns)]
+    given = range(len(step.given))
+    moved = {"": [(len(given) + n, c) for n, (_, c) in enumerate(columns)]}
+    flights = [x.lean(places) for x in f.prepared]
     while reach > 1:
-        low, high = _near(step.sample, reach, length)
+        low, high = _near(sample, reach, length)
         edges = np.unique(np.linspace(low, high, FINE + 1).astype(np.intp))
         cuts = np.array([0, *edges, length])
         r_factors: list[Array | None] = [None] * (len(cuts) - 1)
@@ -104,10 +188,10 @@ def refine_step(
                     before = r_factors[k]
                     r_factors[k] = T if before is None else join([before, T])
         empty = np.zeros((len(places) + 1, len(places) + 1))
-        known = [empty if t is None else t for t in r_factors]
-        (step,) = find_best_steps([known], [int(e) for e in edges], n_base, range(len(given)), [named], prior)
+        whole = [[empty if t is None else t for t in r_factors]]
+        sample, _ = _find_best_edges(whole, [int(e) for e in edges], f.n_base, given, moved, f.to_nominal)[""]
         reach = int(np.max(np.diff(edges), initial=1))
-    return step
+    return replace(step, sample=sample)
 
 
 def _near(sample: int, reach: int, length: int) -> tuple[int, int]:
@@ -120,23 +204,26 @@ POINTS = 16
 """Instants on either side that are tried in each round that looks for the sample."""
 
 
-def sharpen_step(
-    prepared: Sequence[PreparedFlight], sample: int, projector: Projector, places: Sequence[int]
-) -> int:
+def _sharpen(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> Step:
     """Move the first sample of a step to where its own columns, put through the filter from there on, explain most.
 
-    Only of a flight of one segment; ``places`` of the columns are those among all, ``projector`` is of all outputs together.
+    Only of a flight of one segment.
     """
-    length = len(prepared[0].observation.record.time)
+    length = len(f.observations[0].record.time)
     if length > ROWS:
-        return sample
-    pieces = [p for x in prepared for p in x.each(lambda p: p)]
+        return step
+    everything = [t for own in f.r_factors for t in own]
+    projector = whitening.projector(everything, f.n_base, step.given)
+    places = [f.n_base + n for n, _ in columns]
+    pieces = [p for x in f.prepared for p in x.each(lambda p: p)]
     bases = [projector.basis(p) for p in pieces]
     y = np.concatenate([projector.left(p, Q) for p, Q in zip(pieces, bases, strict=True)])
     Q = np.concatenate(bases)
 
     def explained(at: int) -> float:
-        X = np.concatenate([_begun(p, x, at, places) for p, x in zip(pieces, prepared, strict=True)], axis=1)
+        X = np.concatenate(
+            [_begun(p, x, at, places) for p, x in zip(pieces, f.prepared, strict=True)], axis=1
+        )
         whole = np.linalg.norm(X, axis=1)
         X = X - (X @ Q) @ Q.T
         seen = np.linalg.norm(X, axis=1) > np.maximum(likelihood_ratio.TESTABLE, 1e-6 * whole)
@@ -145,7 +232,7 @@ def sharpen_step(
         U, s, _ = np.linalg.svd(X[seen].T, full_matrices=False)
         return float(np.sum((U[:, s > 1e-6 * s[0]].T @ y) ** 2))
 
-    reach = max(1, length // BLOCKS)
+    sample, reach = step.sample, max(1, length // BLOCKS)
     # the filter of a noise that has the step in it makes a spike of its edge, which a coarse search passes by
     low, high = _near(sample, POINTS, length)
     known = {at: explained(at) for at in range(low, high + 1)}
@@ -156,7 +243,7 @@ def sharpen_step(
             known.setdefault(at, explained(at))
         sample = max(known, key=lambda at: (known[at], -at))
         if spacing == 1:
-            return sample
+            return replace(step, sample=sample)
         reach = spacing
 
 

@@ -7,26 +7,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import comb
 
-from ragg_runtime.estimation import calibration, whitening
+from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.calibration import QUIET, prior_volume, restore_priors
 from ragg_runtime.estimation.fitted import Fitted, fit, prepare_evidence, release_held
-from ragg_runtime.estimation.least_squares import fold, pick_columns, prior
-from ragg_runtime.estimation.noise_estimate import estimate_noise
-from ragg_runtime.estimation.observation import BLOCKS
-from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.identification import contenders, selection
-from ragg_runtime.identification import steps as special
 from ragg_runtime.identification.contenders import Contest, Extend
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.parameters import physical_columns
-from ragg_runtime.identification.selection import Choice, Field, list_testable, make_field
+from ragg_runtime.identification.selection import Choice, Field
+from ragg_runtime.identification.steps import add_steps
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
 
@@ -261,153 +256,3 @@ def _alike(a: Test, b: Test) -> bool:
 def _as_sure(a: Test, b: Test) -> bool:
     """Whether the first is no less sure for its many coefficients."""
     return float(log_bayes(a.chi2, a.rank) - log_bayes(b.chi2, b.rank)) > -selection.AS_SURE
-
-
-BESIDE = 20.0
-"""Logarithm of the p-value by which a step must be surer beside the first effect than by itself to be taken at that instant."""
-
-
-@dataclass(frozen=True)
-class _Found:
-    """A step that was found: the first sample after it, and the columns of others beside which it was."""
-
-    sample: int
-    given: Sequence[int]
-
-
-def add_steps(
-    f: Fitted, known: Mapping[str, _Found] = MappingProxyType({})
-) -> tuple[Field, Fitted, dict[str, float]]:
-    """The field of all deterministic candidates, steps at their most likely instant, the flight with the steps' columns put in, and
-    the instants by effect, s.
-
-    Once the instant of a step is ``known`` the noise is estimated again, and everything with it.
-    """
-    available = list_testable(f)
-    steps = [e for e in f.model.candidates if e.kind == "step"]
-    if len(f.flights) != 1 or not steps:
-        return make_field(f, available), f, {}
-    owned = {e.id: [(n, c) for n, c in enumerate(f.candidates) if c.effect == e.id] for e in steps}
-    places = {e: [f.n_base + n for n, _ in own] for e, own in owned.items()}
-    time, edges = f.observations[0].record.time, f.prepared[0].edges
-    exact = {e: _sharpened(f, step, places[e]) for e, step in known.items()}
-    if exact:
-        f = _from(f, exact)
-    plain = _with_penalty(f, [*available, *exact])
-    first = [n for e in selection.choose(plain).chosen for n, _ in plain.candidates[e]]
-    unknown = [e for e in owned if e not in exact]
-    likeliest = _scanned(f, [owned[e] for e in unknown], first) if unknown else []
-    scans = dict(zip(unknown, likeliest, strict=True))
-    samples = {e: step.sample for e, (step, _) in scans.items()}
-    scanned = {e: places[e] for e in samples}
-    found: dict[str, _Found] = {}
-    root = _root(f, edges, samples, places)
-    # blocks of time do not judge a step yet: one that is in the noise makes it uneven
-    unjudged = replace(plain, blocks=()) if plain.blocks else plain
-    for n, (e, (step, given)) in enumerate(scans.items()):
-        so_far = [*samples][: n + 1]
-        field = _with_penalty(f, [*available, *exact, *so_far], _picked(root, f, so_far, scanned), unjudged)
-        if e in selection.choose(replace(field, blocks=())).chosen:
-            step = special.refine_step(f.prepared, step, f.n_base, given, owned[e], f.to_nominal)
-            found[e] = _Found(_sharpened(f, _Found(step.sample, given), places[e]), given)
-            samples[e] = found[e].sample
-            root = _root(f, edges, samples, places)
-    if found and not known:
-        instants = {e: float(time[x.sample]) for e, x in found.items()}
-        noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
-        calmer = fit(f.model, f.instrument, f.observations, noise, f.calibration.p)
-        return add_steps(calmer, found)
-    if found:  # the columns themselves, to the sample, and through the filter
-        exact |= {e: x.sample for e, x in found.items()}
-        f = _from(f, exact)
-    rest = {e: k for e, k in samples.items() if e not in exact}
-    instants = {e: float(time[k]) for e, k in (exact | rest).items()}
-    f = _begun(f, edges, rest, places)
-    f = replace(f, prepared=tuple(x.with_steps(instants) for x in f.prepared))
-    return _with_penalty(f, [*available, *instants], within=plain), f, instants
-
-
-def _sharpened(f: Fitted, step: _Found, places: Sequence[int]) -> int:
-    everything = [t for own in f.r_factors for t in own]
-    projector = whitening.projector(everything, f.n_base, step.given)
-    return special.sharpen_step(f.prepared, step.sample, projector, places)
-
-
-def _from(f: Fitted, exact: Mapping[str, int]) -> Fitted:
-    """The same with the columns of steps from these samples on, made anew and put through the filter."""
-    time = f.observations[0].record.time
-    instants = {e: float(time[k]) for e, k in exact.items()}
-    prepared = [x.with_steps(instants) for x in f.prepared]
-    r_factors, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
-    return replace(f, prepared=tuple(prepared), r_factors=r_factors, sums=sums)
-
-
-def _scanned(
-    f: Fitted, owned: Sequence[Sequence[tuple[int, Column]]], first: Sequence[int]
-) -> list[tuple[special.Step, Sequence[int]]]:
-    """The most likely step of each effect, and the columns of others beside which it was found."""
-    edges = [int(k) for k in f.prepared[0].edges[1:-1]]
-
-    def steps(given: Sequence[int]) -> list[tuple[special.Step, Sequence[int]]]:
-        found = special.find_best_steps(f.r_factors, edges, f.n_base, given, owned, f.to_nominal)
-        return [(step, given) for step in found]
-
-    # Alone, unless it explains far more next to the first choice.
-    return [
-        ways[-1] if ways[-1][0].test.log_p < ways[0][0].test.log_p - BESIDE else ways[0]
-        for ways in zip(*map(steps, [[], first] if first else [[]]), strict=True)
-    ]
-
-
-def _begun(
-    f: Fitted,
-    edges: Sequence[int] | NDArray[np.intp],
-    samples: Mapping[str, int],
-    places: Mapping[str, Sequence[int]],
-) -> Fitted:
-    """The same with R factors and sums in which the columns of steps are zero in blocks of time that begin before them."""
-    sums = tuple(own.copy() for own in f.sums)
-    r_factors = tuple(tuple(t.copy() for t in own) for own in f.r_factors)
-    for e, sample in samples.items():
-        for block in np.flatnonzero(np.asarray(edges)[:-1] < sample):
-            for own, factors in zip(sums, r_factors, strict=True):
-                own[block, places[e]] = 0.0
-                factors[block][:, places[e]] = 0.0
-    return replace(f, r_factors=r_factors, sums=sums)
-
-
-def _root(
-    f: Fitted,
-    edges: Sequence[int] | NDArray[np.intp],
-    samples: Mapping[str, int],
-    places: Mapping[str, Sequence[int]],
-) -> Array:
-    """R factor of a flight, the prior in it, whose last columns are those of the steps from their instants on."""
-    n, m = f.size + 1, sum(len(places[e]) for e in samples)
-    blocks = []
-    for own in f.r_factors:
-        for T, start in zip(own, edges[:-1], strict=True):
-            begun = [T[:, list(places[e])] * float(start >= samples[e]) for e in samples]
-            blocks.append(np.hstack([T, *begun]))
-    sheet = np.hstack([prior(range(f.n_base), n, f.to_nominal), np.zeros((f.n_base, m))])
-    return fold([*blocks, sheet])
-
-
-def _picked(root: Array, f: Fitted, steps: Sequence[str], places: Mapping[str, Sequence[int]]) -> Array:
-    """Of :func:`_root` the R factor (n, n) in which some steps begin at their instants."""
-    column = list(range(f.n_base, f.size + 1))
-    first = f.size + 1
-    for e, own in places.items():
-        for n, k in enumerate(own):
-            if e in steps:
-                column[k - f.n_base] = first + n
-        first += len(own)
-    return pick_columns(root, f.n_base, column)
-
-
-def _with_penalty(
-    f: Fitted, effects: Sequence[str], T: Array | None = None, within: Field | None = None
-) -> Field:
-    """The field of effects, steps among them charged for the choice of their instant; on another R factor if one is given."""
-    steps = [e.id for e in f.model.candidates if e.kind == "step"]
-    return replace(make_field(f, effects, T, within), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))

@@ -17,7 +17,8 @@ from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification.comparison import compare
-from ragg_runtime.identification.strong import Stage, add_steps
+from ragg_runtime.identification.steps import add_steps
+from ragg_runtime.identification.strong import Stage
 from ragg_runtime.io.files import write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
