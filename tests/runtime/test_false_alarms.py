@@ -23,9 +23,9 @@ def test_the_levels_add_up_to_what_is_promised() -> None:
 
 
 def test_records_of_noise_keep_to_the_level_of_the_catalogue() -> None:
-    """500 records of unit noise, 12 effects of four accelerometers with one or two parameters: some 50 ways to err."""
+    """250 records of unit noise, 12 effects of four accelerometers with one or two parameters: some 50 ways to err."""
     rng = np.random.default_rng(5)
-    alarms, runs = 0, 500
+    alarms, runs = 0, 250
     for _ in range(runs):
         columns: dict[str, tuple[tuple[int, Column], ...]] = {}
         n = 0

@@ -185,9 +185,9 @@ def test_a_paper_model_lacks_the_spin_and_with_it_the_error_is_the_noise(tmp_pat
     (tmp_path / "sheet.toml").write_text(sheet("[model]"))
     m = api.new(tmp_path / "paper", tmp_path / "sheet.toml")
     flight = simulate_flight(
-        replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=150.0, rate=RATE
+        replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=100.0, rate=RATE
     )
-    same = simulate_flight(m.instrument, ["disc-spin:share=1"], seed=4, duration=150.0, rate=RATE)
+    same = simulate_flight(m.instrument, ["disc-spin:share=1"], seed=4, duration=100.0, rate=RATE)
     np.testing.assert_array_equal(flight.outputs["G_out"], same.outputs["G_out"])
     d = api.diagnose(m, [flight])
     assert (d.verdict, d.found) == ("missing-effect", ("disc-spin",))

@@ -74,7 +74,7 @@ def test_a_hidden_effect_is_found_and_the_error_falls_to_the_noise() -> None:
 
 
 def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
-    s = scenario(45, duration=DURATION, rate=RATE, gradient_rms=20e-9)
+    s = scenario(45, duration=200.0, rate=RATE, gradient_rms=20e-9)
     clean = s.simulate({}, record_gradient=False).flight()
     d = diagnosed(s, clean)
     assert d.verdict == "adequate"
