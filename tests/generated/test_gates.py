@@ -1,8 +1,7 @@
 """The two gates: committed bytes against the derivation, and the physics at 50 digits against the instrument.
 
 The second holds whatever the tools do to the text: a release of SymPy that only orders terms anew fails the
-first gate (derive again) and casts no doubt on the physics.
-"""
+first gate (derive again) and casts no doubt on the physics."""
 
 from __future__ import annotations
 
@@ -12,10 +11,8 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
-
 import numpy as np
 import pytest
-
 import generated
 from derive import everything, pipeline
 from derive.propagation import collect, motion_numbers
@@ -24,6 +21,10 @@ from generated import analytical, chain, folded
 from ragg_runtime.cli.main import main
 from tests.generated import compiled, draws
 from tests.generated import fifty_digits as fifty
+import sympy
+from derive.effects import catalogue
+from generated import analytical, chain, folded, signatures, simplified
+from tests.generated import draws
 
 COMMITTED = Path(str(generated.__file__)).parent
 ROOT = COMMITTED.parent
@@ -129,3 +130,82 @@ def test_generated_code_is_the_instrument_at_50_digits() -> None:
         np.testing.assert_allclose(library["chain"].voltages(t, inputs, p), V, rtol=0, atol=size)
         voltages = chain.voltages(t, np.cos(angle), np.sin(angle), inputs, p)
         np.testing.assert_allclose(voltages, V, rtol=0, atol=size)
+
+
+FOLDER = Path(str(generated.__file__)).parent
+MANIFEST = json.loads((FOLDER / "manifest.json").read_text())
+MODULES = {m.__name__.split(".")[-1]: m for m in (analytical, simplified, folded, chain, signatures)}
+
+
+def test_manifest_lists_every_file_and_model() -> None:
+    present = {
+        p.relative_to(FOLDER).as_posix()
+        for p in FOLDER.rglob("*")
+        if p.is_file() and "__pycache__" not in p.parts
+    }
+    assert set(MANIFEST["files"]) == present
+    assert set(MANIFEST["models"]) == set(MODULES) == set(generated.__all__)
+    assert MANIFEST["format"] == 1
+    assert MANIFEST["sympy"].split(".")[0] == sympy.__version__.split(".")[0]
+    assert len(MANIFEST["digest"]) == 64
+    assert MANIFEST["effects"] == []
+    assert [e["id"] for e in MANIFEST["catalogue"]] == [e.id for e in catalogue()]
+
+
+def test_manifest_describes_what_the_modules_hold() -> None:
+    for name, module in MODULES.items():
+        entry = MANIFEST["models"][name]
+        assert [i["name"] for i in entry["inputs"]] == list(module.INPUTS)
+        assert [(q["name"], q["size"]) for q in entry["parameters"]][: len(module.PARAMETERS)] == list(
+            module.PARAMETERS
+        )
+        assert all(q["unit"] for q in entry["parameters"])
+        assert all(count > 0 for count in entry["operations"].values())
+        if name in ("analytical", "simplified"):
+            assert entry["amplitudes"] == list(module.AMPLITUDES)
+        elif name != "folded":
+            assert entry["rows"] == [n for n, _ in module.ROWS]
+
+
+def project(root: Path, version: str, code: str) -> Path:
+    (root / "generated").mkdir()
+    (root / "generated" / "chain.py").write_text(code)
+    (root / "generated" / "manifest.json").write_text(
+        pipeline.manifest_text({"sympy": version, "digest": "1"})
+    )
+    return root
+
+
+@pytest.fixture(autouse=True)
+def derived(monkeypatch: pytest.MonkeyPatch) -> None:
+    manifest = pipeline.manifest_text({"sympy": sympy.__version__, "digest": "1"})
+    files = {"chain.py": "a + b\n", "manifest.json": manifest}
+    monkeypatch.setattr(pipeline, "derive_base", lambda: files)
+
+
+def test_the_same_code_of_another_sympy_is_the_same(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    main(["derive", "--check", "--out", str(project(tmp_path, "1.0", "a + b\n"))])
+    assert "derived with SymPy 1.0, and is the same here" in capsys.readouterr().out
+
+
+def test_terms_in_another_order_are_told_with_the_versions(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["derive", "--check", "--out", str(project(tmp_path, "1.0", "b + a\n"))])
+    said = capsys.readouterr().err
+    assert end.value.code == 2
+    assert "-b + a" in said
+    assert "+a + b" in said
+    assert f"SymPy is {sympy.__version__} here, and the code was derived with 1.0" in said
+    assert "50-digit test" in said
+
+
+@pytest.mark.parametrize("damage", ["", "[]", '{"sympy": 3}', "{"])
+def test_a_damaged_manifest_is_a_difference(tmp_path: Path, damage: str) -> None:
+    root = project(tmp_path, "1.0", "a + b\n")
+    (root / "generated" / "manifest.json").write_text(damage)
+    assert everything.difference(root)
+    assert everything.about_versions(root) is None

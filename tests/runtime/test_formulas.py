@@ -1,15 +1,19 @@
-"""The page of formulas speaks of the code: every name and file on it is there, and the numbers it states are the code's."""
+"""What pages and lists of the project state is what its code has: formulas, names of series, locked packages, vendored files."""
 
 from __future__ import annotations
 
 import ast
 import re
+import tomllib
 from pathlib import Path
 
 import numpy as np
+import pytest
 
+from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, harmonic, series
 from ragg_runtime.estimation.observation import ROWS
 from ragg_runtime.identification import likelihood_ratio, probability, sequential
+from ragg_runtime.identification.dictionary import harmonics, list_generic
 
 ROOT = Path(__file__).parents[2]
 TEXT = (ROOT / "docs" / "explanation" / "formulas.md").read_text("utf-8")
@@ -71,3 +75,60 @@ def test_evidence_and_e_value_are_those_of_the_page() -> None:
 def test_glossary_states_the_sizes_of_the_code() -> None:
     glossary = (ROOT / "docs" / "reference" / "glossary.md").read_text("utf-8")
     assert f"at most {ROWS:,} samples" in glossary
+
+
+def test_every_name_of_the_dictionary_is_printed_as_it_was_parsed() -> None:
+    names = {n for product in list_generic(["temperature", "time"]) for n in product}
+    assert len(names) > 50
+    assert [str(series(n)) for n in sorted(names)] == sorted(names)
+    assert [str(harmonic(h)) for h in harmonics()] == list(harmonics())
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("a_x", ChannelName("a_x")),
+        ("d2_a_x", Derivative(ChannelName("a_x"), 2)),
+        ("abs(d_f_i)", Function("abs", Derivative(ChannelName("f_i"), 1))),
+        ("slow(square(a_z), 20 s)", Relaxation(Function("square", ChannelName("a_z")), "20")),
+        ("slow(a_z)", ChannelName("slow(a_z)")),
+        ("abs(a", ChannelName("abs(a")),
+    ],
+)
+def test_names_are_read(text: str, expected: object) -> None:
+    assert series(text) == expected
+
+
+def test_a_recorded_channel_stands_for_itself_whatever_its_name() -> None:
+    assert series("d_x") == Derivative(ChannelName("x"), 1)
+    assert series("d_x", {"d_x"}) == ChannelName("d_x")
+    assert series("abs(d_x)", {"d_x"}) == Function("abs", ChannelName("d_x"))
+
+
+VENDOR = ROOT / "ragg_runtime" / "studio" / "static" / "vendor"
+LOCK = ROOT / "requirements.lock"
+
+pytestmark = pytest.mark.skipif(not LOCK.exists(), reason="not a checkout of the project")
+
+
+def test_the_lock_holds_what_the_project_asks_for_with_hashes() -> None:
+    """Of every release the SHA-256 of its files; every line of the lock is one of these."""
+    names = set()
+    for line in filter(None, LOCK.read_text("utf-8").replace("\\\n", " ").splitlines()):
+        match = re.fullmatch(r"([a-z0-9-]+)==[\w.]+(\s+--hash=sha256:[0-9a-f]{64})+", line.strip())
+        assert match, f"not NAME==VERSION with hashes (make lock): {line[:80]}"
+        names.add(match[1])
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    groups = ("cluster", "files", "plots", "studio", "dev", "docs")
+    asked = [*project["dependencies"], *(x for g in groups for x in extras[g] if not x.startswith("ragg["))]
+    assert {re.split(r"[^A-Za-z0-9_.-]", x)[0].lower().replace("_", "-") for x in asked} <= names
+
+
+def test_every_vendored_file_is_listed_with_its_licence() -> None:
+    listed = tomllib.loads((VENDOR / "vendored.toml").read_text("utf-8"))["component"]
+    named = {name for c in listed for name in (*c["files"], c["licence_file"])}
+    assert {p.name for p in VENDOR.iterdir()} == named | {"vendored.toml"}
+    for c in listed:
+        assert c["version"] in (VENDOR / c["files"][0]).read_text("utf-8")[:400]
+        assert (VENDOR / c["licence_file"]).stat().st_size > 500

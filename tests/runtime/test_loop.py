@@ -1,20 +1,32 @@
-"""The loop, end to end, on flights of the independent reference: compare, diagnose, add, remove."""
+"""The loop, end to end, on flights of the independent reference: compare, diagnose, add, remove; flights that contradict each other."""
 
 from __future__ import annotations
 
 import dataclasses
 import json
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from ragg_runtime.api import example
+from ragg_runtime.estimation import fitted
+from ragg_runtime.estimation.fitted import estimate_variance
+from ragg_runtime.estimation.noise import NoiseModel
+from ragg_runtime.estimation.observation import observe
+from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
+from ragg_runtime.estimation.unknown_gradient import take_out, windows
+from ragg_runtime.identification import contenders, selection
 from ragg_runtime.identification.comparison import compare, compute_nominal_residual
+from ragg_runtime.identification.ranking import list_not_testable
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model as load
+from ragg_runtime.model.evaluate import vector
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulate import demodulate
+from ragg_runtime.simulate import simulate_flight
 from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
@@ -114,3 +126,83 @@ def test_saturation_of_the_output_is_recognised() -> None:
     first = json.loads(json.dumps(d.as_json(), allow_nan=False))["ranking"][0]  # certain: no infinity in JSON
     assert (first["effect"], first["p_value"], first["log10_p"]) == ("saturation", 0.0, None)
     assert "10⁻¹⁶" in d._repr_html_()
+
+
+def named_flight(s: Scenario, name: str, hidden: dict[str, Any] | None = None) -> Flight:
+    return dataclasses.replace(s.simulate(hidden or {}).flight(), name=name)
+
+
+def test_flights_of_two_instruments_are_told_apart_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(
+        contenders, "fit_contender", lambda *arguments: pytest.fail("no effect is to be tried")
+    )
+    one, other, third = (scenario(k, duration=100.0, rate=RATE) for k in (57, 58, 59))
+    again = dataclasses.replace(third, instrument=one.instrument)
+    d = diagnosed(
+        one, named_flight(one, "monday"), named_flight(other, "tuesday"), named_flight(again, "friday")
+    )
+    assert (d.verdict, d.found) == ("unexplained", ())
+    assert d.remark is not None
+    assert "inconsistent" in d.remark
+    assert "monday, friday; tuesday" in d.remark
+
+
+def test_a_strong_effect_between_flights_is_no_contradiction() -> None:
+    one, other = (scenario(k, duration=100.0, rate=RATE) for k in (57, 58))
+    other = dataclasses.replace(other, instrument=one.instrument)
+    hidden = {"pressure-bias": {"dK0_dp": [1e-8, 0.0, 0.0, -2e-9]}}
+    d = diagnosed(one, named_flight(one, "low", hidden), named_flight(other, "high", hidden))
+    assert (d.verdict, d.found) == ("missing-effect", ("pressure-bias",))
+
+
+def test_what_each_flight_alone_lacks_is_said_where_all_together_are_not_explained() -> None:
+    one, other = (scenario(k, duration=100.0, rate=RATE) for k in (57, 58))
+    other = dataclasses.replace(other, instrument=one.instrument)
+    hidden = {"cubic-input": {"K_iii": [4e-8, 0.0, 0.0, 0.0]}}
+    d = diagnosed(one, named_flight(one, "monday", hidden), named_flight(other, "tuesday"))
+    assert (d.verdict, d.found) == ("unexplained", ())
+    said = d.as_json()["disagree"]
+    assert said == [
+        {"flights": ["monday"], "found": ["cubic-input"]},
+        {"flights": ["tuesday"], "found": []},
+    ]
+    assert "cubic-input in monday; nothing in tuesday" in str(d.as_json()["reason"])
+
+
+SIGNS = np.array([1.0, 1.0, -1.0, -1.0])
+
+
+def test_an_effect_is_found_beside_a_shake_that_all_accelerometers_share() -> None:
+    i = example()
+    x = simulate_flight(
+        i, ["cubic-input:K_iii=0/3/0/0"], seed=4, duration=100.0, rate=RATE, voltages=True, no_gradient=False
+    )
+    G = sum(s * x.outputs[f"V_{j}"] for j, s in enumerate(SIGNS, 1))
+    shake = 30.0 * np.std(np.diff(G)) * np.random.default_rng(5).standard_normal(len(G))
+    volts = {f"V_{j}": x.outputs[f"V_{j}"] + shake for j in range(1, 5)}  # cancels in G_out
+    d = diagnosed(i, replace(x, outputs=volts))
+    assert d.found == ("cubic-input",)
+    assert d.final is not None
+    (prepared,) = d.final.prepared
+    assert np.sqrt(estimate_variance(prepared)) < 0.1 * np.std(shake)
+
+
+def test_an_unknown_gradient_is_taken_out_of_each_voltage_by_its_scale_factor() -> None:
+    s = scenario(62, trim="table-v", duration=200.0, noise_density=0.0)  # 10 to 12 mA/g
+    flight = s.simulate(record_gradient=False).flight(voltages=True)
+    o = observe(flight, s.sheet)
+    model = load.packaged()
+    true = s.sheet.replace(**s.instrument.accelerometers)
+    e = linearise(LinearisationPoint(model, s.sheet, vector(model, true), with_candidates=False), o)[-1:]
+    n = len(o.record.time)
+    left = take_out(e, windows(o, slice(0, n), NoiseModel.white(o.record.rate, 4)), o.record.valid)
+    assert np.std(e) > 1e-3
+    assert np.std(left) < 0.01 * np.std(e)
+
+
+def test_of_a_constant_gradient_it_leaves_nothing_and_the_report_says_why() -> None:
+    """What it leaves is small before the calibration: to say that this absorbs the rest would be wrong."""
+    s = scenario(62, duration=200.0, noise_density=1e-8)
+    f = fitted.fit(load.packaged(), s.sheet, [observe(s.simulate(record_gradient=False).flight(), s.sheet)])
+    why = {x.effect: x.why for x in list_not_testable(f, selection.make_field(f, selection.list_testable(f)))}
+    assert "a gradient that is not recorded" in why["gradient-offset"]

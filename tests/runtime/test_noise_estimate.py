@@ -1,4 +1,4 @@
-"""The noise of short and of uneven records: its spectrum where columns take most of it, and its level."""
+"""Noise of short and of uneven records, its level, lines and jumps that are none; and of noise alone nothing is taken."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy import signal
 
 from ragg_runtime.estimation import calibration, observation
 from ragg_runtime.estimation.noise_level import describe_level, estimate_level
-from ragg_runtime.estimation.residual import fit_columns
+from ragg_runtime.estimation.residual import describe_disturbances, find_disturbances, fit_columns
 from ragg_runtime.estimation.scores import log_sf, log_sf_f, log_sf_t
-from ragg_runtime.estimation.spectrum import estimate
+from ragg_runtime.estimation.spectrum import LOWEST, cut_lines, estimate
 from ragg_runtime.estimation.unknown_gradient import splines
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
@@ -220,3 +221,42 @@ def test_a_walk_that_is_slower_than_the_record_is_noise() -> None:
     flight = replace(flight, outputs={n: x + walk for n, x in flight.outputs.items()})
     c = calibration.fit(model.packaged(), s.sheet, [observation.observe(flight, s.sheet)])
     assert c.excess == pytest.approx(1.0, abs=0.1)
+
+
+LONG = 10240
+LONG_TIME = np.arange(LONG) / RATE
+
+
+def noise(seed: int, slope: float = 0.0) -> Array:
+    f = np.fft.rfftfreq(LONG, 1 / RATE)
+    shape = np.sqrt(1.0 + (slope > 0) * (0.05 / np.maximum(f, f[1])) ** slope)
+    return np.asarray(
+        np.fft.irfft(np.fft.rfft(np.random.default_rng(seed).standard_normal(LONG)) * shape, LONG)
+    )
+
+
+@pytest.mark.parametrize("slope", [0.0, 1.0, 2.0])
+def test_noise_is_left_as_it_is(slope: float) -> None:
+    for seed in range(12):
+        x = noise(seed, slope)
+        _, p = signal.periodogram(x, RATE, window="hann", detrend="constant")
+        assert np.array_equal(cut_lines(p[LOWEST:-1]), p[LOWEST:-1])
+        assert find_disturbances(x, np.ones(LONG, dtype=bool), RATE) == []
+
+
+@pytest.mark.parametrize("size", [1.0, 30.0, 1000.0])
+def test_a_line_is_found_and_does_not_raise_the_noise(size: float) -> None:
+    x = noise(3) + size * np.sin(2 * np.pi * 0.3712 * LONG_TIME + 0.4)
+    (found,) = find_disturbances(x, np.ones(LONG, dtype=bool), RATE)[:1]
+    assert found.kind == "line"
+    assert found.at == pytest.approx(0.3712, abs=0.1 * RATE / LONG)
+    assert found.size == pytest.approx(size, rel=0.1)
+    assert estimate([x], RATE).rms == pytest.approx(estimate([noise(3)], RATE).rms, rel=0.06)
+
+
+@pytest.mark.parametrize("size", [3.0, 100.0])
+def test_a_jump_is_found_at_its_instant(size: float) -> None:
+    x = noise(5, 1.0) + size * (LONG_TIME >= 400.0)
+    (found,) = find_disturbances(x, np.ones(LONG, dtype=bool), RATE)
+    assert (found.kind, round(found.at)) == ("jump", 400)
+    assert "jumps at 400 s" in str(describe_disturbances([found]))

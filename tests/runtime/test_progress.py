@@ -1,12 +1,14 @@
-"""How far a command is: what is estimated is about what is done, and how it is shown."""
+"""What a command says meanwhile, and when it is asked how."""
 
 from __future__ import annotations
 
 import time
 
+import click
 import pytest
 
 from ragg_runtime.base import progress
+from ragg_runtime.cli.main import COMMANDS, cli
 
 
 @pytest.mark.parametrize(
@@ -45,3 +47,15 @@ def test_lines_beyond_the_estimate_become_rare(
             now[0] += 5.0
             progress.step(progress.PASSES["diagnose"] * 1000)
     assert len(capsys.readouterr().err.splitlines()) < 12  # in ten minutes
+
+
+def test_no_summary_is_cut_off() -> None:
+    context = click.Context(cli)
+    for name in COMMANDS:
+        command = cli.get_command(context, name)
+        assert command is not None
+        summary = command.get_short_help_str(1000)
+        assert summary == command.get_short_help_str(60), name
+    shown = cli.get_help(context)
+    assert "\n  derive " not in shown
+    assert [x for x in ("Model:", "Flights:", "After:", "Tools:") if x not in shown] == []
