@@ -142,21 +142,3 @@ def test_jacobian_is_the_derivative_of_the_instrument(library: dict[str, compile
     for jacobian in (analytical.jacobian, library["analytical"].jacobian):
         wrong = np.max(np.abs(jacobian(t, inputs, p) - true) / scale, axis=1)
         assert np.max(wrong) < 1e-11, {n: w for n, w in zip(names, wrong, strict=True) if w >= 1e-11}
-
-
-def test_simplified_jacobian_is_the_derivative_of_its_output(library: dict[str, compiled.Library]) -> None:
-    t, inputs, p = cases(1.0, seed=5, count=1)[0]
-    model, q = simplified_model(), fifty.exact(p)
-    rows = [0, 1, *range(2, len(p), 4)]  # the first accelerometer and what all share
-    instant, x = fifty.exact(t)[0], fifty.exact(inputs[:, 0])
-    found = simplified.jacobian(t, inputs, p), library["simplified"].jacobian(t, inputs, p)
-    scale = np.max(np.abs(found[0]), axis=1)
-    for k in rows:
-        step = fifty.real(10) ** -18 * (abs(q[k]) if q[k] else 1)
-        up, down = (
-            fifty.from_amplitudes(fifty.amplitudes(model, x, changed), instant, changed[1])
-            for changed in ([*q[:k], q[k] + s, *q[k + 1 :]] for s in (step, -step))
-        )
-        true = float((up - down) / (2 * step))
-        for J in found:
-            assert abs(J[k, 0] - true) <= 1e-11 * scale[k]

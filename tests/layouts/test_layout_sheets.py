@@ -107,15 +107,6 @@ def test_gain_and_phase_of_a_complement_turned_by_an_eighth() -> None:
     assert second == pytest.approx(0.4j)
 
 
-def test_harmonics_see_the_papers_combinations() -> None:
-    found = dict(layouts.PAPER.outputs[0].patterns)
-    assert found["cos 1"] == (1.0, -1.0, 0.0, 0.0)
-    assert np.abs(found["sin 1"]).tolist() == [0.0, 0.0, 1.0, 1.0]
-    assert found["cos 2"] == (1.0, 1.0, 1.0, 1.0)
-    assert found["const"] == (1.0, 1.0, -1.0, -1.0)
-    assert len(found) == 4
-
-
 NAMES = ("north", "south", "east", "west")
 
 

@@ -79,15 +79,6 @@ def test_gravity_comes_out_as_far_as_the_chips_tell() -> None:
     assert scatter < uncertain < 0.1
 
 
-def test_a_scale_of_the_gyroscopes_that_is_misread_is_found() -> None:
-    """3 per cent; what is plausible grows with the grade that the sheet tells."""
-    d = story.diagnosed(story.LEFT_OUT["gyro scale"], story.MISREAD)
-    assert "gyro-scale" in d.found
-    (scale,) = [r for r in d.ranking if r.effect == "gyro-scale"]
-    for q in scale.parameters[:2]:  # that about z the arms absorb
-        assert abs(q.value - 0.03) < 3 * q.std < 0.03
-
-
 def test_the_lever_arm_that_is_left_out_is_found_and_agrees_with_the_survey() -> None:
     d = story.diagnosed(story.LEFT_OUT["lever arm"])
     assert d.verdict == "missing-effect"

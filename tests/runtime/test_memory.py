@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from diagnosed import diagnosed
 
 from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.observation import observe
@@ -14,7 +13,6 @@ from ragg_runtime.model.memory import add_responses, first_memories, stop
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.scenario import scenario
-from tests.rate import RATE
 
 
 def resonance(effect: str, f_0: float, Q: float, share: float) -> EffectValues:
@@ -64,12 +62,6 @@ def test_what_describes_a_memory_is_fitted_down_to_noise(hidden: EffectValues) -
         (value, std), true = found[name], float(np.asarray(values[name]))
         assert std < 0.2 * true
         assert abs(value - true) < 4 * std + 0.01 * true
-
-
-def test_what_remembers_is_named_alone() -> None:
-    s = scenario(5, duration=100.0, rate=RATE)
-    hidden = resonance("mount-resonance", 3.0, 15.0, 1.0)  # of the others: test_catalogue
-    assert diagnosed(s, s.simulate(hidden).flight()).found == (*hidden,)
 
 
 def test_what_slips_follows_the_force_within_its_width() -> None:
