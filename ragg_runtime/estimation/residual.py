@@ -13,7 +13,7 @@ from scipy import fft, linalg
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation.least_squares import r_factor
 from ragg_runtime.estimation.spectrum import LOWEST, Spectrum, cut_lines, estimate, hann, periodogram
-from ragg_runtime.signals.fir import GROUP, SPARSE, filter_columns, find_nonzero
+from ragg_runtime.signals.fir import GROUP, filter_columns, find_nonzero
 
 Array = NDArray[np.float64]
 
@@ -176,9 +176,7 @@ def fit_columns(
     No line is looked for in ``band``; ``through`` does to columns (k, rows) what was done to ``flat``. Without ``rate`` neither
     lines nor ``kept`` are looked for.
     """
-    some = find_nonzero(flat[:-1])
-    if np.count_nonzero(some) < SPARSE * len(flat):
-        flat = flat[[*some, True]]
+    flat = flat[[*find_nonzero(flat[:-1]), True]]
     left = _fitted(flat, flat, valid, rate, [])
     if rate is None:
         return replace(left, columns=np.empty(0), directions=np.empty(0))

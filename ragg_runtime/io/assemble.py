@@ -27,7 +27,7 @@ from ragg_runtime.io.recording import NEEDED, pass_over
 from ragg_runtime.io.sampling import Grid, make_grid
 from ragg_runtime.io.tables import DataTable
 from ragg_runtime.io.text_tables import TWO_ROWS
-from ragg_runtime.signals.angular_acceleration import derive_accelerations
+from ragg_runtime.signals.angular_acceleration import NOTE, derive_accelerations
 from ragg_runtime.signals.derivative import runs
 
 BRIDGED = 2.0
@@ -84,10 +84,10 @@ def make_flight(
     _derive_outputs(outputs, notes, accelerometers)
     channels = {c: _fill(v, c) for c, v in placed.items()}
     if ANGULAR_ACCELERATION[0] not in channels:
-        slopes, sure, derivative = derive_accelerations([placed[n] for n in ANGULAR_RATE], grid.time)
+        slopes, sure = derive_accelerations([placed[n] for n in ANGULAR_RATE], grid.time)
         valid &= sure  # a single sample between two gaps has no derivative
         channels |= {n: _fill(x, n) for n, x in zip(ANGULAR_ACCELERATION, slopes, strict=True)}
-        notes.append(derivative.note)
+        notes.append(NOTE)
     _check_gradient(channels, notes)
     used = int(np.sum(valid))
     if used <= (1 - MOST_UNUSED) * len(made):

@@ -120,6 +120,8 @@ def smooth_noisy_motion(model: Model, instrument: Instrument, flight: Flight, pl
     """
     start = flight.part(slice(LONGEST))
     some = _longest(start.valid)
+    if some.stop - some.start < 8 * BANDS:
+        return flight  # of motion that is held at a lower rate, for example, nothing can be told
 
     def take(x: Flight) -> Rows:
         s = make_sampler(x, instrument, tuple(model.chain.INPUTS), place)
@@ -224,7 +226,7 @@ def _predict_block(x: Array, at: NDArray[np.intp], count: int, std: float, q: _S
 
 def _longest(there: Mask) -> slice:
     """The longest segment without a gap."""
-    return max(runs(there), key=lambda r: r.stop - r.start, default=slice(None))
+    return max(runs(there), key=lambda r: r.stop - r.start, default=slice(0, 0))
 
 
 def _describe(x: Flight, known: Units, noise: Mapping[str, MotionNoise], before: float, after: float) -> Flag:

@@ -112,7 +112,7 @@ def derive_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
     nowhere = np.zeros(len(x), dtype=np.bool_)
     lacking = (nowhere if x.lacking is None else x.lacking) | (nowhere if stuck is None else stuck)
     rates = [np.where(lacking, np.nan, x.channels[n]) for n in ANGULAR_RATE]
-    slopes, sure, _ = derive_accelerations(rates, x.time)
+    slopes, sure = derive_accelerations(rates, x.time)
     made = {
         n: _interpolated(slope, np.isfinite(slope), False)
         for n, slope in zip(ANGULAR_ACCELERATION, slopes, strict=True)

@@ -14,19 +14,10 @@ Array = NDArray[np.float64]
 Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])
 
 BLOCK = 1 << 18
-"""Numbers that :func:`convolve` transforms at a time; longer series by overlap and add."""
+"""Numbers that are transformed at a time; longer series are convolved by overlap and add."""
 
 GROUP = 4
 """Columns that are transformed at a time: more leave the cache."""
-
-AT_A_TIME = 1 << 18
-"""Points of short ones that are: so many that a call costs little besides."""
-
-
-SPARSE = 0.5
-"""Share of columns that are not zero below which the others are left out, which takes a copy: of a voltage most are those of other
-accelerometers.
-"""
 
 
 def find_nonzero(columns: Floats) -> NDArray[np.bool_]:
@@ -49,23 +40,14 @@ def filter_columns(columns: Floats, taps: Array, tail: Floats | None = None, lea
         return np.asarray(columns[:, lead:] * columns.dtype.type(taps[0]))
     reach = min(before + n, len(taps))
     own = find_nonzero(columns) if tail is None else find_nonzero(columns) | find_nonzero(tail)
-    if np.count_nonzero(own) < SPARSE * len(columns):
-        result = np.zeros((len(columns), n - lead), dtype=columns.dtype)
-        result[own] = filter_columns(columns[own], taps, None if tail is None else tail[own], lead)
-        return result
     # What goes round in the transform may fall on samples that are not wanted.
     size = fft.next_fast_len(before + n + max(0, reach - 1 - before - lead), real=True)
     gain = fft.rfft(taps[:reach].astype(columns.dtype), size)
-    result = np.empty((len(columns), n - lead), dtype=columns.dtype)
-    for some in split_range(len(columns), GROUP * max(1, AT_A_TIME // (GROUP * size))):
-        if not own[some].any():
-            result[some] = 0.0
-            continue
-        part = columns[some]
-        if tail is not None:
-            part = np.concatenate([tail[some], part], axis=1)
-        waves = fft.rfft(part, size, axis=1)
-        waves *= gain
+    result, places = np.zeros((len(columns), n - lead), dtype=columns.dtype), np.flatnonzero(own)
+    for group in split_range(len(places), max(GROUP, BLOCK // size)):
+        some = places[group]
+        part = columns[some] if tail is None else np.concatenate([tail[some], columns[some]], axis=1)
+        waves = fft.rfft(part, size, axis=1) * gain
         result[some] = fft.irfft(waves, size, axis=1)[:, before + lead : before + n]
     return result
 

@@ -14,7 +14,7 @@ from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import screen
-from ragg_runtime.signals.angular_acceleration import REACH, RateDerivative, plan_derivative
+from ragg_runtime.signals.angular_acceleration import REACH, derive_accelerations, differentiate_rate
 from ragg_runtime.signals.derivative import differentiate
 
 pytestmark = pytest.mark.usefixtures("no_next_motion")
@@ -27,34 +27,22 @@ def test_what_a_wide_band_gives() -> None:
     rng = np.random.default_rng(1)
     w, phase = 2 * np.pi * rng.uniform(0.01, 0.85 * RATE / 2, 60), rng.uniform(0, 2 * np.pi, 60)
     x, dx = np.sin(np.outer(t, w) + phase).sum(axis=1), (np.cos(np.outer(t, w) + phase) * w).sum(axis=1)
-    found = plan_derivative([x], RATE)
-    derived, sure = found.of(x, RATE)
+    derived, sure = differentiate_rate(x, RATE)
     assert np.std((derived - dx)[sure]) < 3e-6 * np.std(dx)
     assert np.std((differentiate(x, RATE) - dx)[sure]) > 0.1 * np.std(dx)
     assert np.flatnonzero(sure)[[0, -1]].tolist() == [REACH, len(t) - REACH - 1]
+    x[::300] = np.nan
+    derived, sure = differentiate_rate(x, RATE)
+    assert np.isnan(derived[::300]).all()
+    assert np.nanstd((derived - dx)[sure]) < 0.4 * np.nanstd(derived - dx), (
+        "one-sided ends are not relied upon"
+    )
 
 
 def test_gaps_cost_little_of_short_runs() -> None:
     x = np.sin(np.arange(1000) / 5.0)
     x[::50] = np.nan
-    derived, sure = RateDerivative(unsure=REACH).of(x, RATE)
-    assert np.isnan(derived[::50]).all()
-    assert np.mean(sure) > 0.7
-    assert plan_derivative([x], RATE).unsure > 0, (
-        "no run is long enough to judge by: one-sided ends are not relied upon"
-    )
-
-
-def test_runs_between_gaps_tell_together_what_their_ends_are_worth() -> None:
-    rng = np.random.default_rng(4)
-    t = np.arange(6000) / RATE
-    w, phase = 2 * np.pi * rng.uniform(0.01, 0.85 * RATE / 2, 60), rng.uniform(0, 2 * np.pi, 60)
-    x = np.sin(np.outer(t, w) + phase).sum(axis=1)
-    dx = (np.cos(np.outer(t, w) + phase) * w).sum(axis=1)
-    x[::300] = np.nan  # no run of 512 samples
-    derived, sure = plan_derivative([x], RATE).of(x, RATE)
-    trusted = RateDerivative().of(x, RATE)[1]
-    assert np.nanstd((derived - dx)[sure]) < 0.3 * np.nanstd((derived - dx)[trusted])
+    assert np.mean(differentiate_rate(x, RATE)[1]) > 0.7
 
 
 def derived(seed: int, rate: float, trim: str, duration: float):  # type: ignore[no-untyped-def]
@@ -62,11 +50,8 @@ def derived(seed: int, rate: float, trim: str, duration: float):  # type: ignore
     s = scenario(seed, trim=trim, duration=duration, rate=rate)  # type: ignore[arg-type]
     flight = s.simulate().flight()
     channels = {n: v for n, v in flight.channels.items() if n not in ANGULAR_ACCELERATION}
-    found = plan_derivative([channels[n] for n in ANGULAR_RATE], rate)
-    valid = np.ones(len(flight), dtype=bool)
-    for n, r in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
-        channels[n], sure = found.of(channels[r], rate)
-        valid &= sure
+    slopes, valid = derive_accelerations([channels[n] for n in ANGULAR_RATE], flight.time)
+    channels |= dict(zip(ANGULAR_ACCELERATION, slopes, strict=True))
     flight = dataclasses.replace(flight, channels=channels, valid=valid)
     return s.sheet, screen(packaged(), s.sheet, flight)
 

@@ -78,7 +78,7 @@ def test_units_and_fields(load: Load, tmp_path: Path) -> None:
     assert (found.name, found.path, len(found.digest)) == ("record", tmp_path / "record.csv", 64)
     assert found.rate == pytest.approx(RATE)
     assert found.duration == pytest.approx(N / RATE)
-    assert found.valid.all()
+    assert found.valid[N // 8 : -N // 8].all()  # omegadot is derived, poorly at the ends
     assert not found.time.flags.writeable
 
 
@@ -170,12 +170,12 @@ def test_gaps_are_filled_in_and_marked(load: Load) -> None:
 
 
 def test_empty_cells_are_marked(load: Load) -> None:
-    table = columns() | {"temperature": np.full(N, 290.0)}
+    table = columns() | {"temperature": np.full(N, 290.0)} | {f"omegadot_{k}": np.zeros(N) for k in "xyz"}
     table["a_x"][7] = np.nan
     table["G_out"][[9, 10]] = np.nan
     table["temperature"][np.arange(N) % 16 != 0] = np.nan  # sampled once a second
     table["temperature"][100:160] = np.nan
-    found = load(table, {"temperature": "K"})
+    found = load(table, {"temperature": "K"} | {f"omegadot_{k}": "rad/s^2" for k in "xyz"})
     lost = np.zeros(N, dtype=bool)
     lost[[7, 9, 10]] = True
     lost[97:160] = True  # four seconds without a temperature
@@ -196,7 +196,9 @@ def test_jitter(load: Load) -> None:
     found = load(table)
     assert any("the time stamps are rounded to 0.001 s" in note for note in found.notes)
     assert found.rate == pytest.approx(RATE, rel=1e-9)
-    assert found.valid[12:-12].all()  # jitter is noise of omegadot, which is derived poorly at the ends
+    assert found.valid[
+        N // 8 : -N // 8
+    ].all()  # jitter is noise of omegadot, which is derived poorly at the ends
     table["time"] = table["time"] + rng.uniform(-0.4, 0.4, N) / RATE
     with pytest.raises(UserError, match="not uniformly sampled"):
         load(table)

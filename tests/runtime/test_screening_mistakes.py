@@ -65,8 +65,11 @@ def test_a_good_flight_is_left_alone() -> None:
 
 
 def test_a_hidden_effect_is_no_mistake() -> None:
-    found = screen(MODEL, drawn(7).sheet, flown(7, {"time-offset": {"delta_t": 1e-2}}))
+    x, sheet = flown(7, {"time-offset": {"delta_t": 1e-2}}), drawn(7).sheet
+    found = screen(MODEL, sheet, x)
     assert found.flags == () and found.valid.all()
+    held = screen(MODEL, sheet, changed(x, lambda n, v: np.repeat(v[::2], 2) if n[:2] == "a_" else v))
+    assert [f.columns for f in held.flags] == [("a_x", "a_y", "a_z")]
 
 
 @pytest.mark.usefixtures("no_timing")

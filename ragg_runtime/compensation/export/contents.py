@@ -21,7 +21,7 @@ from ragg_runtime.model.evaluate import name_values, scale_factor
 from ragg_runtime.model.lateness import list_late
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import SPIN, Record, phase
-from ragg_runtime.signals.angular_acceleration import RateDerivative
+from ragg_runtime.signals.angular_acceleration import differentiate_rate
 
 Array = NDArray[np.float64]
 Json = dict[str, Any]
@@ -186,7 +186,7 @@ class Contents:
         t, wide = columns["time"], {n: x for n, x in columns.items() if n != "time"}
         for name, rate in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
             if name not in wide and rate in wide:
-                wide[name] = RateDerivative().of(wide[rate], RATE)[0]
+                wide[name] = differentiate_rate(wide[rate], RATE)[0]
         model = self.model if "folded.c" in self.sources else replace(self.model, folded=None)
         evaluator, found = model.compiled("numpy"), {}
         for k, o in enumerate(self.outputs()):
