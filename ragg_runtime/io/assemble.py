@@ -28,7 +28,7 @@ from ragg_runtime.io.sampling import Grid, make_grid
 from ragg_runtime.io.tables import DataTable
 from ragg_runtime.io.text_tables import TWO_ROWS
 from ragg_runtime.signals.angular_acceleration import NOTE, derive_accelerations
-from ragg_runtime.signals.derivative import runs
+from ragg_runtime.signals.derivative import fill_gaps, runs
 
 BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded."""
@@ -82,11 +82,13 @@ def make_flight(
     outputs = {c: placed.pop(c) for c in (*accelerometers.columns, *DEMODULATED) if c in placed}
     valid = _find_valid(placed | outputs, outputs, grid, notes)
     _derive_outputs(outputs, notes, accelerometers)
-    channels = {c: _fill(v, c) for c, v in placed.items()}
+    channels = {c: fill_gaps(v, np.isfinite(v), turning=is_disc_angle(c)) for c, v in placed.items()}
     if ANGULAR_ACCELERATION[0] not in channels:
         slopes, sure = derive_accelerations([placed[n] for n in ANGULAR_RATE], grid.time)
         valid &= sure  # a single sample between two gaps has no derivative
-        channels |= {n: _fill(x, n) for n, x in zip(ANGULAR_ACCELERATION, slopes, strict=True)}
+        channels |= {
+            n: fill_gaps(x, np.isfinite(x)) for n, x in zip(ANGULAR_ACCELERATION, slopes, strict=True)
+        }
         notes.append(NOTE)
     _check_gradient(channels, notes)
     used = int(np.sum(valid))
@@ -244,15 +246,6 @@ def count_samples(count: int) -> str:
     return "1 sample" if count == 1 else f"{count} samples"
 
 
-def _fill(values: Array, name: str) -> Array:
-    missing = np.isnan(values)
-    if not missing.any():
-        return values
-    places = np.flatnonzero(~missing)
-    there = np.unwrap(values[places]) if is_disc_angle(name) else values[places]
-    return np.where(missing, np.interp(np.arange(len(values)), places, there), values)
-
-
 def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Accelerometers) -> None:
     """Outputs that are not recorded from their voltages; where both are, they must agree."""
     for o in a.outputs:
@@ -336,15 +329,11 @@ def _interpolate_slower(
     si: dict[str, Array], si_units: Mapping[str, str], grid: Grid, notes: list[str]
 ) -> dict[str, Array]:
     """Auxiliary channels of a lower rate on the whole grid; they are taken out of ``si``, as are those that cannot be."""
-    time = grid.time[grid.index]
-    whole = float(time[-1] - time[0])
-    # One value in two seconds: more often than that, blanks are bridged in place.
-    most = 1000 + 2 * int(min(whole / BRIDGED, ENDLESS))
-    found = {}
+    time, found = grid.time[grid.index], {}
     for name in filter(_is_auxiliary, list(si)):
         there = np.isfinite(si[name])
         count = int(np.sum(there))
-        if not 0 < count < min((1 - SPARSE) * len(there), most + 1):
+        if not 0 < count < (1 - SPARSE) * len(there):
             continue
         values, lacking = si.pop(name)[there], count_samples(len(there) - count)
         if si_units[name] == "rad":

@@ -44,7 +44,6 @@ IN_DEGREES = 1e-2
 CLEAR = 0.25
 """Part of a step by which an encoder may be off whole numbers of them where it counts rows that were lost."""
 
-_LONGEST = 1 << 16  # samples that a comparison of columns takes
 _DEGREE = np.pi / 180
 _FACTORS = (
     (3600.0, "deg/h for deg/s"),
@@ -180,12 +179,11 @@ def _angle_origin(instrument: Instrument, flight: Flight) -> list[str]:
 
 def _rates(flight: Flight) -> list[str]:
     """The recorded angular acceleration against the derivative of the recorded rate."""
-    part = slice(0, min(len(flight), _LONGEST))
-    valid = flight.valid[part]
+    valid = flight.valid
     if not all(n in flight.channels for n in ANGULAR_ACCELERATION):
         return []
-    G = np.array([flight.channels[n][part] for n in ANGULAR_ACCELERATION])
-    W = np.array([differentiate(flight.channels[n][part], flight.rate, valid) for n in ANGULAR_RATE])
+    G = np.array([flight.channels[n] for n in ANGULAR_ACCELERATION])
+    W = np.array([differentiate(flight.channels[n], flight.rate, valid) for n in ANGULAR_RATE])
     there = valid & np.isfinite(G).all(axis=0) & np.isfinite(W).all(axis=0)
     if np.sum(there) < FEWEST:
         return []
@@ -230,12 +228,10 @@ def _encoder(disc: Disc, flight: Flight) -> list[str]:
     column, f = disc.angle_column, disc.spin_frequency
     if column not in flight.channels or f == 0.0:
         return []
-    part = slice(0, min(len(flight), _LONGEST))
-    angle = np.unwrap(flight.channels[column][part])
-    time = flight.time[part]
+    angle, time = np.unwrap(flight.channels[column]), flight.time
     rate = float(np.median(np.diff(angle) / np.diff(time))) / (2 * np.pi)
     if abs(rate - f) < SAME_SPIN * abs(f):
-        return _find_lost_rows(column, angle[flight.valid[part]], time[flight.valid[part]])
+        return _find_lost_rows(column, angle[flight.valid], time[flight.valid])
     if abs(rate + f) < SAME_SPIN * abs(f):
         return [f"{column} runs backwards, at {rate:.6g} Hz: the sign of the encoder is reversed?"]
     nyquist = flight.rate / 2

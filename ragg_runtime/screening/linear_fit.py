@@ -8,12 +8,11 @@ an axis, a clock or the sheet itself, competes by the same.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 from ragg_runtime.estimation.least_squares import r_factor
 from ragg_runtime.estimation.regressors import list_base_columns
@@ -46,9 +45,6 @@ both alike (2 x 150 log 1.1)."""
 
 SETTLED = 0.999
 """Factor by which the noise must still fall for the estimate to go on."""
-
-TOGETHER = 4096
-"""Rows for which the model is evaluated at a time: a few hundred by themselves cost hardly less."""
 
 
 @dataclass(frozen=True)
@@ -131,67 +127,15 @@ class Hypothesis:
 
 def fit_rows(model: Model, instrument: Instrument, rows: Rows) -> LinearFit:
     """Fit the model's parameters about the instrument's values, with their priors."""
-    return fit_each(model, instrument, [rows])[0]
-
-
-def fit_each(model: Model, instrument: Instrument, many: Iterable[Rows]) -> list[LinearFit]:
-    """The same of several records, or of one with one mistake after the other undone: rows of the same output."""
-    found: list[LinearFit] = []
-    waiting: list[Rows] = []
-    for rows in many:
-        waiting.append(rows)
-        if sum(len(r.time) for r in waiting) >= TOGETHER:
-            found += _fit_together(model, instrument, waiting)
-            waiting = []
-    return found + _fit_together(model, instrument, waiting)
-
-
-def _fit_together(model: Model, instrument: Instrument, many: Sequence[Rows]) -> list[LinearFit]:
-    if not many:
-        return []
-    c = _evaluate_columns(model, instrument, many)
-    return [c.fit(*one) for one in _split(c, many)]
-
-
-def list_systems(model: Model, instrument: Instrument, many: Sequence[Rows]) -> list[tuple[Array, Array]]:
-    """Of each of several rows the columns (n, m, N) of a linear fit, and what they are fitted to, (m, N), Eo."""
-    c = _evaluate_columns(model, instrument, many)
-    return [c.system(*one) for one in _split(c, many)]
-
-
-def _split(c: _Columns, many: Sequence[Rows]) -> Iterator[tuple[Rows, Array, Array]]:
-    """Each of several rows with what its output sees of the columns, (n, m, N), and of the model at the sheet's values, (m, N)."""
-    edges = np.cumsum([0, *(len(r.time) for r in many)])
-    for r, a, b in zip(many, edges, edges[1:], strict=False):
-        columns = np.concatenate([c.columns[:, :, a:b], _make_gradient(r)])
-        yield r, r.seen(columns), r.seen(c.nominal[:, a:b])
-
-
-def fit_low_passes(model: Model, instrument: Instrument, rows: Rows) -> Callable[[Array], LinearFit]:
-    """The same of channels as a function of the low-pass that made them, an odd number of taps no longer than that of the rows:
-    the model is evaluated, and its spectrum taken, once.
-    """
-    c = _evaluate_columns(model, instrument, [rows])
-    raw = np.concatenate([c.columns, _make_gradient(rows), c.nominal[None]])
-    carriers = 2 * np.stack([np.sin(2 * rows.phi), np.cos(2 * rows.phi)])
-    n = len(rows.time)
-    size = fft.next_fast_len(n + len(rows.taps), real=True)
-    spectrum = fft.rfft(raw * carriers, size)
-
-    def fit(taps: Array) -> LinearFit:
-        half = len(taps) // 2
-        seen = fft.irfft(spectrum * fft.rfft(taps, size), size)[:, :, half : half + n]
-        return c.fit(rows, seen[:-1], seen[-1])
-
-    return fit
+    return linearise(model, instrument, rows).fit(rows)
 
 
 @dataclass(frozen=True)
-class _Columns:
+class LinearModel:
     """A model about an instrument's values ``p`` at N rows of one output, before demodulation.
 
-    ``columns`` (n, m, N): by every parameter, whose ``places`` in ``p`` and prior widths, ``scales``, these are, Eo;
-    ``nominal`` (m, N): output at the sheet's values, V; ``eotvos``: V/Eo.
+    ``columns`` (n, m, N): by every parameter, whose ``places`` in ``p`` and prior widths, ``scales``, these are, and by a gradient
+    that was not recorded, Eo; ``nominal`` (m, N): output at the sheet's values, V; ``eotvos``: V/Eo.
     """
 
     p: Array
@@ -201,58 +145,56 @@ class _Columns:
     nominal: Array
     eotvos: float
 
-    def system(self, rows: Rows, seen: Array, nominal: Array) -> tuple[Array, Array]:
-        """The columns (n, m, N) and the output less the model at the sheet's values (m, N), Eo, of the rows that are fitted."""
+    def system(self, rows: Rows) -> tuple[Array, Array]:
+        """The columns (n, m, N), and the output less the model at the sheet's values (m, N), Eo, of those of the rows that are fitted."""
         inner = rows.inner
-        return seen[:, :, inner], (rows.data[:, inner] - nominal[:, inner]) / self.eotvos
+        left = rows.data[:, inner] - rows.seen(self.nominal)[:, inner]
+        return rows.seen(self.columns)[:, :, inner], left / self.eotvos
 
-    def fit(self, rows: Rows, seen: Array, nominal: Array) -> LinearFit:
-        """Rows fitted by what their output sees of the columns, (n, m, N), and of the model at the sheet's values, (m, N)."""
-        inner, n = rows.inner, len(self.places)
-        X, y = (x.reshape(*x.shape[:-2], -1) for x in self.system(rows, seen, nominal))
+    def fit(self, rows: Rows) -> LinearFit:
+        """The rows, or the same with another low-pass, fitted by the columns."""
+        X, y = (x.reshape(*x.shape[:-2], -1) for x in self.system(rows))
         theta, kept, volume = fit_robustly(X, y)
-        size = rows.data[:, inner] / self.eotvos
+        size = rows.data[:, rows.inner] / self.eotvos
         size = (size - np.mean(size, axis=1, keepdims=True)).reshape(-1)
+        moves = theta[: len(self.places)]
         moved = self.p.copy()
-        moved[self.places] += theta[:n] * self.scales
+        moved[self.places] += moves * self.scales
         return LinearFit(
             rms=float(np.sqrt(np.mean((y - theta @ X)[kept] ** 2))),
             size=float(np.sqrt(np.mean(size[kept] ** 2))),
             p=moved,
-            surprise=float(np.sum(theta[:n] ** 2)),
+            surprise=float(np.sum(moves**2)),
             volume=volume,
             kept=float(np.mean(kept)),
         )
 
 
-def _evaluate_columns(model: Model, instrument: Instrument, many: Sequence[Rows]) -> _Columns:
-    """Of rows of one output, all together."""
-    first, chain, p = many[0], model.chain, vector(model, instrument)
-    members = first.output.members
-    eotvos = scale_factor(model, p, instrument.layout.outputs.index(first.output))
-    x = np.concatenate([r.inputs(chain) for r in many], axis=1)
-    time, phi = (np.concatenate(y) for y in ([r.time for r in many], [r.phi for r in many]))
-    cos_phi, sin_phi = np.cos(phi), np.sin(phi)
-    volts = np.empty((len(members), len(time)))
+def linearise(model: Model, instrument: Instrument, rows: Rows) -> LinearModel:
+    """A model about an instrument's values at rows of one output."""
+    chain, p, members = model.chain, vector(model, instrument), rows.output.members
+    eotvos = scale_factor(model, p, instrument.layout.outputs.index(rows.output))
+    x, cos_phi, sin_phi = rows.inputs(chain), np.cos(rows.phi), np.sin(rows.phi)
+    volts = np.empty((len(members), len(rows.time)))
     by: dict[tuple[str, int | None], Array] = {}
     for k, j in enumerate(members):
         q = chain.values_of(j, p)
-        volts[k] = chain.accelerometer(j, time, cos_phi, sin_phi, x, q)
-        slopes = chain.derivatives(j, time, cos_phi, sin_phi, x, q)
+        volts[k] = chain.accelerometer(j, rows.time, cos_phi, sin_phi, x, q)
+        slopes = chain.derivatives(j, rows.time, cos_phi, sin_phi, x, q)
         for (name, shared), slope in zip(chain.ROWS, slopes, strict=True):
             if shared:
                 by.setdefault((name, None), np.empty_like(volts))[k] = slope
             else:
                 by[name, j + 1] = slope
     own = [(c, i) for c, i in list_base_columns(model, instrument) if (c.name, c.accelerometer) in by]
-    columns = [first.before_demodulation(by[c.name, c.accelerometer], c.accelerometer) for c, _ in own]
+    columns = [rows.before_demodulation(by[c.name, c.accelerometer], c.accelerometer) for c, _ in own]
     scales = np.array([c.scale for c, _ in own])
-    return _Columns(
+    return LinearModel(
         p=p,
         places=[i for _, i in own],
         scales=scales,
-        columns=np.stack(columns) * (scales / eotvos)[:, None, None],
-        nominal=first.before_demodulation(volts, None),
+        columns=np.concatenate([np.stack(columns) * (scales / eotvos)[:, None, None], _make_gradient(rows)]),
+        nominal=rows.before_demodulation(volts, None),
         eotvos=eotvos,
     )
 
@@ -271,6 +213,17 @@ def _make_gradient(rows: Rows) -> Array:
     else:
         carriers = [x * GRADIENT_SCALE for x in ((share * turning).imag, (share * turning).real)]
     return np.stack([rows.before_demodulation(x, None) for x in carriers])
+
+
+def find_least(cost: Callable[[float], float], grid: Array, finest: float) -> float:
+    """Where a cost is least: on an even grid, then beside the best, at half the distance each time, until that is ``finest``."""
+    tried, step = {float(x): cost(float(x)) for x in grid}, float(grid[1] - grid[0])
+    best = min(tried, key=tried.__getitem__)
+    while step > finest:
+        step /= 2
+        tried |= {x: cost(x) for x in (best - step, best + step)}
+        best = min(tried, key=tried.__getitem__)
+    return best
 
 
 def fit_robustly(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_], float]:

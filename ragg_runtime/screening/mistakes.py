@@ -18,7 +18,7 @@ from ragg_runtime.io.record import ANGULAR_ACCELERATION
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening import other_demodulator, timing
-from ragg_runtime.screening.linear_fit import INDEPENDENT, Hypothesis, LinearFit, fit_each, fit_rows
+from ragg_runtime.screening.linear_fit import INDEPENDENT, Hypothesis, LinearFit, fit_rows
 from ragg_runtime.screening.sampler import Rows, Sampler, find_stem
 
 Array = NDArray[np.float64]
@@ -168,13 +168,11 @@ def _wrong(model: Model, instrument: Instrument, s: Sampler, rows: Rows) -> list
             derived=ANGULAR_ACCELERATION[0] not in (s.flight.written or s.flight.channels),
         )
     )
-    rough = fit_each(model, instrument, (m.undo(few) for m in possible))
+    rough = [fit_rows(model, instrument, m.undo(few)) for m in possible]
     order = sorted(range(len(possible)), key=lambda k: rough[k].score + possible[k].plainness / 2)
     best = [possible[k] for k in order[:MOST_TRIED] if rough[k].score < rough[order[0]].score + NAMED]
-    fitted = fit_each(model, instrument, (m.undo(rows) for m in best))
     return [
-        Hypothesis(what=m.what, remedy=m.remedy, fitted=e, cost=m.plainness / 2)
-        for m, e in zip(best, fitted, strict=True)
+        Hypothesis(m.what, m.remedy, fit_rows(model, instrument, m.undo(rows)), m.plainness / 2) for m in best
     ]
 
 

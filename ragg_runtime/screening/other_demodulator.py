@@ -14,7 +14,7 @@ from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import kernel
-from ragg_runtime.screening.linear_fit import Hypothesis, LinearFit, fit_low_passes
+from ragg_runtime.screening.linear_fit import Hypothesis, LinearFit, linearise
 from ragg_runtime.screening.sampler import Sampler
 from ragg_runtime.screening.timing import COST
 
@@ -43,7 +43,8 @@ CLEARLY = 1.1
 
 def propose_demodulator(model: Model, instrument: Instrument, s: Sampler) -> Hypothesis:
     """The low-pass, of those that people use, with which the model leaves least of inline and cross."""
-    fit_taps = fit_low_passes(model, instrument, s.take(s.rows()))
+    rows = s.take(s.rows())
+    linear = linearise(model, instrument, rows)
     rate, half = s.flight.rate, len(s.taps) // 2
 
     def fit(how: Demodulation) -> LinearFit:
@@ -51,7 +52,7 @@ def propose_demodulator(model: Model, instrument: Instrument, s: Sampler) -> Hyp
             how = replace(how, cutoff=HIGHEST * rate)
         taps = kernel(how, rate).centred
         spare = len(taps) // 2 - half
-        return fit_taps(taps[spare:-spare] if spare > 0 else np.pad(taps, -spare))
+        return linear.fit(replace(rows, taps=taps[spare:-spare] if spare > 0 else np.pad(taps, -spare)))
 
     how = _find_best(lambda how: fit(how).share, rate)
     made = "have passed" if how.kind == "none" else "were made by another demodulator, such as"

@@ -7,13 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 from scipy.signal import periodogram
 
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag, is_disc_angle
 from ragg_runtime.signals.angular_acceleration import derive_accelerations
-from ragg_runtime.signals.derivative import runs
+from ragg_runtime.signals.derivative import fill_gaps, runs
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
@@ -84,7 +83,9 @@ def leave_out_repeated(flight: Flight) -> Flight:
         if name in outputs:
             outputs[name] = np.where(r.left_out, np.nan, x)
         else:
-            channels[name] = _interpolated(np.array(x), there & ~r.left_out, r.how != "stuck", name in angles)
+            channels[name] = fill_gaps(
+                np.array(x), there & ~r.left_out, smooth=r.how != "stuck", turning=name in angles
+            )
             if r.how == "stuck" or name not in angles:  # a disc turns smoothly between two angles
                 valid &= ~r.left_out
     for sensor in (SPECIFIC_FORCE, ANGULAR_RATE):
@@ -93,7 +94,7 @@ def leave_out_repeated(flight: Flight) -> Flight:
         lost = _find_lost_packets([channels[n] for n in names], valid)
         if lost.any():
             found += [(n, _Repeated("not renewed", lost, 0.0)) for n in names]
-            channels |= {n: _interpolated(channels[n], valid & ~lost, True) for n in names}
+            channels |= {n: fill_gaps(channels[n], valid & ~lost, smooth=True) for n in names}
             valid &= ~lost
     if not found:
         return flight
@@ -114,8 +115,7 @@ def derive_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
     rates = [np.where(lacking, np.nan, x.channels[n]) for n in ANGULAR_RATE]
     slopes, sure = derive_accelerations(rates, x.time)
     made = {
-        n: _interpolated(slope, np.isfinite(slope), False)
-        for n, slope in zip(ANGULAR_ACCELERATION, slopes, strict=True)
+        n: fill_gaps(slope, np.isfinite(slope)) for n, slope in zip(ANGULAR_ACCELERATION, slopes, strict=True)
     }
     return replace(x, channels={**x.channels, **made}, valid=x.valid & sure)
 
@@ -216,16 +216,6 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
     for k in np.flatnonzero(expected < np.where(x[first] == 0.0, RARE_ZEROS, RARE)):
         found[first[k] : last[k] + 1] = True
     return found
-
-
-def _interpolated(x: Array, there: Mask, smooth: bool, turning: bool = False) -> Array:
-    """A series (N,) between the samples that are there: by a spline, or linearly over a gap."""
-    at = np.flatnonzero(there)
-    k, known = np.arange(len(x)), np.unwrap(x[at]) if turning else x[at]
-    turn = np.polyfit(at, known, 1) if turning else np.zeros(1)  # a disc turns on beyond the ends
-    off = known - np.polyval(turn, at)
-    made = CubicSpline(at, off)(np.clip(k, at[0], at[-1])) if smooth else np.interp(k, at, off)
-    return np.where(there, x, made + np.polyval(turn, k))
 
 
 def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:

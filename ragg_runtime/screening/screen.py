@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import one_thread
+from ragg_runtime.base.threads import one_thread, split_range
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import Flag
@@ -37,9 +37,6 @@ HALVED = 2.0
 
 CLOCK = INDEPENDENT * float(np.log(1.3))
 """Gain in log evidence from which a clock was set and sampling did not pause (docs/contributors/decisions.md)."""
-
-LONGEST = 1 << 18
-"""Samples of which it is told whether they were taken at uneven instants."""
 
 LEAST = 64
 """Samples of a record from which its clock is looked at: with fewer the model fits any."""
@@ -199,10 +196,8 @@ def _is_even(model: Model, s: Sampler, even: Sampler, p: Array) -> bool:
     the output's slope. The part of that which is in the output is 1 or 0; it is fitted to second differences, from which slow
     errors of the model are gone.
     """
-    rows = slice(0, LONGEST)
-    by_stamps, by_count = (_residual(model, t, p, rows) for t in (s, even))
-    usable = s.usable[rows]
-    three = usable[2:] & usable[1:-1] & usable[:-2]
+    by_stamps, by_count = (_residual(model, t, p) for t in (s, even))
+    three = s.usable[2:] & s.usable[1:-1] & s.usable[:-2]
     d, e = (np.diff(y, 2)[:, three] for y in (by_count - by_stamps, by_count))
     return bool(np.sum(d * e) < 0.5 * np.sum(d * d))
 
@@ -241,7 +236,7 @@ def _without_output_spikes(model: Model, instrument: Instrument, s: Sampler, fli
     if s.recorded.demodulated or not s.usable.any():
         return flight  # a demodulator has smeared them
     fitted = fit_rows(model, instrument, s.take(s.rows())).p
-    found = np.array([find_spikes(e, s.usable) for e in _residual(model, s, fitted, slice(None))])
+    found = np.array([find_spikes(e, s.usable) for e in _residual(model, s, fitted)])
     flags = [
         Flag((name,), describe_spikes(name, mask, flight.time))
         for name, mask in zip(s.columns, found, strict=True)
@@ -252,17 +247,17 @@ def _without_output_spikes(model: Model, instrument: Instrument, s: Sampler, fli
     return replace(flight, valid=valid).flagged(flags)
 
 
-def _residual(model: Model, s: Sampler, fitted: Array, rows: slice) -> Array:
-    """(columns, n) Eo: what a model with these parameters leaves of some rows of the output."""
-    first, last, _ = rows.indices(len(s.flight))
-    evaluator = model.compiled("auto" if last - first >= MANY else "numpy")
-    left = np.empty((len(s.columns), last - first))
-    for start in range(first, last, CHUNK):
-        some = s.take(np.arange(start, min(last, start + CHUNK)))
+def _residual(model: Model, s: Sampler, fitted: Array) -> Array:
+    """(columns, N) Eo: what a model with these parameters leaves of the output."""
+    size = len(s.flight)
+    evaluator = model.compiled("auto" if size >= MANY else "numpy")
+    left = np.empty((len(s.columns), size))
+    for rows in split_range(size, CHUNK):
+        some = s.take(np.arange(rows.start, rows.stop))
         x = some.inputs(model.chain)
         if s.recorded.separate:
             predicted = evaluator.voltages(some.time, x, fitted, some.phi, s.output.members)
         else:
             predicted = evaluator.output(some.time, x, fitted, some.phi, which=s.place)[None]
-        left[:, start - first : start - first + CHUNK] = some.data - predicted
+        left[:, rows] = some.data - predicted
     return left / scale_factor(model, fitted, s.place)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from typing import Any, cast
+from itertools import pairwise, product
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy import fft, optimize
 
 from ragg_runtime.instrument.instrument import Instrument
@@ -19,12 +19,12 @@ from ragg_runtime.model.record import disc_angle, find_start
 from ragg_runtime.screening.linear_fit import (
     Hypothesis,
     LinearFit,
-    fit_each,
+    find_least,
     fit_robustly,
     fit_rows,
-    list_systems,
+    linearise,
 )
-from ragg_runtime.screening.sampler import Index, Rows, Sampler
+from ragg_runtime.screening.sampler import Index, Sampler
 from ragg_runtime.signals.demodulate import is_demodulable, low_pass
 from ragg_runtime.signals.resolution import find_step
 
@@ -89,22 +89,17 @@ class _Trial:
     instrument: Instrument
     s: Sampler
 
-    def judge(self, many: Iterable[Rows]) -> list[float]:
-        """Misfits of rows."""
-        return [e.misfit for e in fit_each(self.model, self.instrument, many)]
-
-    def find_best(self, rows: Index, name: str, grid: Iterable[float]) -> float:
-        """The value of an option of :meth:`Sampler.take` with which the model leaves least."""
-        values = [float(v) for v in grid]
-        return values[int(np.argmin(self.judge(self.s.take(rows, **cast("Any", {name: v})) for v in values)))]
+    def fit(self, rows: Index, **options: Any) -> LinearFit:
+        """What the model leaves of rows, taken with options of :meth:`Sampler.take`."""
+        return fit_rows(self.model, self.instrument, self.s.take(rows, **options))
 
     def propose(
-        self, what: str, remedy: str, cost: float, rows: Rows | None = None, **options: Any
+        self, what: str, remedy: str, cost: float, rows: Index | None = None, **options: Any
     ) -> Hypothesis:
-        """The hypothesis, fitted to the rows that it makes, or to as many as a fit takes with these options."""
+        """The hypothesis, fitted to rows, or to as many as a fit takes, with these options."""
         known = {k: options.pop(k) for k in ("kind", "effects", "calming") if k in options}
-        made = self.s.take(self.s.rows(), **options) if rows is None else rows
-        return Hypothesis(what, remedy, fit_rows(self.model, self.instrument, made), cost, **known)
+        fitted = self.fit(self.s.rows() if rows is None else rows, **options)
+        return Hypothesis(what, remedy, fitted, cost, **known)
 
 
 def propose_times(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
@@ -137,17 +132,11 @@ def _propose_spin(t: _Trial) -> list[Hypothesis]:
         last = max(2, min(len(x), int(span * x.rate)))
         step = 0.1 / (late + last / x.rate)
         grid = best + step * np.arange(-np.ceil(width / step), np.ceil(width / step) + 1)
-        best = t.find_best(s.rows(0, last, 600), "spin_frequency", grid)
+        rows = s.rows(0, last, 600)
+        best = float(min(grid, key=lambda f: t.fit(rows, spin_frequency=f).misfit))
         width, span = 2 * step, span * 4
-    rows = s.rows(most=600)
-    best = float(
-        optimize.minimize_scalar(
-            lambda f: t.judge([s.take(rows, spin_frequency=float(f))])[0],
-            bounds=(best - step, best + step),
-            method="bounded",
-            options={"xatol": 1e-9 * abs(f0)},
-        ).x
-    )
+    near = best + step * np.arange(-1, 2)
+    best = find_least(lambda f: t.fit(rows, spin_frequency=f).misfit, near, 1e-9 * abs(f0))
     shown, remedy = write_rate(best, x.duration), "record spin_angle"
     what = f"the spin rate is {shown} Hz, not the model's {f0:.9g} Hz ({100 * (best / f0 - 1):+.2g} %)"
     if s.has_encoder:
@@ -200,12 +189,8 @@ def _angle_at(t: _Trial, start: float) -> float:
 
 
 def _propose_phase(t: _Trial) -> list[Hypothesis]:
-    rows, step = t.s.rows(most=600), np.deg2rad(10.0)
-    best = t.find_best(rows, "phase", step * np.arange(36))
-    for _ in range(4):
-        step /= 4
-        best = t.find_best(rows, "phase", best + step * np.arange(-3, 4))  # the fourth either way is known
-    best = _wrapped(best)
+    rows, round_about = t.s.rows(most=600), np.deg2rad(np.arange(0.0, 360.0, 10.0))
+    best = _wrapped(find_least(lambda a: t.fit(rows, phase=a).misfit, round_about, np.deg2rad(0.05)))
     if abs(best) < LEAST_PHASE:
         return []
     taken = _angle_at(t, find_start(t.s.flight, t.instrument))
@@ -227,27 +212,25 @@ def _propose_jump(t: _Trial) -> list[Hypothesis]:
     s, n = t.s, len(t.s.flight)
     rows, spacing = s.rows(most=400), n / (INSTANTS + 1)
 
-    def find_best(rows: Index, instants: ArrayLike, jumps: ArrayLike) -> tuple[float, float]:
-        pairs = [(float(k), float(a)) for k in np.atleast_1d(instants) for a in np.atleast_1d(jumps)]
-        many = (s.take(rows, phase=np.where(rows >= k, a, 0.0)) for k, a in pairs)
-        return pairs[int(np.argmin(t.judge(many)))]
+    def misfit(at: float, jump: float) -> float:
+        return t.fit(rows, phase=np.where(rows >= at, jump, 0.0)).misfit
 
     everywhere = spacing * np.arange(1, INSTANTS + 1)
     small = np.array([2.0, 4.0, 8.0, 15.0])
-    at, jump = find_best(rows, everywhere, np.deg2rad([*-small, *small, *np.arange(30.0, 360.0, 30.0)]))
+    jumps = np.deg2rad([*-small, *small, *np.arange(30.0, 360.0, 30.0)])
+    at, jump = min(product(everywhere, jumps), key=lambda x: misfit(*x))
     for _ in range(2):  # where the jump is wrong the instant is not determined, and the other way round
-        for step in np.deg2rad([8.0, 2.0, 0.5, 0.125]):
-            _, jump = find_best(rows, at, jump + step * np.arange(-3, 4))
-        at, _ = find_best(rows, everywhere, jump)
-        for step in spacing / 2.0 ** np.arange(1, 10):
-            at, _ = find_best(rows, at + step * np.array([-1.0, 0.0, 1.0]), jump)
+        near = jump + np.deg2rad(np.arange(-24.0, 25.0, 8.0))
+        jump = find_least(lambda a, at=at: misfit(at, a), near, np.deg2rad(0.1))
+        at = find_least(lambda k, jump=jump: misfit(k, jump), everywhere, spacing / 512)
     if abs(_wrapped(jump)) < LEAST_STEP:
         return []
     beside = s.rows(max(0, int(at - n / 100)), int(at + n / 100) + 1, 64)
-    at, _ = find_best(np.union1d(rows, beside), beside, jump)
+    rows = np.union1d(rows, beside)
+    at = min(beside, key=lambda k: misfit(k, jump))
     rows = s.rows()
     what, remedy = _describe_jump(s, int(at), jump)
-    return [t.propose(what, remedy, COST, s.take(rows, phase=np.where(rows >= at, jump, 0.0)), calming=False)]
+    return [t.propose(what, remedy, COST, rows, phase=np.where(rows >= at, jump, 0.0), calming=False)]
 
 
 def _describe_jump(s: Sampler, at: int, jump: float) -> tuple[str, str]:
@@ -291,10 +274,8 @@ def _propose_losses(t: _Trial) -> list[Hypothesis]:
         turned = abs(float(angle[-1] - angle[0]))
         count = round(turned / abs(2 * np.pi * f) * rate)
         if turned > LEAST_TURN:
-            taken = s.take(rows, phase=np.interp(rows, at, angle - angle[0]))
-            found.append(
-                (fit_rows(t.model, t.instrument, taken), f"{kind} (about {count} of {len(s.flight)})")
-            )
+            fitted = t.fit(rows, phase=np.interp(rows, at, angle - angle[0]))
+            found.append((fitted, f"{kind} (about {count} of {len(s.flight)})"))
     if not found:
         return []
     best = min((x for x, _ in found), key=lambda x: x.share)
@@ -311,7 +292,7 @@ def propose_parts(model: Model, instrument: Instrument, s: Sampler) -> list[Hypo
     def judge(at: float) -> LinearFit:
         both = [rows[rows < at], rows[rows >= at]]
         share = np.array([len(x) for x in both]) / len(rows)
-        one, two = fits = fit_each(model, instrument, (s.take(x) for x in both))
+        one, two = fits = [fit_rows(model, instrument, s.take(x)) for x in both]
         return LinearFit(
             rms=float(np.sqrt(share @ [x.rms**2 for x in fits])),
             size=float(np.sqrt(share @ [x.size**2 for x in fits])),
@@ -321,17 +302,14 @@ def propose_parts(model: Model, instrument: Instrument, s: Sampler) -> list[Hypo
             kept=float(share @ [x.kept for x in fits]),
         )
 
-    tried = {float(at): judge(float(at)) for at in spacing * np.arange(1, INSTANTS + 1)}
-    for step in spacing / 2.0 ** np.arange(1, 7):
-        at = min(tried, key=lambda k: tried[k].misfit)
-        tried |= {k: judge(k) for k in (at - step, at + step)}
-    at = min(tried, key=lambda k: tried[k].misfit)
+    everywhere = spacing * np.arange(1, INSTANTS + 1)
+    at = find_least(lambda k: judge(k).misfit, everywhere, spacing / 64)
     what = (
         f"the record is two: the model explains what comes before t = {s.flight.time[int(at)]:.4g} s, and what comes after, but not"
         " both together (another instrument, range, sign or wiring from there on?)"
     )
     remedy = "cut the record there into two flights, and diagnose each by itself"
-    return [Hypothesis(what, remedy, tried[at], COST + 1.0, effects=("gain-step",), calming=False)]
+    return [Hypothesis(what, remedy, judge(at), COST + 1.0, effects=("gain-step",), calming=False)]
 
 
 _SHIFTED: tuple[tuple[str, str, str, Callable[[Any], dict[str, Any]]], ...] = (
@@ -394,7 +372,7 @@ def _propose_slips(t: _Trial) -> list[Hypothesis]:
         lags = {_find_lag(t, s.rows(a, b, SLIP_ROWS // 4), [0, *some], shift) for a, b, some in likely} | {0}
         rows = s.rows(reach := max(map(abs, lags)), n - reach, SLIP_ROWS)
         for late in _follow_lags(t, rows, sorted(lags), shift) if reach else ():
-            misfit = t.judge([s.take(rows, **shift(late))])[0]
+            misfit = t.fit(rows, **shift(late)).misfit
             if np.ptp(late) and (best is None or misfit < best[0]):
                 best = misfit, way, rows, late
     if best is None:
@@ -409,7 +387,7 @@ def _propose_slips(t: _Trial) -> list[Hypothesis]:
     rows = np.union1d(rows, np.concatenate(beside)).astype(np.intp)
     late = min(
         _follow_lags(t, rows, sorted(lags), shift),
-        key=lambda late: t.judge([s.take(rows, **shift(late))])[0],
+        key=lambda late: t.fit(rows, **shift(late)).misfit,
     )
     here = np.flatnonzero(np.diff(late)) + 1
     if not len(here) or len(here) > MOST_SLIPS:
@@ -420,7 +398,7 @@ def _propose_slips(t: _Trial) -> list[Hypothesis]:
     )
     what = f"{name} {', '.join(parts)}, against {against}: did one of two recorders lose samples, or repeat some?"
     remedy = f"shift the {columns} back from there on, or cut the record there and diagnose the parts"
-    return [t.propose(what, remedy, COST + 1.0, s.take(rows, **shift(late)), calming=False)]
+    return [t.propose(what, remedy, COST + 1.0, rows, calming=False, **shift(late))]
 
 
 def _describe_slips(x: Flight, name: str, slips: Sequence[tuple[int, int]]) -> list[str]:
@@ -438,8 +416,7 @@ def _find_lag(t: _Trial, rows: Index, lags: Sequence[int], shift: Callable[[Any]
     tried: dict[int, float] = {}
     waiting = [*lags]
     while waiting and len(tried) < MOST_SHIFTS:
-        judged = t.judge(t.s.take(rows, **shift(k)) for k in waiting)
-        tried |= dict(zip(waiting, judged, strict=True))
+        tried |= {k: t.fit(rows, **shift(k)).misfit for k in waiting}
         best = min(tried, key=lambda k: tried[k])
         waiting = [k for d in (-1, 1) if (k := best + d or d) not in tried]  # over 0, the record as it is
     return best
@@ -453,7 +430,7 @@ def _follow_lags(
     """
     third = len(rows) // 3
     many = [t.s.take(rows, **shift(np.full(len(rows), k))) for k in lags]
-    systems = list_systems(t.model, t.instrument, many)
+    systems = [linearise(t.model, t.instrument, x).system(x) for x in many]
     ends = [slice(0, third), slice(len(rows) - third, None)]
     for end, some in zip(ends, ([lags.index(0)], range(len(lags))), strict=True):
         fits = [_fit_end(*systems[k], end) for k in some]

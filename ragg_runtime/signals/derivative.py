@@ -121,6 +121,24 @@ def weights(window: int, at: int, band: float = BAND) -> Array:
     return weights
 
 
+def fill_gaps(x: Array, there: NDArray[np.bool_], *, smooth: bool = False, turning: bool = False) -> Array:
+    """A series (N,) between the samples that are there (N,): linearly, or by a spline.
+
+    The angle of a disc is ``turning``: whole turns may be missing in it, and it turns on beyond the ends.
+    """
+    if there.all():
+        return x
+    at, k = np.flatnonzero(there), np.arange(len(x))
+    known = np.unwrap(x[at]) if turning else x[at]
+    turn = np.polyfit(at, known, 1) if turning else np.zeros(1)
+    off = known - np.polyval(turn, at)
+    if smooth:
+        made = interpolate.CubicSpline(at, off)(np.clip(k, at[0], at[-1]))
+    else:
+        made = np.interp(k, at, off)
+    return np.where(there, x, made + np.polyval(turn, k))
+
+
 SPLINE = 9
 """Degree of the spline that interpolates: at 42 % of the Nyquist frequency it is as good as the derivative, 2e-6."""
 
