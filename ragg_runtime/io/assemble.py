@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, did_you_mean, one_line
+from ragg_runtime.base.names import EXPECTED, is_column
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import units
@@ -23,7 +25,7 @@ from ragg_runtime.io.record import (
     Mask,
     is_disc_angle,
 )
-from ragg_runtime.io.recording import NEEDED, pass_over
+from ragg_runtime.io.recording import NEEDED
 from ragg_runtime.io.sampling import Grid, make_grid
 from ragg_runtime.io.tables import DataTable
 from ragg_runtime.io.text_tables import TWO_ROWS
@@ -43,7 +45,12 @@ _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplac
 
 
 def make_flight(
-    made: DataTable, g0: float, *, need_output: bool = True, accelerometers: Accelerometers = PAPER
+    made: DataTable,
+    g0: float,
+    *,
+    need_output: bool = True,
+    accelerometers: Accelerometers = PAPER,
+    leave: frozenset[str] = frozenset(),
 ) -> Flight:
     """The flight of a table, in SI on a uniform grid.
 
@@ -57,11 +64,13 @@ def make_flight(
         False lets a record of motion alone pass.
     accelerometers
         The instrument's, whose outputs and voltages the columns are.
+    leave
+        Channels that are left aside.
 
     Raises
     ------
     UserError
-        If a column is missing, does not convert, the record is not uniformly sampled, or half of the file's rows or more
+        If a column is missing, has no unit or another one, if the record is not uniformly sampled, or half of the file's rows or more
         lack something: the rest must not make a model look adequate.
     """
     _require_names(made, NEEDED, "the motion needs")
@@ -69,6 +78,7 @@ def make_flight(
         _require_names(made, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
     if need_output:
         _require_output(made, made.names, accelerometers)
+    made = _leave_aside(made, leave)
     si, si_units = _convert(made, g0, accelerometers)
     grid = make_grid(si.pop("time"), made.place)
     notes = [*made.notes, *_leave_out_impossible(si, si_units), *grid.notes]
@@ -118,6 +128,25 @@ def make_flight(
 # --- columns and units ---------------------------------------------------------------------------------
 
 
+def _leave_aside(made: DataTable, leave: frozenset[str]) -> DataTable:
+    """The table without some channels and columns whose names nothing can have; UserError where a unit is missing."""
+    odd = [repr(c.name[:80]) for c in made.columns if not is_column(c.name)]
+    shown = ", ".join(odd[:6]) + (" ..." if len(odd) > 6 else "")
+    notes = [one_line(f"skipped because of their names ({EXPECTED}): {shown}")] if odd else []
+    kept = tuple(c for c in made.columns if is_column(c.name) and c.name not in leave)
+    for c in kept:
+        if not c.unit:
+            raise UserError(
+                "the column has no unit",
+                where=at(made.place, f"column {c.name!r}"),
+                found=repr(c.name),
+                expected=f"{c.name} [unit], such as {c.name if c.name in SI_UNITS else 'temperature'} [{SI_UNITS.get(c.name, 'K')}]",
+                remedy="write the unit; a pure number has the unit 1; none is guessed. Or describe the columns "
+                "once for all files: ragg map FLIGHT -o mapping.toml",
+            )
+    return replace(made, columns=kept, notes=(*made.notes, *notes))
+
+
 def _convert(
     made: DataTable, g0: float, accelerometers: Accelerometers
 ) -> tuple[dict[str, Array], dict[str, str]]:
@@ -155,7 +184,7 @@ def _require_names(made: DataTable, needed: Sequence[str], what: str) -> None:
     missing = [n for n in needed if n not in made.names]
     if not missing:
         return
-    spare = [n for n in (*made.names, *made.passed) if n not in SI_UNITS]
+    spare = [n for n in made.names if n not in SI_UNITS]
     near = did_you_mean(missing[0], spare) if len(missing) == 1 else None
     raise UserError(
         f"the columns {', '.join(missing)} are missing"
@@ -171,9 +200,8 @@ def _require_names(made: DataTable, needed: Sequence[str], what: str) -> None:
 
 
 def _list_columns(made: DataTable, names: Sequence[str]) -> str:
-    told = [n for n in made.notes if n.startswith(("skipped,", TWO_ROWS))]
-    told += [pass_over(made.passed)] if made.passed else []
-    return "; ".join(["the columns " + ", ".join(names), *told])
+    told = [n for n in made.notes if n.startswith(("skipped", TWO_ROWS)) or n.endswith("; it is left out")]
+    return "; ".join(["the columns " + ", ".join(n[:80] for n in names), *told[:6]])
 
 
 def _require_output(made: DataTable, names: Sequence[str], a: Accelerometers) -> None:

@@ -192,11 +192,11 @@ def read_tables(source: Any) -> list[DataTable]:
 # --- reading -------------------------------------------------------------------------------------------
 
 
-def read_recordings(source: Any, mapping: Mapped | None = None, *, lenient: bool = False) -> list[DataTable]:
+def read_recordings(source: Any, mapping: Mapped | None = None) -> list[DataTable]:
     """The records in a file or in memory, one for each line; see :func:`.recording.make_recordings`."""
     source = Path(source) if isinstance(source, str) else source
     place = source if isinstance(source, Path) else "flight"
-    return make_recordings(read_tables(source), place, mapping, lenient=lenient)
+    return make_recordings(read_tables(source), place, mapping)
 
 
 def read_flights(
@@ -226,20 +226,20 @@ def read_flights(
     mapping
         What the columns are, where the file has names of its own.
     leave
-        Channels that are not read.
+        Channels that are left aside.
     name
         Of a flight in memory.
     """
     path = Path(source) if isinstance(source, str | Path) else None
     tables = read_tables(path or source)
-    made = make_recordings(tables, path or name, mapping, leave=leave)
+    made = make_recordings(tables, path or name, mapping)
     digest = digest_tables(tables) if path is None else file_digest(path)
     title = name if path is None else flight_name(path)
     flights = []
     for r in made:
         own = title + (f":{r.line}" if len(made) > 1 else "")
         try:
-            x = make_flight(r, g0, need_output=need_output, accelerometers=accelerometers)
+            x = make_flight(r, g0, need_output=need_output, accelerometers=accelerometers, leave=leave)
         except UserError as error:
             what = f"line {r.line}: {error.what}" if len(made) > 1 else error.what
             facts = {n: text for n, text in error.facts.items() if n != "what"}
@@ -328,7 +328,7 @@ def convert(source: Path, target: Path, mapping: Mapped | None = None) -> Conver
     if source.resolve() == target.resolve():
         raise UserError("a file cannot be converted into itself", where=source, remedy="name another file")
     require_writable(target)  # before a long file is read for nothing
-    made = read_recordings(source, mapping, lenient=True)
+    made = read_recordings(source, mapping)
     if len(made) == 1:
         made = [replace(made[0], line=None)]
     columns = made[0].columns

@@ -14,7 +14,6 @@ from ragg_runtime.io.assemble import make_flight
 from ragg_runtime.io.files import find_format, flight_name, read_recordings, write_instant
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.io.record import is_disc_angle
-from ragg_runtime.io.recording import require_units
 from ragg_runtime.io.sampling import Grid, make_grid
 from ragg_runtime.io.tables import DataColumn, DataTable
 
@@ -52,7 +51,7 @@ def describe_flight(path: Path | str, mapping: Mapped | None = None) -> Json:
         If the file cannot be read, or holds no table.
     """
     path = Path(path)
-    made = read_recordings(path, mapping, lenient=True)
+    made = read_recordings(path, mapping)
     return {
         "path": str(path),
         "sha256": file_digest(path),
@@ -65,7 +64,6 @@ def describe_flight(path: Path | str, mapping: Mapped | None = None) -> Json:
 def _describe_record(r: DataTable, name: str, several: bool) -> Json:
     notes, refused, grid = list(r.notes), None, None
     try:
-        require_units(r.columns, r.place)
         x = make_flight(r, PAPER_G)
         notes = [*x.notes]
         if not any(map(is_disc_angle, x.channels)):

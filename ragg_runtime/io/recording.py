@@ -7,15 +7,14 @@ values is left out, a mapping's names, units, signs and axes are applied.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError, at, one_line
-from ragg_runtime.base.names import EXPECTED, is_column
+from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.instants import WAYS, Stamps, are_packed, count_seconds_since, read_stamps
 from ragg_runtime.io.mapping import Entry, Mapped, Null, TimeEntry
@@ -48,9 +47,6 @@ def make_recordings(
     tables: Sequence[DataTable],
     place: Path | str,
     mapping: Mapped | None = None,
-    *,
-    lenient: bool = False,
-    leave: frozenset[str] = frozenset(),
 ) -> list[DataTable]:
     """The flights in the tables of one file, one for each line: numbers in the file's units.
 
@@ -62,15 +58,11 @@ def make_recordings(
         The file, for messages.
     mapping
         What the columns are; ``None``: they have the names of the contract.
-    lenient
-        Let columns without a unit pass.
-    leave
-        Channels that are left aside.
 
     Raises
     ------
     UserError
-        If a choice among tables is needed, or a column is missing, has no unit, or holds what is no number.
+        If a choice among tables is needed, or a column is missing, or holds what is no number.
     """
     if mapping is not None and mapping.kept and not _applies(tables, mapping):
         mapping = None
@@ -83,9 +75,7 @@ def make_recordings(
     if not lines:
         raise UserError("the file holds no rows", where=place)
     lines = [replace(t, place=str(place)) for t in lines]
-    if mapping is None:
-        return [_read_plain(t, lenient, leave) for t in lines]
-    return [_read_mapped(t, mapping, leave) for t in lines]
+    return [_read_plain(t) if mapping is None else _read_mapped(t, mapping) for t in lines]
 
 
 def _applies(tables: Sequence[DataTable], mapping: Mapped) -> bool:
@@ -114,7 +104,7 @@ def _pick_lines(lines: list[DataTable], names: Sequence[str] | None, place: Path
     return lines if names is None else [t for t in lines if t.line in wanted]
 
 
-def _read_plain(table: DataTable, lenient: bool, leave: frozenset[str]) -> DataTable:
+def _read_plain(table: DataTable) -> DataTable:
     """A table whose columns have the names of the contract; without a column called time the index is used, if it is one."""
     notes = list(table.notes)
     time = next((c for c in table.columns if c.name == "time"), None)
@@ -126,13 +116,10 @@ def _read_plain(table: DataTable, lenient: bool, leave: frozenset[str]) -> DataT
     ):
         time = index
     found: dict[str, DataColumn] = {}
-    passed = []
     for c in table.columns:
-        if c is time or c is index or c.name in leave:
+        if c is time or c is index:
             continue
-        if not (lenient or is_column(c.name)):
-            passed.append(c.name[:80])
-        elif c.name in (found if time is None else {**found, "time": time}):
+        if c.name in (found if time is None else {**found, "time": time}):
             if c.name in SI_UNITS:
                 what = f"the column {c.name!r} appears twice"
                 raise UserError(what, where=table.place, remedy="rename one")
@@ -142,25 +129,22 @@ def _read_plain(table: DataTable, lenient: bool, leave: frozenset[str]) -> DataT
         else:
             notes.append(f"{c.name} holds {'text' if c.is_text else 'dates'}; it is left out")
     chosen = {n: (c, Entry(n, c.unit)) for n, c in found.items()}
-    notes += [pass_over(passed)] if passed else []
-    named = replace(table, notes=tuple(notes), passed=tuple(passed))
-    return _read_columns(named, [] if time is None else [time], TimeEntry(()), chosen, lenient)
+    named = replace(table, notes=tuple(notes))
+    return _read_columns(named, [] if time is None else [time], TimeEntry(()), chosen)
 
 
-def _read_mapped(table: DataTable, mapping: Mapped, leave: frozenset[str]) -> DataTable:
+def _read_mapped(table: DataTable, mapping: Mapped) -> DataTable:
     """A table with the columns of the mapping."""
     notes = [f"read by {mapping.path.name} (SHA-256 {mapping.digest[:16]})", *table.notes]
     if mapping.demodulator is not None:
         notes.append(f"demodulated: {mapping.demodulator.words()}")
     named = replace(table, notes=tuple(notes), origin=mapping.time.origin, demodulation=mapping.demodulator)
-    entries = {n: e for n, e in mapping.channels.items() if n not in leave}
-    chosen = {n: (c := table.column(e.column), replace(e, unit=e.unit or c.unit)) for n, e in entries.items()}
+    entries = mapping.channels.items()
+    chosen = {n: (c := table.column(e.column), replace(e, unit=e.unit or c.unit)) for n, e in entries}
     read = _read_columns(named, [table.column(n) for n in mapping.time.columns], mapping.time, chosen)
-    return (
-        read
-        if mapping.axes is None
-        else replace(read, columns=_turn(read.columns, mapping.axes, mapping.path))
-    )
+    if mapping.axes is None:
+        return read
+    return replace(read, columns=_turn(read.columns, mapping.axes, mapping.path))
 
 
 def _read_columns(
@@ -168,7 +152,6 @@ def _read_columns(
     times: Sequence[DataColumn],
     t: TimeEntry,
     chosen: Mapping[str, tuple[DataColumn, Entry]],
-    lenient: bool = False,
 ) -> DataTable:
     """Time and channels as numbers: codes and rows without a time left out and counted, factors applied."""
     notes = list(table.notes)
@@ -182,8 +165,6 @@ def _read_columns(
         if (e.factor, e.offset) != (1.0, 0.0):
             read = replace(read, values=read.values * e.factor + e.offset)
         columns.append(read)
-    if not lenient:
-        require_units(columns, table.place)
     there = np.isfinite(columns[0].values) if times else np.zeros(0, dtype=np.bool_)
     if there.any() and not there.all():
         lost = int(np.sum(~there))
@@ -214,26 +195,6 @@ def _read_time(
     else:
         stamps = read_stamps([c.values for c in columns], t.format, where, table.row)
     return (first, None) if stamps is None else (DataColumn("time", "s", stamps.values), stamps)
-
-
-def pass_over(names: Sequence[str]) -> str:
-    """In words: columns whose names nothing can have."""
-    shown = ", ".join(map(repr, names[:6])) + (" ..." if len(names) > 6 else "")
-    return one_line(f"skipped because of their names ({EXPECTED}): {shown}")
-
-
-def require_units(columns: Iterable[DataColumn], place: str) -> None:
-    """UserError where a unit is missing."""
-    for c in columns:
-        if not c.unit:
-            raise UserError(
-                "the column has no unit",
-                where=f"{place}: column {c.name!r}",
-                found=repr(c.name),
-                expected=f"{c.name} [unit], such as {c.name if c.name in SI_UNITS else 'temperature'} [{SI_UNITS.get(c.name, 'K')}]",
-                remedy="write the unit; a pure number has the unit 1; none is guessed. Or describe the columns "
-                "once for all files: ragg map FLIGHT -o mapping.toml",
-            )
 
 
 # --- numbers -------------------------------------------------------------------------------------------

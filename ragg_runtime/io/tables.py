@@ -78,7 +78,7 @@ class DataTable:
 
     Of a flight further: ``place`` for messages; ``origin``, the instant at which ``time`` is 0, if it is known (UTC, or
     GPS time where the file counts in that); ``instants``, whether its stamps are instants, not seconds; ``demodulation``,
-    how its channels were made, if that is known; ``passed``, names of columns that are none of a flight.
+    how its channels were made, if that is known.
     """
 
     columns: tuple[DataColumn, ...]
@@ -91,7 +91,6 @@ class DataTable:
     origin: datetime | None = None
     instants: bool = False
     demodulation: Demodulation | None = None
-    passed: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.columns[0].values) if self.columns else 0

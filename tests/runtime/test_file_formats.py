@@ -43,9 +43,7 @@ def made(n: int, lines: tuple[str, ...], seed: int = 0) -> list[DataTable]:
 
 
 def content(path: Path) -> dict[str | None, dict[str, tuple[str, np.ndarray]]]:
-    return {
-        r.line: {c.name: (c.unit, c.values) for c in r.columns} for r in read_recordings(path, lenient=True)
-    }
+    return {r.line: {c.name: (c.unit, c.values) for c in r.columns} for r in read_recordings(path)}
 
 
 def same(left: dict, right: dict, rtol: float = 0.0) -> None:
@@ -287,7 +285,7 @@ def test_a_workspace_of_matlab(tmp_path: Path) -> None:
     whole |= {n: v for n, v in {**x.channels, **x.outputs}.items() if not n.startswith("a_")}
     whole["units"] = {n: str(x.units.get(n, "m/s^2")) for n in whole if n in (*x.units, "a")}
     savemat(tmp_path / "x.mat", whole)
-    (table,) = (r for r in read_recordings(tmp_path / "x.mat", lenient=True))
+    (table,) = (r for r in read_recordings(tmp_path / "x.mat"))
     assert {"time", "a_x", "a_z", "G_out"} <= {*table.names}
     assert table.column("a_y").unit == "m/s^2"
     assert any("'window' (16)" in n for n in table.notes)
