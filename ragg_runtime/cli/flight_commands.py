@@ -352,21 +352,14 @@ def survey(
 ) -> None:
     """Diagnose many flights, one by one."""
     from ragg_runtime.survey.result import make_parquet, require_table_place
-    from ragg_runtime.survey.run import keep_results, show_progress
+    from ragg_runtime.survey.run import show_progress
 
     m = load(model_dir)
     if table_file is not None:
         require_table_place(Path(table_file))
-    with keep_results(resume) as file:
-        s = api.survey(
-            m,
-            flights,
-            jobs=jobs,
-            scheduler=scheduler,
-            resume=file,
-            progress=show_progress(),
-            mapping=mapping,
-        )
+    s = api.survey(
+        m, flights, jobs=jobs, scheduler=scheduler, resume=resume, progress=show_progress(), mapping=mapping
+    )
     origin, about = api.of_survey(m, s, command_line())
     if table_file is not None:
         write_bytes(Path(table_file), make_parquet(s.records))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.unknown_gradient import is_unknown
+from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.identification import budget, comparison, series
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Axes, Bar, Bars, Curve, Curves
@@ -43,14 +44,18 @@ def _role(name: str) -> Any:
     return "before" if name == "before" else "residual"
 
 
+def _list_worst(f: Fitted, residuals: Residuals) -> Iterator[tuple[int, PreparedFlight, float, str]]:
+    """The flights that are drawn: number, flight, V/Eo, and its name where there are several."""
+    for n in series.find_worst(f, residuals, FLIGHTS):
+        w = f.prepared[n]
+        yield n, w, f.scales[n], w.observation.name if len(f.prepared) > 1 else ""
+
+
 def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
     """The error in blocks of time of every line; with ``envelope`` also the last residual itself, above it."""
-    chosen = series.find_worst(f, lines[0][1], FLIGHTS)
     axes = []
-    for n in chosen:
-        w, k = f.prepared[n], f.scales[n]
+    for n, w, k, name in _list_worst(f, lines[0][1]):
         r = w.observation.record
-        name = w.observation.name if len(f.prepared) > 1 else ""
         edges, level = r.time, series.noise_rms(w, k)
         steps = []
         for label, residuals in lines:
@@ -66,16 +71,15 @@ def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
             Axes(tuple(steps), "rms, Eo", "" if envelope else name, ends, level, signed=False, share=0.85)
         )
     caption = "Error before demodulation in 24 blocks of time."
-    if len(chosen) < len(f.prepared):
-        caption += f" The {len(chosen)} worst of {len(f.prepared)} flights."
+    if len(f.prepared) > FLIGHTS:
+        caption += f" The {FLIGHTS} worst of {len(f.prepared)} flights."
     return Curves("time", caption, tuple(axes), SECONDS, height=1.8)
 
 
 def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
     """Amplitude densities of residuals and of the noise; ``None`` where no part of a record is long enough."""
     axes = []
-    for n in series.find_worst(f, lines[0][1], FLIGHTS):
-        w, k = f.prepared[n], f.scales[n]
+    for n, w, k, name in _list_worst(f, lines[0][1]):
         r = w.observation.record
         found = [(label, series.spectrum(x[n] / k, r.valid, r.rate)) for label, x in lines]
         curves = [Curve(label, s.frequency, s.density, _role(label)) for label, s in found if s is not None]
@@ -86,7 +90,6 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
         marks = tuple(
             (j * spin, "Ω" if j == 1 else f"{j}Ω") for j in range(1, 5) if grid[0] < j * spin < grid[-1]
         )
-        name = w.observation.name if len(f.prepared) > 1 else ""
         ends = (float(grid[0]), float(grid[-1]))
         axes.append(Axes(tuple(curves), "residual, Eo/√Hz", name, ends, log=True, marks=marks))
     if not axes:
@@ -102,21 +105,21 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
 def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
     """The demodulated residual of every line, inline and cross; ``None`` where a record is too short for the low-pass."""
     axes = []
-    for n in series.find_worst(f, lines[-1][1], FLIGHTS):
-        w, k = f.prepared[n], f.scales[n]
+    for n, w, k, name in _list_worst(f, lines[-1][1]):
         r = w.observation.record
         made = [(label, comparison.demodulate_one(f, n, x[n])) for label, x in lines]
         time = made[0][1][0]
         if not len(time):
             continue
-        name = f" of {w.observation.name}" if len(f.prepared) > 1 else ""
         # four samples a cycle of the low-pass's edge draw the whole of it
         step = max(1, int(r.rate / (4.0 * series.DRAWN)))
         for j, (channel, amplitude) in enumerate((("inline", 4.0), ("cross", 2.0)), 1):
             level = series.demodulated_noise(w, k, 2, amplitude)
             curves = [c for label, x in made for c in _channel(label, time[::step], x[j][::step])]
             ends = (float(r.time[0]), float(r.time[-1]))
-            axes.append(Axes(tuple(curves), "error, Eo", channel + name, ends, level))
+            axes.append(
+                Axes(tuple(curves), "error, Eo", f"{channel} of {name}" if name else channel, ends, level)
+            )
     caption = "Demodulated residual: the error of the measured gradients. Dashed: one sigma of the noise."
     return Curves("channels", caption, tuple(axes), SECONDS, height=1.6) if axes else None
 

@@ -6,7 +6,6 @@ The covariance is read in the combinations of four accelerometers that G_out dep
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +14,6 @@ from scipy.sparse.csgraph import connected_components
 
 from ragg_runtime.compensation.calibrate import list_combinations, list_parameters
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.identification import parameters as combinations
 from ragg_runtime.identification.parameters import UNSEEN
 from ragg_runtime.wording import describe_other, numbers
@@ -29,12 +27,6 @@ DETERMINED = 0.5
 SHARE = 0.03
 """Squared share of an unseen direction below which a combination is taken not to be part of it."""
 
-HALF_SEEN = 0.5
-"""Posterior over prior variance of a direction of a group below which its formula is shown."""
-
-LIKE_ONE = 0.05
-"""Relative distance of a factor from one within which it is not written."""
-
 LISTED = 16
 """Pairs that are listed, the most correlated first."""
 
@@ -42,32 +34,17 @@ MOST_LABELS = 24
 """Directions of a matrix of correlations: beyond these nobody reads it."""
 
 
-class Direction(NamedTuple):
-    """A named direction of the parameters, ``D12 beta_z``: its coordinate is ``weight`` * pattern(p / scale of ``column``)."""
-
-    pattern: str
-    name: str
-    column: Column
-    weight: float
-
-    def __str__(self) -> str:
-        return f"{self.pattern} {self.name}".strip()
-
-
 class Visibility(NamedTuple):
-    """How many directions the record determines, those that it does not see at all, and groups that it sees only together.
-
-    A group: its members, and the sums of them that are determined.
-    """
+    """How many directions the record determines, those that it does not see at all, and groups that it sees only together."""
 
     determined: int
     total: int
-    unseen: tuple[Direction, ...]
-    groups: tuple[tuple[tuple[Direction, ...], tuple[str, ...]], ...]
+    unseen: tuple[str, ...]
+    groups: tuple[tuple[str, ...], ...]
 
 
-def find_directions(f: Fitted) -> tuple[list[Direction], Array]:
-    """Named directions and their (k, n) unit vectors over the fitted parameters, in scales.
+def find_directions(f: Fitted) -> tuple[list[str], Array]:
+    """Names of directions of the parameters, ``D12 beta_z``, and their (k, n) unit vectors over the fitted ones, in scales.
 
     They are sums of A1 ... A4 with signs where the record is of the paper's G_out, which depends on these.
     """
@@ -76,73 +53,31 @@ def find_directions(f: Fitted) -> tuple[list[Direction], Array]:
     positions: dict[str, list[int]] = {}
     for n, c in enumerate(columns):
         positions.setdefault(c.name, []).append(n)
-    directions, rows = [], []
+    names, rows = [], np.zeros((len(columns), len(columns)))
     for places in positions.values():
         together = patterns and len(places) == 4
         for k, n in enumerate(places):
-            name, signs = combinations.PATTERNS[k] if together else (columns[n].accelerometer_name, (1.0,))
-            row = np.zeros(len(columns))
-            row[places if together else [n]] = np.array(signs) / np.linalg.norm(signs)
-            size = float(np.linalg.norm(signs))
-            directions.append(
-                Direction(name, numbers.parameter(combinations.own_name(columns[n])), columns[n], 1.0 / size)
-            )
-            rows.append(row)
-    return directions, np.array(rows)
+            of, signs = combinations.PATTERNS[k] if together else (columns[n].accelerometer_name, (1.0,))
+            rows[len(names), places if together else [n]] = np.array(signs) / np.linalg.norm(signs)
+            names.append(f"{of} {numbers.parameter(combinations.own_name(columns[n]))}".strip())
+    return names, rows
 
 
 def find_visibility(f: Fitted) -> Visibility:
     """Which directions of the parameters the record determines, and which it leaves at their prior."""
-    directions, U = find_directions(f)
+    names, U = find_directions(f)
     variance, vectors = np.linalg.eigh(U @ f.coefficients(())[1] @ U.T)
     null = vectors[:, variance >= DETERMINED**2]
     P = null @ null.T
     own_share = np.diag(P)
     shared = np.flatnonzero((own_share > SHARE) & (own_share <= 1.0 - SHARE))
     count, label = connected_components(np.abs(P[np.ix_(shared, shared)]) > SHARE, directed=False)
-    groups = []
-    for members in (shared[label == k] for k in range(count)):
-        values, own = np.linalg.eigh(P[np.ix_(members, members)])
-        seen, named = own[:, values < HALF_SEEN], tuple(directions[n] for n in members)
-        if seen.shape[1] < len(members):
-            groups.append((named, tuple(_write_sum(named, v) for v in _simplify(seen))))
     return Visibility(
         determined=len(own_share) - null.shape[1],
         total=len(own_share),
-        unseen=tuple(directions[n] for n in np.flatnonzero(own_share > 1.0 - SHARE)),
-        groups=tuple(groups),
+        unseen=tuple(names[n] for n in np.flatnonzero(own_share > 1.0 - SHARE)),
+        groups=tuple(tuple(names[n] for n in shared[label == k]) for k in range(count)),
     )
-
-
-def _simplify(seen: Array) -> list[Array]:
-    """A basis (rows) of the columns' span with as many zeros as Gauss-Jordan elimination gives."""
-    rows = seen.T.copy()
-    free = list(range(rows.shape[1]))
-    for r in range(len(rows)):
-        k = max(free, key=lambda c: abs(rows[r, c]))
-        free.remove(k)
-        rows[r] /= rows[r, k]
-        others = np.arange(len(rows)) != r
-        rows[others] -= np.outer(rows[others, k], rows[r])
-    return [np.where(np.abs(row) > SHARE, row, 0.0) for row in rows]
-
-
-def _write_sum(directions: Sequence[Direction], v: Array) -> str:
-    """A determined combination over the parameters in display units, its first term with factor one: ``Sigma K2 − Sigma K5``."""
-    text = ""
-    first: tuple[float, str] | None = None
-    for d, x in ((d, float(x)) for d, x in zip(directions, v, strict=True) if x):
-        factor, unit = x * d.weight / (d.column.scale / d.column.unit_factor), d.column.unit
-        first = first or (factor, unit)
-        ratio, sized = factor / first[0], ""
-        if abs(abs(ratio) - 1.0) > LIKE_ONE or unit != first[1]:
-            per = (
-                "" if unit == first[1] else f" {numbers.unit(first[1]) or '1'}/({numbers.unit(unit) or '1'})"
-            )
-            sized = f"{numbers.number(abs(ratio), 2)}{per} · "
-        sign = f"{numbers.MINUS} " if ratio < 0 else "+ " if text else ""
-        text += f"{' ' if text else ''}{sign}{sized}{d}"
-    return text
 
 
 def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...]:
@@ -152,15 +87,9 @@ def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...
         f"{v.determined} of {v.total} directions of the calibrated parameters are determined by this record"
     )
     text = [f"{known}; the others stay at their test-sheet values."]
-    unseen: dict[str, list[str]] = {}
-    for d in v.unseen:
-        unseen.setdefault(f"{d.pattern} of " if d.pattern else "", []).append(d.name)
-    if unseen:
-        text.append(f"Not observable: {'; '.join(p + ', '.join(x) for p, x in unseen.items())}.")
-    for group, seen in v.groups:
-        members, sums = numbers.join_names([*map(str, group)]), numbers.join_names([*seen])
-        verb = "is" if len(seen) == 1 else "are"
-        text.append(f"Degenerate: {f'of {members} only {sums} {verb} determined' if sums else members}.")
+    if v.unseen:
+        text.append(f"Not observable: {', '.join(v.unseen)}.")
+    text += [f"Seen only together: {numbers.join_names(group)}." for group in v.groups]
     matrix, pairs = correlate_parameters(f)
     strongest = Table(("parameter", "and", "correlation"), tuple(pairs), words=2)
     lists = (list_combinations(f), list_parameters(f)) if values else None
@@ -176,12 +105,12 @@ def correlate_parameters(f: Fitted) -> tuple[Matrix, list[tuple[str, str, str]]]
 
     Of more than can be labelled in it, it has those with the largest correlations.
     """
-    directions, U = find_directions(f)
+    names, U = find_directions(f)
     covariance = U @ f.coefficients(())[1] @ U.T
     std = np.sqrt(np.diag(covariance))
     kept = np.flatnonzero(std < UNSEEN)
     r = (covariance / np.outer(std, std))[np.ix_(kept, kept)]
-    labels = tuple(str(directions[n]) for n in kept)
+    labels = tuple(names[n] for n in kept)
     i, j = np.triu_indices(len(r), 1)
     strongest = np.argsort(-np.abs(r[i, j]), kind="stable")[:LISTED]
     pairs = [(labels[i[k]], labels[j[k]], numbers.fixed(float(r[i[k], j[k]]), 3)) for k in strongest]

@@ -11,7 +11,6 @@ import multiprocessing
 import os
 import signal
 import sys
-import tempfile
 import threading
 import time
 from collections import Counter, deque
@@ -458,27 +457,3 @@ def open_journal(path: Path, job: Job) -> Iterator[Journal]:
             stream = held.enter_context(path.open("a+b"))
             held.enter_context(locked(path, 0.0))
         yield Journal(path, stream, make_head(job))
-
-
-@contextlib.contextmanager
-def keep_results(resume: Path | None) -> Iterator[Path]:
-    """The results file: the one asked for, else one that is kept only if the survey is cut short."""
-    path = resume
-    if path is None:
-        handle, name = tempfile.mkstemp(prefix="ragg-survey-", suffix=".jsonl")
-        os.close(handle)
-        path = Path(name)
-        # a survey that is killed cannot report it
-        click.echo(f"... if it is cut short, continue with --resume {path}", err=True)
-    before = path.stat().st_size if path.is_file() else 0
-    try:
-        yield path
-    except BaseException:
-        # nothing that was there before is read: it may be anything, and is refused
-        if path.is_file() and path.stat().st_size > before and path.read_bytes().count(b"\n") > 1:
-            click.echo(f"ragg: finished flights are kept; continue with --resume {path}", err=True)
-        elif resume is None:
-            path.unlink(missing_ok=True)
-        raise
-    if resume is None:
-        path.unlink(missing_ok=True)

