@@ -135,16 +135,18 @@ def demonstration(reports: Path) -> Demonstration:
     d = api.diagnose(m, flights, compared=c)
     step = api.add(m, d.found[0], flights)
     assert step.after is not None
-    origin = Origin("Demonstration: diagnosis", "ragg demo", api.sources(m, flights))
+    origin = Origin("Demonstration: diagnosis", "ragg demo", api.Source("ragg demo", m, flights).inputs)
     (reports / "diagnosis.html").write_text(write_diagnosis(d, origin), "utf-8")
-    origin = Origin("Demonstration: the effect added", "ragg demo", api.sources(step.loaded, flights))
+    origin = Origin(
+        "Demonstration: the effect added", "ragg demo", api.Source("ragg demo", step.loaded, flights).inputs
+    )
     steps = [s.as_json() for s in step.loaded.directory.history]
     (reports / "report.html").write_text(write_addition(steps, c, step.after, origin, d), "utf-8")
     documents = {
-        name: made | api.origin(m, flights, f"ragg {name} model")
+        name: made | api.Source(f"ragg {name} model", m, flights).as_json()
         for name, made in {"compare": c.as_json(), "diagnose": d.as_json()}.items()
     }
-    documents["add"] = step.as_json() | api.origin(step.loaded, flights, "ragg add model", before=m)
+    documents["add"] = step.as_json() | api.Source("ragg add model", step.loaded, flights, before=m).as_json()
     for line in LINES:
         with redirect_stdout(io.StringIO()):
             words = line.replace("FLIGHT", FLIGHT.name).split()

@@ -14,12 +14,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import read_text
 from ragg_runtime.compensation import calibrate as _calibrate
 from ragg_runtime.compensation import compensate as _compensate
 from ragg_runtime.compensation import frozen as _frozen
@@ -30,7 +29,7 @@ from ragg_runtime.compensation.drift import Drift, smooth_drift
 from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.compensation.export.program import FORMS, write_export
 from ragg_runtime.compensation.frozen import Held
-from ragg_runtime.compensation.saved import Saved, add_entry, load_saved
+from ragg_runtime.compensation.saved import add_entry, saved_calibration
 from ragg_runtime.estimation.scores import list_errors
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
@@ -54,11 +53,14 @@ from ragg_runtime.model.directory import CALIBRATION, HistoryStep, replace_model
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model, missing_channels
 from ragg_runtime.model.record import recorded_channels
+from ragg_runtime.survey.result import Survey
+from ragg_runtime.survey.run import digest_file, survey
 from ragg_runtime.wording import describe, describe_other
 from ragg_runtime.wording.sections import render_notebook
 from ragg_runtime.workspace import (
     Flights,
     Loaded,
+    Source,
     as_of,
     change,
     example,
@@ -68,24 +70,17 @@ from ragg_runtime.workspace import (
     mapping_of,
     mapping_text,
     new,
-    notes,
     now,
-    origin,
     read_flights,
     read_for_compensation,
-    sources,
 )
 
-if TYPE_CHECKING:
-    from ragg_runtime.survey.result import Survey
-    from ragg_runtime.survey.run import Progress
-
 __all__ = [
-    "FORMS", "Added", "Catalogue", "Compensation", "Flights", "Held", "Kept", "Loaded", "add", "as_of",
+    "FORMS", "Added", "Catalogue", "Compensation", "Flights", "Held", "Kept", "Loaded", "Source", "add", "as_of",
     "calibrate", "calibration_notes", "change", "check_output", "compare", "compare_frozen", "compensate",
     "contents", "diagnose", "effects", "errors_of", "example", "export", "keep_mapping", "load",
-    "mapping_of", "mapping_text", "new", "notes", "of_survey", "origin", "parse_limits", "read_flights",
-    "read_for_compensation", "remove", "saved_calibration", "sources", "survey", "validate", "write_export",
+    "mapping_of", "mapping_text", "new", "parse_limits", "read_flights",
+    "read_for_compensation", "remove", "saved_calibration", "source_of_survey", "survey", "validate", "write_export",
 ]  # fmt: skip
 
 
@@ -372,64 +367,12 @@ def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None)
 # --- many flights
 
 
-def survey(
-    m: Loaded,
-    flights: Sequence[Path | str],
-    *,
-    jobs: int | None = None,
-    scheduler: str | None = None,
-    resume: Path | None = None,
-    progress: Progress | None = None,
-    mapping: Path | None = None,
-) -> Survey:
-    """Diagnose many flights separately, and summarise them.
-
-    Parameters
-    ----------
-    m
-        The model.
-    flights
-        Files; one that cannot be read is listed as an error.
-    jobs
-        Processes on this machine (default: one per processor).
-    scheduler
-        Address of a Dask scheduler, whose workers are used instead.
-    resume
-        Results file to continue and to append to.
-    progress
-        Called with the number of finished flights.
-    mapping
-        Description of the files' columns; default: the one kept with the model.
-
-    Returns
-    -------
-        ``records``, one per flight, ``summary``, ``as_json()``.
-    """
-    from ragg_runtime.survey.run import survey as of_many  # slow to import, and only surveys need it
-
-    how = mapping_of(m, mapping)
-    return of_many(
-        m.directory.text,
-        m.directory.path / "model.toml",
-        flights,
-        jobs=jobs,
-        scheduler=scheduler,
-        resume=resume,
-        progress=progress,
-        mapping=None if how is None else (read_text(how.path), str(how.path.resolve()), how.kept),
-    )
-
-
-def of_survey(m: Loaded, s: Survey, command: str) -> tuple[dict[str, object], dict[str, Any]]:
-    """As :func:`origin`, of a survey made with ``m``, including the files that could not be read; and the same for its page."""
-    from ragg_runtime.survey.run import digest_file
-
-    files = [(r["file"], r["sha256"] if "sha256" in r else digest_file(r["file"])) for r in s.records]
-    read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
-    names = [*sources(m, []), *read]
-    told = origin(m, [], command, files=files) | {"sources": [{"name": n, "sha256": d} for n, d in names]}
-    title = f"{m.name} and {len(s.records)} flights"
-    return told, {"title": title, "command": command, "digest": m.model.digest, "sources": names}
+def source_of_survey(m: Loaded, s: Survey, command: str) -> Source:
+    """What a survey with a model was made from, including the files that could not be read."""
+    files = [
+        (r["flight"], r["file"], r["sha256"] if "sha256" in r else digest_file(r["file"])) for r in s.records
+    ]
+    return Source(command, m, files=files)
 
 
 # --- calibrations
@@ -509,11 +452,6 @@ def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | N
     return Loaded(directory, m.model, m.notes)
 
 
-def saved_calibration(m: Loaded) -> Saved:
-    """The calibration that the model directory keeps; UserError if there is none, or if it is of another model."""
-    return load_saved(m.directory.calibration, m.directory.path / CALIBRATION, m.model, m.instrument)
-
-
 def calibration_notes(m: Loaded) -> list[str]:
     """What is odd about the calibration that is kept."""
     return saved_calibration(m).find_oddities(m.model, m.instrument)
@@ -575,15 +513,10 @@ def compensate(
         ``inline`` and ``cross`` (Eo) with their standard uncertainties and ``quality``, for each flight.
     """
     flights = read_for_compensation(m, flights)
-    of = m.name, m.model, m.instrument, flights
     if calibration == "online":
-        kept = None if m.directory.calibration is None else saved_calibration(m)
-        found = _recursive.follow(*of, kept, noise=noise, walk=walk, forget=forget)
-    elif calibration == "frozen":
-        found = _compensate.compensate(*of, calibration, demodulator, saved_calibration(m))
+        found = _recursive.follow(m, flights, noise=noise, walk=walk, forget=forget)
     else:
-        distinct(flights)
-        found = _compensate.compensate(*of, calibration, demodulator)
+        found = _compensate.compensate(m, flights, calibration, demodulator)
     if output is not None:
         found.write(output)
     return found

@@ -235,29 +235,42 @@ def mapping_text(path: Path) -> str:
     return text
 
 
-def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
-    """What was done to model directory and flights, or looks odd in them."""
-    return [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)]
+@dataclass(frozen=True)
+class Source:
+    """What a result was made from: the ``command``, model and flights.
 
-
-def sources(m: Loaded, flights: Sequence[Flight]) -> list[tuple[str, str]]:
-    """(name, sha256) of everything that a result depends on."""
-    text = hashlib.sha256(m.directory.text.encode()).hexdigest()
-    return [(f"{m.name}/model.toml", text), *((x.name, x.digest) for x in flights)]
-
-
-def origin(
-    m: Loaded,
-    flights: Sequence[Flight],
-    command: str,
-    *,
-    files: Sequence[tuple[str, str | None]] = (),
-    before: Loaded | None = None,
-) -> dict[str, object]:
-    """What makes a result again (``provenance``), and what the reader did to the flights (``notes``).
-
-    ``files`` (path, SHA-256) are flights read elsewhere; ``before`` is the model that the command has changed.
+    ``before``: the model before the command changed it. ``further``: notes. ``files``: name, path and SHA-256 (``None``: it cannot be
+    read) of flights that were read elsewhere.
     """
-    model = identity(m.directory, m.model.digest, None if before is None else before.directory)
-    read = [(x.name if x.path is None else str(x.path), x.digest) for x in flights]
-    return {"notes": notes(m, flights), "provenance": provenance(command, model, [*read, *files])}
+
+    command: str
+    m: Loaded
+    flights: Sequence[Flight] = ()
+    before: Loaded | None = None
+    further: Sequence[str] = ()
+    files: Sequence[tuple[str, str, str | None]] = ()
+
+    @property
+    def notes(self) -> list[str]:
+        """What was done to model directory and flights, or looks odd in them."""
+        return [
+            *self.further,
+            *self.m.notes,
+            *(f"{x.name}: {note}" for x in self.flights for note in x.notes),
+        ]
+
+    @property
+    def inputs(self) -> list[tuple[str, str]]:
+        """(name, SHA-256) of everything that the result depends on."""
+        text = hashlib.sha256(self.m.directory.text.encode()).hexdigest()
+        read = [(x.name, x.digest) for x in self.flights]
+        elsewhere = [(name, digest) for name, _, digest in self.files if digest]
+        return [(f"{self.m.name}/model.toml", text), *read, *elsewhere]
+
+    def as_json(self) -> dict[str, object]:
+        """What the reader did to the flights (``notes``), and what makes the result again (``provenance``)."""
+        before = None if self.before is None else self.before.directory
+        model = identity(self.m.directory, self.m.model.digest, before)
+        read = [(x.name if x.path is None else str(x.path), x.digest) for x in self.flights]
+        elsewhere = [(path, digest) for _, path, digest in self.files]
+        return {"notes": self.notes, "provenance": provenance(self.command, model, [*read, *elsewhere])}

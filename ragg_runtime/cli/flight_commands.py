@@ -16,7 +16,6 @@ from ragg_runtime.cli.shared import (
     Finite,
     Later,
     OutputFile,
-    Source,
     command_line,
     conclude,
     find_wanted,
@@ -28,6 +27,7 @@ from ragg_runtime.cli.shared import (
     next_command,
     read,
     series_option,
+    source_of,
     under_way,
     working,
 )
@@ -75,7 +75,7 @@ def compare(
         said = describe.describe_held(result, names, then, again)
     title = f"{m.name}, frozen, and {', '.join(names)}" if frozen else None
     page = lambda origin: pages.write_comparison(c, origin, held)  # noqa: E731
-    conclude(result, said, Source(m, records, notes=odd), page, title)
+    conclude(result, said, source_of(m, records, further=odd), page, title)
 
 
 def _calibration_notes(m: Loaded) -> list[str]:
@@ -101,7 +101,7 @@ def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], ma
     result = d.as_json()
     then = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
     said = describe.describe_diagnosis(result, then)
-    conclude(result, said, Source(m, records), lambda origin: pages.write_diagnosis(d, origin))
+    conclude(result, said, source_of(m, records), lambda origin: pages.write_diagnosis(d, origin))
 
 
 @click.command(cls=Command, report=True)
@@ -129,7 +129,7 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
 
         found = result.as_json()
         said = describe.describe_addition(found, [e.id for e in result.loaded.model.effects], check, use)
-        conclude(found, said, Source(result.loaded, records, before=m), page, f"{m.name}: {effect} added")
+        conclude(found, said, source_of(result.loaded, records, before=m), page, f"{m.name}: {effect} added")
 
     with working(f"deriving the model with {effect}{', calibrating' if flights else ''}", "add", records):
         result = api.add(m, effect, records, tell)
@@ -201,7 +201,7 @@ def next_motion(
     next_flight.write_motion(found, Path(output))
     said = describe_other.describe_next_motion(found.as_json(), output)
     page = lambda origin: pages.write_info(said, [found.motion()], origin, "The next motion")  # noqa: E731
-    conclude(found.as_json(), said, Source(m, records), page)
+    conclude(found.as_json(), said, source_of(m, records), page)
 
 
 @click.command(cls=Command, report=True)
@@ -228,7 +228,7 @@ def calibrate(
     use = f"{next_command('compensate', model_dir, records)} -o compensated.csv --calibration frozen"
     said = describe_other.describe_calibration(found, [x.name for x in records], use if kept.saved else "")
     page = lambda origin: pages.write_calibration(said, kept.calibrated.fitted, origin)  # noqa: E731
-    conclude(found, said, Source(kept.loaded, records), page)
+    conclude(found, said, source_of(kept.loaded, records), page)
 
 
 @click.command(cls=Command, report=True)
@@ -293,7 +293,7 @@ def compensate(
     result = c.as_json()
     made = describe_other.describe_online if calibration == "online" else describe_other.describe_compensation
     said = made(result, output)
-    source = Source(m, records, notes=[*result.get("notes", ()), *odd])
+    source = source_of(m, records, further=[*result.get("notes", ()), *odd])
     page = lambda origin: pages.write_compensation(said, c.series, origin)  # noqa: E731
     conclude(result | {"output": str(out)}, said, source, page)
 
@@ -341,15 +341,7 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
 @click.option("--table", "table_file", type=OutputFile(records=True), metavar="FILE.parquet",
               help="Write a table with a row for each flight.")  # fmt: skip
 @mapping_option
-def survey(
-    model_dir: Path,
-    flights: Sequence[Path],
-    jobs: int | None,
-    scheduler: str | None,
-    resume: Path | None,
-    table_file: str | None,
-    mapping: Path | None,
-) -> None:
+def survey(model_dir: Path, flights: Sequence[Path], table_file: str | None, **options: Any) -> None:
     """Diagnose many flights, one by one."""
     from ragg_runtime.survey.result import make_parquet, require_table_place
     from ragg_runtime.survey.run import show_progress
@@ -357,11 +349,10 @@ def survey(
     m = load(model_dir)
     if table_file is not None:
         require_table_place(Path(table_file))
-    s = api.survey(
-        m, flights, jobs=jobs, scheduler=scheduler, resume=resume, progress=show_progress(), mapping=mapping
-    )
-    origin, about = api.of_survey(m, s, command_line())
+    s = api.survey(m, flights, progress=show_progress(), **options)
+    source = api.source_of_survey(m, s, command_line())
     if table_file is not None:
         write_bytes(Path(table_file), make_parquet(s.records))
-    page = lambda _: pages.write_survey(s, Origin(**about), model_dir)  # noqa: E731
-    conclude(s.as_json() | origin, s.sections(model_dir), page=page)
+    page = lambda origin: pages.write_survey(s, origin, model_dir)  # noqa: E731
+    result = s.as_json() | {"sources": [{"name": n, "sha256": digest} for n, digest in source.inputs]}
+    conclude(result, s.sections(model_dir), source, page, f"{m.name} and {len(s.records)} flights")

@@ -18,13 +18,13 @@ from ragg_runtime.cli.shared import (
     Finite,
     Later,
     OutputFile,
-    Source,
     command_line,
     conclude,
     load,
     mapping_option,
     model_argument,
     series_option,
+    source_of,
     under_way,
 )
 from ragg_runtime.report.page import Origin
@@ -81,7 +81,7 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
         f"{place}: created; effects in the model: {', '.join(effects) or 'none'}",
         f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT",
     )
-    conclude({"model": place, "effects": effects}, [Section(sentences=said)], Source(m))
+    conclude({"model": place, "effects": effects}, [Section(sentences=said)], source_of(m))
 
 
 @click.command(cls=Command)
@@ -107,7 +107,9 @@ def remove(model_dir: Path, effect: str) -> None:
     def tell(m: Loaded) -> None:
         left = [e.id for e in m.model.effects]
         text = f"removed {effect}; effects in the model: {', '.join(left) or 'none'}"
-        conclude({"effect": effect, "effects": left}, [Section(sentences=(text,))], Source(m, before=before))
+        conclude(
+            {"effect": effect, "effects": left}, [Section(sentences=(text,))], source_of(m, before=before)
+        )
 
     api.remove(before, effect, tell)
 
@@ -179,7 +181,7 @@ def simulate(
     write_flight(flight, output)
     text = f"{one_line(output)}: {len(flight.time)} samples at {flight.rate:g} Hz"
     result = {"output": output, "samples": len(flight.time), "rate_Hz": flight.rate, "effects": list(hidden)}
-    conclude(result, [Section(sentences=(text,))], Source(m))
+    conclude(result, [Section(sentences=(text,))], source_of(m))
 
 
 @click.command(cls=Command, json=False)

@@ -36,7 +36,7 @@ class Later:
 
 if TYPE_CHECKING:
     from ragg_runtime import api
-    from ragg_runtime.api import Loaded
+    from ragg_runtime.api import Loaded, Source
     from ragg_runtime.io import Flight
 else:
     api = Later("api")
@@ -187,29 +187,9 @@ def working(text: str, command: str, flights: Sequence[Flight]) -> Iterator[None
         yield
 
 
-@dataclass(frozen=True)
-class Source:
-    """What a result was made from: model and flights, the model before the command changed it, further notes."""
-
-    m: Loaded
-    flights: Sequence[Flight] = ()
-    before: Loaded | None = None
-    notes: Sequence[str] = ()
-
-    def json(self) -> dict[str, object]:
-        """``provenance`` and ``notes`` of the JSON."""
-        made = api.origin(self.m, self.flights, command_line(), before=self.before)
-        return made | {"notes": [*self.notes, *api.notes(self.m, self.flights)]}
-
-    def origin(self, title: str | None) -> Origin:
-        """Title, command, sources and notes of a page."""
-        return Origin(
-            title=title or f"{self.m.name} and {', '.join(x.name for x in self.flights)}",
-            command=command_line(),
-            sources=api.sources(self.m, self.flights),
-            notes=(*self.notes, *api.notes(self.m, self.flights)),
-            digest=self.m.model.digest,
-        )
+def source_of(m: Loaded, flights: Sequence[Flight] = (), **more: Any) -> Source:
+    """What the command that runs makes its result from; ``more``: further fields."""
+    return api.Source(command_line(), m, flights, **more)
 
 
 def conclude(
@@ -235,11 +215,11 @@ def conclude(
     wanted = find_wanted()
     if wanted.report_file is not None and page is not None:
         under_way("writing the report")
-        origin = Origin(title or "", command_line(), ()) if source is None else source.origin(title)
+        origin = Origin(title or "", command_line(), ()) if source is None else Origin.of(source, title)
         write_text(Path("/dev/stdout" if wanted.report_file == "-" else wanted.report_file), page(origin))
         click.echo(one_line(f"report: {wanted.report_file}"), err=True)
     if wanted.json_file is not None:
-        whole = {**result, **({} if source is None else source.json())}
+        whole = {**result, **({} if source is None else source.as_json())}
         whole.setdefault("provenance", provenance(command_line()))
         text = json.dumps(whole, indent=1, allow_nan=False)
         if wanted.json_file in STDOUT:

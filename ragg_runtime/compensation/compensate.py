@@ -30,7 +30,7 @@ from ragg_runtime.compensation.frozen import (
     retest_change,
     warn_of_change,
 )
-from ragg_runtime.compensation.saved import Saved
+from ragg_runtime.compensation.saved import Saved, saved_calibration
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.least_squares import orthonormalise
@@ -52,7 +52,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, sees
 from ragg_runtime.io import Flight
 from ragg_runtime.io.files import write_tables
-from ragg_runtime.io.record import GRADIENT
+from ragg_runtime.io.record import GRADIENT, distinct
 from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
@@ -61,6 +61,7 @@ from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.tensor import COMPONENTS, tensor
 from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.sections import render_notebook
+from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -370,7 +371,8 @@ def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
     n, power, samples = int(WINDOW * rate), np.zeros(2), 0
     for run in runs(np.isfinite(g.real), n):
         x = g[run]
-        f, density = signal.welch([x.real, x.imag], rate, nperseg=n, detrend="linear")
+        both = np.stack([x.real, x.imag])
+        f, density = signal.welch(both, rate, nperseg=n, detrend="linear")  # type: ignore[call-overload]
         power += len(x) * np.mean(density[:, (f >= BAND[0]) & (f <= BAND[1])], axis=1)
         samples += len(x)
     mean = np.sqrt(power / samples) if samples else np.full(2, np.nan)
@@ -407,29 +409,19 @@ def list_contributions(c: OutputChannel, instrument: Instrument) -> list[dict[st
 
 
 @one_thread
-def compensate(
-    name: str,
-    model: Model,
-    instrument: Instrument,
-    flights: Sequence[Flight],
-    kind: Kind,
-    demodulator: str,
-    saved: Saved | None = None,
-) -> Compensation:
-    """Compensate flights with a model, called ``name``.
-
-    Parameters
-    ----------
-    kind
-        Whence the parameters: fitted to these flights, or the ``saved`` ones, which only ``frozen`` takes.
-    demodulator
-        Name of the low-pass.
+def compensate(m: Loaded, flights: Sequence[Flight], kind: Kind, demodulator: str) -> Compensation:
+    """Compensate flights with parameters fitted to these flights, or with the saved ones (``frozen``).
 
     Raises
     ------
     UserError
         If a flight cannot be compensated, or not in one table with the others.
     """
+    model, instrument, saved = m.model, m.instrument, None
+    if kind == "frozen":
+        saved = saved_calibration(m)
+    else:
+        distinct(flights)
     p = prepare(model, instrument, flights, kind, saved)
     every = [[make_channel(p, n, demodulator) for n in p.of_flight(k)] for k in range(len(p.flights))]
     _require_alike(p.flights, every)
@@ -459,7 +451,7 @@ def compensate(
             result["notes"] = [warn_of_change(p.saved.time, p.change)]
     if kind == "smoothed" and not find_starts(p.flights)[1]:
         result["notes"] = [describe_other.UNTIMED]
-    return Compensation.of(name, result, series)
+    return Compensation.of(m.name, result, series)
 
 
 def _require_alike(flights: Sequence[Flight], every: Sequence[Sequence[OutputChannel]]) -> None:

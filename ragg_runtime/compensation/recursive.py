@@ -20,7 +20,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread, split_range
 from ragg_runtime.compensation.channel import Quality
 from ragg_runtime.compensation.compensate import Compensation, find_seeing, leave_out_gradients
-from ragg_runtime.compensation.saved import Saved
+from ragg_runtime.compensation.saved import Saved, saved_calibration
 from ragg_runtime.estimation.least_squares import marginalise
 from ragg_runtime.estimation.observation import ROWS, Observation, combine_output, observe_flights
 from ragg_runtime.estimation.regressors import (
@@ -39,6 +39,7 @@ from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.recorded import put_on_carriers
 from ragg_runtime.signals.demodulate import CUTOFF
+from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]
 
@@ -205,24 +206,19 @@ def _eliminate(rows: Array) -> Array:
 
 @one_thread
 def follow(
-    name: str,
-    model: Model,
-    instrument: Instrument,
+    m: Loaded,
     flights: Sequence[Flight],
-    saved: Saved | None,
     *,
     noise: float | None = None,
     walk: float | None = None,
     forget: float = float("inf"),
 ) -> Compensation:
-    """Calibrate and compensate flights sample by sample, with a model called ``name``.
+    """Calibrate and compensate flights sample by sample, from the saved calibration, else from the test sheet.
 
     Parameters
     ----------
-    saved
-        The calibration to begin with; ``None``: the test sheet.
     noise
-        Density of the noise of the cross channel, Eo/sqrt(Hz), by default what ``saved`` left.
+        Density of the noise of the cross channel, Eo/sqrt(Hz), by default what the saved calibration left.
     walk
         Of the cross channel, Eo/sqrt(s), by default so that channels are followed as the demodulators' low-pass would.
     forget
@@ -233,6 +229,8 @@ def follow(
     UserError
         If the noise is not known, or a flight holds no output before demodulation.
     """
+    name, model, instrument = m.name, m.model, m.instrument
+    saved = None if m.directory.calibration is None else saved_calibration(m)
     density = _known_noise(name, saved) if noise is None else noise
     wander = float(density / np.sqrt(2.0) * 2 * np.pi * CUTOFF) if walk is None else walk
     tuning = Tuning(noise=density, walk=wander, forget=forget)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,8 +13,10 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.estimation.regressors import Column, list_base_columns
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.directory import CALIBRATION
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
+from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]
 
@@ -182,21 +183,16 @@ def _square(rows: Sequence[Sequence[float]], n: int) -> Array:
     return R
 
 
-def load_saved(kept: str | None, where: Path, model: Model, instrument: Instrument) -> Saved:
-    """The calibration in force of a model directory, in the present scales of the parameters that are fitted.
-
-    Parameters
-    ----------
-    kept
-        The text of its calibration.json, ``None`` if there is none.
-    where
-        Its path.
+def saved_calibration(m: Loaded) -> Saved:
+    """The calibration that a model directory keeps, in the present scales of the parameters that are fitted.
 
     Raises
     ------
     UserError
         If there is none, if it is damaged, or of another model.
     """
+    kept, where = m.directory.calibration, m.directory.path / CALIBRATION
+    model, instrument = m.model, m.instrument
     again = f"calibrate: ragg calibrate {where.parent} FLIGHT... --save"
 
     def refuse(

@@ -6,11 +6,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
+from typing import TYPE_CHECKING
 
 from ragg_runtime.base.errors import missing_package
 from ragg_runtime.base.provenance import MISSING, versions
 from ragg_runtime.wording import numbers
 from ragg_runtime.wording.sections import Plot, Section, escape, render_html
+
+if TYPE_CHECKING:  # slow to import, and help does without it
+    from ragg_runtime.workspace import Source
 
 
 @dataclass(frozen=True)
@@ -22,6 +26,14 @@ class Origin:
     sources: Sequence[tuple[str, str]]
     notes: Sequence[str] = ()
     digest: str = ""
+
+    @staticmethod
+    def of(source: Source, title: str | None = None) -> Origin:
+        """Of a result; the title names model and flights unless given."""
+        usual = f"{source.m.name} and {', '.join(x.name for x in source.flights)}"
+        return Origin(
+            title or usual, source.command, source.inputs, tuple(source.notes), source.m.model.digest
+        )
 
 
 def _find_renderer() -> Callable[[Plot], str]:

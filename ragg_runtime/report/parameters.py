@@ -53,7 +53,8 @@ def find_directions(f: Fitted) -> tuple[list[str], Array]:
     positions: dict[str, list[int]] = {}
     for n, c in enumerate(columns):
         positions.setdefault(c.name, []).append(n)
-    names, rows = [], np.zeros((len(columns), len(columns)))
+    names: list[str] = []
+    rows = np.zeros((len(columns), len(columns)))
     for places in positions.values():
         together = patterns and len(places) == 4
         for k, n in enumerate(places):

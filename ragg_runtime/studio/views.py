@@ -428,10 +428,12 @@ def _find_command(s: State, name: str) -> str:
     return next((c for c in commands(s) if c.startswith(f"ragg {name} ")), f"ragg {name}")
 
 
+def _make_source(s: State, command: str) -> api.Source:
+    return api.Source(_find_command(s, command), s.model, s.fitted)
+
+
 def _make_origin(s: State, command: str) -> Origin:
-    m, flights = s.model, s.fitted
-    title = f"{m.name} and {', '.join(x.name for x in flights)}"
-    return Origin(title, _find_command(s, command), api.sources(m, flights), api.notes(m, flights))
+    return Origin.of(_make_source(s, command))
 
 
 def _write_steps(s: State) -> str:
@@ -458,8 +460,8 @@ def _write_export(s: State, form: str) -> bytes:
 
 
 def _write_json(s: State, name: str, command: str) -> str:
-    origin = api.origin(s.model, s.fitted, _find_command(s, command))
-    return json.dumps(s.require(name).as_json() | origin, indent=1, allow_nan=False) + "\n"
+    whole = s.require(name).as_json() | _make_source(s, command).as_json()
+    return json.dumps(whole, indent=1, allow_nan=False) + "\n"
 
 
 FILES: Mapping[str, tuple[str, Callable[[State], str | bytes]]] = {

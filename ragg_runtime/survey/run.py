@@ -24,7 +24,7 @@ from typing import IO, Any
 import click
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import file_digest, locked
+from ragg_runtime.base.files import file_digest, locked, read_text
 from ragg_runtime.base.progress import INTERVAL
 from ragg_runtime.io.record import same_record
 from ragg_runtime.survey.examine import (
@@ -38,6 +38,7 @@ from ragg_runtime.survey.examine import (
     split_line,
 )
 from ragg_runtime.survey.result import Survey
+from ragg_runtime.workspace import Loaded, mapping_of
 
 Progress = Callable[[int, int, Record | None], None]
 """Called with the number of flights done, of all, and the record just made (``None`` at the beginning)."""
@@ -53,38 +54,38 @@ AHEAD = 4
 
 
 def survey(
-    text: str,
-    path: Path,
+    m: Loaded,
     flights: Sequence[Path | str],
     *,
     jobs: int | None = None,
     scheduler: str | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
-    mapping: tuple[str, str, bool] | None = None,
+    mapping: Path | None = None,
 ) -> Survey:
-    """Diagnose flights one by one; each line of a file that has several is a flight.
+    """Diagnose many flights separately, and summarise them; each line of a file that has several is a flight.
 
     Parameters
     ----------
-    text, path
-        model.toml and where it is.
+    m
+        The model.
     flights
-        Files; the order does not matter, a file named twice counts once.
+        Files; the order does not matter, a file named twice counts once. One that cannot be read is listed as an error.
     jobs
-        Worker processes on this machine (default: one per processor).
+        Processes on this machine (default: one per processor).
     scheduler
         Address of a dask.distributed scheduler, ``tcp://host:port``: its workers do it instead. What answers there
         can run code in this process: name addresses that you trust. Certificates are Dask's own configuration.
     resume
         Results file: what it holds is not done again (flights in error are), what is done is added.
+    progress
+        Called with the number of finished flights.
     mapping
-        Text and place of the mapping by which flights are read, and whether it is the model's own.
+        Description of the files' columns; default: the one kept with the model.
 
     Returns
     -------
-    Survey
-        A record per flight, in the order of their names, and their summary.
+        ``records``, one per flight in the order of their names, ``summary``, ``as_json()``.
 
     Raises
     ------
@@ -97,7 +98,13 @@ def survey(
         raise UserError("a survey runs on this machine or on a cluster", found="--jobs and --scheduler")
     if jobs is not None and jobs < 1:
         raise UserError("a survey needs a worker", where="--jobs", found=jobs, expected="1 or more")
-    job = make_job(text, path, cluster=scheduler is not None, mapping=mapping)
+    how = mapping_of(m, mapping)
+    job = make_job(
+        m.directory.text,
+        m.directory.path / "model.toml",
+        cluster=scheduler is not None,
+        mapping=None if how is None else (read_text(how.path), str(how.path.resolve()), how.kept),
+    )
     files = expand_lines(job, order_files(flights))
     names = name_flights(files)
     with contextlib.nullcontext() if resume is None else open_journal(resume, job) as journal:
