@@ -21,7 +21,6 @@ from ragg_runtime.identification.motion_design import (
     Criterion,
     Design,
     Information,
-    Planned,
     design,
     design_calibration,
     list_tones,
@@ -37,6 +36,7 @@ from ragg_runtime.identification.next_motion import (
 from ragg_runtime.io import Flight, write_flight
 
 Array = NDArray[np.float64]
+Json = Mapping[str, Any]
 D = TypeVar("D", bound=Design, covariant=True)
 
 CHANNELS = ("inline_Eo", "cross_Eo")
@@ -202,39 +202,27 @@ def calibration_flight(
     return NextFlight(plan, _mean(flights), duration, rate)
 
 
-@dataclass(frozen=True)
-class Plan:
-    """What `ragg next-motion --for calibration --json` promised; ``channels``: rms of inline and cross, Eo, now and planned."""
-
-    parameters: tuple[Planned, ...]
-    combinations: tuple[Planned, ...]
-    channels: Mapping[str, Mapping[str, float]]
-
-
-def read_plan(path: Path) -> Plan:
-    """The plan in a file; UserError if it is none."""
+def read_plan(path: Path) -> Json:
+    """What `ragg next-motion --for calibration --json` promised; UserError if the file is none of it."""
     try:
-        content = json.loads(read_text(path))
-        parameters, combinations = (
-            tuple(
-                Planned(str(q["name"]), q["accelerometer"], str(q["unit"]), float(q["now"]), float(q["then"]))
-                for q in content[key]
-            )
-            for key in ("parameters", "combinations")
-        )
-        channels = {
-            when: {n: float(content["channels"][when][n]) for n in CHANNELS} for when in ("now", "planned")
+        plan = json.loads(read_text(path))
+        for q in (*plan["parameters"], *plan["combinations"]):
+            if not {"name", "accelerometer", "unit"} <= q.keys():
+                raise ValueError
+            q |= {when: float(q[when]) for when in ("now", "then")}
+        plan["channels"] = {
+            when: {n: float(plan["channels"][when][n]) for n in CHANNELS} for when in ("now", "planned")
         }
-        return Plan(parameters, combinations, channels)
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, AttributeError):
         raise UserError(
             "this is not a plan of a calibration",
             where=path,
             expected="the JSON of ragg next-motion MODEL FLIGHT... --for calibration --json PLAN.json",
         ) from None
+    return dict(plan)
 
 
-def certify(plan: Plan, f: Fitted, calibration: Mapping[str, Any]) -> dict[str, Any]:
+def certify(plan: Json, f: Fitted, calibration: Json) -> dict[str, Any]:
     """What was planned and what was reached, for the JSON of `calibrate`, which is given with the fit that it is of.
 
     ``certificate``: of every parameter its value and standard uncertainties; ``certified``: the same of the combinations, and what all
@@ -244,39 +232,32 @@ def certify(plan: Plan, f: Fitted, calibration: Mapping[str, Any]) -> dict[str, 
     found = {(q["name"], q.get("accelerometer")): q for q in both}
     reached = Information.of(f)
     then = dict(zip(CHANNELS, reached.channels(reached.inverse(reached.root)), strict=True))
+    now, planned = (plan["channels"][when] for when in ("now", "planned"))
+    channels = {n: {"before": now[n], "planned": planned[n], "reached": then[n]} for n in CHANNELS}
     return {
-        "certificate": [_certify_one(x, found) for x in plan.parameters],
+        "certificate": [_certify_one(q, found) for q in plan["parameters"]],
         "certified": {
-            "channels": {
-                n: {
-                    "before": plan.channels["now"][n],
-                    "planned": plan.channels["planned"][n],
-                    "reached": then[n],
-                }
-                for n in CHANNELS
-            },
-            "combinations": [_certify_one(x, found) for x in plan.combinations],
+            "channels": channels,
+            "combinations": [_certify_one(q, found) for q in plan["combinations"]],
         },
     }
 
 
-def _certify_one(x: Planned, found: Mapping[Any, Mapping[str, Any]]) -> dict[str, Any]:
-    q = found.get((x.name, x.accelerometer))
-    if q is None and x.accelerometer is not None:
+def _certify_one(x: Json, found: Mapping[Any, Json]) -> dict[str, Any]:
+    q = found.get((x["name"], x["accelerometer"]))
+    if q is None and x["accelerometer"] is not None:
         raise UserError(
             "the plan is of another model: a parameter of it is not fitted",
-            found=x.name,
+            found=x["name"],
             remedy="plan again with the present model: ragg next-motion --for calibration",
         )
     return {
-        "name": x.name,
-        "accelerometer": x.accelerometer,
-        "unit": x.unit,
+        **{k: x[k] for k in ("name", "accelerometer", "unit")},
         "value": None if q is None else q["value"],  # a combination that the flights do not determine
-        "std_before": x.now,
-        "std_planned": x.then,
+        "std_before": x["now"],
+        "std_planned": x["then"],
         "std_reached": None if q is None else q["std"],
-        "reached": q is not None and bool(q["std"] <= REACHED * x.then),
+        "reached": q is not None and bool(q["std"] <= REACHED * x["then"]),
     }
 
 

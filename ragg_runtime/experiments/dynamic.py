@@ -33,9 +33,6 @@ Array = NDArray[np.float64]
 
 RATE, TURNS = 16.0, 64
 
-ANGLES_DROPPED = {"second-order-misalignment": {"kappa": 0.0}}
-"""The numerical model with the second-order terms of Eq. 5, without angles, in place of those of Eq. 52."""
-
 WITH_MASS = PointMass(paper.MASS, paper.MASS_POSITION)
 """The test mass of Section III.A where it starts."""
 

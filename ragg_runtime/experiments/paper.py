@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -133,13 +133,6 @@ class PrintedEntry:
     verdict: str
     reason: str
 
-    def as_json(self) -> dict[str, object]:
-        p, own = self.printed, asdict(self)
-        paper = {"where": p.where, "unit": p.unit, "paper": p.value, "paper_gives_order_only": p.order}
-        return (
-            {"quantity": self.quantity} | paper | {k: own[k] for k in ("ours", "spread", "verdict", "reason")}
-        )
-
 
 def judge(
     quantity: str,
@@ -171,10 +164,6 @@ class Experiment:
     settings: Mapping[str, str]
     rows: tuple[PrintedEntry, ...]
 
-    def as_json(self) -> dict[str, object]:
-        rows = [r.as_json() for r in self.rows]
-        return {"title": self.title, "settings": dict(self.settings), "rows": rows}
-
 
 def _format(value: Cell) -> str:
     """Three significant digits; the same text on any machine but for the last of them."""
@@ -194,7 +183,7 @@ _HEAD = """# The paper's experiments, repeated
 
 See which printed numbers can be reproduced: Section III of
 M. Yu and T. Cai, *Mathematic Model And Error Analysis of Moving-base Rotating Accelerometer Gravity Gradiometer*:
-our numbers and the printed ones (`python -m ragg_runtime.experiments`, as JSON with `--json`).
+our numbers and the printed ones (`python -m ragg_runtime.experiments`).
 
 The numerical model of Eq. 49 to 53 represents the instrument; the analytical (Eq. 17 to 19) and the
 simplified model (Eq. 42 to 47) are the derived ones. The misprints of the equations are too small to matter here.

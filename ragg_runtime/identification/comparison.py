@@ -284,11 +284,6 @@ def compute_nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     return np.asarray(left)
 
 
-def demodulate_all(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:
-    """(time, inline, cross) of every flight's residual, s and Eo."""
-    return [demodulate_one(f, n, e) for n, e in enumerate(residuals)]
-
-
 def demodulate_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Array]:
     """(time, inline, cross) of any series of G_out of one flight, s and Eo."""
     r = f.prepared[flight].observation.record

@@ -47,9 +47,8 @@ def find_places(chain: ChainModule) -> dict[str, slice]:
     return {n: slice(int(e) - size, int(e)) for (n, size), e in zip(chain.PARAMETERS, ends, strict=True)}
 
 
-Inputs = Sequence[ArrayLike | None] | NDArray[np.floating]
-"""One series of N samples each, in the order of the model; ``None``: not recorded, zero (the rate of the disc angle: 2 pi
-spin_frequency)."""
+Inputs = Sequence[ArrayLike] | NDArray[np.floating]
+"""One series of N samples each, in the order of the model."""
 Backend = Literal["auto", "c", "numpy"]
 
 BLOCK = 4096
@@ -156,41 +155,26 @@ class Evaluator:
             yield some, (t[some], np.cos(phi), np.sin(phi), np.stack([v[some] for v in x]), q)
 
     def _case(self, t: ArrayLike, inputs: Inputs, p: ArrayLike, angle: ArrayLike | None) -> _Case:
-        """Checked arguments: contiguous float64 is used where it lies, the rest converted."""
-        names, time = self.chain.INPUTS, _series(t, "t")
-        if len(inputs) != len(names):
-            expected = f"{len(names)}: {' '.join(names)}"
-            raise UserError("wrong number of input series", found=len(inputs), expected=expected)
-        values = np.ascontiguousarray(p, dtype=np.float64)
+        """The arguments as the generated code takes them: contiguous float64 is used where it lies, the rest converted."""
+        time, values, *rows = (np.ascontiguousarray(x, dtype=np.float64) for x in (t, p, *inputs))
+        phi = None if angle is None else np.ascontiguousarray(angle, dtype=np.float64)
+        series = {"t": time, **dict(zip(self.chain.INPUTS, rows, strict=False))}
+        series |= {} if phi is None else {"angle": phi}
+        if len(rows) != len(self.chain.INPUTS):
+            expected = f"{len(self.chain.INPUTS)}: {' '.join(self.chain.INPUTS)}"
+            raise UserError("wrong number of input series", found=len(rows), expected=expected)
         if values.shape != (self.chain.SIZE,):
             raise UserError("wrong number of parameters", found=values.shape, expected=(self.chain.SIZE,))
-        zero = np.zeros(len(time)) if any(x is None for x in inputs) else time
-        rows = [
-            zero if x is None else _series(x, name, len(time)) for name, x in zip(names, inputs, strict=True)
-        ]
-        if "d_spin_angle" in names and inputs[names.index("d_spin_angle")] is None:
-            if angle is not None:
-                expected = "a series d_spin_angle, rad/s"
-                raise UserError("the disc angle is given, but not its rate", expected=expected)
-            spin = values[1 if self.layout.like_paper else self.layout.size]
-            rows[names.index("d_spin_angle")] = np.full(len(time), 2 * np.pi * spin)
-        return time, rows, values, None if angle is None else _series(angle, "angle", len(time))
+        for name, x in series.items():
+            if x.shape != (time.size,):
+                raise UserError(f"{name} is not a series of {time.size} samples", found=f"shape {x.shape}")
+        return time, rows, values, phi
 
 
 _Case = tuple[Array, Sequence[Array], Array, Array | None]
 """Times (N,), inputs, parameters, disc angle (N,)."""
 
 _SIZE = ctypes.c_size_t
-
-
-def _series(x: ArrayLike, name: str, length: int | None = None) -> Array:
-    series = np.ascontiguousarray(x, dtype=np.float64)
-    if series.ndim != 1 or (length is not None and len(series) != length):
-        expected = "one number per sample" if length is None else f"shape ({length},)"
-        raise UserError(
-            f"{name} is not a series of samples", found=f"shape {series.shape}", expected=expected
-        )
-    return series
 
 
 def _at(x: Array | None) -> ctypes.c_void_p:

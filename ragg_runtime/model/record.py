@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
@@ -51,9 +51,6 @@ SPIN_WINDOW = 0.6
 
 EVEN = 1e-7
 """Steps by which instants may be off even ones to count as even: the last digits of a time of a day."""
-
-CHUNK = 1 << 16
-"""Samples of a long record's encoder that are looked at at a time."""
 
 
 @dataclass(frozen=True)
@@ -326,16 +323,11 @@ def spin_degree(encoder: Array | None, rate: float, late: Array | None = None) -
     """Of the polynomials for the rate of the angle (N,), rad, of a whole record; the lowest without an encoder."""
     if encoder is None:
         return DEGREES[0]
-    half = _half(rate)
-
-    def angles() -> Iterator[Array]:
-        for a in range(0, len(encoder), CHUNK):
-            rows = slice(max(0, a - half), a + CHUNK + half)
-            angle = np.array(encoder[rows])
-            for run in runs(np.isfinite(angle), 2):
-                yield steady_and_swing(angle[run], None if late is None else late[rows][run])[1]
-
-    return best_degree(angles(), half)
+    swings = (
+        steady_and_swing(encoder[run], None if late is None else late[run])[1]
+        for run in runs(np.isfinite(encoder), 2)
+    )
+    return best_degree(swings, _half(rate))
 
 
 def _half(rate: float) -> int:
