@@ -21,6 +21,7 @@ from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import check_writable, write_text
 from ragg_runtime.base.provenance import provenance
 from ragg_runtime.report.page import Origin
+from ragg_runtime.wording.describe import group_notes
 from ragg_runtime.wording.sections import Section, render_text
 
 
@@ -232,10 +233,7 @@ def conclude(
 
 def notes_of(flights: Sequence[Flight]) -> list[Section]:
     """What the reader did to flights, every note once, with the flights that it is about; only their number after the first commands."""
-    about: dict[str, list[str]] = {}
-    for x in flights:
-        for note in x.notes:
-            about.setdefault(str(note), []).append(x.name)
+    about = group_notes((x.name, str(note)) for x in flights for note in x.notes)
     lines = []
     for note, names in about.items():
         which = f"{len(names)} flights: " if len(names) > 3 else f"{', '.join(names)}: "

@@ -15,7 +15,7 @@ from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import ROWS, combine_output
 from ragg_runtime.estimation.regressors import Column, put_derivatives
-from ragg_runtime.estimation.seen_gradient import ModelledOutput
+from ragg_runtime.estimation.seen_gradient import Block, ModelledOutput
 from ragg_runtime.estimation.unknown_gradient import spin_frequency
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.signals.demodulators import find_demodulator
@@ -61,15 +61,6 @@ MEANING = {
 """What each bit says of samples."""
 
 
-@dataclass(frozen=True)
-class Block:
-    """Samples of a flight with parameters ``p`` (size,), SI; ``root`` (n, k): of the covariance of those fitted, in scales."""
-
-    rows: slice
-    p: Array
-    root: Array
-
-
 def make_block(c: Calibration, rows: slice, step: Array | float, root: Array) -> Block:
     """Samples with parameters a ``step`` (n,) from the calibrated ones, in scales."""
     p = c.p.copy()
@@ -95,12 +86,10 @@ class Compensated:
 class OutputChannel(ModelledOutput):
     """One output of a flight, with what compensates it; ``about`` are the calibrated parameters.
 
-    ``roots``: of each block that of the covariance of the parameters ``columns``. ``noise``: of the output. ``recorded``: inline + i
-    cross (N,), Eo, if the flight was demodulated by its recorder. ``validity``: channel -> range, SI; empty: not flagged. ``flags``:
-    bits of the quality of all samples.
+    ``columns``: those fitted. ``noise``: of the output. ``recorded``: inline + i cross (N,), Eo, if the flight was demodulated by its
+    recorder. ``validity``: channel -> range, SI; empty: not flagged. ``flags``: bits of the quality of all samples.
     """
 
-    roots: tuple[Array, ...]
     columns: tuple[Column, ...]
     noise: NoiseModel
     recorded: Complex | None
@@ -141,16 +130,18 @@ class OutputChannel(ModelledOutput):
         """(2, N) Eo^2: variance of inline and cross by the parameters, beside a gradient (N,), Eo."""
         few = max(1, int(self.demodulator.rate // FINE))
         count = len(g) // few
-        along = np.empty((self.roots[0].shape[1], 2, count))  # independent steps of one standard deviation
+        along = np.empty(
+            (self.blocks[0].root.shape[1], 2, count)
+        )  # independent steps of one standard deviation
         for some in split_range(count, ROWS // few):
             change = self._change_by_parameters(slice(some.start * few, some.stop * few), g, few)
-            for (rows, _), root in zip(self.blocks, self.roots, strict=True):
+            for b in self.blocks:
                 # a mean that two blocks share is that of the first
-                first = max(-(-rows.start // few), some.start)
-                last = min(-(-rows.stop // few), some.stop)
+                first = max(-(-b.rows.start // few), some.start)
+                last = min(-(-b.rows.stop // few), some.stop)
                 if first < last:
                     own = change[..., first - some.start : last - some.start]
-                    along[..., first:last] = np.tensordot(root.T, own, 1)
+                    along[..., first:last] = np.tensordot(b.root.T, own, 1)
             progress.step(float(few * (some.stop - some.start)))
         low_pass = find_demodulator(self.demodulator.name, self.demodulator.rate / few)
         total = sum((low_pass.low_passed(x) ** 2 for x in along), np.zeros((2, count)))

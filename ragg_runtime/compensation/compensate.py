@@ -16,7 +16,6 @@ from ragg_runtime.compensation.calibrate import fit_some, information, invert_ro
 from ragg_runtime.compensation.channel import (
     MEANING,
     NO_VALUE,
-    Block,
     Compensated,
     OutputChannel,
     Quality,
@@ -45,6 +44,7 @@ from ragg_runtime.estimation.observation import (
     spread,
 )
 from ragg_runtime.estimation.scores import finite, measure_error
+from ragg_runtime.estimation.seen_gradient import Block
 from ragg_runtime.estimation.unknown_gradient import windows
 from ragg_runtime.estimation.whitening import flight_segments
 from ragg_runtime.identification.budget import list_groups
@@ -283,7 +283,7 @@ def _crossed_block(f: Fitted, o: Observation, b: int, of_all: Sequence[Sequence[
 
 def make_channel(p: PreparedFlights, k: int, name: str) -> OutputChannel:
     """An observation ready to be compensated; ``name``: of the demodulator. UserError if the flight is too short for it."""
-    o, c, blocks = p.observations[k], p.calibration, p.blocks[k]
+    o, c = p.observations[k], p.calibration
     flight, d = p.flights[o.flight], find_demodulator(name, o.record.rate)
     least = sum(d.settling) + 1
     if len(flight.time) < least:
@@ -302,9 +302,8 @@ def make_channel(p: PreparedFlights, k: int, name: str) -> OutputChannel:
         model=p.model,
         observation=o,
         about=c.p,
-        blocks=tuple((b.rows, b.p) for b in blocks),
+        blocks=p.blocks[k],
         demodulator=d,
-        roots=tuple(b.root for b in blocks),
         columns=c.columns,
         noise=c.noise[k],
         recorded=recorded,
@@ -353,7 +352,7 @@ def find_nominal_residual(c: OutputChannel, instrument: Instrument) -> Array:
     """
     o, sheet = c.observation, vector(c.model, instrument)
     r, rows = o.record, slice(0, len(o.record.time))
-    predicted = o.recorded.through(replace(c, about=sheet, blocks=((rows, sheet),)).predict(), r)
+    predicted = o.recorded.through(replace(c, about=sheet, blocks=(Block(rows, sheet),)).predict(), r)
     e = np.where(r.valid, combine_output(o, o.data) - predicted, 0.0)
     for s in flight_segments(o):
         for w in (w for w in windows(o, s.rows, c.noise) if len(w.plain)):
@@ -382,17 +381,17 @@ def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
 def list_contributions(c: OutputChannel, instrument: Instrument) -> list[dict[str, Any]]:
     """What was removed: root mean squares of inline and cross, Eo, on two segments of the flight, largest first."""
     totals: dict[tuple[str, str | None], Array] = {}
-    count, p = 0, c.blocks[0][1]
+    count, p = 0, c.blocks[0].p
     most = max(ROWS, 4 * len(c.demodulator.taps))
     for s in spread(segments(len(c.observation.record.time), most), 2):
         some = slice(0, s.rows.stop - s.rows.start)
-        part = replace(c, observation=c.observation.part(s.rows), blocks=((some, p),))
+        part = replace(c, observation=c.observation.part(s.rows), blocks=(Block(some, p),))
         good = (part.flag_samples() & NO_VALUE) == 0
         count += int(np.sum(good))
         bare = part.predict()
         removed: dict[tuple[str, str | None], Array] = {("everything", None): bare}
         for x in list_groups(c.model, instrument, p):
-            removed[x.name, x.effect] = bare - replace(part, blocks=((some, x.without),)).predict()
+            removed[x.name, x.effect] = bare - replace(part, blocks=(Block(some, x.without),)).predict()
         for key, e in removed.items():
             g = part.demodulate(e)[good]
             power = np.array([np.sum(g.real**2), np.sum(g.imag**2)])

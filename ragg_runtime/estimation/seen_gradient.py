@@ -6,7 +6,7 @@ own response to that first estimate then replaces the ideal one, which leaves th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -33,17 +33,26 @@ BRIDGES = 2
 
 
 @dataclass(frozen=True)
+class Block:
+    """Samples of a flight with parameters ``p`` (size,), SI; ``root`` (n, k): of the covariance of those fitted, in scales."""
+
+    rows: slice
+    p: Array
+    root: Array = field(default_factory=lambda: np.zeros((0, 0)))
+
+
+@dataclass(frozen=True)
 class ModelledOutput:
-    """An output of a flight with the parameters of a model, which may differ between blocks of its samples.
+    """An output of a flight with the parameters of a model, which may differ between ``blocks`` of its samples.
 
     ``observation``: of the whole flight, N samples. ``about`` (size,), SI: the parameters that say how its motion is moved.
-    ``blocks``: samples, and the parameters (size,), SI, that hold there. ``demodulator``: the low-pass.
+    ``demodulator``: the low-pass.
     """
 
     model: Model
     observation: Observation
     about: Array
-    blocks: tuple[tuple[slice, Array], ...]
+    blocks: tuple[Block, ...]
     demodulator: Demodulator
 
     @cached_property
@@ -58,8 +67,8 @@ class ModelledOutput:
     def k_ggi(self) -> Array:
         """(N,) V/Eo."""
         found = np.empty(len(self.observation.record.time))
-        for rows, p in self.blocks:
-            found[rows] = self.find_scale_factor(p)
+        for b in self.blocks:
+            found[b.rows] = self.find_scale_factor(b.p)
         return found
 
     @cached_property
@@ -86,11 +95,11 @@ class ModelledOutput:
     def predict(self, gradient: Complex | None = None) -> Array:
         """The output (N,), V, of a gradient inline + i cross (N,), Eo."""
         G = np.zeros(len(self.observation.record.time))
-        for block, p in self.blocks:
-            for some in split_range(block.stop - block.start, ROWS):
-                rows = slice(block.start + some.start, block.start + some.stop)
+        for b in self.blocks:
+            for some in split_range(b.rows.stop - b.rows.start, ROWS):
+                rows = slice(b.rows.start + some.start, b.rows.start + some.stop)
                 r, x, moved = self.make_inputs(rows, gradient)
-                G[rows] = self.evaluator.output(r.time, x, p - moved, r.phi, which=self.observation.place)
+                G[rows] = self.evaluator.output(r.time, x, b.p - moved, r.phi, which=self.observation.place)
         return G
 
     def demodulate(self, e: Array) -> Complex:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import find_supported, measure_error, shortest_demodulated
-from ragg_runtime.estimation.seen_gradient import ModelledOutput
+from ragg_runtime.estimation.seen_gradient import Block, ModelledOutput
 from ragg_runtime.signals.demodulators import find_demodulator
 from ragg_runtime.signals.tensor import Tensor, tensor
 
@@ -119,7 +119,7 @@ def estimate_gradient(f: Fitted, n: int) -> Seen:
     o, p, k_ggi = f.observations[n], f.calibration.p, f.scales[n]
     r = o.record
     d = find_demodulator("fir", r.rate)
-    g = ModelledOutput(f.model, o, p, ((slice(0, len(r.time)), p),), d).estimate_gradient()
+    g = ModelledOutput(f.model, o, p, (Block(slice(0, len(r.time)), p),), d).estimate_gradient()
     there = np.zeros(len(g), dtype=np.bool_)
     there[d.before : len(g) - d.ahead] = find_supported(r.valid[None], r.valid, len(d.taps))[0]
     cross = float(np.sqrt(d.pass_power(f.prepared[n].noise_psd, 2 * abs(r.spin_frequency)))) / k_ggi

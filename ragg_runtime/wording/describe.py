@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from ragg_runtime.wording import numbers
@@ -72,6 +72,14 @@ def write_flights(names: Sequence[str]) -> str:
 
 def write_effects(names: Sequence[str]) -> str:
     return f"effects in the model: {', '.join(map(str, names)) or 'none'}"
+
+
+def group_notes(notes: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
+    """Every note once, with the flights that it is about, of (flight, note)."""
+    about: dict[str, list[str]] = {}
+    for flight, note in notes:
+        about.setdefault(note, []).append(flight)
+    return about
 
 
 def count_nouns(count: int, noun: str) -> str:

@@ -14,6 +14,7 @@ from ragg_runtime.wording.describe import (
     explain_patterns,
     format_error,
     format_value,
+    group_notes,
     label_parameter,
     label_term,
     make_floor_row,
@@ -303,10 +304,7 @@ def _surveyed(done: Sequence[Json]) -> Section:
 
 def _survey_notes(done: Sequence[Json]) -> list[Section]:
     """Every note once, with the flights that it is about."""
-    about: dict[str, list[str]] = {}
-    for r in done:
-        for note in r["notes"]:
-            about.setdefault(str(note), []).append(str(r["flight"]))
+    about = group_notes((str(r["flight"]), str(note)) for r in done for note in r["notes"])
     if not about:
         return []
     noted = tuple((note, write_flights(names)) for note, names in about.items())
