@@ -53,7 +53,7 @@ def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool
     BuildError
         If there is no compiler, or if it fails.
     """
-    command, place = [*find_compiler(), "-O1" if quick else "-O3", *OPTIONS], private_folder(folder)
+    command, place = [*find_compiler(), "-O1" if quick else "-O3", *OPTIONS], private_folder("native", folder)
     text = [f"{name}\0{sources[name]}" for name in sorted(sources)]
     identity = "\0".join((*text, *command, repr(FOR_PROCESSOR), describe_processor()))
     library = place / f"{hashlib.sha256(identity.encode()).hexdigest()[:32]}.so"
@@ -125,9 +125,11 @@ def describe_processor() -> str:
     return "\n".join((platform.system(), platform.machine(), platform.processor(), *dict.fromkeys(own)))
 
 
-def private_folder(folder: Path | None = None) -> Path:
-    """The cache, if it can be written, by its owner alone (it holds code); else one for this process."""
-    place = folder if folder is not None else platformdirs.user_cache_path("ragg") / "native"
+def private_folder(name: str, folder: Path | None = None) -> Path:
+    """The ``folder``, by default one of the user's cache, if it can be written, by its owner alone (it holds code); else one for this
+    process.
+    """
+    place = folder if folder is not None else platformdirs.user_cache_path("ragg") / name
     try:
         place.mkdir(mode=0o700, parents=True, exist_ok=True)
         if os.access(place, os.W_OK) and not place.stat().st_mode & 0o022:

@@ -20,8 +20,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-import platformdirs
-
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.base.files import read_text, write_text
 from ragg_runtime.instrument import layout as layouts
@@ -29,6 +27,7 @@ from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.layout import Layout
+from ragg_runtime.model.compile import private_folder
 from ragg_runtime.model.directory import DIGEST, read_digest
 from ragg_runtime.model.model import Model, from_files, packaged
 
@@ -283,7 +282,7 @@ def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candida
 
 def kept(asked: str) -> Mapping[str, str] | None:
     """The files that were derived for this request before, if they are at hand."""
-    place = _folder() / f"{asked}.json"
+    place = private_folder("derived") / f"{asked}.json"
     try:
         with place.open("rb") as stream:
             found = json.loads(stream.read(_LARGEST))
@@ -296,9 +295,8 @@ def kept(asked: str) -> Mapping[str, str] | None:
 
 def keep(asked: str, files: Mapping[str, str]) -> None:
     """Keep what a derivation yielded; where that cannot be written, it will be derived again."""
-    folder = _folder()
+    folder = private_folder("derived")
     try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         write_text(folder / f"{asked}.json", json.dumps(dict(files)))
         for old in sorted(folder.glob("*.json"), key=lambda p: -p.stat().st_mtime)[MOST_KEPT:]:
             old.unlink(missing_ok=True)
@@ -331,10 +329,6 @@ def _derivation() -> str:
     for name in sorted(sources):
         total.update(f"{name} {len(sources[name])}\n".encode() + sources[name])
     return total.hexdigest()
-
-
-def _folder() -> Path:
-    return platformdirs.user_cache_path("ragg") / "derived"
 
 
 def _sha256(text: str) -> str:
