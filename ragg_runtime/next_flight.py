@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ragg_runtime.api import Loaded, diagnose
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
+from ragg_runtime.base.templates import make_environment
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification.motion_design import (
@@ -128,61 +129,11 @@ def _mean(flights: Sequence[Flight]) -> dict[str, float]:
 
 def write_run_sheet(x: NextFlight[CalibrationDesign]) -> str:
     """What whoever flies it reads, as Markdown; the plan by which the calibration is certified afterwards."""
-    plan, sinusoids, channels = x.design, x.design.sinusoids, x.motion().channels
-    peaks = {
-        a: float(np.max(np.abs(channels[a] - x.mean[a]))) for a in dict.fromkeys(s[0] for s in sinusoids)
-    }
-    rows = [
-        f"| {axis} | {frequency:.6g} | {amplitude:.6g} | {find_unit(axis)} | {np.degrees(phase) % 360:.1f} |"
-        for axis, frequency, amplitude, phase in sinusoids
-    ]
-    means = [
-        f"| {axis} | {mean:.6g} | {peaks.get(axis, 0.0):.4g} | {find_unit(axis)} |"
-        for axis, mean in x.mean.items()
-    ]
-    parameters = [
-        f"| {q.name}{'' if q.accelerometer is None else f'[{q.accelerometer}]'} | {q.unit} | {q.now:.3g} | {q.then:.3g} |"
-        for q in (*plan.combinations, *plan.parameters)
-    ]
-    added = [
-        f"| channel {name} | Eo rms | {now:.3g} | {then:.3g} |"
-        for name, now, then in zip(("inline", "cross"), plan.now, plan.then, strict=True)
-    ]
-    return _RUN_SHEET.format(
-        count=len(sinusoids),
-        duration=x.duration,
-        rate=x.rate,
-        sinusoids="\n".join(rows),
-        means="\n".join(means),
-        parameters="\n".join((*added, *parameters)),
-    )
-
-
-_RUN_SHEET = """\
-# Run sheet of a calibration
-
-{count} sinusoids, {duration:g} s at {rate:g} Hz.
-
-Each axis moves about its mean: mean + the sum of its amplitude sin(2 pi frequency t + phase), t from the beginning of the run.
-
-| axis | frequency, Hz | amplitude | unit | phase, deg |
-|---|---|---|---|---|
-{sinusoids}
-
-| axis | mean | largest deviation | unit |
-|---|---|---|---|
-{means}
-
-Standard uncertainties; Sigma = A1 + A2 + A3 + A4, D1234 = A1 + A2 - A3 - A4, D12 = A1 - A2, D34 = A3 - A4, weighted by scale factors.
-For a channel, what all parameters together add to it.
-
-| parameter | unit | now | planned |
-|---|---|---|---|
-{parameters}
-
-Afterwards, with the previous flights and this one: `ragg calibrate MODEL FLIGHT... --plan PLAN.json`,
-with PLAN.json from `ragg next-motion ... --json PLAN.json`.
-"""
+    channels = x.motion().channels
+    peaks = {s[0]: float(np.max(np.abs(channels[s[0]] - x.mean[s[0]]))) for s in x.design.sinusoids}
+    filters = {"unit": find_unit, "degrees": lambda phase: np.degrees(phase) % 360}
+    env = make_environment("ragg_runtime", filters)
+    return env.get_template("run_sheet.md.j2").render(flight=x, plan=x.design, peaks=peaks)
 
 
 def calibration_flight(

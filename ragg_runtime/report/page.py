@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -10,8 +11,9 @@ from typing import TYPE_CHECKING
 
 from ragg_runtime.base.errors import missing_package
 from ragg_runtime.base.provenance import MISSING, versions
+from ragg_runtime.base.templates import make_environment
 from ragg_runtime.wording import numbers
-from ragg_runtime.wording.sections import Plot, Section, escape, render_html
+from ragg_runtime.wording.sections import Plot, Section, render_html
 
 if TYPE_CHECKING:  # slow to import, and help does without it
     from ragg_runtime.workspace import Source
@@ -44,7 +46,8 @@ def _find_renderer() -> Callable[[Plot], str]:
         missing = missing_package(error)
         if missing is None:
             raise
-        return lambda plot: f"<p>no figure: {escape(missing.what)} ({escape(missing.remedy or '')})</p>"
+        said = html.escape(f"no figure: {missing.what} ({missing.remedy})")
+        return lambda plot: f"<p>{said}</p>"
     return draw_plot
 
 
@@ -67,48 +70,18 @@ def render_page(
         sections = [*sections, done]
     first, *others = sections
     draw = _find_renderer()
+    used = ", ".join(f"{n} {v}" for n, v in versions().items() if v != MISSING)
+    page = make_environment("ragg_runtime.report", html=True).get_template("page.html.j2")
     return numbers.clean(
-        f"""<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; img-src data:">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>{escape(origin.title)}</title>
-<style>
-{_read_style()}</style>
-</head>
-<body>
-<header>
-<p class="kind">{escape(kind)}</p>
-<h1>{escape(origin.title)}</h1>
-{render_html([first], draw)}
-</header>
-<main>
-{render_html(others, draw)}
-</main>
-{_footer(origin, facts)}
-</body>
-</html>
-"""
+        page.render(
+            kind=kind,
+            origin=origin,
+            style=_read_style(),
+            first=render_html([first], draw),
+            others=render_html(others, draw),
+            facts=[*facts, ("derived model", origin.digest), ("versions", used)],
+        )
     )
-
-
-def _footer(origin: Origin, facts: Sequence[tuple[str, str]]) -> str:
-    """The command that makes the report again, and what it depends on."""
-    rows = [
-        *facts,
-        ("derived model", origin.digest),
-        ("versions", ", ".join(f"{n} {v}" for n, v in versions().items() if v != MISSING)),
-    ]
-    listed = "".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in rows if value)
-    files = "".join(
-        f"<tr><td>{escape(name)}</td><td><code>{escape(sha)}</code></td></tr>" for name, sha in origin.sources
-    )
-    table = f'<div class="wide"><table><tbody>{files}</tbody></table></div>' if files else ""
-    facts_ = f'<details><summary>Record, versions and digests</summary><dl class="facts">{listed}</dl>{table}</details>'
-    return f"<footer><h2>How this was made</h2><pre>{escape(origin.command)}</pre>{facts_}</footer>"
 
 
 @cache

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, TypeVar
+from functools import cache
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import one_line
+from ragg_runtime.base.templates import make_environment
 from ragg_runtime.wording import numbers
+
+if TYPE_CHECKING:
+    import jinja2
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
@@ -176,51 +180,20 @@ def _text_table(t: Table, indent: str, verbose: bool) -> list[str]:
     return [*lines, *([f"{indent}{_terminal(t.note)}"] if t.note else [])]
 
 
-def escape(text: object) -> str:
-    """Text from files for HTML: no markup, no control characters, no marks that reverse the line."""
-    return html.escape(numbers.clean(str(text)))
-
-
 def render_html(sections: Sequence[Section], draw: Callable[[Plot], str] = lambda plot: "") -> str:
     """The sections as HTML without style, details folded; ``draw`` gives a plot as SVG."""
-    return "\n".join(_html_section(s, draw) for s in sections)
+    from markupsafe import Markup
+
+    drawn = [[(Markup(svg), p.caption) for p in s.plots if (svg := draw(p))] for s in sections]
+    return _environment().get_template("sections.html.j2").render(sections=zip(sections, drawn, strict=True))
 
 
-def _html_section(s: Section, draw: Callable[[Plot], str]) -> str:
-    parts = [f"<p>{escape(text)}</p>" for text in s.sentences]
-    if not s.title and not s.state:
-        return "".join(parts) + _html_body(s, draw)
-    if not s.title:
-        first, *rest = parts or [""]
-        headline = first.replace("<p>", '<p class="headline">', 1)
-        return (
-            f'<div class="verdict {escape(s.state)}">{"".join([headline, *rest])}{_html_body(s, draw)}</div>'
-        )
-    body = "".join(parts) + _html_body(s, draw)
-    if s.detail:
-        short = f" <small>{escape(s.summary)}</small>" if s.summary else ""
-        return f"<details><summary><h2>{escape(s.title)}</h2>{short}</summary>{body}</details>"
-    return f"<section><h2>{escape(s.title)}</h2>{body}</section>"
-
-
-def _html_body(s: Section, draw: Callable[[Plot], str]) -> str:
-    drawn = [(draw(p), p.caption) for p in s.plots]
-    figures = [f"<figure>{svg}<figcaption>{escape(text)}</figcaption></figure>" for svg, text in drawn if svg]
-    shown = [f'<div class="figures">{"".join(figures)}</div>'] if figures else []
-    table = "" if s.table is None else _html_table(s.table)
-    return "".join([*shown, table, *(f"<pre>{escape(line)}</pre>" for line in s.code)])
-
-
-def _html_table(t: Table) -> str:
-    def cells(tag: str, row: Sequence[str]) -> str:
-        opening = [f"<{tag}>" if k < t.words else f'<{tag} class="n">' for k in range(len(row))]
-        return "".join(f"{begin}{escape(x)}</{tag}>" for begin, x in zip(opening, row, strict=True))
-
-    weight = ("<tr>", '<tr class="strong">')
-    body = "".join(f"{weight[row[0] in t.strong]}{cells('td', row)}</tr>" for row in t.rows)
-    head = f"<thead><tr>{cells('th', t.heads)}</tr></thead>" if any(t.heads) else ""
-    note = f'<p class="note">{escape(t.note)}</p>' if t.note else ""
-    return f'<div class="wide"><table>{head}<tbody>{body}</tbody></table></div>{note}'
+@cache
+def _environment() -> jinja2.Environment:
+    env = make_environment("ragg_runtime.wording", html=True)
+    # texts come from files: no control characters, no marks that reverse the line
+    env.finalize = lambda x: numbers.clean(x) if type(x) is str else x
+    return env
 
 
 _NOTEBOOK = (

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 
-import jinja2
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
 from ragg_runtime.base.names import in_comment
+from ragg_runtime.base.templates import make_environment
 from ragg_runtime.compensation.export.contents import DISC, Contents, ExportedOutput, unit_of
 from ragg_runtime.estimation.least_squares import marginalise
 from ragg_runtime.estimation.regressors import Column, list_base_columns, own_columns
@@ -64,22 +63,10 @@ def _packaged(name: str) -> str:
     return resources.files("ragg_runtime.compensation.export").joinpath("c", name).read_text("utf-8")
 
 
-@cache
-def _environment() -> jinja2.Environment:
-    env = jinja2.Environment(
-        loader=jinja2.PackageLoader("ragg_runtime.compensation.export", "templates"),
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,  # the output is source code, not markup
-    )
-    env.filters |= {"text": _text, "comment": in_comment, "digits": "{:.17g}".format}
-    return env
-
-
 def _render(template: str, **values: object) -> str:
-    return _environment().get_template(f"{template}.j2").render(values)
+    filters = {"text": _text, "comment": in_comment, "digits": "{:.17g}".format}
+    env = make_environment("ragg_runtime.compensation.export", filters)
+    return env.get_template(f"{template}.j2").render(values)
 
 
 def _text(x: str) -> str:
