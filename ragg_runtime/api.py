@@ -42,7 +42,6 @@ from ragg_runtime.identification.series import list_noise_floor
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.layout import PAPER
-from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.io import Flight
 from ragg_runtime.io.files import require_writable as check_output
@@ -51,7 +50,7 @@ from ragg_runtime.model import derive
 from ragg_runtime.model.catalogue import Catalogue, effects
 from ragg_runtime.model.directory import CALIBRATION, HistoryStep, replace_model_dir
 from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model.model import Model, missing_channels
+from ragg_runtime.model.model import missing_channels
 from ragg_runtime.model.record import recorded_channels
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.run import digest_file, survey
@@ -280,7 +279,7 @@ def add(
         text=text,
     )
     if made.converged:
-        made = replace(made, loaded=_planned(m, text, model, step))
+        made = replace(made, loaded=as_of(m, text, step))
     if tell is not None:
         tell(made)
     if not (save and made.converged):
@@ -336,13 +335,6 @@ def _written(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> d
     return values
 
 
-def _planned(m: Loaded, text: str, model: Model, step: HistoryStep) -> Loaded:
-    """What the model will be after this step."""
-    instrument = parse_instrument(text, m.directory.path / "model.toml")
-    history = (*m.directory.history, step)
-    return Loaded(replace(m.directory, text=text, instrument=instrument, history=history), model)
-
-
 def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None) -> Loaded:
     """Remove an effect from the model; ``tell`` as for :func:`ragg.add`.
 
@@ -355,13 +347,7 @@ def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None)
     UserError
         If the model does not have the effect.
     """
-    text = remove_effect(m.directory.text, effect)
-    instrument = parse_instrument(text, m.directory.path / "model.toml")
-    step = HistoryStep("remove", now(), effect, text=text)
-    if tell is not None:
-        tell(_planned(m, text, derive.model_of(instrument), step))
-    directory = replace_model_dir(m.directory, text, generated=derive.files_of(instrument), step=step)
-    return load_state(directory)
+    return change(m, remove_effect(m.directory.text, effect), "remove", effect, tell)
 
 
 # --- many flights

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
@@ -137,20 +137,29 @@ def _example_text() -> str:
     return resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
 
 
-def as_of(m: Loaded, text: str) -> Loaded:
-    """The model with another text of model.toml, in memory alone: the directory stays as it is."""
+def as_of(m: Loaded, text: str, step: HistoryStep | None = None) -> Loaded:
+    """The model with another text of model.toml, after this ``step``, in memory alone: the directory stays as it is."""
     instrument = parse_instrument(text, m.directory.path / "model.toml")
     model = derive.model_of(instrument)
     vector(model, instrument)
-    return Loaded(replace(m.directory, text=text, instrument=instrument, generated=None), model, m.notes)
+    history = (*m.directory.history, *([] if step is None else [step]))
+    directory = replace(m.directory, text=text, instrument=instrument, generated=None, history=history)
+    return Loaded(directory, model, m.notes if step is None else ())
 
 
-def change(m: Loaded, text: str, action: str, effect: str = "") -> Loaded:
-    """Put another text in the place of model.toml, derive its model, and note the step in the history."""
-    instrument = as_of(m, text).instrument
+def change(
+    m: Loaded, text: str, action: str, effect: str = "", tell: Callable[[Loaded], None] | None = None
+) -> Loaded:
+    """Put another text in the place of model.toml, derive its model, and note the step in the history.
+
+    ``tell`` is called with the new model before; if it raises, nothing is changed.
+    """
     step = HistoryStep(action, now(), effect, text=text)
-    directory = replace_model_dir(m.directory, text, generated=derive.files_of(instrument), step=step)
-    return load(directory.path)
+    planned = as_of(m, text, step)
+    if tell is not None:
+        tell(planned)
+    generated = derive.files_of(planned.instrument)
+    return load_state(replace_model_dir(m.directory, text, generated=generated, step=step))
 
 
 def now() -> str:
