@@ -23,7 +23,7 @@ from ragg_runtime.compensation.compensate import (
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual
-from ragg_runtime.estimation.scores import channels
+from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.identification import motion_design, next_motion
 from ragg_runtime.identification.motion_design import Information
 from ragg_runtime.identification.next_motion import Sinusoid
@@ -130,7 +130,9 @@ def calibrate_by_runs(seed: int) -> list[tuple[str, float, Array, Array]]:
         at = LinearisationPoint(c.f.model, s.sheet, c.f.calibration.p, False)
         left = compute_residual(at, clean)  # of what has no noise: what the parameters are wrong by
         r = clean.record
-        error = [np.sqrt(np.mean(x**2)) for x in channels(left[0], r, c.f.k_ggi, r.valid)[1:]]
+        g = demodulate_residual(left[0], r, c.f.k_ggi)
+        g = g[np.isfinite(g)]
+        error = [np.sqrt(np.mean(x**2)) for x in (g.real, g.imag)]
         found.append((name, duration, np.array(c.channels(c.inverse(c.root))), np.array(error)))
     return found
 

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 from scipy import special
 
 from ragg_runtime.base.threads import split_range
-from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.demodulate import CUTOFF, demodulate, low_pass
+from ragg_runtime.signals.demodulate import CUTOFF, low_pass
+from ragg_runtime.signals.demodulators import Demodulator, find_demodulator
 from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -48,16 +49,22 @@ def finite(x: float) -> float | None:
     return float(x) if np.isfinite(x) else None
 
 
-def channels(
-    residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_]
-) -> tuple[Array, Array, Array]:
-    """Demodulated residual: (time, inline, cross), s and Eo, where the low-pass is :func:`find_supported` by the selection."""
-    if not r.turning or len(residual) < shortest_demodulated(r.rate):
-        return np.empty(0), np.empty(0), np.empty(0)
-    e = np.where(selected & r.valid, residual, 0.0)
-    d = demodulate(e, np.arctan2(r.sin_phi, r.cos_phi) + r.phase / 2, r.rate, k_ggi / EOTVOS)
-    kept = find_supported(selected[None], r.valid, len(low_pass(r.rate)))[0]
-    return r.time[d.valid][kept], d.inline[kept] / EOTVOS, d.cross[kept] / EOTVOS
+def demodulate_residual(e: Array, r: Record, k_ggi: float) -> Complex:
+    """Inline + i cross (N,), Eo, of a residual of an output (N,), V; NaN where a sample under the low-pass is missing."""
+    found = np.full(len(e), complex(np.nan, np.nan))
+    if r.turning and len(e) >= shortest_demodulated(r.rate):
+        d = find_demodulator("fir", r.rate)
+        cosine, sine = r.quadratures
+        there = find_whole(r.valid, d)
+        found[there] = d.low_passed(np.where(r.valid, e, 0.0) * (4 * sine - 2j * cosine) / k_ggi)[there]
+    return found
+
+
+def find_whole(valid: NDArray[np.bool_], d: Demodulator) -> NDArray[np.bool_]:
+    """(N,): where the whole of a low-pass lies on valid samples (N,)."""
+    there = np.zeros(len(valid), dtype=np.bool_)
+    there[d.before : len(valid) - d.ahead] = find_supported(valid[None], valid, len(d.taps))[0]
+    return there
 
 
 HOLES = 0.05
@@ -90,8 +97,9 @@ def measure_error(residual: Array, r: Record, k_ggi: float) -> Error:
         V/Eo.
     """
     rms = float(np.sqrt(np.mean(residual[r.valid] ** 2))) if np.any(r.valid) else float("nan")
-    _, inline, cross = channels(residual, r, k_ggi, r.valid)
-    i, c = (float(np.std(x)) if len(x) > 1 else float("nan") for x in (inline, cross))
+    g = demodulate_residual(residual, r, k_ggi)
+    g = g[np.isfinite(g)]
+    i, c = (float(np.std(x)) if len(x) > 1 else float("nan") for x in (g.real, g.imag))
     return Error(rms, rms / k_ggi, i, c)
 
 

@@ -14,7 +14,7 @@ from ragg_runtime.estimation import fitted, regressors, unknown_gradient
 from ragg_runtime.estimation.calibration import OffSheet, list_off_sheet
 from ragg_runtime.estimation.fitted import Fitted, Scored, fit, measure_swell, noise_floor
 from ragg_runtime.estimation.observation import combine_output, observe_flights
-from ragg_runtime.estimation.scores import Error, channels, list_errors
+from ragg_runtime.estimation.scores import Error, demodulate_residual, list_errors
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import selection, series, several_outputs
 from ragg_runtime.identification.dictionary import carrier, harmonics
@@ -30,6 +30,7 @@ from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import render_notebook
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 
 LOUD = 2.0
@@ -284,10 +285,9 @@ def compute_nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     return np.asarray(left)
 
 
-def demodulate_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Array]:
-    """(time, inline, cross) of any series of G_out of one flight, s and Eo."""
-    r = f.prepared[flight].observation.record
-    return channels(x, r, f.scales[flight], r.valid)
+def demodulate_one(f: Fitted, n: int, x: Array) -> Complex:
+    """Inline + i cross (N,), Eo, of any series of an output (N,), V, of observation n; NaN where there is none."""
+    return demodulate_residual(x, f.prepared[n].observation.record, f.scales[n])
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.least_squares import r_factor
 from ragg_runtime.estimation.observation import combine_output
-from ragg_runtime.estimation.scores import channels
+from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification.next_motion import (
     AT_REST,
@@ -297,10 +297,9 @@ def _channel_changes(f: Fitted) -> Array:
     k_ggi = f.scales[0]
 
     def changes(piece: Piece) -> Array:
-        r = piece.observation.record
-        return np.array(
-            [channels(e, r, k_ggi, r.valid)[1:] for e in combine_output(piece.observation, piece.columns[:n])]
-        )
+        o = piece.observation
+        g = np.array([demodulate_residual(e, o.record, k_ggi) for e in combine_output(o, piece.columns[:n])])
+        return np.stack([g.real, g.imag], axis=1)[:, :, np.isfinite(g[0])]
 
     found = np.concatenate([*x.each(changes, whitened=False)], axis=2)  # (n, 2, instants)
     if not found.shape[2]:

@@ -184,15 +184,6 @@ def blocks(w: PreparedFlight, residual: Array, k_ggi: float) -> tuple[Array, Arr
     return edges, rms
 
 
-def break_at_gaps(time: Array, x: Array) -> tuple[Array, Array]:
-    """A series with NaN where its time leaps, so that no line is drawn over a gap."""
-    if len(time) < 3:
-        return time, x
-    step = np.diff(time)
-    gaps = np.flatnonzero(step > 1.5 * np.median(step)) + 1
-    return np.insert(time, gaps, np.nan), np.insert(x, gaps, np.nan)
-
-
 def runs(x: Array) -> list[slice]:
     """Segments of a series between its NaNs."""
     return derivative.runs(np.isfinite(x))

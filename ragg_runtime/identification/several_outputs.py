@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.scores import find_supported, measure_error, shortest_demodulated
+from ragg_runtime.estimation.scores import find_whole, measure_error, shortest_demodulated
 from ragg_runtime.estimation.seen_gradient import Block, ModelledOutput
 from ragg_runtime.signals.demodulators import find_demodulator
 from ragg_runtime.signals.tensor import Tensor, tensor
@@ -120,8 +120,7 @@ def estimate_gradient(f: Fitted, n: int) -> Seen:
     r = o.record
     d = find_demodulator("fir", r.rate)
     g = ModelledOutput(f.model, o, p, (Block(slice(0, len(r.time)), p),), d).estimate_gradient()
-    there = np.zeros(len(g), dtype=np.bool_)
-    there[d.before : len(g) - d.ahead] = find_supported(r.valid[None], r.valid, len(d.taps))[0]
+    there = find_whole(r.valid, d)
     cross = float(np.sqrt(d.pass_power(f.prepared[n].noise_psd, 2 * abs(r.spin_frequency)))) / k_ggi
     return Seen(o.place, r.time[there], g[there].real, g[there].imag, inline_std=2 * cross, cross_std=cross)
 

@@ -108,14 +108,13 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
     for n, w, k, name in _list_worst(f, lines[-1][1]):
         r = w.observation.record
         made = [(label, comparison.demodulate_one(f, n, x[n])) for label, x in lines]
-        time = made[0][1][0]
-        if not len(time):
+        if not np.isfinite(made[0][1]).any():
             continue
         # four samples a cycle of the low-pass's edge draw the whole of it
         step = max(1, int(r.rate / (4.0 * series.DRAWN)))
-        for j, (channel, amplitude) in enumerate((("inline", 4.0), ("cross", 2.0)), 1):
+        for channel, part, amplitude in (("inline", np.real, 4.0), ("cross", np.imag, 2.0)):
             level = series.demodulated_noise(w, k, 2, amplitude)
-            curves = [c for label, x in made for c in _channel(label, time[::step], x[j][::step])]
+            curves = [c for label, x in made for c in _channel(label, r.time[::step], part(x[::step]))]
             ends = (float(r.time[0]), float(r.time[-1]))
             axes.append(
                 Axes(tuple(curves), "error, Eo", f"{channel} of {name}" if name else channel, ends, level)
@@ -125,8 +124,7 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
 
 
 def _channel(label: str, time: Array, x: Array) -> list[Curve]:
-    """A line, broken at gaps; its envelope where it has more points than can be drawn."""
-    time, x = series.break_at_gaps(time, x)
+    """A line; its envelope where it has more points than can be drawn."""
     if len(x) <= MOST_POINTS:
         return [Curve(label, time, x, _role(label), width=0.8)]
     found: list[Curve] = []

@@ -98,14 +98,6 @@ def sample(start: float, step: float, x: NDArray[np.floating[Any]]) -> Sampled:
     return Sampled(start, step, np.asarray(x, dtype=np.float32))
 
 
-def sample_grid(time: Array, x: Array, step: float) -> Sampled:
-    """A series on a uniform grid some of whose samples are missing: NaN there."""
-    places = np.round((time - time[0]) / step).astype(np.intp)
-    values = np.full(int(places[-1]) + 1, np.nan, dtype=np.float32)
-    values[places] = x
-    return Sampled(float(time[0]), step, values)
-
-
 # --- series over time ----------------------------------------------------------------------------------
 
 
@@ -180,11 +172,11 @@ class View:
             raise UserError("disc not spinning: no demodulation")
         if len(x) < len(r.time):
             raise UserError("in so long a flight the signature of an effect is drawn in V or Eo only")
-        found = comparison.demodulate_one(self.f, self.n, x)
-        if not len(found[0]):
+        g = comparison.demodulate_one(self.f, self.n, x)
+        if not np.isfinite(g).any():
             where = self.prepared.observation.name
             raise UserError("the flight is too short to be demodulated", where=where)
-        return sample_grid(found[0], found[1 + DEMODULATED.index(unit)], 1.0 / r.rate)
+        return sample(float(r.time[0]), 1.0 / r.rate, g.real if unit == DEMODULATED[0] else g.imag)
 
     def signature(self) -> tuple[slice, Array]:
         """Samples, and what the ticked effects would take out of the residual there, V: of a long flight where the window lies."""
