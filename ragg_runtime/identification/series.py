@@ -184,11 +184,6 @@ def blocks(w: PreparedFlight, residual: Array, k_ggi: float) -> tuple[Array, Arr
     return edges, rms
 
 
-def runs(x: Array) -> list[slice]:
-    """Segments of a series between its NaNs."""
-    return derivative.runs(np.isfinite(x))
-
-
 def find_worst(f: Fitted, residuals: Sequence[Array], most: int) -> list[int]:
     """Positions of the ``most`` flights with the largest error over their noise, in the flights' own order."""
     ratio = []

@@ -114,25 +114,20 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
         step = max(1, int(r.rate / (4.0 * series.DRAWN)))
         for channel, part, amplitude in (("inline", np.real, 4.0), ("cross", np.imag, 2.0)):
             level = series.demodulated_noise(w, k, 2, amplitude)
-            curves = [c for label, x in made for c in _channel(label, r.time[::step], part(x[::step]))]
+            curves = tuple(_channel(label, r.time[::step], part(x[::step])) for label, x in made)
             ends = (float(r.time[0]), float(r.time[-1]))
-            axes.append(
-                Axes(tuple(curves), "error, Eo", f"{channel} of {name}" if name else channel, ends, level)
-            )
+            title = f"{channel} of {name}" if name else channel
+            axes.append(Axes(curves, "error, Eo", title, ends, level))
     caption = "Demodulated residual: the error of the measured gradients. Dashed: one sigma of the noise."
     return Curves("channels", caption, tuple(axes), SECONDS, height=1.6) if axes else None
 
 
-def _channel(label: str, time: Array, x: Array) -> list[Curve]:
+def _channel(label: str, time: Array, x: Array) -> Curve:
     """A line; its envelope where it has more points than can be drawn."""
     if len(x) <= MOST_POINTS:
-        return [Curve(label, time, x, _role(label), width=0.8)]
-    found: list[Curve] = []
-    for run in series.runs(x):
-        columns = max(2, round(MOST_POINTS / 2 * (run.stop - run.start) / len(x)))
-        e = series.envelope(time[run], x[run], np.ones(run.stop - run.start, dtype=bool), columns)
-        found.append(Curve(label if not found else "_", e.time, e.low, _role(label), "band", e.high))
-    return found
+        return Curve(label, time, x, _role(label), width=0.8)
+    e = series.envelope(time, x, np.isfinite(x), MOST_POINTS // 2)
+    return Curve(label, e.time, e.low, _role(label), "band", e.high)
 
 
 def plot_measured(f: Fitted, residual: Residuals) -> Curves:
