@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,8 +129,12 @@ def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
 def demodulated_noise(w: PreparedFlight, k_ggi: float, multiple: int, amplitude: float) -> float:
     """Standard deviation, Eo, of LP(amplitude cos(2 pi multiple spin t) noise)."""
     r = w.observation.record
-    spin = abs(r.spin_frequency)
-    power = find_demodulator("fir", r.rate).pass_power(partial(_noise_psd, w, spin), multiple * spin)
+    spin, slowest = abs(r.spin_frequency), r.rate / len(r.time)  # what is slower is not in the record
+
+    def psd(frequency: Array) -> Array:
+        return _noise_psd(w, spin, np.maximum(frequency, slowest))
+
+    power = find_demodulator("fir", r.rate).pass_power(psd, multiple * spin)
     share = 0.25 if multiple else 0.5  # of the square of the amplitude: of a wave half of it is on average
     return amplitude * float(np.sqrt(share * power)) / k_ggi
 
