@@ -343,12 +343,10 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
 @mapping_option
 def survey(model_dir: Path, flights: Sequence[Path], table_file: str | None, **options: Any) -> None:
     """Diagnose many flights, one by one."""
-    from ragg_runtime.survey.result import make_parquet, require_table_place
+    from ragg_runtime.survey.result import make_parquet
     from ragg_runtime.survey.run import show_progress
 
     m = load(model_dir)
-    if table_file is not None:
-        require_table_place(Path(table_file))
     s = api.survey(m, flights, progress=show_progress(), **options)
     source = api.source_of_survey(m, s, command_line())
     if table_file is not None:

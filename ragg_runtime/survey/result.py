@@ -15,7 +15,6 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from scipy import special
 
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.false_alarms import PROMISED, SURVEY
 from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.survey.examine import Record
@@ -263,20 +262,3 @@ def _row(r: Record) -> Record:
         return row | {"error": r["error"]["message"]}
     scored = {f"{n}_Eo": r["error"][n]["rms_Eo"] if r["error"][n] else None for n in ERRORS}
     return row | scored | {"error": None, "noise_floor_Eo": r["noise_floor"]["rms_Eo"]}
-
-
-def require_table_place(path: Path) -> None:
-    """UserError if a file exists there that is neither empty nor such a table: a record may be a Parquet file too."""
-    if not path.is_file() or not path.stat().st_size:
-        return
-    try:
-        known = pq.read_schema(path).names == _SCHEMA.names
-    except (OSError, pa.ArrowException):
-        known = False
-    if not known:
-        raise UserError(
-            "a table would be written over something else",
-            where=path,
-            found="a file that is no table of a survey",
-            remedy="name another file, or delete this one first",
-        )
