@@ -6,7 +6,6 @@ import contextlib
 import errno
 import hashlib
 import os
-import re
 import shutil
 import stat
 import sys
@@ -25,10 +24,10 @@ from ragg_runtime.base.errors import UserError
 
 @contextlib.contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """A temporary file that takes the place of ``path`` on success and vanishes on failure; a device is written to."""
+    """A temporary file that takes the place of ``path`` on success and vanishes on failure; a device or a pipe is written to."""
     with _report_refusal(path):
         mode = _find_mode(path)
-        is_stream = _is_stream(path, mode)
+        is_stream = mode is not None and not stat.S_ISREG(mode)
         place = Path(os.path.realpath(path))
         beside = Path(tempfile.gettempdir()) / "ragg-output" if is_stream else place
         handle, name = tempfile.mkstemp(path.suffix, f".{beside.name[:60]}.", beside.parent)
@@ -37,7 +36,7 @@ def replacing(path: Path) -> Iterator[Path]:
         try:
             yield temporary
             if is_stream:
-                _pour(temporary, path)
+                path.write_bytes(temporary.read_bytes())
             else:
                 # It is private so far; the file that is asked for has the rights of any new file, or its own.
                 os.chmod(temporary, 0o666 & ~_umask() if mode is None else mode & 0o7777)
@@ -51,7 +50,8 @@ def replacing(path: Path) -> Iterator[Path]:
 def check_writable(path: Path) -> None:
     """UserError where :func:`replacing` would not begin."""
     with _report_refusal(path):
-        if not _is_stream(path, _find_mode(path)):
+        mode = _find_mode(path)
+        if mode is None or stat.S_ISREG(mode):
             tempfile.TemporaryFile(dir=os.path.dirname(os.path.realpath(path))).close()
 
 
@@ -66,21 +66,17 @@ def _report_refusal(path: Path) -> Iterator[None]:
 
 
 def _find_mode(path: Path) -> int | None:
-    """The mode of what exists at a path; ``None``: nothing."""
+    """The mode of what exists at a path; ``None``: nothing. OSError where it is a folder, or a device that may not be written."""
     if not path.parent.exists():
         raise UserError("the folder does not exist", where=path.parent, remedy="make it first")
-    mode = path.stat().st_mode if path.exists() else None
-    if mode is not None and stat.S_ISDIR(mode):
+    if not path.exists():
+        return None
+    mode = path.stat().st_mode
+    if stat.S_ISDIR(mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-    return mode
-
-
-def _is_stream(path: Path, mode: int | None) -> bool:
-    """Whether a path is a device, a pipe or an open file, that lets itself be written."""
-    found = (mode is not None and not stat.S_ISREG(mode)) or _descriptor(path) is not None
-    if found and not os.access(path, os.W_OK):
+    if not stat.S_ISREG(mode) and not os.access(path, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-    return found
+    return mode
 
 
 def require_space(path: Path, size: int) -> None:
@@ -90,25 +86,6 @@ def require_space(path: Path, size: int) -> None:
     if hasattr(os, "posix_fallocate"):
         with tempfile.TemporaryFile(dir=path.parent) as trial:
             os.posix_fallocate(trial.fileno(), 0, max(size, 1))
-
-
-def _descriptor(path: Path) -> int | None:
-    """The open file of this process that a name such as ``/dev/stdout`` or ``/dev/fd/63`` refers to."""
-    named = {"/dev/stdout": 1, "/dev/stderr": 2}
-    if str(path) in named:
-        return named[str(path)]
-    match = re.fullmatch(r"/(?:dev|proc/self)/fd/(\d{1,4})", str(path))
-    return None if match is None else int(match[1])
-
-
-def _pour(source: Path, path: Path) -> None:
-    """Write a file's content to a device, a pipe or an open file."""
-    own = _descriptor(path)
-    for stream in (sys.stdout, sys.stderr):
-        stream.flush()
-    place: Path | int = path if own is None else os.dup(own)
-    with open(place, "wb") as target, source.open("rb") as content:
-        shutil.copyfileobj(content, target)
 
 
 def write_text(path: Path, text: str) -> None:

@@ -217,7 +217,10 @@ def conclude(
     if wanted.report_file is not None and page is not None:
         under_way("writing the report")
         origin = Origin(title or "", command_line(), ()) if source is None else Origin.of(source, title)
-        write_text(Path("/dev/stdout" if wanted.report_file == "-" else wanted.report_file), page(origin))
+        if wanted.report_file in STDOUT:
+            click.echo(page(origin), nl=False)
+        else:
+            write_text(Path(wanted.report_file), page(origin))
         click.echo(one_line(f"report: {wanted.report_file}"), err=True)
     if wanted.json_file is not None:
         whole = {**result, **({} if source is None else source.as_json())}

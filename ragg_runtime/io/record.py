@@ -174,11 +174,11 @@ class Flight:
         recorded = [np.isfinite(v) for v in self.outputs.values()]
         return np.asarray(np.any(recorded, axis=0)) if recorded else self.valid
 
-    def without(self, split_range: Sequence[tuple[float, float]]) -> Flight:
+    def without(self, segments: Sequence[tuple[float, float]]) -> Flight:
         """The flight with segments of time (from, to, s since the first sample) marked as not to be used, with a note."""
         valid, notes = np.array(self.valid), list(self.notes)
         since = self.time - self.time[0]
-        for first, last in split_range:
+        for first, last in segments:
             valid[(since >= first) & (since <= last)] = False
             notes.append(left_out(first, last))
         return dataclasses.replace(self, valid=valid, notes=tuple(notes))

@@ -43,13 +43,15 @@ SET = 5e-3
 """Part of a step by which a clock must have been set for it to be said: an angle of 0.5 mrad at 0.25 Hz and 16 Hz."""
 
 COUNTERS: Mapping[float, str] = MappingProxyType(
-    {
+    {86400.0: "midnight", 604800.0: "the end of the week"}
+    | {
         2.0**bits * second: f"2^{bits} {unit}"
         for bits in (16, 24, 31, 32)
         for unit, second in (("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9))
     }
 )
-"""Periods, s, after which a counter of a recorder's clock begins anew (millis() and micros() of microcontrollers have 32 bits)."""
+"""Periods, s, after which time begins anew: seconds of the day or of the GPS week, and counters (millis() and micros() of
+microcontrollers have 32 bits)."""
 
 NEAR_END = 0.01
 """Part of such a period within which the stamps about its end lie, where some are missing there."""
@@ -109,21 +111,15 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
     index = np.concatenate([[0], np.cumsum(jumps)])
     count = int(index[-1]) + 1
     if count > len(time) / (1 - _MOST_MISSING) or not span / step < 2.0**53:
+        what = "more than nine samples in ten are missing"
+        remedy = "split the record at its gaps into one file each"
         leaps = np.flatnonzero(jumps > 1)
         if len(leaps) <= FEW_LEAPS:  # a clock that was set, to summer time or to another day
             by = ", ".join(f"by {steps[k]:.6g} s at t = {time[k]:.10g} s" for k in leaps)
-            raise UserError(
-                f"the time stamps jump {by}: was the clock adjusted?",
-                where=where,
-                found=f"{len(time)} samples in {span:.6g} s, with steps of {step:.6g} s",
-                remedy=_BY_COUNT.format(rate=1 / step),
-            )
-        raise UserError(
-            "more than nine samples in ten are missing",
-            where=where,
-            found=f"{len(time)} samples in {span:.6g} s, with steps of {step:.6g} s",
-            remedy="split the record at its gaps into one file each",
-        )
+            what = f"the time stamps jump {by}: was the clock adjusted?"
+            remedy = _BY_COUNT.format(rate=1 / step)
+        found = f"{len(time)} samples in {span:.6g} s, with steps of {step:.6g} s"
+        raise UserError(what, where=where, found=found, remedy=remedy)
     rounded = unround(time, index)
     if rounded is None:
         whole = time if count == len(time) else np.interp(np.arange(count), index, time)
@@ -144,10 +140,6 @@ def _unroll(time: Array) -> tuple[Array, list[str]]:
     falls = steps[steps < 0]
     if not len(falls) or len(falls) == len(time) - 1:
         return time, []
-    for period, name in ((86400.0, "day"), (604800.0, "week")):
-        if np.min(time) >= 0 and np.max(time) <= period and np.max(falls) < -0.9 * period:
-            note = f"the seconds of the {name} restart during the record; they are continued"
-            return time + period * np.cumsum(steps < 0), [note]
     step, fell = _typical_step(steps[steps > 0]), np.flatnonzero(steps < 0)
     for period, name in COUNTERS.items():
         low = 0.0 if np.min(time) >= 0 else -period / 2
@@ -159,7 +151,7 @@ def _unroll(time: Array) -> tuple[Array, list[str]]:
             and np.all(time[fell - 1] > low + period - beside)
             and np.all(time[fell] < low + beside)
         ):
-            note = f"the counter of time starts anew at {name} ({period:.10g} s) during the record; it is continued"
+            note = f"time starts anew at {name} ({period:.10g} s) during the record; it is continued"
             return time + period * np.cumsum(steps < 0), [note]
     return time, []
 

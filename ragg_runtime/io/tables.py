@@ -353,10 +353,6 @@ def tabulate(data: Any) -> list[DataTable]:
         return [_tabulate_frame(data)]
     if hasattr(data, "data_vars") and hasattr(data, "coords"):
         return [make_table((str(n), v.values, _unpack_range(v)) for n, v in data.variables.items())]
-    if hasattr(data, "to_pandas"):  # tables of Arrow and Polars
-        return [_tabulate_frame(data.to_pandas())]
-    if getattr(getattr(data, "dtype", None), "names", None):  # records of NumPy
-        data = {n: data[n] for n in data.dtype.names}
     if isinstance(data, Mapping):
         about = [data[n] for n in ("units", "attrs") if isinstance(data.get(n), Mapping)]
         arrays = ((str(n), *_read_series(v)) for n, v in data.items() if not isinstance(v, Mapping))
@@ -393,9 +389,7 @@ def _tabulate_frame(frame: Any) -> DataTable:
 
 
 def _read_series(series: Any) -> tuple[Any, Attributes]:
-    """A column of pandas as an array of NumPy, any other array as it is; and its attributes, or the unit beside it in a pair."""
-    if isinstance(series, tuple) and len(series) == 2 and isinstance(series[1], str):
-        return series[0], {"units": series[1]}
+    """A column of pandas as an array of NumPy, any other array as it is; and its attributes."""
     if not hasattr(series, "to_numpy") or not hasattr(series, "index"):
         return series, getattr(series, "attrs", {})
     dtype = series.dtype

@@ -44,9 +44,6 @@ TOLD = 0.01
 MOSTLY = 0.5
 """Factor by which the residual falls from which noise of a recorded gradient is most of it: what smoothing leaves of that is seen."""
 
-LONGEST = 1 << 18
-"""Samples from which it is told whether smoothing helps."""
-
 WINDOW, BANDS = 256, 8
 """Samples of a window of the spectrum, and bands whose mean densities are compared: the least is the floor."""
 
@@ -118,8 +115,7 @@ def smooth_noisy_motion(model: Model, instrument: Instrument, flight: Flight, pl
 
     That a floor is noise is a hypothesis: with motion smoothed that is none, the model explains less of the output ``place``.
     """
-    start = flight.part(slice(LONGEST))
-    some = _longest(start.valid)
+    some = _longest(flight.valid)
     if some.stop - some.start < 8 * BANDS:
         return flight  # of motion that is held at a lower rate, for example, nothing can be told
 
@@ -127,19 +123,18 @@ def smooth_noisy_motion(model: Model, instrument: Instrument, flight: Flight, pl
         s = make_sampler(x, instrument, tuple(model.chain.INPUTS), place)
         return s.take(s.rows())
 
-    rows = take(start)
+    rows = take(flight)
     left = fit_rows(model, instrument, rows)
     for names in (SPECIFIC_FORCE, ANGULAR_RATE, ANGULAR_ACCELERATION, GRADIENT):
         if names is ANGULAR_ACCELERATION and names[0] not in flight.written:
             continue  # derived from the rates
         noise = {n: measure_noise(flight.channels[n][some]) for n in names if n in flight.channels}
         stds = {n: q.std for n, q in noise.items() if q.std > 0.0}
-        if (
-            not stds
-            or _compare(model, left.p, rows, take(_add_noise(start, stds)), place) < NOTICED * left.rms
-        ):
+        if not stds:
             continue
-        smoothed = smooth(start, stds)
+        if _compare(model, left.p, rows, take(_add_noise(flight, stds)), place) < NOTICED * left.rms:
+            continue
+        smoothed = smooth(flight, stds)
         again = take(smoothed)
         after = fit_rows(model, instrument, again)
         if after.rms >= FALLS * left.rms:
@@ -149,8 +144,7 @@ def smooth_noisy_motion(model: Model, instrument: Instrument, flight: Flight, pl
             known = {n: x for n, x in flight.channels.items() if n not in GRADIENT}
             text = f"{flag.reason}; it is not used but taken to be unknown and to vary slowly"
             return replace(flight, channels=known).flagged([replace(flag, reason=text)])
-        start, rows, left = smoothed.flagged([flag]), again, after
-        flight = start if len(start) == len(flight) else smooth(flight, stds).flagged([flag])
+        flight, rows, left = smoothed.flagged([flag]), again, after
     return flight
 
 

@@ -40,24 +40,29 @@ class Demodulator:
 
     Attributes
     ----------
-    name, description
-        As on the command line; in words.
+    name
+        As on the command line.
     rate
         Hz.
     taps
         (n,): the kernel; its sum is 1.
     ahead
         Samples of the future that a value needs.
-    latency
-        By how much a value lags behind the gradient, s: the group delay at zero frequency.
+    description
+        In words, of those that may be asked for by name.
     """
 
     name: str
-    description: str
     rate: float
     taps: Array
     ahead: int
-    latency: float
+    description: str = ""
+
+    @cached_property
+    def latency(self) -> float:
+        """By how much a value lags behind the gradient, s: the group delay at zero frequency."""
+        delay = float((np.arange(len(self.taps)) - self.ahead) @ self.taps)
+        return delay / self.rate if abs(delay) > FORGOTTEN else 0.0  # rounding, of an even kernel
 
     @property
     def before(self) -> int:
@@ -102,7 +107,7 @@ class Demodulator:
             taps = np.fft.irfft(spectrum, len(taps))
         # of the past alone, or of the future alone: the kernel then has zeros at the present
         taps = np.pad(taps, (max(0, -ahead), max(0, ahead - len(taps) + 1)))
-        return replace(self, taps=taps, ahead=max(0, ahead), latency=self.latency + seconds)
+        return replace(self, taps=taps, ahead=max(0, ahead))
 
     def response(self, frequency: Array) -> NDArray[np.complex128]:
         """Complex gain at frequencies, Hz; its phase is against the sample's own instant."""
@@ -130,16 +135,9 @@ class Demodulator:
 
 def fir(rate: float, cutoff: float = HALF_AMPLITUDE) -> Demodulator:
     """The paper's low-pass, or one as narrow at another corner, Hz."""
-    taps = low_pass(rate, cutoff=cutoff)
-    return Demodulator(
-        name="fir",
-        description=f"linear-phase FIR, half amplitude at {cutoff:g} Hz"
-        + (" (the paper's)" if cutoff == HALF_AMPLITUDE else ""),
-        rate=rate,
-        taps=taps,
-        ahead=len(taps) // 2,
-        latency=0.0,
-    )
+    taps, own = low_pass(rate, cutoff=cutoff), " (the paper's)" if cutoff == HALF_AMPLITUDE else ""
+    words = f"linear-phase FIR, half amplitude at {cutoff:g} Hz{own}"
+    return Demodulator("fir", rate, taps, len(taps) // 2, words)
 
 
 def _impulse(rate: float, order: int, cutoff: float) -> Array:
@@ -166,34 +164,19 @@ def _impulse(rate: float, order: int, cutoff: float) -> Array:
 def butterworth(rate: float, order: int = ORDER, cutoff: float = CUTOFF) -> Demodulator:
     """Forward and backward."""
     h = _impulse(rate, order, cutoff)
-    return Demodulator(
-        name="butterworth",
-        description=f"Butterworth of order {order} at {cutoff:g} Hz, forward and backward",
-        rate=rate,
-        taps=convolve(h, h[::-1], "full"),
-        ahead=len(h) - 1,
-        latency=0.0,
-    )
+    words = f"Butterworth of order {order} at {cutoff:g} Hz, forward and backward"
+    return Demodulator("butterworth", rate, convolve(h, h[::-1], "full"), len(h) - 1, words)
 
 
 def causal(rate: float, order: int = ORDER, cutoff: float = CUTOFF) -> Demodulator:
     """Forward alone."""
-    h = _impulse(rate, order, cutoff)
-    return Demodulator(
-        name="causal",
-        description=f"Butterworth of order {order} at {cutoff:g} Hz, forward only",
-        rate=rate,
-        taps=h,
-        ahead=0,
-        latency=float(np.sum(np.arange(len(h)) * h)) / rate,
-    )
+    words = f"Butterworth of order {order} at {cutoff:g} Hz, forward only"
+    return Demodulator("causal", rate, _impulse(rate, order, cutoff), 0, words)
 
 
 def make_none(rate: float) -> Demodulator:
     """Mixed alone: every value is of its own instant."""
-    return Demodulator(
-        name="none", description="no low-pass", rate=rate, taps=np.ones(1), ahead=0, latency=0.0
-    )
+    return Demodulator("none", rate, np.ones(1), 0)
 
 
 def average(rate: float, seconds: float, *, centred: bool = True) -> Demodulator:
@@ -203,15 +186,7 @@ def average(rate: float, seconds: float, *, centred: bool = True) -> Demodulator
     n = np.arange(-ahead, (ahead if centred else int(np.ceil(samples)) - 1) + 1)
     low, high = (-samples / 2, samples / 2) if centred else (-0.5, samples - 0.5)
     taps = np.clip(np.minimum(n + 0.5, high) - np.maximum(n - 0.5, low), 0.0, None)
-    taps = taps / np.sum(taps)
-    return Demodulator(
-        name="average" if centred else "causal average",
-        description=f"moving average over the {'surrounding' if centred else 'last'} {seconds:g} s",
-        rate=rate,
-        taps=taps,
-        ahead=ahead,
-        latency=0.0 if centred else float(np.sum(n * taps)) / rate,
-    )
+    return Demodulator("average" if centred else "causal average", rate, taps / np.sum(taps), ahead)
 
 
 DEMODULATORS: Mapping[str, Callable[[float], Demodulator]] = MappingProxyType(

@@ -13,7 +13,6 @@ import h5py
 import numpy as np
 import openpyxl
 import pandas as pd
-import pyarrow as pa
 import pytest
 import xarray
 from scipy.io import savemat
@@ -345,10 +344,7 @@ def test_flights_in_memory() -> None:
         (dated.tz_localize("UTC").rename_axis("time"), True),
         (two, False),
         (pd.DataFrame(plain).astype("Float64"), False),
-        (pa.table(plain), False),
-        ({n: (v, UNITS[n]) for n, v in VALUES.items()}, False),
         (pd.DataFrame(plain).assign(line="A").set_index(["line", HEADER[0]]), False),
-        (pd.DataFrame(plain).to_records(index=False), False),
         (attributes, True),
         (seconds, False),
         ({**VALUES, "attrs": {"units": UNITS}}, False),
