@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Collection, Container, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -82,14 +82,13 @@ def make_flight(
     si, si_units = _convert(made, g0, accelerometers)
     grid = make_grid(si.pop("time"), made.place)
     notes = [*made.notes, *_leave_out_impossible(si, si_units), *grid.notes]
-    slower = _interpolate_slower(si, si_units, grid, notes)
-    _drop_empty(si, notes, made.place)
+    placed = {c: _place(v, grid) for c, v in si.items()}
+    _drop_empty(placed, notes, made.place)
     if need_output:  # once more: of the columns that hold anything
-        _require_output(made, (*si, *slower), accelerometers)
-    placed = {c: _place(v, grid) for c, v in si.items()} | slower
-    placed = {c: placed[c] for c in made.names if c in placed}
-    notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
+        _require_output(made, placed, accelerometers)
     outputs = {c: placed.pop(c) for c in (*accelerometers.columns, *DEMODULATED) if c in placed}
+    _interpolate_slower(placed, si_units, grid, notes)
+    notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
     valid = _find_valid(placed | outputs, outputs, grid, notes)
     _derive_outputs(outputs, notes, accelerometers)
     channels = {c: fill_gaps(v, np.isfinite(v), turning=is_disc_angle(c)) for c, v in placed.items()}
@@ -128,11 +127,15 @@ def make_flight(
 # --- columns and units ---------------------------------------------------------------------------------
 
 
+def _pass_over(names: Sequence[str]) -> list[str]:
+    """A note of columns whose names nothing can have."""
+    odd = [repr(n[:80]) for n in names if not is_column(n)]
+    shown = ", ".join(odd[:6]) + (" ..." if len(odd) > 6 else "")
+    return [one_line(f"skipped because of their names ({EXPECTED}): {shown}")] if odd else []
+
+
 def _leave_aside(made: DataTable, leave: frozenset[str]) -> DataTable:
     """The table without some channels and columns whose names nothing can have; UserError where a unit is missing."""
-    odd = [repr(c.name[:80]) for c in made.columns if not is_column(c.name)]
-    shown = ", ".join(odd[:6]) + (" ..." if len(odd) > 6 else "")
-    notes = [one_line(f"skipped because of their names ({EXPECTED}): {shown}")] if odd else []
     kept = tuple(c for c in made.columns if is_column(c.name) and c.name not in leave)
     for c in kept:
         if not c.unit:
@@ -144,7 +147,7 @@ def _leave_aside(made: DataTable, leave: frozenset[str]) -> DataTable:
                 remedy="write the unit; a pure number has the unit 1; none is guessed. Or describe the columns "
                 "once for all files: ragg map FLIGHT -o mapping.toml",
             )
-    return replace(made, columns=kept, notes=(*made.notes, *notes))
+    return replace(made, columns=kept, notes=(*made.notes, *_pass_over(made.names)))
 
 
 def _convert(
@@ -199,12 +202,14 @@ def _require_names(made: DataTable, needed: Sequence[str], what: str) -> None:
     )
 
 
-def _list_columns(made: DataTable, names: Sequence[str]) -> str:
-    told = [n for n in made.notes if n.startswith(("skipped", TWO_ROWS)) or n.endswith("; it is left out")]
-    return "; ".join(["the columns " + ", ".join(n[:80] for n in names), *told[:6]])
+def _list_columns(made: DataTable, names: Collection[str]) -> str:
+    told = [n for n in made.notes if n.startswith(("skipped,", TWO_ROWS)) or n.endswith("; it is left out")]
+    return "; ".join(
+        [f"the columns {', '.join(filter(is_column, names))}", *told[:6], *_pass_over(made.names)]
+    )
 
 
-def _require_output(made: DataTable, names: Sequence[str], a: Accelerometers) -> None:
+def _require_output(made: DataTable, names: Collection[str], a: Accelerometers) -> None:
     if any(o.name in names or a.voltages(o, names) is not None for o in a.outputs):
         return
     if len(a.outputs) == 1 and all(n in names for n in DEMODULATED):
@@ -221,13 +226,13 @@ def _require_output(made: DataTable, names: Sequence[str], a: Accelerometers) ->
     )
 
 
-def _drop_empty(si: dict[str, Array], notes: list[str], place: str) -> None:
+def _drop_empty(columns: dict[str, Array], notes: list[str], place: str) -> None:
     """Leave out columns without a single number, unless the motion would be incomplete."""
-    for name in [n for n, v in si.items() if np.isnan(v).all()]:
+    for name in [n for n, v in columns.items() if np.isnan(v).all()]:
         if name in NEEDED:
             what, expected = "the column holds no number", "numbers: the motion needs it"
             raise UserError(what, where=at(place, f"column {name!r}"), expected=expected)
-        del si[name]
+        del columns[name]
         notes.append(f"{name}: the column holds no number; it is left out")
 
 
@@ -314,9 +319,6 @@ SPARSE = 0.5
 FEWEST_VALUES = 8
 """Values that are needed to judge a channel."""
 
-REGULAR = 0.8
-"""Share of the channel's steps that must be within a half of the median step."""
-
 BRIDGED_STEPS = 3.0
 """Longest gap, in steps of the channel, that is interpolated."""
 
@@ -336,8 +338,6 @@ def interpolate_slow(time: Array, values: Array, at: Array) -> Array | str:
         return f"it has {len(values)} value{'s' * (len(values) != 1)}"
     steps, whole = np.diff(time), float(at[-1] - at[0])
     step = float(np.median(steps))
-    if np.mean(np.abs(steps - step) <= 0.5 * step) < REGULAR:
-        return "it is not recorded at regular intervals"
     near = steps <= BRIDGED_STEPS * step
     a, b, both = steps[:-1], steps[1:], near[:-1] & near[1:]
     between = (values[:-2] * b + values[2:] * a) / (a + b)
@@ -354,23 +354,22 @@ def interpolate_slow(time: Array, values: Array, at: Array) -> Array | str:
 
 
 def _interpolate_slower(
-    si: dict[str, Array], si_units: Mapping[str, str], grid: Grid, notes: list[str]
-) -> dict[str, Array]:
-    """Auxiliary channels of a lower rate on the whole grid; they are taken out of ``si``, as are those that cannot be."""
-    time, found = grid.time[grid.index], {}
-    for name in filter(_is_auxiliary, list(si)):
-        there = np.isfinite(si[name])
+    placed: dict[str, Array], si_units: Mapping[str, str], grid: Grid, notes: list[str]
+) -> None:
+    """Interpolate auxiliary channels of a lower rate; those that cannot be are left out."""
+    for name in filter(_is_auxiliary, list(placed)):
+        there = np.isfinite(placed[name])
         count = int(np.sum(there))
-        if not 0 < count < (1 - SPARSE) * len(there):
+        if not 0 < count < (1 - SPARSE) * len(grid.index):
             continue
-        values, lacking = si.pop(name)[there], count_samples(len(there) - count)
+        time, values, lacking = grid.time[there], placed[name][there], count_samples(len(grid.index) - count)
         if si_units[name] == "rad":
             values = np.unwrap(values)
-        made = interpolate_slow(time[there], values, grid.time)
+        made = interpolate_slow(time, values, grid.time)
         if isinstance(made, str):
             notes.append(f"{name}: without a value at {lacking}; left out: {made}")
+            del placed[name]
         else:
-            found[name] = made
-            step = float(np.median(np.diff(time[there])))
+            placed[name] = made
+            step = float(np.median(np.diff(time)))
             notes.append(f"{name}: recorded every {step:.4g} s; interpolated (at {lacking})")
-    return found

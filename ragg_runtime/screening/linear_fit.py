@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -215,7 +216,7 @@ def _make_gradient(rows: Rows) -> Array:
     return np.stack([rows.before_demodulation(x, None) for x in carriers])
 
 
-def find_least(cost: Callable[[float], float], grid: Array, finest: float) -> float:
+def find_least(cost: Callable[[float], float], grid: NDArray[np.floating[Any]], finest: float) -> float:
     """Where a cost is least: on an even grid, then beside the best, at half the distance each time, until that is ``finest``."""
     tried, step = {float(x): cost(float(x)) for x in grid}, float(grid[1] - grid[0])
     best = min(tried, key=tried.__getitem__)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise, product
 from typing import Any
 
@@ -221,8 +222,8 @@ def _propose_jump(t: _Trial) -> list[Hypothesis]:
     at, jump = min(product(everywhere, jumps), key=lambda x: misfit(*x))
     for _ in range(2):  # where the jump is wrong the instant is not determined, and the other way round
         near = jump + np.deg2rad(np.arange(-24.0, 25.0, 8.0))
-        jump = find_least(lambda a, at=at: misfit(at, a), near, np.deg2rad(0.1))
-        at = find_least(lambda k, jump=jump: misfit(k, jump), everywhere, spacing / 512)
+        jump = find_least(partial(misfit, at), near, np.deg2rad(0.1))
+        at = find_least(partial(misfit, jump=jump), everywhere, spacing / 512)
     if abs(_wrapped(jump)) < LEAST_STEP:
         return []
     beside = s.rows(max(0, int(at - n / 100)), int(at + n / 100) + 1, 64)
