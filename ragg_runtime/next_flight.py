@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,6 @@ from ragg_runtime.base.templates import make_environment
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification.motion_design import (
-    CalibrationDesign,
     Criterion,
     Design,
     Information,
@@ -38,16 +37,15 @@ from ragg_runtime.io import Flight, write_flight
 
 Array = NDArray[np.float64]
 Json = Mapping[str, Any]
-D = TypeVar("D", bound=Design, covariant=True)
 
 CHANNELS = ("inline_Eo", "cross_Eo")
 
 
 @dataclass(frozen=True)
-class NextFlight(Generic[D]):
+class NextFlight:
     """A multisine about the mean of the flights."""
 
-    design: D
+    design: Design
     mean: Mapping[str, float]
     duration: float
     rate: float
@@ -90,16 +88,26 @@ def next_flight(
     duration: float = 600.0,
     rate: float | None = None,
     band: tuple[float, float] | None = None,
-) -> NextFlight[Design]:
-    """The multisine for the alternatives left; ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold."""
+    purpose: Literal["effects", "calibration"] = "effects",
+    criterion: Criterion = "A",
+) -> NextFlight:
+    """The multisine that separates the alternatives left, or that calibrates best for motion such as that of the flights.
+
+    ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold; ``criterion``: of a calibration.
+    """
     rate, band = _possible(m, flights, limits, rate, band)
-    d = diagnose(m, flights)
-    pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
+    made: Design | None
+    if purpose == "calibration":
+        f = fit(m.model, m.instrument, observe_flights(flights, m.instrument), candidates=False)
+        made = design_calibration(f, limits, duration=duration, band=band, criterion=criterion)
+    else:
+        d = diagnose(m, flights)
+        pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
+        made = design(d.fitted, pairs, limits, duration=duration, band=band)
     tones = list_tones(m.instrument.spin_frequency, limits, band)
-    made = design(d.fitted, pairs, limits, duration=duration, band=band)
-    return NextFlight(
-        made or Design(multisine(tones, share_evenly(tones)), ()), _mean(flights), duration, rate
-    )
+    made = made or Design(multisine(tones, share_evenly(tones)), ())
+    mean = {n: float(np.mean([np.mean(x.channels[n][x.valid]) for x in flights])) for n in AXES}
+    return NextFlight(made, mean, duration, rate)
 
 
 def _possible(
@@ -123,34 +131,13 @@ def _possible(
     return rate, band
 
 
-def _mean(flights: Sequence[Flight]) -> dict[str, float]:
-    return {n: float(np.mean([np.mean(x.channels[n][x.valid]) for x in flights])) for n in AXES}
-
-
-def write_run_sheet(x: NextFlight[CalibrationDesign]) -> str:
+def write_run_sheet(x: NextFlight) -> str:
     """What whoever flies it reads, as Markdown; the plan by which the calibration is certified afterwards."""
     channels = x.motion().channels
     peaks = {s[0]: float(np.max(np.abs(channels[s[0]] - x.mean[s[0]]))) for s in x.design.sinusoids}
     filters = {"unit": find_unit, "degrees": lambda phase: np.degrees(phase) % 360}
     env = make_environment("ragg_runtime", filters)
     return env.get_template("run_sheet.md.j2").render(flight=x, plan=x.design, peaks=peaks)
-
-
-def calibration_flight(
-    m: Loaded,
-    flights: Sequence[Flight],
-    limits: Mapping[str, float],
-    *,
-    duration: float = 600.0,
-    rate: float | None = None,
-    band: tuple[float, float] | None = None,
-    criterion: Criterion = "A",
-) -> NextFlight[CalibrationDesign]:
-    """The multisine that calibrates the model best for motion such as that of the flights, with which it will be fitted jointly."""
-    rate, band = _possible(m, flights, limits, rate, band)
-    f = fit(m.model, m.instrument, observe_flights(flights, m.instrument), candidates=False)
-    plan = design_calibration(f, limits, duration=duration, band=band, criterion=criterion)
-    return NextFlight(plan, _mean(flights), duration, rate)
 
 
 def read_plan(path: Path) -> Json:
@@ -216,6 +203,6 @@ REACHED = 1.1
 """A standard deviation within so much of the planned one counts as reached: noise is known to some per cent."""
 
 
-def write_motion(found: NextFlight[Design], path: Path) -> None:
+def write_motion(found: NextFlight, path: Path) -> None:
     """Write the motion as a flight file without output, which `ragg simulate --motion` flies."""
     write_flight(found.motion(), path)

@@ -37,7 +37,6 @@ from ragg_runtime.wording import describe, describe_other
 if TYPE_CHECKING:
     from ragg_runtime import api, next_flight
     from ragg_runtime.api import Added, Loaded
-    from ragg_runtime.identification.motion_design import Criterion
     from ragg_runtime.report import pages
 else:
     api, next_flight, pages = map(Later, ("api", "next_flight", "report.pages"))
@@ -176,8 +175,6 @@ def next_motion(
     flights: Sequence[Path],
     output: str,
     limits: Sequence[str],
-    purpose: str,
-    criterion: Criterion,
     run_sheet: str | None,
     mapping: Path | None,
     **options: Any,
@@ -186,18 +183,15 @@ def next_motion(
 
     The motion separates effects that these flights cannot distinguish, or calibrates best.
     """
-    if run_sheet is not None and purpose != "calibration":
+    if run_sheet is not None and options["purpose"] != "calibration":
         raise UserError(
             "a run sheet needs --for calibration", where="--run-sheet", expected="--for calibration"
         )
     m = load(model_dir)
     records, most = read(m, flights, mapping), api.parse_limits(m, limits)
-    if purpose == "effects":
-        found = next_flight.next_flight(m, records, most, **options)
-    else:
-        found = planned = next_flight.calibration_flight(m, records, most, criterion=criterion, **options)
-        if run_sheet is not None:
-            write_text(Path(run_sheet), next_flight.write_run_sheet(planned))
+    found = next_flight.next_flight(m, records, most, **options)
+    if run_sheet is not None:
+        write_text(Path(run_sheet), next_flight.write_run_sheet(found))
     next_flight.write_motion(found, Path(output))
     said = describe_other.describe_next_motion(found.as_json(), output)
     page = lambda origin: pages.write_info(said, [found.motion()], origin, "The next motion")  # noqa: E731

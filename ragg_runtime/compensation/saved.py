@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -195,11 +196,7 @@ def saved_calibration(m: Loaded) -> Saved:
     model, instrument = m.model, m.instrument
     again = f"calibrate: ragg calibrate {where.parent} FLIGHT... --save"
 
-    def refuse(
-        what: str, found: str | None = None, expected: str | None = None, remedy: str = again
-    ) -> UserError:
-        return UserError(what, where=where, found=found, expected=expected, remedy=remedy)
-
+    refuse = partial(UserError, where=where, remedy=again)
     if kept is None:
         raise UserError("the model has no saved calibration", where=where.parent, remedy=again)
     saved = read_saved(kept, str(where))
@@ -207,8 +204,8 @@ def saved_calibration(m: Loaded) -> Saved:
     if (saved.layout, saved.effects, saved.form) != (tuple(model.chain.PARAMETERS), effects, form):
         raise refuse(
             "the saved calibration belongs to another model",
-            f"{saved.form}, effects {', '.join(saved.effects) or 'none'}, made {saved.time}",
-            f"{form}, effects {', '.join(effects) or 'none'}",
+            found=f"{saved.form}, effects {', '.join(saved.effects) or 'none'}, made {saved.time}",
+            expected=f"{form}, effects {', '.join(effects) or 'none'}",
         )
     present = list_base_columns(model, instrument)
     places = {(c.name, c.accelerometer): k for c, k in present}
@@ -216,12 +213,12 @@ def saved_calibration(m: Loaded) -> Saved:
         if places.get((c.name, c.accelerometer)) != k:
             near = did_you_mean(c.name, [name for name, _ in places]) or again
             what = "the saved calibration names a parameter that the model does not fit"
-            raise refuse(what, c.label, remedy=near)
+            raise refuse(what, found=c.label, remedy=near)
     nominal = vector(model, instrument)
     given = np.setdiff1d(np.arange(len(nominal)), saved.index)
     if not np.array_equal(saved.p[given], nominal[given]):
         what = "model.toml was changed since the calibration was saved: values that are not fitted differ"
-        raise refuse(what, f"a calibration made {saved.time}")
+        raise refuse(what, found=f"a calibration made {saved.time}")
     if not scale_factor(model, saved.p) > 0.0:
         raise refuse("the saved calibration has no positive scale factor")
     return _rescale(saved, present)
