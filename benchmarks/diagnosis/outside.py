@@ -243,12 +243,12 @@ def share_explained(
 
     Without noise, so that it is the formula that is judged.
     """
-    steady = [x for x in terms if x["kind"] == "steady" and OUTPUT not in x["term"]]
+    steady = [x for x in terms if x["kind"] == "steady"]
     if not steady:
         return None
     best = max(steady, key=lambda x: abs(x["z"]))
     term = Term(best["harmonic"], () if best["term"] == "1" else tuple(best["term"].split("*")))
     record = oracle.o.record
-    column = Dictionary(record).series(term, record)
+    column = Dictionary(record, oracle.flight.outputs.get(OUTPUT)).series(term, record)
     a, b = oracle.row(change), oracle.row(column / _rms(column))
     return f"{term.harmonic}: {term.product}", float((a @ b) ** 2 / ((a @ a) * (b @ b)))

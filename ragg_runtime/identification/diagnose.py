@@ -24,6 +24,7 @@ from ragg_runtime.identification import (
 )
 from ragg_runtime.identification.claims import Regression, Robust, add_shift
 from ragg_runtime.identification.contenders import Extend
+from ragg_runtime.identification.formula import propose_formulas
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.parameters import Estimates
 from ragg_runtime.identification.ranking import (
@@ -83,6 +84,10 @@ def diagnose_fitted(
     if not apart and len(flights) > 1 and found.contradictory:
         apart = find_disagreement(f, flights, extend)
         found = replace(found, verdict="unexplained", claims=()) if apart else found
+    if found.remains and not (apart or found.line or found.outcome.explained.complaint):
+        o, claimed = found.outcome, set(found.claims) & set(found.outcome.effects)
+        beside = (o.target, o.given) if claimed else (first.fitted, ())
+        found = replace(found, left=propose_formulas(*beside, found.left))
     ranking = complete_ranking(*ranked, evidence, found)
     noise = _choose_noise(f, found.outcome.target)
     return _make_diagnosis(evidence, found, ranking, ranked[1], noise, apart, limits)

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement, product
 from math import comb
 
@@ -85,6 +86,12 @@ class Term:
         return sum(1 + name.count("(") for name in self.channels)
 
     @property
+    def felt(self) -> Term:
+        """As an accelerometer feels it: a change of the output's gain is one of the scale factors."""
+        once = self.channels.count(OUTPUT) == 1
+        return replace(self, channels=tuple("f_i" if once and n == OUTPUT else n for n in self.channels))
+
+    @property
     def words(self) -> str:
         """What effects of which it is all that a record shows have in common."""
         kind, _, turns = self.harmonic.partition(" ")
@@ -107,15 +114,14 @@ class Dictionary:
     """
 
     def __init__(self, r: Record, output: Array | None = None) -> None:
-        self._time = r.time
+        self._record = r
         self._of_output = {} if output is None else _functions_of(output)
         centred = sorted(n for n in r.wide if n not in _MOTION and _is_channel(n))
         rates = [n for n in _RATES if n.partition("_")[2] in r.wide]
         names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
         further = [c for c in list_generic([*centred, "time"]) if all(features.is_recorded(n, r) for n in c)]
         made = dict.fromkeys(n for c in further for n in c if n not in names)
-        self._slow = Relaxations([n for n in made if features.is_slow(n)], r)
-        found = _statistics(r, [*names, *made], self._slow)
+        found, self._slow = _measure(r, [*names, *made])
         self.centre = {n: found[n].mean for n in (*centred, "time")}
         self._size = {n: s.rms if n not in self.centre else s.spread for n, s in found.items() if s.varies}
         self._size |= {n: _rms(x[r.valid]) or 1.0 for n, x in self._of_output.items()}
@@ -137,6 +143,23 @@ class Dictionary:
         self.terms: tuple[Term, ...] = (*alone, *several, *(Term("const", c) for c in made_of))
         self.first_order = len(alone)
         """Constants, single channels and turning forces: so many of the terms, the first."""
+        self.channels = tuple(n for n in names if n in _MOTION or n in self.centre)
+        """Of these terms the recorded ones, and time."""
+
+    def with_terms(self, terms: Sequence[Term]) -> Dictionary:
+        """The same of other terms, which may be of further functions: of auxiliary channels less their means."""
+        made = copy(self)
+        names = dict.fromkeys(n for t in terms for n in t.channels if n not in self._size)
+        found, slow = _measure(self._record, [*names], self.centre)
+        made._slow = self._slow | slow
+        made._size = self._size | {n: s.rms for n, s in found.items() if s.varies}
+        made.terms = tuple(t for t in terms if all(n in made._size for n in t.channels))
+        made.first_order = 0
+        return made
+
+    def __contains__(self, name: str) -> bool:
+        """Whether a series is there and not constant."""
+        return name in self._size
 
     def size(self, term: Term) -> float:
         """A fixed size of the term's series, SI: the product of its channels' root mean squares."""
@@ -144,6 +167,8 @@ class Dictionary:
 
     def series(self, term: Term, r: Record) -> Array:
         """(N,), SI, over a record of this flight."""
+        if any(n not in self._size for n in term.channels):
+            return self.with_terms([term]).series(term, r)
         x = carrier(r, term.harmonic)
         for name in term.channels:
             x = x * self._channel(name, r)
@@ -172,10 +197,10 @@ class Dictionary:
 
     def _channel(self, name: str, r: Record) -> Array:
         if name in self._of_output:
-            first = int(np.searchsorted(self._time, r.time[0]))
+            first = int(np.searchsorted(self._record.time, r.time[0]))
             return self._of_output[name][first : first + len(r.time)]
-        x = self._slow.series(name, r) if features.is_slow(name) else features.series(name, r)
-        return np.asarray(x - self.centre.get(name, 0.0))
+        slow = self._slow.get(name)
+        return features.series(name, r, self.centre) if slow is None else slow.series(name, r)
 
 
 def _functions_of(output: Array) -> dict[str, Array]:
@@ -231,8 +256,11 @@ def list_generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
     return found
 
 
-def _statistics(r: Record, names: Sequence[str], slow: Relaxations) -> dict[str, _Statistics]:
-    """Over the valid samples of a flight, a segment at a time; relaxations are run through on the way."""
+def _measure(
+    r: Record, names: Sequence[str], centre: Mapping[str, float] = features.NOTHING
+) -> tuple[dict[str, _Statistics], dict[str, Relaxations]]:
+    """Over the valid samples of a flight, a segment at a time; and the relaxations by name, which are run through on the way."""
+    slow = Relaxations([n for n in names if features.is_slow(n)], r, centre)
     count = 0.0
     first: dict[str, float] = {}
     sums = {n: np.zeros(2) for n in names}
@@ -242,7 +270,7 @@ def _statistics(r: Record, names: Sequence[str], slow: Relaxations) -> dict[str,
         count += float(np.sum(part.valid))
         relaxed = slow.advance(part)
         for n in names:
-            x = (relaxed[n] if n in relaxed else features.series(n, part))[part.valid]
+            x = (relaxed[n] if n in relaxed else features.series(n, part, centre))[part.valid]
             if not len(x):
                 continue
             y = x - first.setdefault(n, float(x[0]))  # squares of differences, so that no digits are lost
@@ -256,7 +284,7 @@ def _statistics(r: Record, names: Sequence[str], slow: Relaxations) -> dict[str,
         mean = float(mean + origin)
         varies = bool(ends[n][1] > ends[n][0])
         found[n] = _Statistics(mean, float(np.hypot(mean, spread)) or 1.0, spread or 1.0, varies)
-    return found
+    return found, {n: slow for n in names if features.is_slow(n)}
 
 
 def harmonics(highest: int = HIGHEST) -> tuple[str, ...]:
@@ -358,16 +386,19 @@ def write_effect(term: Term, centre: Mapping[str, float], unit: str) -> str | No
 
     ``centre`` are the means that auxiliary channels enter less; ``unit`` is that of the term's channels.
     """
-    factors: list[str] = []
     if any(series_name.channel(series_name.series(n)) == OUTPUT for n in term.channels):
         return None  # no stage sees the output
+    # of the only channel of a term that does not turn the mean is a parameter of the model; elsewhere it would be a further term
+    alone = term.harmonic == "const" and sum(n in centre for n in term.channels) == 1
+    factors: list[str] = []
     for name in dict.fromkeys(term.channels):
-        text = _written(series_name.series(name))
+        s = series_name.series(name)
+        plain = alone and isinstance(s, ChannelName)
+        text = _written(s, {} if plain else centre)
         if text is None:
             return None
         n = term.channels.count(name)
-        if n > 1 and name in centre:  # the square of a temperature in K would be all but a multiple of it
-            text = f"({text} - {centre[name]:.6g})" if centre[name] > 0 else f"({text} + {-centre[name]:.6g})"
+        text = f"({text})" if " " in text and isinstance(s, ChannelName) else text
         factors.append(text if n == 1 else f"{text}**{n}")
     product = "*".join(("K_x", *factors, *_carrier(term.harmonic)))
     return f'{{ id = "my-effect", stage = "transducer", add = "{product}", K_x = {{ unit = "{unit}" }} }}'
@@ -393,7 +424,8 @@ def describe_series(s: Series) -> str:
         case Derivative(of, order):
             return f"{'second ' if order == 2 else ''}time derivative of {of}"
         case Function(name, of):
-            return f"{_FUNCTION_NAMES[name]} of {describe_series(of)}"
+            recorded = isinstance(of, ChannelName) and of.name not in (*_MOTION, *features.FORCES)
+            return f"{_FUNCTION_NAMES[name]} of {describe_series(of)}{' less its mean' if recorded else ''}"
         case Relaxation(of, seconds):
             return f"{describe_series(of)} through a relaxation of {seconds} s"
 
@@ -405,12 +437,15 @@ def _column(s: Series) -> str:
     return str(s)
 
 
-def _written(s: Series) -> str | None:
+def _written(s: Series, centre: Mapping[str, float]) -> str | None:
     if isinstance(s, Function):
-        inner = _written(s.of)
+        inner = _written(s.of, centre)
         return None if inner is None else f"{s.name}({inner})"
     text = _column(s)
-    return text if _NAME.fullmatch(text) else None
+    if not _NAME.fullmatch(text):
+        return None
+    mean = centre.get(str(s), 0.0)
+    return text if not mean else f"{text} {'-' if mean > 0 else '+'} {abs(mean):.6g}"
 
 
 def _carrier(name: str) -> tuple[str, ...]:

@@ -7,7 +7,8 @@ are the same up to sign, in the third and fourth with f_i and f_o exchanged).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,23 +44,24 @@ def is_recorded(name: str, r: Record) -> bool:
     return base == "time" or base in r.wide
 
 
-def series(name: str, r: Record) -> Array:
-    """(N,), SI: a series over a record or a part of it, relaxations excepted (:class:`Relaxations`)."""
-    return _series(series_name.series(name, r.wide.keys()), r)
+NOTHING: Mapping[str, float] = MappingProxyType({})
 
 
-def _series(s: Series, r: Record) -> Array:
+def series(name: str, r: Record, centre: Mapping[str, float] = NOTHING) -> Array:
+    """(N,), SI: a series over a record or a part of it, relaxations excepted (:class:`Relaxations`); channels less their ``centre``."""
+    return _series(series_name.series(name, r.wide.keys()), r, centre)
+
+
+def _series(s: Series, r: Record, centre: Mapping[str, float]) -> Array:
     if isinstance(s, Function):
         functions = {"abs": np.abs, "sign": np.sign, "square": np.square}
-        return np.asarray(functions[s.name](_series(s.of, r)))
+        return np.asarray(functions[s.name](_series(s.of, r, centre)))
     name = str(s)
-    if name == "time":
-        return r.time
     if name not in r.wide and series_name.channel(s) in FORCES:
         return _turning(name, r)
-    known = r.series(name)
+    known = r.time if name == "time" else r.series(name)
     assert known is not None, name
-    return known
+    return np.asarray(known - centre[name]) if name in centre else known
 
 
 def _turning(name: str, r: Record) -> Array:
@@ -76,14 +78,15 @@ def _turning(name: str, r: Record) -> Array:
 
 
 class Relaxations:
-    """Series ``slow(X, T s)``: y' = (X - y)/T, from rest; a channel's value at the first valid sample is its zero.
+    """Series ``slow(X, T s)``: y' = (X - y)/T, from rest; zero is the value at the first valid sample of a channel, and of a function
+    of one that has a ``centre``.
 
     They are run through once, segment by segment (:meth:`advance`), and then taken up again anywhere
     (:meth:`series`, which changes nothing).
     """
 
-    def __init__(self, names: Sequence[str], record: Record) -> None:
-        self._record = record
+    def __init__(self, names: Sequence[str], record: Record, centre: Mapping[str, float] = NOTHING) -> None:
+        self._record, self._centre = record, centre
         self._of: dict[str, tuple[Series, float]] = {}
         for name in names:
             slow = series_name.series(name, record.wide.keys())
@@ -114,8 +117,9 @@ class Relaxations:
 
     def _run(self, name: str, r: Record, last: float) -> Array:
         of, c = self._of[name]
-        x = _series(of, r)
-        if isinstance(of, Function) or str(of) in FORCES:
+        x = _series(of, r, self._centre)
+        base = series_name.channel(of)
+        if base in FORCES or (isinstance(of, Function) and base not in self._centre):
             origin = 0.0
         else:
             if of not in self._origin and r.valid.any():

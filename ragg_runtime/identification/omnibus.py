@@ -152,10 +152,16 @@ class Sums:
 class Scores:
     """The dictionary of a flight against its whitened residual, base and chosen effects projected out."""
 
-    def __init__(self, prepared: PreparedFlight, projector: Projector, only: int | None = None) -> None:
+    def __init__(
+        self,
+        prepared: PreparedFlight,
+        projector: Projector,
+        only: int | None = None,
+        dictionary: Dictionary | None = None,
+    ) -> None:
         self.prepared, self.projector, self.only = prepared, projector, only
         o = prepared.observation
-        self.dictionary = Dictionary(o.record, _predicted(prepared))
+        self.dictionary = dictionary or make_dictionary(prepared)
         self._excluded = None
         if unknown_gradient.is_unknown(o):  # there nothing is left of the noise either
             double, width = 2 * o.record.spin_frequency, 2 / unknown_gradient.KNOT_SECONDS
@@ -256,6 +262,11 @@ class Scores:
         return np.asarray(by[np.argsort(np.argsort(places))])
 
 
+def make_dictionary(x: PreparedFlight) -> Dictionary:
+    """Of a flight, with the output that the model predicts."""
+    return Dictionary(x.observation.record, _predicted(x))
+
+
 def _predicted(x: PreparedFlight) -> Array | None:
     """(N,), V: G_out as the model has it, which holds none of the record's noise; ``None`` of several outputs, or of channels."""
     o = x.observation
@@ -270,7 +281,7 @@ def _predicted(x: PreparedFlight) -> Array | None:
 
 def choose(s: Scores) -> Omnibus:
     """What is left of a flight: steady terms, or else one that comes and goes, or a line."""
-    steady = _steady(s)
+    steady = pursue(s)
     others = [t for t in (_varying(s), _line(s)) if t is not None]
     log_p = min([steady.log_p, *(p for p, _ in others)])
     significant = [(p, found) for p, found in others if p < np.log(FAMILY)]
@@ -315,10 +326,10 @@ def _line(s: Scores) -> tuple[float, ResidualTerm] | None:
     return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
 
 
-def _steady(s: Scores) -> Omnibus:
-    """The largest scores, one by one, while they are significant."""
+def pursue(s: Scores, tried: int = 0) -> Omnibus:
+    """The largest scores, one by one, while they are significant; ``tried``: of so many terms, if not of the dictionary's alone."""
     norm = s.norms
-    tried = int(np.sum(np.isfinite(norm)))
+    tried = tried or int(np.sum(np.isfinite(norm)))
     z = s.sums.dot / norm
     freedom = s.prepared.noise.freedom
     first = _log_p(z, tried, freedom)
@@ -326,7 +337,7 @@ def _steady(s: Scores) -> Omnibus:
     nothing = Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.sums.square, spread=spread)
     if first >= np.log(FAMILY):
         return nothing
-    places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, tried)]
+    places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, int(np.sum(np.isfinite(norm))))]
     sober = np.ones(len(places))
     if s.prepared.noise.uneven:
         sober = np.sqrt(s.inflation([int(k) for k in places]))

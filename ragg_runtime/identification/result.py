@@ -14,6 +14,7 @@ from ragg_runtime.estimation.fitted import Fitted, Scored, noise_floor
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.identification import dictionary, series
 from ragg_runtime.identification.comparison import Explained
+from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.features import channel_unit
 from ragg_runtime.identification.line_rival import Steady
 from ragg_runtime.identification.next_motion import Proposal
@@ -128,16 +129,17 @@ class Diagnosis:
     def needs(self) -> list[str]:
         """Columns, in words, that a flight must have for :meth:`expression`."""
         found = self._suggested
-        return [] if found is None else dictionary.list_effect_columns(found[0].term)
+        return [] if found is None else dictionary.list_effect_columns(found[0])
 
     @cached_property
-    def _suggested(self) -> tuple[ResidualTerm, str] | None:
+    def _suggested(self) -> tuple[Term, str] | None:
         steady = [t for s in self.remainder.searches for t in s.terms if t.kind == "steady"]
         for t in sorted(steady, key=lambda t: -abs(t.z)):
-            units = [u for c in t.term.channels if (u := channel_unit(c)) != "1"]
-            line = dictionary.write_effect(t.term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
+            term = t.term.felt
+            units = [u for c in term.channels if (u := channel_unit(c)) != "1"]
+            line = dictionary.write_effect(term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
             if line is not None:
-                return t, line
+                return term, line
         return None
 
     def __repr__(self) -> str:
