@@ -209,7 +209,7 @@ def prepare(
     else:
         # constant parameters leave the drift, which is no noise: it is followed from where they leave the smallest rms
         f = fit(model, instrument, observations, unweighted=kind == "smoothed")
-        c, blocks = f.calibration, _fitted_blocks(f, flights, kind)
+        c, blocks = _fitted_blocks(f, flights, kind)
     return PreparedFlights(
         model=model,
         instrument=instrument,
@@ -242,21 +242,25 @@ def find_seeing(instrument: Instrument, observations: Sequence[Observation]) -> 
     return found
 
 
-def _fitted_blocks(f: Fitted, flights: Sequence[Flight], kind: Kind) -> list[tuple[Block, ...]]:
-    """Of every observation its blocks by a fit to the flights."""
+def _fitted_blocks(
+    f: Fitted, flights: Sequence[Flight], kind: Kind
+) -> tuple[Calibration, list[tuple[Block, ...]]]:
+    """A calibration on the flights, and of every observation its blocks."""
     c = f.calibration
     if kind == "smoothed":
         d = smooth_drift(f, flights)
-        every = [*zip(d.epochs, d.steps, d.roots, strict=True)]
-        return [
-            tuple(make_block(c, e.rows, step, root) for e, step, root in every if e.flight == o.flight)
+        c, every = d.f.calibration, [*enumerate(d.epochs)]
+        return c, [
+            tuple(
+                make_block(c, e.rows, d.steps[k], d.root_within(k)) for k, e in every if e.flight == o.flight
+            )
             for o in f.observations
         ]
     if kind == "crossed":
         of_all = [list_base_r_factors(f, k) for k in range(len(f.observations))]
-        return [tuple(_crossed_block(f, o, b, of_all) for b in range(BLOCKS)) for o in f.observations]
+        return c, [tuple(_crossed_block(f, o, b, of_all) for b in range(BLOCKS)) for o in f.observations]
     root = invert_root(information(f))
-    return _whole_blocks(c, f.observations, root)
+    return c, _whole_blocks(c, f.observations, root)
 
 
 def _whole_blocks(
