@@ -147,19 +147,20 @@ LIMIT_UNITS = {"a": "m/s^2", "omega": "rad/s", "jerk": "m/s^3", "alpha": "rad/s^
 
 
 def parse_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
-    """Largest amplitudes of a motion to fly next, and of its rates of change, SI, from texts such as ``a=50mg``."""
+    """Largest amplitudes of a motion to fly next, and of its rates of change, SI, from texts such as ``a=50mg`` or ``a_z=1mg``."""
     found = dict(LIMITS)
     for text in texts:
         name, _, size = text.partition("=")
-        if name not in LIMIT_UNITS or not size:
+        kind = name.partition("_")[0]
+        if kind not in LIMIT_UNITS or name not in (kind, *(f"{kind}_{k}" for k in "xyz")) or not size:
             raise UserError(
                 "the limit of a motion cannot be read",
                 where="--limit",
                 found=text,
-                expected="a=50mg, omega=500deg/h, jerk=1m/s^3 or alpha=1deg/s^2",
+                expected="a=50mg, omega=500deg/h, jerk=1m/s^3 or alpha=1deg/s^2; of one axis a_z=50mg",
             )
         q = read_quantity(size, f"--limit {name}", count=1)
-        value = m.instrument.units.to_si(np.asarray(q.value), q.unit, LIMIT_UNITS[name], f"--limit {name}")
+        value = m.instrument.units.to_si(np.asarray(q.value), q.unit, LIMIT_UNITS[kind], f"--limit {name}")
         if not float(value) > 0.0:
             raise UserError("the limit of a motion must be positive", where=f"--limit {name}", found=size)
         found[name] = float(value)

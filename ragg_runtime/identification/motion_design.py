@@ -31,7 +31,7 @@ from ragg_runtime.identification.next_motion import (
     Alternatives,
     Separation,
     Sinusoid,
-    find_kind,
+    find_limit,
     whiten_motion,
 )
 from ragg_runtime.identification.parameters import find_combinations
@@ -41,9 +41,6 @@ Array = NDArray[np.float64]
 Tone = tuple[str, float, float]
 """Axis, frequency, Hz, and largest amplitude, SI."""
 Worth = Callable[[Sequence[Sinusoid]], float]
-
-SLOPES = {"a": "jerk", "omega": "alpha"}
-"""The limit of the rate of change of each kind of motion, m/s^3 and rad/s^2; where it is not given there is none."""
 
 GRID = (*RATIOS, 6.0, 8.0, 12.0)
 """Frequencies of the multisine, over the spin frequency."""
@@ -148,8 +145,8 @@ def list_tones(spin: float, limits: Mapping[str, float], band: tuple[float, floa
         for ratio in GRID:
             frequency = ratio * (abs(spin) or AT_REST)
             if band[0] <= frequency <= band[1]:
-                slope = limits.get(SLOPES[find_kind(axis)], np.inf) / (2 * np.pi * frequency)
-                found.append((axis, frequency, float(min(limits[find_kind(axis)], slope))))
+                slope = find_limit(limits, axis, slope=True) / (2 * np.pi * frequency)
+                found.append((axis, frequency, float(min(find_limit(limits, axis), slope))))
     return found
 
 
@@ -190,9 +187,9 @@ def _peaks(tones: Sequence[Tone], limits: Mapping[str, float]) -> list[Array]:
     for axis in dict.fromkeys(axis for axis, _, _ in tones):
         own = np.array([axis == t[0] for t in tones], dtype=np.float64)
         size = np.array([amplitude for _, _, amplitude in tones])
-        rows.append(own * size / limits[find_kind(axis)])
-        slope = limits.get(SLOPES[find_kind(axis)])
-        if slope is not None:
+        rows.append(own * size / find_limit(limits, axis))
+        slope = find_limit(limits, axis, slope=True)
+        if slope < np.inf:
             rows.append(own * size * 2 * np.pi * np.array([t[1] for t in tones]) / slope)
     return rows
 

@@ -309,7 +309,7 @@ def propose_motions(
     spin = abs(first.spin_frequency) or AT_REST
     ratios = [x for x in RATIOS if x * spin <= HIGHEST * first.rate]
     motions = [
-        (ratio, (axis, ratio * spin, limits[find_kind(axis)], 0.0)) for axis in AXES for ratio in ratios
+        (ratio, (axis, ratio * spin, find_limit(limits, axis), 0.0)) for axis in AXES for ratio in ratios
     ]
     still = asked.separations(asked.rows(()))
     moving = [asked.separations(asked.rows([sinusoid])) for _, sinusoid in motions]
@@ -340,9 +340,15 @@ def find_unit(axis: str) -> str:
     return "m/s^2" if axis.startswith("a_") else "rad/s"
 
 
-def find_kind(axis: str) -> str:
-    """Which of the limits an axis has."""
-    return axis.partition("_")[0]
+SLOPES = {"a": "jerk", "omega": "alpha"}
+"""The limit of the rate of change of each kind of motion, m/s^3 and rad/s^2; where it is not given there is none."""
+
+
+def find_limit(limits: Mapping[str, float], axis: str, *, slope: bool = False) -> float:
+    """The largest amplitude about an axis, or of its rate of change: its own, or that of all axes."""
+    kind, _, k = axis.partition("_")
+    name = SLOPES[kind] if slope else kind
+    return limits.get(f"{name}_{k}", limits.get(name, np.inf))
 
 
 def list_pairs(groups: Mapping[str, Sequence[str]]) -> list[tuple[str, str]]:
