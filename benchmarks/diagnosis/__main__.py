@@ -4,6 +4,7 @@ python -m benchmarks.diagnosis [--seed N ...] [--jobs N] [--only KIND] [--real F
 python -m benchmarks.diagnosis --ablate [--rule ID ...] [--jobs N]
 python -m benchmarks.diagnosis --catalogue [--jobs N]      each effect in turn, 30 sigma
 python -m benchmarks.diagnosis --grammar [--jobs N]        terms drawn from a grammar
+python -m benchmarks.diagnosis --record KIND ... [--count N] [--seed N]      nothing hidden, one kind of record
 python -m benchmarks.diagnosis --flight ID      one flight, shown
 """
 
@@ -23,7 +24,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from benchmarks.diagnosis import ablation, array, plan, score, table
+from benchmarks.diagnosis import ablation, array, plan, records, score, table
 from benchmarks.diagnosis.fly import fly
 from benchmarks.diagnosis.plan import Spec
 from benchmarks.diagnosis.score import Row
@@ -180,6 +181,16 @@ def _grammar(options: argparse.Namespace, source: str, pool: Executor | None) ->
     return rows
 
 
+def _records(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
+    cache = Cache(options.cache, source)
+    seeds = options.seed or [plan.RECORDS]
+    specs = [s for r in options.record for n in seeds for s in plan.of_record(r, options.count, n)]
+    run({s.id: partial(fly, s) for s in specs}, cache, pool)
+    rows = [score.row(cache.lines[s.id]) for s in specs]
+    print("\n" + "\n".join(table.quiet_records(rows)))
+    return rows
+
+
 def _array(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
     cache = Cache(options.cache.with_stem(f"{options.cache.stem}-array"), source)
     tasks = {f"{r}/{c}": partial(array.asked, path, c) for r, path, c in array.cases(options.real)}
@@ -198,6 +209,8 @@ def main(arguments: Sequence[str]) -> int:
     ask("--array", action="store_true", help="ask the real array instead")
     ask("--catalogue", action="store_true", help="hide each effect of the catalogue in turn")
     ask("--grammar", action="store_true", help="hide terms drawn from a grammar")
+    ask("--record", action="append", choices=list(records.KINDS), help="one kind of record, nothing hidden")
+    ask("--count", type=int, default=40, help="flights of each of these")
     ask("--real", type=Path, metavar="FOLDER", help="its recordings, *.bin.gz (default: what is shipped)")
     ask("--ablate", action="store_true", help="fly with one rule after the other switched off")
     ask("--rule", action="append", choices=[r.id for r in ablation.RULES], help="of the ablation")
@@ -217,6 +230,7 @@ def main(arguments: Sequence[str]) -> int:
         (options.array, _array),
         (options.catalogue, _catalogue),
         (options.grammar, _grammar),
+        (options.record, _records),
     )
     for asked, other in others:
         what = other if asked else what

@@ -38,6 +38,9 @@ CATALOGUE = 4430
 GRAMMAR = 4440
 """Seed of the flights with terms drawn from a grammar."""
 
+RECORDS = 5501
+"""Seed of the flights of one kind of record."""
+
 FIRST_CATALOGUE = (
     "adc-nonlinearity", "angular-jitter", "anisoinertia", "arm-length", "arm-sag", "arm-stretch", "bearing-run-out",
     "bias-drift", "bias-step", "clock-drift", "cubic-cross", "cubic-input", "disc-spin", "encoder-harmonic",
@@ -112,7 +115,7 @@ def spec(kind: str, index: int, sample: int) -> Spec:
     """The flight of a kind and number: quiet ones over all kinds of record, others over those in which strengths are known."""
     if kind == "off-sheet":
         return Spec(kind, "white" if index % 2 else "red", index, sample)
-    names = tuple(records.KINDS) if kind == "quiet" else records.KNOWN
+    names = records.FIRST if kind == "quiet" else records.KNOWN
     return Spec(kind, names[(index + sample) % len(names)], index, sample)
 
 
@@ -283,6 +286,11 @@ def replaced_spin(i: Instrument, f: float) -> Instrument:
 def catalogue(count: int) -> list[Spec]:
     """A flight for each of so many effects, kinds of record in turn."""
     return [Spec("each", records.KNOWN[n % len(records.KNOWN)], n, CATALOGUE) for n in range(count)]
+
+
+def of_record(record: str, count: int, sample: int) -> list[Spec]:
+    """So many flights of one kind of record in which nothing is hidden."""
+    return [Spec("quiet", record, n, sample) for n in range(count)]
 
 
 def grammar(count: int = 20) -> list[Spec]:

@@ -84,6 +84,29 @@ def with_ax(x: Table, rng: np.random.Generator) -> Loudness:
     return _in_proportion(np.abs(x["a_x"]))
 
 
+def amplifier(x: Table, rng: np.random.Generator) -> Loudness:
+    """Of one of the two pairs in proportion to the force along its input axis; of the other one constant."""
+    level = np.asarray(along_axes(x, rng).level)
+    pair = int(rng.integers(2))
+    level[2 * pair : 2 * pair + 2] = 1.0
+    return Loudness(flat, level)
+
+
+def with_rates(x: Table, rng: np.random.Generator) -> Loudness:
+    """In proportion to |omega|."""
+    return _in_proportion(np.sqrt(x["omega_x"] ** 2 + x["omega_y"] ** 2 + x["omega_z"] ** 2))
+
+
+def size_and_temperature(x: Table, rng: np.random.Generator) -> Loudness:
+    """In proportion to |a|, and grows with temperature."""
+    return Loudness(flat, np.asarray(with_size(x, rng).level) * with_temperature(x, rng).level)
+
+
+def red_along_axes(x: Table, rng: np.random.Generator) -> Loudness:
+    """1/f, in proportion to the force along each input axis."""
+    return Loudness(red(x, rng).psd, along_axes(x, rng).level)
+
+
 def with_temperature(x: Table, rng: np.random.Generator) -> Loudness:
     """Three to six times larger at the warmest than at the coldest."""
     T = x["temperature"]
@@ -136,6 +159,12 @@ def as_it_is(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
 def heavy(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """Noise of Student's t with three degrees of freedom."""
     return x | {"G_out": r.clean + r.rms * rng.standard_t(3, len(r.clean)) / np.sqrt(3.0)}
+
+
+def heavy_as_loud(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
+    """Student's t with three degrees of freedom, at the noise's own level."""
+    heavy = np.sqrt(1.0 / rng.chisquare(3, len(r.clean)))
+    return x | {"G_out": r.clean + (x["G_out"] - r.clean) * heavy}
 
 
 def _added(x: Table, e: Array) -> Table:
@@ -308,6 +337,8 @@ class RecordKind:
         Whether nothing in it follows the motion: ``adequate`` is wrong.
     world
         Options of ``plan.world``.
+    by_name
+        Whether it is flown only where it is asked for (``--record``): it was not there when the seeds were chosen.
     """
 
     noise: NoiseKind = white
@@ -317,6 +348,7 @@ class RecordKind:
     allowed: frozenset[str] = frozenset()
     nothing: bool = False
     world: Mapping[str, object] = field(default_factory=dict)
+    by_name: bool = False
 
 
 def _tame(noise: NoiseKind = white, **world: object) -> RecordKind:
@@ -374,11 +406,16 @@ KINDS: Mapping[str, RecordKind] = {
     "noiseless": RecordKind(change=digits, allowed=_STEPS, world={"density": 0.0}),
     "shuffled": RecordKind(change=shuffled, nothing=True),
     "pure-noise": RecordKind(change=pure_noise, nothing=True),
+    "amplifier": RecordKind(amplifier, tame=True, by_name=True),
+    "with-rates": RecordKind(with_rates, tame=True, by_name=True),
+    "size-and-temperature": RecordKind(size_and_temperature, tame=True, by_name=True),
+    "red-along-axes": RecordKind(red_along_axes, tame=True, by_name=True),
+    "heavy-with-size": RecordKind(with_size, heavy_as_loud, tame=True, by_name=True),
 }
 """Every kind of record, by name."""
 
 KNOWN = tuple(n for n, k in KINDS.items() if k.known)
-TAME = tuple(n for n, k in KINDS.items() if k.tame)
+FIRST = tuple(n for n, k in KINDS.items() if not k.by_name)
 
 
 def sampled(noise_rms: Loudness, density: float, rng: np.random.Generator, size: int, rate: float) -> Array:

@@ -125,6 +125,18 @@ def catalogue(rows: Sequence[Row]) -> list[str]:
     return _table(heads, [[r[n] for n in heads] for r in rows])
 
 
+def quiet_records(rows: Sequence[Row]) -> list[str]:
+    """A line for each kind of record without effects: how many are accused of one, and how many are unexplained."""
+    lines = []
+    for name in dict.fromkeys(r["record"] for r in rows):
+        own = [r for r in rows if r["record"] == name]
+        accused = Counter(r["found"] for r in own if r["outcome"] == "wrong")
+        told = ", ".join(f"{e} {n}" for e, n in accused.most_common())
+        rest = share(own, lambda r: r["alarm"] == "1" and r["outcome"] != "wrong")
+        lines.append((name, Share(accused.total(), len(own)), told, rest.hits))
+    return _table(("nothing hidden, noise", "accused", "of", "unexplained"), lines)
+
+
 EXPLAINED = 0.8
 """Share of what is hidden from which a formula counts as that of it."""
 
@@ -202,7 +214,7 @@ def page(results: Mapping[str, Sequence[Row]]) -> str:
     """The page, from the results that are committed."""
     seeds, held = (", ".join(map(str, x)) for x in (plan.REFERENCE, plan.HELD))
     count = sum(plan.COUNTS.values())
-    text = [HEAD.format(flights=count, kinds=len(records.KINDS), seeds=seeds, held=held)]
+    text = [HEAD.format(flights=count, kinds=len(records.FIRST), seeds=seeds, held=held)]
     for name, (title, made, words) in SECTIONS.items():
         if rows := results.get(name):
             commits = ", ".join(sorted({r["commit"] for r in rows}))

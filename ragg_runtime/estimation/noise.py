@@ -20,7 +20,7 @@ from ragg_runtime.io.record import (
     is_disc_angle,
 )
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.fir import filter_columns
+from ragg_runtime.signals.fir import fill_gaps, filter_columns
 
 Array = NDArray[np.float64]
 
@@ -44,8 +44,8 @@ class NoiseModel:
     It is stationary noise of a spectrum for every whitened series, times a level that may follow what is known from sample to sample
     (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965), and lines. The filters are causal and finite: linear, hence
     exact on columns however much larger than the noise they are, and a long record can be streamed through them. Samples that are not
-    valid are put to zero, in data and columns alike, before they are filtered, and the filters start from rest: what the model
-    explains it explains before and after; only the noise next to a gap or to the start is not perfectly white.
+    valid are interpolated, in data and columns alike, as the noise makes most likely (:func:`fir.fill_gaps`), and the filters start from
+    rest: what the model explains it explains before and after; only the noise next to the start is not perfectly white.
 
     Attributes
     ----------
@@ -139,21 +139,41 @@ class NoiseModel:
         valid: NDArray[np.bool_] | None = None,
         level: Array | float = 1.0,
         *,
+        lead: int = 0,
+    ) -> Array:
+        """Columns (n, m, N) V, zero where a sample is not valid, through :meth:`interpolate` and :meth:`filter`."""
+        return self.filter(self.interpolate(columns, valid), valid, level, lead=lead)
+
+    def interpolate(self, columns: Array, valid: NDArray[np.bool_] | None = None) -> Array:
+        """(n, outputs, N): what the filters take of columns (n, m, N), gaps filled as the noise makes most likely."""
+        x = columns
+        if self.combinations is not None:
+            x = np.matmul(self.combinations, columns)
+        if valid is None or valid.all():
+            return x
+        return np.stack([fill_gaps(x[:, k], valid, taps) for k, taps in enumerate(self.filters)], axis=1)
+
+    def filter(
+        self,
+        series: Array,
+        valid: NDArray[np.bool_] | None = None,
+        level: Array | float = 1.0,
+        *,
         tail: Array | None = None,
         lead: int = 0,
     ) -> Array:
-        """Columns through the filters, over the level.
+        """Series through the filters, over the level.
 
         Parameters
         ----------
-        columns
-            (n, m, N) V, zero where a sample is not valid.
+        series
+            (n, outputs, N): of :meth:`interpolate`.
         valid
-            (N - lead,): which samples are wanted; ``None``: all.
+            (N,): which samples are wanted; ``None``: all.
         level
             (N - lead,) or one number: :meth:`level_of` these samples.
         tail
-            (n, m, T): the samples before them; ``None``: the filters start from rest.
+            (n, outputs, T): the samples before them; ``None``: the filters start from rest.
         lead
             First samples that are not wanted.
 
@@ -163,15 +183,13 @@ class NoiseModel:
         """
 
         def through(k: int) -> Array:
-            past = None if tail is None else self._series(tail, k)
-            y = filter_columns(self._series(columns, k), self.filters[k], past, lead)
+            y = filter_columns(series[:, k], self.filters[k], None if tail is None else tail[:, k], lead)
             y = y / level if self.uneven else y
-            return y if valid is None or valid.all() else y[:, valid]
+            return y if valid is None or valid.all() else y[:, valid[lead:]]
 
         if self.outputs == 1:
             return through(0)
-        parts = [through(k) for k in range(self.outputs)]
-        return np.concatenate(parts, axis=1)
+        return np.concatenate([through(k) for k in range(self.outputs)], axis=1)
 
     def line_columns(self, time: Array, series: int) -> Array:
         """(k, m, n): what the lines span at some times, s, each in its own of the m ``series``."""
@@ -186,10 +204,6 @@ class NoiseModel:
         """(k, rows): what the variance of whitened samples may follow (:func:`noise_level.shapes`), one output after the other."""
         found = noise_level.shapes(r.quantity, level_quantities(r), self.level)[:, r.valid]
         return np.tile(found, self.outputs)
-
-    def _series(self, x: Array, k: int) -> Array:
-        """What the filter k takes of series (n, m, N): (n, N)."""
-        return x[:, k] if self.combinations is None else np.tensordot(self.combinations[k], x, (0, 1))
 
 
 def level_quantities(r: Record) -> list[str]:

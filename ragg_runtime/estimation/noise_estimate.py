@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import fft
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import noise_level, unknown_gradient
@@ -34,7 +35,7 @@ from ragg_runtime.estimation.spectrum import LOWEST, Averages, Spectrum, cut_lin
 from ragg_runtime.estimation.whitening import Piece, flight_segments, is_long, pass_over
 from ragg_runtime.io.record import ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import take_quantities
-from ragg_runtime.signals.fir import filter_columns
+from ragg_runtime.signals.fir import fill_gaps, filter_columns
 
 Array = NDArray[np.float64]
 
@@ -44,11 +45,14 @@ TAPS = 24576
 NOISE_SEGMENTS = 8
 """Most segments of a flight of which the noise is estimated: 260,000 samples tell a smooth spectrum."""
 
-COLOURED = 3
-"""Times that what columns have taken of noise that is not white is computed anew, with the spectrum that it led to."""
+AGAIN = 3
+"""Times that what columns and gaps have taken of noise that is not white is computed anew, with the spectrum that it led to."""
 
 RED = 1.5
-"""Density at the lowest frequencies over that in the middle from which that is done."""
+"""Density at the lowest frequencies over that in the middle from which that is done for columns."""
+
+DRAWS, NEIGHBOURS = 16, 9
+"""Series of noise that show what gaps take: of a third of a single frequency's power that is missing they tell a tenth."""
 
 SHORTEST = 128
 """Least number of samples of which noise can be estimated."""
@@ -218,15 +222,35 @@ def _of_level(
         rest = [p.rest(m) / x for p, x in zip(parts, loud, strict=True)]
         slow = None if means is None else replace(means[m], rest=means[m].rest / mean)
         model = estimate(rest, rate, band, [p.outputs[m].kept for p in parts], slow, spin)
-        for _ in range(COLOURED if parts[0].outputs[m].columns.size else 0):
-            if model.red < RED:
+        for _ in range(AGAIN):
+            coloured = model.red > RED and parts[0].outputs[m].columns.size > 0
+            if not coloured and all(p.valid.all() for p in parts):
                 break
-            kept = [p.outputs[m].kept_of(model) for p in parts]
-            model = estimate(rest, rate, band, kept, slow, spin)
+            filled = [_fill(x, p.valid, model) for p, x in zip(parts, rest, strict=True)]
+            kept = [
+                np.maximum(p.outputs[m].kept_of(model if coloured else None) - lost, 0.0)
+                for p, (_, lost) in zip(parts, filled, strict=True)
+            ]
+            model = estimate([x for x, _ in filled], rate, band, kept, slow, spin)
         models.append(model)
         taps = TAPS if o.thin is None else TAPS // THINNER
         filters.append(model.whitening_filter(int(min(taps, len(o.record.time)))))
     return NoiseModel(spectra=tuple(models), filters=tuple(filters), level=level)
+
+
+def _fill(rest: Array, valid: NDArray[np.bool_], model: Spectrum) -> tuple[Array, Array]:
+    """A residual (N,) with its gaps interpolated, and the share of the noise that its periodogram lacks even so."""
+    n, rate = len(rest), model.rate
+    if valid.all():
+        return rest, np.zeros(n // 2 + 1)
+    taps = model.whitening_filter(n)
+    f = fft.rfftfreq(2 * n, 1.0 / rate)
+    shape = np.where(f < LOWEST * rate / n, 0.0, np.sqrt(model.psd(f) * rate / 2))
+    drawn = np.random.default_rng(0).standard_normal((DRAWS, 2 * n))
+    noise = fft.irfft(fft.rfft(drawn) * shape, 2 * n)[:, :n]
+    f, power = periodogram(noise - fill_gaps(noise * valid, valid, taps), rate)
+    share = np.convolve(np.mean(power, axis=0) / model.psd(f), np.full(NEIGHBOURS, 1 / NEIGHBOURS), "same")
+    return fill_gaps(rest[None], valid, taps)[0], share
 
 
 def _chosen(o: Observation, most: int, samples: int) -> list[Segment]:
@@ -331,7 +355,8 @@ def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
     for p in parts:
         r = o.record.part(p.rows)
         for m, taps in enumerate(noise.filters):
-            white.append(filter_columns(p.rest(m)[None], taps)[0][p.valid])
+            filled = fill_gaps(p.rest(m)[None], p.valid, taps)
+            white.append(filter_columns(filled, taps)[0][p.valid])
             for n in names:
                 quantities[n].append(r.quantity(n)[p.valid])
             for e, variance in p.random.items():

@@ -13,7 +13,7 @@ from scipy import fft, linalg
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation.least_squares import r_factor
 from ragg_runtime.estimation.spectrum import LOWEST, Spectrum, cut_lines, estimate, hann, periodogram
-from ragg_runtime.signals.fir import GROUP, filter_columns, find_nonzero
+from ragg_runtime.signals.fir import GROUP, fill_gaps, filter_columns, find_nonzero
 
 Array = NDArray[np.float64]
 
@@ -113,6 +113,9 @@ def describe_disturbances(found: Sequence[Disturbance]) -> str | None:
     return "the output has " + " and ".join(said) if said else None
 
 
+FILLED = 64
+"""Columns whose gaps are filled together: what is needed for one is made anew for each group."""
+
 ROUNDS = 6
 """Most times that lines and jumps are looked for in what is left beside those before."""
 
@@ -135,8 +138,8 @@ class ProjectedResidual:
     directions: Array = field(repr=False)
     valid: NDArray[np.bool_] = field(repr=False)
 
-    def kept_of(self, noise: Spectrum) -> Array:
-        """As ``kept``, of noise that is not white: power at each frequency of the periodogram over its density.
+    def kept_of(self, noise: Spectrum | None) -> Array:
+        """As ``kept``, but gaps are not lost, and of ``noise`` that is not white: power at each frequency over its density.
 
         Columns that follow slow noise take what is slowest of it, and in return leave as much of it at frequencies beside: of white
         noise the two balance, of red noise the second is little. With Q the columns' orthonormal basis, C the covariance and v a
@@ -144,19 +147,22 @@ class ProjectedResidual:
         """
         n, valid = len(self.valid), self.valid
         size, window = fft.next_fast_len(2 * n, real=True), hann(n)
+        if noise is None:
+            return self.kept + float(np.sum(window[~valid] ** 2) / np.sum(window**2))
         density = noise.psd(fft.rfftfreq(size, 1.0 / noise.rate)) * noise.rate / 2
-        own = fft.rfft(window * valid, size)
+        own = fft.rfft(window, size)
         lags = fft.irfft(own.real**2 + own.imag**2, size) * fft.irfft(density, size)
         bins = n // 2 + 1
         power = np.interp(np.arange(bins) / n, fft.rfftfreq(size), fft.rfft(lags).real)
-        Q = self.directions.T @ self.columns
+        Q, taps = self.directions.T @ self.columns, noise.whitening_filter(n)
         CQ, waves, cross = np.empty_like(Q), np.empty((len(Q), bins), complex), np.zeros(bins)
-        for rows in split_range(len(Q), GROUP):
+        for rows in split_range(len(Q), FILLED):
             wide = np.zeros((len(Q[rows]), n))
             wide[:, valid] = Q[rows]
             through = fft.irfft(fft.rfft(wide, size) * density, size)[:, :n] * valid
-            waves[rows], CQ[rows] = fft.rfft(window * wide), through[:, valid]
-            coloured = fft.rfft(window * through)
+            CQ[rows] = through[:, valid]
+            waves[rows] = fft.rfft(window * fill_gaps(wide, valid, taps))
+            coloured = fft.rfft(window * fill_gaps(through, valid, taps))
             cross += 2.0 * np.sum((waves[rows].conj() * coloured).real, axis=0)
         parts = waves.view(float)  # real and imaginary parts side by side: half the work
         square = np.sum((parts * ((Q @ CQ.T) @ parts)).reshape(len(Q), -1, 2), axis=(0, 2))

@@ -1,12 +1,7 @@
 """The noise of a record, estimated from its residual, and the filter that makes it white.
 
 With 1/f noise taken for white, a nominal 5 % test raises false alarms on nearly every effect-free record;
-so every column of every fit passes through the same whitening filter as the data. The filter is causal and
-finite: linear, hence exact on the columns however much larger than the noise they are, and a long record
-can be streamed through it. Samples that are not valid are put to zero, in data and columns alike, before
-they are filtered, and the filter starts from rest: both are linear and the same for all columns, so that
-what the model explains it explains before and after; only the noise next to a gap or to the start is not
-perfectly white.
+so every column of every fit passes through the same whitening filter as the data (:class:`noise.NoiseModel`).
 """
 
 from __future__ import annotations

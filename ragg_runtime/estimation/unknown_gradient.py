@@ -120,7 +120,7 @@ def windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
         levels = level[a - rows.start : b - rows.start]
         lines = noise.line_columns(r.time[a - lead : b], len(o.series))
         together = np.concatenate([np.stack(shares, axis=1), lines * here])
-        white = noise.whiten(together, inside, levels, lead=lead)
+        white = noise.whiten(together, here, levels, lead=lead)
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
         places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(noise.outputs)])
         samples = slice(a - rows.start, b - rows.start)

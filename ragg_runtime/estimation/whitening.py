@@ -143,9 +143,10 @@ def pass_over(
         flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
         taken = unknown_gradient.windows(o, s.rows, noise) if windows is None else windows
         if whitened:
+            series = noise.interpolate(columns[nonzero], part.record.valid)
             tail = _past(tail, s.rows.start - before, memory)
-            flat = _white(columns, nonzero, noise, tail, part.record, taken)
-            tail, before = _carried(tail, columns, memory), s.rows.stop
+            flat = _white(series, len(columns), nonzero, noise, tail, part.record, taken)
+            tail, before = _carried(tail, series, memory), s.rows.stop
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, noise.outputs)
         piece = Piece(
             segment=s,
@@ -164,28 +165,24 @@ def pass_over(
 
 
 def _white(
-    columns: Array,
+    series: Array,
+    count: int,
     nonzero: slice | NDArray[np.intp],
     noise: NoiseModel,
     tail: Array | None,
     record: Record,
     windows: Sequence[Window],
 ) -> Array:
-    """(n + 1, rows): columns (n + 1, m, N) whitened, without what an unknown gradient spans; zero where there is no valid sample."""
-    some = whiten_columns(columns[nonzero], noise, None if tail is None else tail[nonzero], record)
+    """(count, rows): of so many columns those that are not zero, ``series``, whitened, without what an unknown gradient spans."""
+    some = noise.filter(series, record.valid, noise.level_of(record.quantity), tail=tail)
     if windows:
-        some = some.copy() if np.shares_memory(some, columns) else some
+        some = some.copy() if np.shares_memory(some, series) else some
         unknown_gradient.project(some, windows)
     if isinstance(nonzero, slice):
         return some
-    flat = np.zeros((len(columns), some.shape[1]))
+    flat = np.zeros((count, some.shape[1]))
     flat[nonzero] = some
     return flat
-
-
-def whiten_columns(columns: Array, noise: NoiseModel, tail: Array | None, record: Record) -> Array:
-    """(n + 1, rows): columns (n + 1, m, N) of a record's samples, whitened."""
-    return noise.whiten(columns, record.valid, noise.level_of(record.quantity), tail=tail)
 
 
 def _past(tail: Array | None, gap: int, memory: int) -> Array | None:

@@ -23,17 +23,19 @@ def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
     -------
     Diagnosis
         Nothing is claimed of a record that holds something odd, but effects that describe just that; of one with noisy motion no
-        noise that follows the motion, as what smoothing leaves of the sensors' noise does so, too.
+        noise that follows the motion, as what smoothing leaves of the sensors' noise does so, too. Of one at rest, which the model
+        explains, the reason says how little that means.
     """
     flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind == "motion-noise"]
     # an output that exceeds stationary noise, where motion was not recorded, is not explained
     unknown = bool(d.reasons) and any(f.kind == "still" for _, f in flags)
-    if not flags or (d.verdict == "adequate" and not unknown):
-        return d
     several = len(flights) > 1
+    noted = tuple(Reason(f"{x.name}: {f.reason}" if several else f.reason) for x, f in flags)
+    if not flags or (d.verdict == "adequate" and not unknown):
+        little = [r for r, (_, f) in zip(noted, flags, strict=True) if f.kind == "still"]
+        return replace(d, reasons=(*little, *d.reasons)) if little else d
     if any(f.kind == "motion-noise" for _, f in flags):
         d = _without_random(d)
-    noted = tuple(Reason(f"{x.name}: {f.reason}" if several else f.reason) for x, f in flags)
     odd = [f for _, f in flags if f.open]
     if not odd or (d.found and all(set(d.found) <= set(f.effects) for f in odd)):
         return replace(d, reasons=(*noted, *d.reasons))

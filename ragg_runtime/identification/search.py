@@ -198,9 +198,10 @@ def _given(last: Stage, chosen: Sequence[str]) -> list[int]:
 
 
 def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
-    """Search forward; nothing is searched in flights that are kept ``apart``."""
-    budget = strong.Budget()
-    steps, last = ([], first.without_choice()) if apart else strong.select_strong(first, extend, budget)
+    """Search forward; nothing is searched in flights that are kept ``apart``, nor in an output of which the model explains nothing."""
+    budget, f = strong.Budget(), first.fitted
+    idle = apart or measure_explained(f, f.score([np.zeros(f.size)])[0]).complaint is not None
+    steps, last = ([], first.without_choice()) if idle else strong.select_strong(first, extend, budget)
     last, outcome = confirm_choice(steps, last, extend)
     return Evidence(first, steps, last, outcome, extend, budget.spent)
 

@@ -18,7 +18,7 @@ from ragg_runtime.estimation.least_squares import prior as prior_rows
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS, ROWS
 from ragg_runtime.estimation.regressors import Column, group_by_effect
-from ragg_runtime.estimation.whitening import Piece, PreparedFlight, whiten_columns
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 from ragg_runtime.identification import likelihood_ratio, selection
 from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.selection import Field, list_testable, make_field
@@ -252,7 +252,8 @@ def _begun(piece: Piece, prepared: PreparedFlight, at: int, places: Sequence[int
     columns = piece.columns[list(places)]
     columns[:, :, :at] = 0.0
     own = columns.any(axis=(1, 2))
-    X = whiten_columns(columns[own], prepared.noise, None, piece.observation.record)
+    r, noise = piece.observation.record, prepared.noise
+    X = noise.whiten(columns[own], r.valid, noise.level_of(r.quantity))
     unknown_gradient.project(X, piece.windows)
     found = np.zeros((len(columns), X.shape[1]))
     found[own] = X

@@ -44,6 +44,9 @@ IN_DEGREES = 1e-2
 CLEAR = 0.25
 """Part of a step by which an encoder may be off whole numbers of them where it counts rows that were lost."""
 
+AT_REST = "the motion does not change: a record at rest determines little of an instrument, and does not suffice to find an effect"
+"""What is said of a record in which nothing moves."""
+
 _DEGREE = np.pi / 180
 _FACTORS = (
     (3600.0, "deg/h for deg/s"),
@@ -123,7 +126,7 @@ def _still(flight: Flight) -> list[Flag]:
     still = [n for n in names if _find_one_value(flight.channels[n][flight.valid]) is not None]
     if not still:
         return []
-    text = "the motion does not change: a record at rest determines little of an instrument"
+    text = AT_REST
     if len(still) < len(names):
         text = f"{', '.join(still)} {'does' if len(still) == 1 else 'do'} not change at all: a stuck sensor?"
     return [Flag(tuple(still), text, open=True, kind="still" if len(still) == len(names) else "")]

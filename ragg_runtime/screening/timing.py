@@ -304,7 +304,8 @@ def propose_parts(model: Model, instrument: Instrument, s: Sampler) -> list[Hypo
         )
 
     everywhere = spacing * np.arange(1, INSTANTS + 1)
-    at = find_least(lambda k: judge(k).misfit, everywhere, spacing / 64)
+    first, last = everywhere[0], everywhere[-1]  # each part needs rows
+    at = find_least(lambda k: judge(k).misfit if first <= k <= last else np.inf, everywhere, spacing / 64)
     what = (
         f"the record is two: the model explains what comes before t = {s.flight.time[int(at)]:.4g} s, and what comes after, but not"
         " both together (another instrument, range, sign or wiring from there on?)"

@@ -6,7 +6,7 @@ from typing import Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
+from scipy import fft, linalg
 
 from ragg_runtime.base.threads import split_range
 
@@ -50,6 +50,40 @@ def filter_columns(columns: Floats, taps: Array, tail: Floats | None = None, lea
         waves = fft.rfft(part, size, axis=1) * gain
         result[some] = fft.irfft(waves, size, axis=1)[:, before + lead : before + n]
     return result
+
+
+REACH = 256
+"""Samples on either side from which one that is missing is interpolated."""
+
+ROUNDING = 1e-9
+"""Relative white noise that is added to what is interpolated: the density of a noise may span more than single numbers do."""
+
+
+def fill_gaps(columns: Array, there: NDArray[np.bool_], taps: Array) -> Array:
+    """Columns (n, N), zero where they are not ``there`` (N,), with missing samples such that the filter's output is least.
+
+    Where the filter whitens a noise, these are the best linear interpolation of it, and the whitened rest is what all samples that are
+    there tell (missing values as further parameters: M. Bartlett, J. R. Stat. Soc. Suppl. 4, 1937). Zeros in their place are as
+    loud next to a gap as the noise was before it was whitened.
+    """
+    missing = np.flatnonzero(~there)
+    if not len(missing) or len(taps) == 1 or len(missing) == len(there):
+        return columns
+    w = np.append(taps[: REACH - 1], np.sum(taps[REACH - 1 :]))
+    inverse = np.correlate(w, w, "full")[
+        len(w) - 1 :
+    ]  # inner products of the filter's response and itself, later
+    inverse[0] *= 1.0 + ROUNDING
+    apart = np.searchsorted(missing, missing + len(w)) - np.arange(len(missing))
+    G = np.zeros((int(np.max(apart)), len(missing)))
+    for k in range(len(G)):
+        lag = missing[k:] - missing[: len(missing) - k]
+        near = lag < len(w)
+        G[k, : len(lag)][near] = inverse[lag[near]]
+    b = convolve(columns, np.concatenate([inverse[:0:-1], inverse]), "same")[:, missing]
+    filled = columns.copy()
+    filled[:, missing] = -linalg.solveh_banded(G, b.T, lower=True).T
+    return filled
 
 
 Series = TypeVar("Series", NDArray[np.float64], NDArray[np.complex64], NDArray[np.complex128])

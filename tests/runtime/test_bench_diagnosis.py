@@ -131,7 +131,7 @@ def test_a_run_resumes_where_it_was_cut_off(tmp_path: Path, monkeypatch: pytest.
 def test_the_plan_is_large_enough_and_seeds_have_nothing_in_common() -> None:
     every = [s for n in plan.REFERENCE for s in plan.specs(n)]
     assert len({s.id for s in every}) == len(every)
-    assert {s.record for s in every if s.kind == "quiet"} == set(records.KINDS)
+    assert {s.record for s in every if s.kind == "quiet"} == set(records.FIRST)
     assert not {*plan.REFERENCE, plan.ABLATION} & set(plan.HELD)
     assert sum(s.kind == "quiet" for s in every) >= 300 and sum(s.kind == "outside" for s in every) >= 100
     assert {outside.name_of(s) for s in every if s.kind == "outside"} == set(outside.NAMES)

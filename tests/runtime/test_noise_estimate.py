@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy import signal
+from scipy.linalg import toeplitz
 
 from ragg_runtime.estimation import calibration, observation
 from ragg_runtime.estimation.noise_level import describe_level, estimate_level
@@ -18,6 +19,7 @@ from ragg_runtime.estimation.spectrum import LOWEST, cut_lines, estimate
 from ragg_runtime.estimation.unknown_gradient import splines
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.signals.fir import fill_gaps
 
 Array = NDArray[np.float64]
 
@@ -260,3 +262,33 @@ def test_a_jump_is_found_at_its_instant(size: float) -> None:
     (found,) = find_disturbances(x, np.ones(LONG, dtype=bool), RATE)
     assert (found.kind, round(found.at)) == ("jump", 400)
     assert "jumps at 400 s" in str(describe_disturbances([found]))
+
+
+def test_a_gap_holds_what_the_noise_makes_most_likely() -> None:
+    pole, n = 0.95, 400
+    C = toeplitz(pole ** np.arange(n))
+    x = np.linalg.cholesky(C) @ np.random.default_rng(4).normal(size=n)
+    there = np.ones(n, dtype=bool)
+    there[[20, 90, 91, *range(200, 230)]] = False
+    filled = fill_gaps((x * there)[None], there, np.array([1.0, -pole, 0.0]))[0]
+    best = C[np.ix_(~there, there)] @ np.linalg.solve(C[np.ix_(there, there)], x[there])
+    assert filled[~there] == pytest.approx(best, abs=1e-6)
+    np.testing.assert_array_equal(filled[there], x[there])
+
+
+def test_noise_of_a_narrow_band_is_known_though_one_sample_in_a_hundred_is_missing() -> None:
+    """With zeros in their place its density above the band came out nine times as large."""
+    s = scenario(12, duration=150.0, rate=RATE)
+    flight = s.simulate().flight()
+    rng = np.random.default_rng(1)
+    f = np.fft.rfftfreq(len(flight), 1 / RATE)
+    shape = 1 / (1 + (f / 3.0) ** 16)
+    noise = 0.16 * np.fft.irfft(np.fft.rfft(rng.normal(size=len(flight))) * np.sqrt(shape), len(flight))
+    there = rng.random(len(flight)) > 0.01
+    outputs = {n: np.where(there, x + noise, np.nan) for n, x in flight.outputs.items()}
+    c = calibration.fit(
+        model.packaged(), s.sheet, [observation.observe(replace(flight, outputs=outputs), s.sheet)]
+    )
+    low, high = c.noise[0].spectra[0].psd(np.array([1.0, 7.0]))
+    assert low == pytest.approx(2 * 0.16**2 / RATE, rel=0.5)
+    assert high < 2e-3 * low  # without gaps 1.1e-3

@@ -15,7 +15,7 @@ from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.screening import screen, timing
+from ragg_runtime.screening import checks, screen, timing
 from ragg_runtime.screening.motion_noise import predict_true
 from tests.rate import RATE
 
@@ -51,6 +51,9 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect(
     heeded = heed_flags(diagnose(model, s.sheet, [still]), [still])
     assert (heeded.verdict, heeded.found) == ("unexplained", ())
     assert "a_x does not change at all" in str(heeded.reason)
+    at_rest = replace(x, channels={n: np.full(len(x), np.mean(v)) for n, v in x.channels.items()})
+    little = heed_flags(replace(d, reasons=()), [x.flagged(checks.list_remarks(s.sheet, at_rest))])
+    assert (little.verdict, little.reason) == ("adequate", checks.AT_REST)
 
 
 def test_noise_is_smoothed_to_the_best_prediction_at_the_ends_and_beside_a_gap_too() -> None:
