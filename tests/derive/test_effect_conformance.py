@@ -397,22 +397,6 @@ def test_signature_is_what_the_independent_formulation_does(
     assert rms(found - expected) < TOLERANCE.get(effect.id, 1e-6) * rms(expected)
 
 
-def test_cross_talk_is_a_gain_and_a_lag_of_where_it_comes_from() -> None:
-    """V_3 2 ms ago in G_out: its scale factor, lag and second-order loop. So cross-talk is no further effect."""
-    late = simulate(
-        INSTRUMENT, MOTION_TRUE, DURATION, RATE, start=-2e-3, gravity=GRAVITY, auxiliaries=AUXILIARIES
-    ).voltages[2]
-    of = {e.id: e for e in HOOKED}
-    names = (("lag", "tau"), ("second-order-loop", "b"))
-    slopes = [
-        row(of[e], next(q for q in of[e].parameters if q.name == n), LIKE_REFERENCE)[2] for e, n in names
-    ]
-    columns = np.stack([_nothing()[1][2], *slopes])
-    columns /= np.linalg.norm(columns, axis=1)[:, None]
-    left = late - columns.T @ np.linalg.lstsq(columns.T, late, rcond=None)[0]
-    assert rms(left) < 1e-6 * rms(late)
-
-
 def test_signatures_are_finite_and_hardly_depend_on_the_order() -> None:
     """Angles to first order, and left out of the second-order terms: parts in a thousand, not more."""
     for effect, q in FITTED:

@@ -60,34 +60,6 @@ def test_every_stage_under_ids_that_the_derivation_uses_itself(identifier: str) 
     np.testing.assert_allclose(evaluated(one, inputs, p, t), evaluated(other, inputs, p, t), rtol=1e-12)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "K*f_i*sign(f_i)",
-        "K*(abs(sign(f_p)) + f_i)",
-        "K*tanh(sign(abs(f_i) - f_o))",
-        "f_i*tanh(K*abs(abs(f_i) - f_o))",
-    ],
-)
-def test_a_step_has_no_slope(text: str) -> None:
-    """sign(...) in an effect: its derivatives are those between the steps."""
-    effect = from_expression("mine", "transducer", text, {"K": {"unit": "ug"}})
-    m = from_files(derive_model((effect,), (effect,)))
-    inputs, p, t = drawn(m)
-    x, phi = np.stack([*inputs.values()]), 2 * np.pi * p[1] * t
-    values = m.chain.values_of(1, p)
-    rows = [name for name, _ in m.chain.ROWS]
-    D = m.chain.derivatives(1, t, np.cos(phi), np.sin(phi), x, values)
-    for name in ("vartheta_z", "mine.K"):
-        k = [n for n, _ in m.chain.PARAMETERS].index(name.replace(".", "__"))
-        V = []
-        for h in (1e-6, -1e-6):
-            q = values.copy()
-            q[k] += h
-            V.append(m.chain.accelerometer(1, t, np.cos(phi), np.sin(phi), x, q))
-        np.testing.assert_allclose(D[rows.index(name)], (V[0] - V[1]) / 2e-6, rtol=1e-4, atol=1e-4)
-
-
 @pytest.mark.parametrize("text", ["sign(K*f_i)", "K*f_i + sign(K)"])
 def test_a_step_at_the_neutral_value_of_a_parameter_is_refused(text: str) -> None:
     with pytest.raises(ExpressionError, match="no finite slope"):

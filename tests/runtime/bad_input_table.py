@@ -127,10 +127,6 @@ def outputs(change: Callable[[np.ndarray], np.ndarray]) -> Change:
     return lambda x: dataclasses.replace(x, outputs={n: change(v) for n, v in x.outputs.items()})
 
 
-def scaled(stem: str, factor: float) -> Change:
-    return channels(lambda c: {n: factor * v for n, v in c.items() if n.rsplit("_", 1)[0] == stem})
-
-
 def motion(change: Callable[[np.ndarray], np.ndarray]) -> Change:
     return channels(lambda c: {n: change(v) for n, v in c.items() if n.startswith(("a_", "omega"))})
 
@@ -198,9 +194,6 @@ TABLE = {
     "a pipe": MessageCase(
         lambda: os.mkfifo("p.csv"), ("p.csv", "regular file"), ("compare", "model", "p.csv")
     ),
-    "jittering stamps": MessageCase(
-        flown(timed(jittered(0.1)), hidden=True, derived=True), ("jitters", "sampled evenly"), status=0
-    ),
     "cut out, its time set to zero": MessageCase(
         flown(lambda x: timed(lambda t: t - t[0])(kept(lambda k: k[37:])(x))),
         (_LIKELY, "cut out", "spin_angle"),
@@ -208,14 +201,6 @@ TABLE = {
     ),
     "an output that does not change": MessageCase(
         flown(outputs(lambda v: np.full_like(v, 1.5))), ("'G_out'", "does not change", "disconnected")
-    ),
-    "a motion column that does not change": MessageCase(
-        flown(channels(lambda c: {"omega_z": np.full_like(c["omega_z"], 5e-4)})),
-        ("omega_z does not change", "stuck sensor"),
-        status=0,
-    ),
-    "g, called m/s^2": MessageCase(
-        flown(scaled("a", 1 / G0)), (_LIKELY, "a_x, a_y, a_z are in g, not in m/s^2")
     ),
     "V_2 and V_3 exchanged": MessageCase(
         flown(voltages_ordered("V_1", "V_3", "V_2", "V_4"), voltages=True),
@@ -225,9 +210,6 @@ TABLE = {
         both(flown(same), flown(outputs(lambda v: -v), "second.csv")),
         ("second.csv", _LIKELY, "the sign of G_out is reversed", "-1"),
         ("diagnose", "model", "flight.csv", "second.csv"),
-    ),
-    "an unknown effect on the command line": MessageCase(
-        flown(same), ("lagg", "did you mean"), ("add", "model", "lagg", "flight.csv")
     ),
 }
 

@@ -44,30 +44,6 @@ def case() -> tuple[Array, Array, Array]:
 
 
 @needs_compiler
-def test_base_model_is_that_of_numpy(case: tuple[Array, Array, Array]) -> None:
-    t, inputs, p = case
-    c, n = packaged().compiled("c"), packaged().compiled("numpy")
-    assert (c.backend, n.backend) == ("c", "numpy")
-    assert c.inputs == n.inputs == packaged().chain.INPUTS
-    size = np.max(np.abs(n.voltages(t, inputs, p)))
-    for angle in (None, np.mod(t, 7.0)):
-        np.testing.assert_allclose(
-            c.output(t, inputs, p, angle), n.output(t, inputs, p, angle), rtol=0, atol=1e-14 * size
-        )
-        np.testing.assert_allclose(
-            c.voltages(t, inputs, p, angle), n.voltages(t, inputs, p, angle), rtol=0, atol=1e-14 * size
-        )
-        V = c.voltages(t, inputs, p, angle)
-        np.testing.assert_allclose(
-            c.output(t, inputs, p, angle), V[0] + V[1] - V[2] - V[3], rtol=0, atol=1e-14 * size
-        )
-        for j in range(4):
-            D = n.derivatives(j, t, inputs, p, angle)
-            rows = np.max(np.abs(D), axis=1, keepdims=True)
-            assert np.all(np.abs(c.derivatives(j, t, inputs, p, angle) - D) <= 1e-11 * rows)
-
-
-@needs_compiler
 def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
     """But for rounding; NumPy serves without a note."""
     s = scenario(63, duration=60.0)

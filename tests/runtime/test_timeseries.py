@@ -141,15 +141,6 @@ def test_neighbouring_harmonics_are_stopped() -> None:
         assert max(np.abs(out.inline).max(), np.abs(out.cross).max()) < 4e-5
 
 
-def test_a_slow_gradient_comes_through_undelayed() -> None:
-    t = np.arange(0, 900, 1 / RATE)
-    phi = disc_angle(0.25, t)
-    slow = np.sin(2 * np.pi * 0.02 * t)
-    out = demodulate(0.5 * slow * np.sin(2 * phi), phi, RATE, 1.0)
-    np.testing.assert_allclose(out.inline, slow[out.valid], rtol=0, atol=3e-5)
-    assert out.inline.size == t.size - 2 * out.valid.start
-
-
 def test_filter_is_symmetric_with_half_amplitude_at_the_cutoff() -> None:
     taps = low_pass(RATE)
     np.testing.assert_allclose(taps, taps[::-1], rtol=0, atol=1e-17)
