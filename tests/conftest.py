@@ -40,11 +40,12 @@ DEAREST = (
     "test_real_measurements.py",
     "test_compensate.py",
     "test_bad_input_messages.py",
-    "test_readme.py",
+    "test_reference_pages.py",
     "test_c.py",
     "test_catalogue.py",
     "test_thinning.py",
     "test_compensated_layouts.py",
+    "test_calibrate_once.py",
     "test_report.py",
     "test_quality.py",
 )

@@ -79,7 +79,7 @@ def voltage(effects: tuple[Effect, ...], order: Order, kinematics: Kinematics = 
 def signatures(effects: tuple[Effect, ...], order: Order) -> Evaluated:
     """dV/d(parameter) of all ``effects`` at their neutral values, by symbol name, and V itself.
 
-    Derived as candidates, as signatures are in use; ``test_first_order.py`` holds that to the derivatives of the whole model.
+    Derived as candidates, as signatures are in use; ``test_tape.py`` holds that to the derivatives of the whole model.
     """
     a = accelerometer(effects, order, candidates=effects)
     at, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, neutral_values(effects)))

@@ -1,13 +1,14 @@
-"""The audit: its result, and that it would find a misprint, a missing term, or a wrong derivation."""
+"""The audit: its result, its exact evaluation, and that it would find a misprint, a missing term, or a wrong derivation."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import pytest
 from sympy import QQ
 
-from derive.audit import audit
+from derive.audit import audit, direct, experiment, proof
 from derive.audit.compare import (
     ANALYTICAL,
     TRANSDUCER,
@@ -101,3 +102,42 @@ def test_reader_expands_the_combinations():
     k1 = g["k1"]
     pair = g["D12"] * g["beta_x"] * k1 * g["R"] - g["D34"] * k1 * g["vartheta_y"]
     assert value == -2 * pair * g["T_3"] + g["Sigma"] * k1 * g["K4"] * g["a_x"] ** 2 / 2
+
+
+def amplitudes():
+    c = collect()
+    return {n: select(derived_amplitude(c, n), printed_order) for n in c.amplitudes}
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_derivation_equals_direct_evaluation_exactly(seed):
+    for p in direct.points(3, seed):
+        value = direct.output(p)
+        assert value != 0
+        assert proof.output(amplitudes(), p) == value
+        for j in range(4):
+            assert proof.current(derived_transducer(), p, j) == direct.current(p, j, p.a)
+
+
+# --- dynamic experiment ---
+
+
+def test_scale_factor_is_the_papers():
+    assert experiment.scale_factor() * experiment.EOTVOS == pytest.approx(4.54e-4, rel=1e-3)
+
+
+def test_signal_costs_what_it_is():
+    """k_ggi T_1 sin 2 phi demodulates to 2 mean(T_1): T_1 has no fourth harmonic."""
+    c = experiment.cost({"A_2s": model_reader().read(r"T_1 \sum_{k_1 R}")})
+    per_hour = math.pi / 648000
+    mean = (1500**2 + 900**2 / 2 - 1000**2 - 700**2 / 2) / 2 * per_hour**2 / 1e-9
+    assert c.inline == pytest.approx(2 * mean, rel=1e-12)
+    # The harmonics of T_1 (once and twice the spin rate) do not leak into the other channel.
+    assert c.cross == pytest.approx(0, abs=1e-6 * mean)
+
+
+def test_demodulation_rejects_constants_and_the_first_harmonic():
+    read = model_reader().read
+    c = experiment.cost({"A_0": read("D_{k_0}^{1234}"), "A_1c": read("D_{k_0}^{12}")})
+    assert c.rms > 0
+    assert (c.inline, c.cross) == (0, 0)

@@ -11,7 +11,7 @@ from typing import Any
 
 import pyarrow.parquet as pq
 import pytest
-from test_readme import PYTHON
+from test_reference_pages import PYTHON
 
 from ragg_runtime.api import Added
 from ragg_runtime.identification import next_motion

@@ -1,21 +1,33 @@
-"""Damaged files and files of strangers: one clear message, nothing executed, nothing of another file read."""
+"""Files of strangers: damaged ones and names in them are one clear message; a record that is given twice counts once."""
 
 from __future__ import annotations
 
+import dataclasses
 import gzip
+import hashlib
+import json
+import sys
 from collections.abc import Callable
+from importlib.metadata import version
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
+from flights_of_a_survey import in_process
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime import api
+from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.cli.main import main
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.io import read_flight
+from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import parse_mapping
+from ragg_runtime.io.record import distinct
 from ragg_runtime.io.tables import DataColumn, DataTable
+from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.simulate import simulate_flight
+from ragg_runtime.survey import run
 from tests.runtime.foreign_files import ENDINGS, write
 
 NAMES = ("time", "a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z", "G_out")
@@ -124,3 +136,120 @@ def test_a_line_without_end(tmp_path: Path, text: str) -> None:
     (tmp_path / "flight.csv.gz").write_bytes(gzip.compress(text.encode()))
     with pytest.raises(UserError, match="not a table"):
         read_flight(tmp_path / "flight.csv.gz", 9.8)
+
+
+STRANGE = "\x1b[31m<script>alert(1)\u202e&\"'"
+SAID = "samples are spikes"
+
+
+def test_what_steers_a_terminal_is_shown() -> None:
+    assert printable("a\x1b[31m\u202e\x07\udcff\x9b") == r"a\x1b[31m\u202e\x07\udcff\x9b"
+    assert printable("Γ_xx = 1 ± 2\n\tµg") == "Γ_xx = 1 ± 2\n\tµg"
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_a_flight_with_such_a_name_and_spikes_in_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    m = api.new("model")
+    x = simulate_flight(m.instrument, [], seed=1, duration=120.0, rate=8.0)
+    G = x.outputs["G_out"] + np.where(np.arange(len(x)) % 97 == 50, 5 * np.std(x.outputs["G_out"]), 0.0)
+    write_flight(dataclasses.replace(x, outputs={"G_out": G}), "plain.parquet")
+    flight = Path("plain.parquet").rename(f"{STRANGE}.parquet")
+    words = ["compare", "model", str(flight), "--json", "out.json", "--report", "out.html"]
+    monkeypatch.setattr(sys, "argv", ["ragg", *words])
+    main(words)
+    said = capsys.readouterr()
+    assert "\x1b" not in said.out
+    assert "\u202e" not in said.out
+    assert r"\x1b[31m<script>alert(1)\u202e" in said.out
+    page = Path("out.html").read_text("utf-8")
+    assert "<script>alert" not in page
+    assert "&lt;script&gt;alert(1)" in page
+    result = json.loads(Path("out.json").read_text("utf-8"))
+    assert result["provenance"]["flights"][0]["path"] == f"{STRANGE}.parquet"
+    assert SAID in said.out
+    assert any(SAID in note for note in result["notes"])
+    assert "What was done to the record" in page
+    assert SAID in page
+    assert "--json out.json --report out.html" in page
+    for path in (Path("model", "model.toml"), flight):
+        assert hashlib.sha256(path.read_bytes()).hexdigest() in page
+    for library in ("numpy", "scipy", "sympy"):
+        assert f"{library} {version(library)}" in page
+    assert api.load("model").model.digest in page
+
+
+def test_an_error_about_such_a_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    api.new("model")
+    Path(f"{STRANGE}.csv").write_text(f"time [s],{STRANGE}[x [g]\n0,0\n", "utf-8")
+    with pytest.raises(SystemExit) as end:
+        main(["compare", "model", f"{STRANGE}.csv"])
+    assert end.value.code == 2
+    said = capsys.readouterr().err
+    assert "\x1b" not in said
+    assert "\u202e" not in said
+
+
+@pytest.fixture(scope="module")
+def loaded(tmp_path_factory: pytest.TempPathFactory) -> api.Loaded:
+    return api.new(tmp_path_factory.mktemp("same") / "model")
+
+
+@pytest.fixture(scope="module")
+def short_flight(loaded: api.Loaded) -> Flight:
+    return simulate_flight(loaded.instrument, [], seed=1, duration=150.0, rate=8.0)
+
+
+def test_in_two_formats_it_is_refused_everywhere(
+    loaded: api.Loaded, short_flight: Flight, tmp_path: Path
+) -> None:
+    write_flight(short_flight, tmp_path / "x.csv")
+    write_flight(short_flight, tmp_path / "y.parquet")
+    both = api.read_flights(loaded, [tmp_path / "x.csv", tmp_path / "y.parquet"])
+    for use in (
+        api.compare,
+        api.diagnose,
+        lambda m, x: api.add(m, "lag", x),
+        lambda m, x: api.calibrate(m, x, save=True),
+        api.compensate,
+        api.compare_frozen,
+    ):
+        with pytest.raises(UserError, match=r"the same record as .*: it would count twice"):
+            use(loaded, both)
+    kept = api.load(loaded.directory.path)
+    assert (kept.model.effects, kept.directory.calibration) == ((), None)
+
+
+def test_other_records_are_others(short_flight: Flight) -> None:
+    """The same motion flown again with other noise; flights at rest."""
+    s = scenario(5, duration=150.0, trim="table-v")
+    flights = [
+        s.simulate().flight("once"),
+        dataclasses.replace(s, seed=99).simulate().flight("again"),
+        short_flight,
+    ]
+    rest = {n: np.full(len(short_flight), 9.8 if n == "a_z" else 0.0) for n in short_flight.channels}
+    for seed in (1, 2):
+        noise = np.random.default_rng(seed).normal(size=len(short_flight))
+        flights.append(dataclasses.replace(short_flight, channels=rest, outputs={"G_out": noise}))
+    distinct(flights)
+
+
+def test_a_survey_counts_one_record_once(
+    loaded: api.Loaded, short_flight: Flight, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run, "examine_here", in_process)
+    write_flight(short_flight, tmp_path / "a.parquet")
+    write_flight(short_flight, tmp_path / "b.csv")
+    kept = tmp_path / "kept.jsonl"
+    for _ in range(2):
+        s = api.survey(loaded, [tmp_path / "b.csv", tmp_path / "a.parquet"], resume=kept)
+        assert [("verdict" in r, "error" in r) for r in s.records] == [(True, True), (False, True)]
+        assert "the same record as" in s.records[1]["error"]["message"]
+        assert "content" not in s.records[0]
+    assert s.as_json()["counts"]["error"] == 1

@@ -1,4 +1,4 @@
-"""Motion that stands late in a record: a fit takes it from where it stands, and leaves out what it cannot."""
+"""Samples that a fit leaves out: motion that stands late in a record, and sides of a switch that the sheet leaves open."""
 
 from __future__ import annotations
 
@@ -8,11 +8,14 @@ import numpy as np
 import pytest
 
 from ragg_runtime.estimation import fitted
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.thinning import leave_out_uncertain
+from ragg_runtime.estimation.unknown_gradient import windows
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.evaluate import vector, voltages
 from ragg_runtime.model.lateness import list_late, move_record
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -92,3 +95,62 @@ def test_the_ends_are_left_out_where_motion_is_late(world: tuple[Scenario, load.
     assert np.flatnonzero(~kept.record.valid).tolist() == [0, len(o.record.time) - 1]
     short = o.part(slice(0, 8))
     assert leave_out_uncertain(model, s.sheet, [short])[0] is short
+
+
+@pytest.fixture(scope="module")
+def switching_world() -> tuple[Scenario, load.Model]:
+    s = scenario(61, duration=300.0)
+    return s, derive.with_effects(s.sheet, load.packaged(), ["adc-nonlinearity"])
+
+
+def test_what_is_kept_is_on_the_same_side_for_every_instrument_that_the_sheet_allows(
+    switching_world: tuple[Scenario, load.Model],
+) -> None:
+    s, model = switching_world
+    o = observe(s.simulate().flight(), s.sheet)
+    (kept,) = leave_out_uncertain(model, s.sheet, [o])
+    left_out = o.record.valid & ~kept.record.valid
+    assert 0 < np.sum(left_out) < 0.1 * np.sum(o.record.valid)
+    side = np.sign(voltages(model.chain, o.record, vector(model, s.sheet)))
+    rng, changed = np.random.default_rng(4), np.zeros(len(left_out), dtype=bool)
+    for _ in range(20):
+        a = s.sheet.accelerometers
+        drawn = {n: a[n] + s.sheet.sigma(n) * rng.standard_normal(4) for n in ("K0", "dR", "beta_z", "K2")}
+        other = Instrument.build(
+            radius=s.sheet.radius,
+            spin_frequency=s.sheet.spin_frequency,
+            g0=9.8,
+            accelerometers={**a, **drawn},
+        )
+        changed |= (np.sign(voltages(model.chain, o.record, vector(model, other))) != side).any(axis=0)
+    assert changed.any()
+    assert not np.any(changed & kept.record.valid)
+
+
+def test_what_was_found_for_all_samples_does_not_serve_those_that_are_kept(
+    switching_world: tuple[Scenario, load.Model],
+) -> None:
+    s, model = switching_world
+    o = observe(s.simulate(record_gradient=False).flight(), s.sheet)
+    noise, every = NoiseModel.white(o.record.rate, 1), slice(0, len(o.record.time))
+    assert len(windows(o, every, noise)[0].places) == np.sum(o.record.valid)
+    (kept,) = leave_out_uncertain(model, s.sheet, [o])
+    assert len(windows(kept, every, noise)[0].places) == np.sum(kept.record.valid)
+
+
+def test_a_model_that_does_not_switch_keeps_every_sample(
+    switching_world: tuple[Scenario, load.Model],
+) -> None:
+    s, _ = switching_world
+    o = observe(s.simulate().flight(), s.sheet)
+    assert leave_out_uncertain(load.packaged(), s.sheet, [o]) == [o]
+
+
+def test_a_sheet_that_knows_nothing_of_the_side_leaves_nothing_out(
+    switching_world: tuple[Scenario, load.Model],
+) -> None:
+    s, model = switching_world
+    o = observe(s.simulate().flight(), s.sheet)
+    unsure = replace(s.sheet, sigmas={**s.sheet.sigmas, "K0": np.full(4, 0.2)})
+    (kept,) = leave_out_uncertain(model, unsure, [o])
+    assert np.array_equal(kept.record.valid, o.record.valid)

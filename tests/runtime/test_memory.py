@@ -1,18 +1,33 @@
-"""What an instrument remembers: found, with what describes it, where the simulator has integrated it in time."""
+"""What an instrument remembers, and bodies that attract it."""
 
 from __future__ import annotations
+
+from dataclasses import replace
+from decimal import Decimal, getcontext
+from types import MappingProxyType
 
 import numpy as np
 import pytest
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.observation import observe
+from ragg_runtime.instrument.instrument import EffectSetting
+from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.memory import add_responses, first_memories, stop
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.effects import EffectValues
+from ragg_runtime.reference.gravity import (
+    G,
+    Gradient,
+    PointMass,
+    components,
+)
+from ragg_runtime.reference.motion import Sinusoids
 from ragg_runtime.reference.scenario import scenario
+from tests.rate import RATE
 
 
 def resonance(effect: str, f_0: float, Q: float, share: float) -> EffectValues:
@@ -86,3 +101,72 @@ def test_a_part_of_a_record_hears_what_the_whole_one_does() -> None:
         expected, got = whole.series(name), part.series(name)
         assert expected is not None and got is not None
         assert np.max(np.abs(got - expected[900:1000])) < 1e-4 * np.std(expected)
+
+
+T0 = np.zeros(1)
+
+
+def _column(v: object) -> np.ndarray:
+    return np.asarray(v, dtype=float).reshape(3, 1)
+
+
+@pytest.mark.parametrize("site", [[1.2, 0.0, 0.0], [0.3, -0.9, 0.5], [-2000.0, 500.0, 900.0]])
+def test_difference_keeps_full_precision(site: list[float]) -> None:
+    getcontext().prec = 60
+    r = np.array([0.07, -0.05, 1e-3])
+    m = 486.0
+
+    def attraction(d: list[Decimal]) -> list[Decimal]:
+        cube = sum(v * v for v in d).sqrt() ** 3
+        return [Decimal(G) * Decimal(m) * v / cube for v in d]
+
+    s = [Decimal(float(v)) for v in site]
+    at_r = attraction([v - Decimal(float(w)) for v, w in zip(s, r, strict=True)])
+    exact = np.array([float(a - b) for a, b in zip(at_r, attraction(s), strict=True)])
+    computed = PointMass(m, site).difference(T0, _column(r))[:, 0]
+    assert np.linalg.norm(computed - exact) < 1e-15 * np.linalg.norm(exact)
+
+
+def test_bad_sources_are_refused() -> None:
+    with pytest.raises(UserError, match="symmetric"):
+        components([[1, 2, 3], [0, 1, 0], [3, 0, 1]])
+    with pytest.raises(UserError, match="six components"):
+        Gradient(np.zeros(5)).gradient(T0)
+    with pytest.raises(UserError, match="sits on"):
+        PointMass(1.0, [0, 0, 0]).difference(T0, _column([0.1, 0, 0]))
+
+
+MOVED = (("x", 0.1, 90.0), ("y", 0.6, 50.0), ("z", 0.2, 70.0))
+"""How far, m, and how often, s, along each axis."""
+
+EDGES = {"l_x": 0.8, "l_y": 0.3, "l_z": 0.5}
+
+
+@pytest.mark.parametrize(
+    ("body", "M", "known"),
+    [
+        pytest.param("near-sphere", 60.0, True, id="point, place known"),
+        pytest.param("near-cuboid", 600.0, False, id="cuboid, place fitted"),
+    ],
+)
+def test_a_body_that_moves_is_weighed_and_placed(body: str, M: float, known: bool) -> None:
+    s = scenario(7, duration=200.0, rate=RATE)
+    moving = {f"mass_{k}": Sinusoids(0.0, [a], [1 / T], [0.3]).value for k, a, T in MOVED}
+    s = replace(s, auxiliaries={**s.auxiliaries, **moving})
+    true = {"x": 1.0, "y": 0.7, "z": -0.4} | (EDGES if body == "near-cuboid" else {})
+    flight = s.simulate({body: true | {"M": M}}).flight()
+    stated = {n: RawQuantity(v + (0.0 if known or n in EDGES else 0.15), "m") for n, v in true.items()}
+    setting = EffectSetting(body, MappingProxyType(stated), fixed=frozenset(stated if known else ()))
+    sheet = replace(s.sheet, effects=(setting,))
+    model = derive.with_effects(sheet, load.packaged(), [body])
+    f = fitted.fit(model, sheet, [observe(flight, sheet)], candidates=False)
+    c = f.calibration
+    found = {
+        q.name.split(".")[1]: (c.p[k], q.scale * np.sqrt(v))
+        for q, k, v in zip(c.columns, c.index, np.diag(c.covariance), strict=True)
+        if q.effect
+    }
+    assert set(found) == {"M"} if known else {"M", "x", "y", "z"}
+    assert 20.0 < found["M"][0] / found["M"][1] < 40.0 if known else found["x"][1] < 0.02
+    for name, (value, std) in found.items():
+        assert abs(value - ({"M": M} | true)[name]) < 4 * std

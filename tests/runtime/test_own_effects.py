@@ -1,4 +1,4 @@
-"""Effects in Python: of installed packages and of the user's own folder, never of a model directory."""
+"""What is executed: effects in Python of packages and of the user's own folder; never ``generated/`` of a model directory."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from pathlib import Path
 import pytest
 
 import derive.effects as derive_effects
+from derive import pipeline
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model import derive
 from ragg_runtime.model.catalogue import effects
 
@@ -22,8 +24,9 @@ def mine(identifier: str) -> str:
 
 @pytest.fixture(autouse=True)
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derive, "_folder", lambda: tmp_path / "cache")
+    monkeypatch.setattr(derive, "_folder", lambda: tmp_path / "cache" / "derived")
     derive._installed.cache_clear()
+    derive._executed.cache_clear()
 
 
 def test_effects_folder_is_refused_with_what_to_do(tmp_path: Path) -> None:
@@ -110,3 +113,95 @@ def test_one_that_cannot_be_read_is_one_message(
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path / "nowhere"))
     with pytest.raises(UserError, match="no folder of effects"):
         derive.model_of(api.example())
+
+
+ROOT = Path(api.__file__).parents[1]
+EVIL = "\nimport pathlib\npathlib.Path({mark!r}).write_text('executed')\n"
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Path:
+    return api.add(api.new(tmp_path / "model"), "gain-drift").loaded.directory.path
+
+
+def derives(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Counts derivations from here on; those of this process so far are forgotten."""
+    derive.derived.cache_clear()
+    derive._executed.cache_clear()
+    count: list[int] = []
+    original = pipeline.derive_model
+
+    def counted(*a: object) -> object:
+        count.append(1)
+        return original(*a)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(pipeline, "derive_model", counted)
+    return count
+
+
+def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    count = derives(monkeypatch)
+    m = api.load(model)
+    assert ([e.id for e in m.model.effects], m.notes, count) == (["gain-drift"], (), [])
+    for file in (model.parent / "cache" / "derived").iterdir():
+        file.unlink()
+    assert m.model.digest == derive.model_of(m.instrument).digest
+    assert count == [1], "what is not kept is derived"
+
+
+@pytest.mark.parametrize("name", ["chain.py", "digest"])
+def test_generated_is_not_executed(
+    model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    mark = tmp_path / "mark"
+    with (model / "generated" / name).open("a") as stream:
+        stream.write(EVIL.format(mark=str(mark)))
+    count = derives(monkeypatch)
+    m = api.load(model)
+    assert not mark.exists()
+    assert count == []
+    assert [e.id for e in m.model.effects] == ["gain-drift"]
+
+
+def test_generated_is_derived_anew_where_it_is_of_another_model(model: Path) -> None:
+    """As after a change by hand, or one that was cut off before this folder was in place."""
+    toml = model / "model.toml"
+    toml.write_text(
+        toml.read_text("utf-8").replace("order", "# order").replace('"full"', '"platform"'), "utf-8"
+    )
+    m = api.load(model)
+    assert "was not derived for this model.toml" in m.notes[0]
+    before = (model / "generated" / "digest").read_text()
+    m = api.add(m, "lag").loaded
+    assert m.notes == api.load(model).notes == ()
+    assert (model / "generated" / "digest").read_text() != before
+    assert "lag" in (model / "generated" / "chain.py").read_text("utf-8")
+
+
+@pytest.mark.parametrize("damage", ["{", '{"chain.py": 3}'])
+def test_what_is_damaged_is_derived_anew(model: Path, monkeypatch: pytest.MonkeyPatch, damage: str) -> None:
+    for file in (model.parent / "cache" / "derived").iterdir():
+        file.write_text(damage)
+    count = derives(monkeypatch)
+    assert [e.id for e in api.load(model).model.effects] == ["gain-drift"]
+    assert count == [1]
+
+
+def test_a_request_depends_on_all_that_is_derived(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = (ROOT / "ragg_runtime" / "example.toml").read_text("utf-8")
+    line = '{ id = "mine", stage = "transducer", add = "K * f_i**2", K = { unit = "ug/g^2" } }'
+    lists = [
+        '["gain-drift"]',
+        '["gain-drift", "cubic-input"]',
+        '["cubic-input", "gain-drift"]',
+        f"[{line}]",
+        f"[{line.replace('**2', '**3')}]",
+        f"[{line.replace('ug/g^2', 'mg/g^2')}]",
+        f"[{line.replace('unit =', 'shared = true, unit =')}]",
+    ]
+    found = {derive.request(parse_instrument(text.replace("effects = []", f"effects = {e}"))) for e in lists}
+    monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path))
+    for source in ("# 1\n", "# 2\n"):
+        (tmp_path / "a.py").write_text(source)
+        found.add(derive.request(parse_instrument(text)))
+    assert len(found) == len(lists) + 2

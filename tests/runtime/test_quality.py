@@ -1,4 +1,4 @@
-"""What screening found is part of the verdict: noisy motion is smoothed, stuck motion is the reason."""
+"""What screening found is part of the verdict: noisy motion is smoothed, stuck motion is the reason, the end of a range left out."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import pytest
 from scipy.linalg import toeplitz
 from scipy.signal import lfilter
 
+from generated.output_effects import imu_saturation
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.estimation.observation import observe
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.instrument.units import EOTVOS
@@ -18,6 +21,7 @@ from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import checks, screen, timing
 from ragg_runtime.screening.motion_noise import predict_true
 from tests.rate import RATE
+from tests.runtime.diagnosed import diagnosed
 
 pytestmark = pytest.mark.usefixtures("no_next_motion")
 
@@ -82,3 +86,48 @@ def test_a_noisy_gradient_is_smoothed_or_not_used(size: float, used: bool) -> No
     assert ("Gamma_xx" in flight.channels) == used
     assert any("have a noise floor of" in note and "Eo" in note for note in flight.notes)
     assert diagnose(model, s.sheet, [flight]).verdict == "adequate"
+
+
+SAMPLES = 4000
+TIME = np.arange(SAMPLES) / 16.0
+MOVING = np.sin(0.3 * TIME) + 0.2 * np.random.default_rng(1).standard_normal(SAMPLES)
+ALL = np.ones(SAMPLES, dtype=bool)
+
+
+def test_the_end_of_a_range_is_recognised() -> None:
+    found = imu_saturation.clipped(np.clip(MOVING, -0.9, 0.9), ALL)
+    assert np.array_equal(found, np.abs(MOVING) >= 0.9)
+    assert imu_saturation.present(np.clip(MOVING, -0.9, 0.9), ALL, 0.0)
+    assert "temperature" not in imu_saturation.CHANNELS
+
+
+@pytest.mark.parametrize(
+    "x",
+    [
+        MOVING,
+        np.zeros(SAMPLES),
+        np.full(SAMPLES, 9.8),  # at rest
+        np.round(MOVING * 8) / 8,  # coarsely quantised
+        np.round(np.sin(0.3 * TIME) * 100) / 100,  # and slow, so that it dwells at its largest values
+        np.r_[
+            np.round(20 * np.sin(0.02 * TIME[:600])), np.round(20 * MOVING[600:]).clip(-18, 18)
+        ],  # 20 steps
+        np.sin(2 * np.pi * TIME / 16),  # repeats itself, sample by sample
+    ],
+    ids=["noise", "zero", "at rest", "coarse", "dwells", "few steps", "periodic"],
+)
+def test_what_is_no_end_of_a_range(x: np.ndarray) -> None:
+    assert not imu_saturation.clipped(x, ALL).any()
+
+
+def test_a_flight_with_saturated_gyroscopes_is_diagnosed() -> None:
+    s = scenario(47, duration=300.0)
+    rates = s.simulate().channels["omega_y"]
+    limit = float(np.quantile(np.abs(rates), 0.98))
+    flight = s.simulate({"imu-saturation": {"omega_max": limit}}).flight()
+    assert float(np.max(np.abs(flight.channels["omega_y"]))) == limit
+    assert not np.any(observe(flight, s.sheet).record.valid[np.abs(rates) >= limit])
+    d = diagnosed(s, flight)
+    assert "imu-saturation" in d.found
+    with pytest.raises(UserError, match="must be positive"):
+        s.simulate({"imu-saturation": {"a_max": -1.0}})
