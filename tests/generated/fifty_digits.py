@@ -150,8 +150,7 @@ def output(t: Any, x: Sequence[Any], p: Sequence[Any]) -> Any:
 def motion_numbers(x: Sequence[Any]) -> Mapping[str, Any]:
     """T_1 ... T_6, S_1, S_2, S_4 from the matrix M = [omegadot]x + [omega]x[omega]x - Gamma (Eq. 9, 16)."""
     omega, omegadot = x[3:6], x[6:9]
-    xx, xy, xz, yy, yz, zz = x[9:]
-    Gamma = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+    Gamma = _gradient(x)
     unit = [[real(int(n == k)) for n in range(3)] for k in range(3)]
     columns = [
         _plus(_cross(omegadot, e), _cross(omega, _cross(omega, e)), [-row[k] for row in Gamma])

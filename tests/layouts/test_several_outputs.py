@@ -1,22 +1,54 @@
-"""The tensor of three discs, the noise of two complements: against what was simulated."""
+"""Instruments of several outputs: tensor and noise against what was simulated, `ragg compensate` and `ragg export` of every output."""
 
 from __future__ import annotations
 
+import dataclasses
+import re
+import subprocess
+import sys
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from derive.effects import catalogue
+from ragg_runtime import api
+from ragg_runtime.api import Loaded
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.compensation.channel import OutputChannel
+from ragg_runtime.compensation.compensate import (
+    Kind,
+    PreparedFlights,
+    make_channel,
+    make_columns,
+    prepare,
+)
+from ragg_runtime.compensation.export.contents import Contents, unit_of
+from ragg_runtime.compensation.export.program import format_csv
+from ragg_runtime.compensation.recursive import Online, Tuning
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification import several_outputs
 from ragg_runtime.identification.strong import Stage
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.model import derive
+from ragg_runtime.model.directory import ModelDir
+from ragg_runtime.model.evaluate import output, vector
+from ragg_runtime.model.record import record
 from ragg_runtime.reference import EffectValues
-from ragg_runtime.signals.tensor import tensor
+from ragg_runtime.signals.demodulators import Demodulator
+from ragg_runtime.signals.tensor import COMPONENTS, tensor
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by
+from tests.layouts.test_layouts_physics import instrument
+from tests.rate import RATE
+from tests.runtime.test_export import make_strictly
 
 TURN = np.linalg.qr(np.random.default_rng(0).standard_normal((3, 3)))[0]
 TRUE = TURN @ np.diag([900.0, -300.0, -600.0]) @ TURN.T
@@ -130,3 +162,194 @@ def test_a_step_is_found_in_several_outputs(hidden: str | None, values: dict[str
     size, spread = found[-len(own) :] * scale, scale[:, None] * covariance[-len(own) :, -len(own) :] * scale
     off = np.ravel(given) - size
     assert off @ np.linalg.solve(spread, off) < 30.0  # chi-square of at most eight
+
+
+DURATION = 600.0
+DISCS = {
+    "umbrella": (sheets.umbrella(), 12),
+    "complements": (sheets.complements(), 8),
+    "odd": (sheets.odd(), 4),
+}
+
+
+@cache
+def flight_of(which: str) -> tuple[Instrument, Flight]:
+    """A flight by the reference over a gradient that varies; the sheet knows the instrument to a third of its errors."""
+    discs, count = DISCS[which]
+    sheet = parse_instrument(sheets.sheet(discs, count, sheets.FULL))
+    return sheet, flown_by(sheet, DURATION)
+
+
+@cache
+def compensated(
+    which: str, kind: Kind
+) -> tuple[PreparedFlights, list[OutputChannel], dict[str, NDArray[Any]]]:
+    sheet, flight = flight_of(which)
+    model, _ = derive.derived((), (), sheet.form, sheet.layout)
+    p = prepare(model, sheet, [flight], kind)
+    channels = [make_channel(p, n, "fir") for n in p.of_flight(0)]
+    return p, channels, make_columns(sheet, channels, [c.compensate() for c in channels])
+
+
+def low_passed(d: Demodulator, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    return d.low_passed(x.astype(np.complex128)).real
+
+
+def true_tensor(flight: Flight) -> NDArray[np.float64]:
+    """(3, 3, N) Eo."""
+    six = {c: flight.channels[f"Gamma_{c}"] / 1e-9 for c in COMPONENTS}
+    return np.array([[six["".join(sorted((i, k)))] for k in "xyz"] for i in "xyz"])
+
+
+@pytest.mark.parametrize(("which", "kind"), [("umbrella", "self"), ("complements", "crossed")])
+def test_channels_of_every_output_are_as_sure_as_they_say(which: str, kind: Kind) -> None:
+    """Against the gradient that was flight_of over, by axes that are computed here."""
+    _, flight = flight_of(which)
+    p, channels, found = compensated(which, kind)
+    assert p.converged
+    G = true_tensor(flight)
+    scores = []
+    for x in channels:
+        disc = p.instrument.layout.discs[x.observation.output.disc]
+        end = f"_{disc.name}"
+        first = np.array(disc.zero)
+        second = np.cross(disc.axis, first)
+        inline = np.einsum("i,ijn,j->n", first, G, first) - np.einsum("i,ijn,j->n", second, G, second)
+        cross = np.einsum("i,ijn,j->n", first, G, second)
+        good = found[f"quality{end}"] == 0
+        assert np.mean(good) > 0.9
+        for name, true in (("inline", inline), ("cross", cross)):
+            z = (found[f"{name}{end}"] - low_passed(x.demodulator, true)) / found[f"{name}{end}_std"]
+            scores.append(z[good][:: int(2 * RATE)])
+    z = np.concatenate(scores)
+    assert 0.6 < np.mean(np.abs(z) < 1.0) < 0.76  # of some 1,100 values, half of them independent
+    assert 0.91 < np.mean(np.abs(z) < 1.96) < 0.98
+
+
+def test_three_discs_give_the_tensor() -> None:
+    _, flight = flight_of("umbrella")
+    _, channels, found = compensated("umbrella", "self")
+    assert [c for c in found if c.startswith("Gamma_x")] == [
+        "Gamma_xx", "Gamma_xy", "Gamma_xz", "Gamma_xx_std", "Gamma_xy_std", "Gamma_xz_std",
+    ]  # fmt: skip
+    G = true_tensor(flight)
+    good = np.isfinite(found["Gamma_xx"])
+    scores = []
+    for c in COMPONENTS:
+        true = low_passed(channels[0].demodulator, G["xyz".index(c[0]), "xyz".index(c[1])])
+        scores.append(((found[f"Gamma_{c}"] - true) / found[f"Gamma_{c}_std"])[good][:: int(2 * RATE)])
+    z = np.concatenate(scores)
+    assert 0.6 < np.mean(np.abs(z) < 1.0) < 0.76
+    trace = found["Gamma_xx"] + found["Gamma_yy"] + found["Gamma_zz"]
+    assert np.nanmax(np.abs(trace)) < 1e-6
+    assert 0.7 < np.std(found["closure"][good]) < 1.4
+
+
+def test_two_complements_give_no_tensor() -> None:
+    assert list(compensated("complements", "crossed")[2]) == [
+        "inline_A", "cross_A", "inline_A_std", "cross_A_std", "quality_A",
+        "inline_B", "cross_B", "inline_B_std", "cross_B_std", "quality_B",
+    ]  # fmt: skip
+
+
+def test_a_disc_that_stands_still_is_left_out_and_alone_refused() -> None:
+    p, _, found = compensated("odd", "self")
+    assert len(p.observations) == 2
+    assert [n for n in found if n.startswith("inline")] == ["inline_A", "inline_A_std"]
+    still = parse_instrument(
+        sheets.sheet([sheets.disc("B", [sheets.accelerometer("B1", 0.0, 1)], spin=0.0)], 1)
+    )
+    model, _ = derive.derived((), (), still.form, still.layout)
+    _, flight = flight_of("odd")
+    outputs = {"G_out": flight.outputs["G_out_B"]}
+    with pytest.raises(UserError, match="no output of a spinning disc"):
+        prepare(model, still, [dataclasses.replace(flight, outputs=outputs)], "self")
+
+
+@cache
+def contents() -> Contents:
+    """A vertical disc with heights and directions beside one that stands still."""
+    i = instrument("odd", sheets.FULL)
+    model, files = derive.derived((), (), i.form, i.layout)
+    return Contents(
+        name="odd", model=model, instrument=i, p=vector(model, i), sources=derive.plain_c(i),
+        module=files["chain.py"], origin="values of model.toml",
+    )  # fmt: skip
+
+
+def flown_file(path: Path, wobble: float = 0.0) -> Flight:
+    """A flight file with an encoder and without angular acceleration."""
+    i = contents().instrument
+    x = flown_by(i, 60.0)
+    columns = {n: v for n, v in x.channels.items() if not n.startswith(("omegadot", "Gamma"))}
+    columns["spin_angle_A"] = np.mod(2 * np.pi * 0.3 * x.time + wobble * np.sin(x.time), 2 * np.pi)
+    write_flight(Flight(time=x.time, channels=columns, outputs=x.outputs), path)
+    return read_flight(path, i.g0, accelerometers=i.layout)
+
+
+def written(folder: Path, files: Mapping[str, str]) -> Path:
+    for name, text in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = written(tmp_path_factory.mktemp("odd"), api.FORMS["c"](contents()))
+    given, derived = re.findall(r"largest difference (\S+) V", make_strictly(folder, "check"))
+    assert float(given) == 0.0
+    assert float(derived) < 1e-10  # the last bit of some of its 260,000 V
+    return folder
+
+
+def rows(text: bytes) -> tuple[str, np.ndarray]:
+    head, *lines = text.decode().splitlines()
+    return head, np.array([[float(x) for x in line.split(",")] for line in lines if line[0] != "#"])
+
+
+def test_every_output_is_what_python_gives(program: Path, tmp_path: Path) -> None:
+    """Of one accelerometer 1e-6 Eo are less than a double can tell of its volts: there it is the last bits."""
+    x = flown_file(tmp_path / "flight.csv", wobble=1e-4)
+    c = contents()
+    text = (tmp_path / "flight.csv").read_bytes()
+    head, found = rows(
+        subprocess.run([program / "ragg_model"], input=text, capture_output=True, check=True).stdout
+    )
+    assert head == "time,G_out_A,G_out_B"
+    folder = written(tmp_path, api.FORMS["numpy"](c))
+    command = [sys.executable, "-I", "-c", f"import sys, runpy; sys.path.insert(0, {str(folder)!r}); "
+               f"runpy.run_path({str(folder / 'ragg_model.py')!r}, run_name='__main__')"]  # fmt: skip
+    _, again = rows(subprocess.run(command, input=text, capture_output=True, check=True).stdout)
+    for k, o in enumerate(c.outputs()):
+        r = record(x, c.instrument, k)
+        expected = output(c.model.chain, r, c.p, c.instrument.layout.outputs[k])
+        limit = max(1e-6 * o.scale_factor, 8 * np.finfo(float).eps * float(np.max(np.abs(expected))))
+        assert np.max(np.abs(found[:, 1 + k] - expected)) < limit
+        assert np.max(np.abs(again[:, 1 + k] - expected)) < limit
+        assert np.std(expected) > 1e6 * limit
+
+
+def test_the_filter_is_that_of_the_output_that_sees_a_gradient(program: Path, tmp_path: Path) -> None:
+    x = flown_file(tmp_path / "flight.csv")
+    c = contents()
+    sigma = 4 * c.outputs()[0].scale_factor
+    o = observe_flights([x], c.instrument)[0]
+    G = np.where(o.record.valid, x.outputs["G_out_A"], np.nan)
+    columns = {f"{n} [{unit_of(n)}]": v for n, v in {"time": o.record.time, **o.record.channels}.items()}
+    done = subprocess.run(
+        [program / "ragg_online", f"{sigma:.17g}", "1", "60"],
+        input=format_csv(columns | {"G_out_A [V]": G}).encode(), capture_output=True, check=True,
+    )  # fmt: skip
+    head, found = rows(done.stdout)
+    assert head == "time,inline_A,cross_A,inline_A_std,cross_A_std"
+    got = Online(c.model, c.instrument, Tuning(noise=sigma, walk=1.0, forget=60.0), c.p).feed(o)
+    assert np.max(np.abs(found[:, 1] - got.inline) / got.inline_std) < 1e-4
+    assert np.max(np.abs(found[:, 2] - got.cross) / got.cross_std) < 1e-4
+    assert found[:, 3] == pytest.approx(got.inline_std, rel=1e-6)
+    m = Loaded(
+        ModelDir(path=tmp_path, text="", instrument=c.instrument, generated=None, history=()),
+        c.model,
+    )
+    (series,) = api.compensate(m, [x], "online", noise=2.0, walk=1.0).series
+    assert ",".join(series) == f"{head},quality_A"

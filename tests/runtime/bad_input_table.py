@@ -131,10 +131,6 @@ def motion(change: Callable[[np.ndarray], np.ndarray]) -> Change:
     return channels(lambda c: {n: change(v) for n, v in c.items() if n.startswith(("a_", "omega"))})
 
 
-def exchanged(one: str, other: str) -> Change:
-    return channels(lambda c: {one: c[other], other: c[one]})
-
-
 def timed(change: Callable[[np.ndarray], np.ndarray]) -> Change:
     return lambda x: dataclasses.replace(x, time=change(x.time))
 

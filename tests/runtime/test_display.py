@@ -5,13 +5,13 @@ from __future__ import annotations
 import contextlib
 import html
 from dataclasses import dataclass
-from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
 import pyarrow.parquet as pq
 import pytest
 from test_reference_pages import PYTHON
+from test_report import Page
 
 from ragg_runtime.api import Added
 from ragg_runtime.identification import next_motion
@@ -53,31 +53,11 @@ def test_the_python_of_readme_finds_what_is_missing(result: Result) -> None:
     assert result.step.after is not None and result.step.after.adequate
 
 
-class Balanced(HTMLParser):
-    """Every tag is closed in its turn."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.open: list[str] = []
-        self.text: list[str] = []
-
-    def handle_starttag(self, tag: str, attrs: Any) -> None:
-        self.open.append(tag)
-
-    def handle_endtag(self, tag: str) -> None:
-        assert self.open.pop() == tag
-
-    def handle_data(self, data: str) -> None:
-        self.text.append(data)
-
-
 def shown(x: Any) -> str:
     """The text of a result's display, whose markup is checked."""
-    parser = Balanced()
-    parser.feed(x._repr_html_())
-    parser.close()
-    assert not parser.open
-    return "\n".join(parser.text)
+    page = Page(x._repr_html_())
+    assert not page.open
+    return "\n".join(page.words)
 
 
 def test_the_terminal_and_a_notebook_say_the_same(result: Result) -> None:
@@ -116,15 +96,8 @@ def test_the_terminal_says_what_a_physicist_would(result: Result) -> None:
 
 def test_every_verdict_has_its_sentence(result: Result) -> None:
     d = result.diagnosis.as_json()
-    term = {
-        "harmonic": "cos 2",
-        "term": "a_x",
-        "coefficient": 1.0,
-        "std": 0.1,
-        "unit": "V/(m/s^2)",
-        "share": 0.5,
-        "z": 10.0,
-    }
+    term = {"harmonic": "cos 2", "term": "a_x", "coefficient": 1.0, "std": 0.1, "unit": "V/(m/s^2)"}
+    term |= {"share": 0.5, "z": 10.0}
     left: Any = dict(d["unexplained"]) | {"terms": [term]}  # type: ignore[call-overload]
     partly = d | {"verdict": "partly-explained", "unexplained": left}
     assert describe.write_verdict(partly).endswith(
@@ -184,16 +157,8 @@ def test_missing_channels_and_units_are_said_where_they_are_missing() -> None:
     assert "No demodulated channels" not in said(whole, short)
     column = {"samples": 1, "missing": 0, "minimum": 1.0, "mean": 1.0, "maximum": 1.0}
     columns = [{"name": "T_1", "unit": "", **column}, {"name": "ratio", "unit": "1", **column}]
-    record = {
-        "name": "f",
-        "rows": 1,
-        "rate_Hz": None,
-        "origin": None,
-        "gap_count": 0,
-        "gaps": [],
-        "notes": [],
-        "refused": None,
-    }
+    record = {"name": "f", "rows": 1, "gap_count": 0, "gaps": [], "notes": []}
+    record |= dict.fromkeys(("rate_Hz", "origin", "refused"))
     file = {"path": "f", "format": "csv", "bytes": 1, "records": [record | {"columns": columns}]}
     text = render_text(describe_other.describe_flight_file(file))
     assert [line.split()[1] for line in text.splitlines() if line.split()[:1] in (["T_1"], ["ratio"])] == [

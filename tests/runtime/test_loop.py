@@ -1,10 +1,12 @@
-"""The loop, end to end, on flights of the independent reference: compare, diagnose, add, remove; flights that contradict each other."""
+"""The loop, end to end, on flights of the independent reference; what a verdict needs, flights that contradict each other."""
 
 from __future__ import annotations
 
 import dataclasses
 import json
+import re
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,25 +14,29 @@ import pytest
 
 from ragg_runtime.api import example
 from ragg_runtime.estimation import fitted
-from ragg_runtime.estimation.fitted import estimate_variance
+from ragg_runtime.estimation.fitted import estimate_variance, fit
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.observation import observe
+from ragg_runtime.estimation.observation import observe, observe_flights
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.estimation.unknown_gradient import take_out, windows
 from ragg_runtime.identification import contenders, selection
 from ragg_runtime.identification.comparison import compare, compute_nominal_residual
+from ragg_runtime.identification.diagnose import complete_ranking, diagnose
+from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.ranking import list_not_testable
-from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.identification.result import Diagnosis, group_findings
+from ragg_runtime.identification.verdict import _of_one_kind
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.simulate import simulate_flight
 from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
-G0 = 9.8
 DURATION = 300.0
 
 
@@ -65,16 +71,11 @@ def test_a_flight_without_hidden_effect_is_adequate_and_its_error_is_the_noise()
     assert (d.verdict, d.found) == ("adequate", ())
 
 
-HIDDEN: dict[str, dict[str, Any]] = {
-    "cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]},
-    "thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]},
-    "imu-lever-arm": {"l_x": 3e-3, "l_y": -2e-3},
-    "bias-drift": {"dK0_dt": [2e-9 * G0, 0, 0, 0]},
-}
+THERMAL = {"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}
 
 
 def test_a_hidden_effect_is_found_and_the_error_falls_to_the_noise() -> None:
-    hidden = {"imu-lever-arm": HIDDEN["imu-lever-arm"]}
+    hidden = {"imu-lever-arm": {"l_x": 3e-3, "l_y": -2e-3}}
     s, flight = flown(42, hidden, duration=640.0)  # its noise is known to less than a per cent
     d = diagnosed(s, flight)
     assert d.verdict == "missing-effect"
@@ -94,7 +95,7 @@ def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
     at = d.fitted.calibration.p
     (scored,) = d.fitted.score((), lambda x: compute_nominal_residual(d.fitted, at, x)[None], 1)
     assert scored.whole.rms_Eo == pytest.approx(d.before.rms_Eo, rel=1e-3)
-    hidden = s.simulate({"thermal-scale": HIDDEN["thermal-scale"]}, record_gradient=False).flight()
+    hidden = s.simulate(THERMAL, record_gradient=False).flight()
     assert "thermal-scale" in claimed(diagnosed(s, hidden))
 
 
@@ -206,3 +207,117 @@ def test_of_a_constant_gradient_it_leaves_nothing_and_the_report_says_why() -> N
     f = fitted.fit(load.packaged(), s.sheet, [observe(s.simulate(record_gradient=False).flight(), s.sheet)])
     why = {x.effect: x.why for x in list_not_testable(f, selection.make_field(f, selection.list_testable(f)))}
     assert "a gradient that is not recorded" in why["gradient-offset"]
+
+
+pytestmark = pytest.mark.usefixtures("no_next_motion")
+
+
+def good_flight(seed: int = 3, duration: float = 90.0) -> tuple[Instrument, Flight]:
+    s = scenario(seed, duration=duration)
+    return s.sheet, s.simulate().flight()
+
+
+def test_an_output_in_which_nothing_follows_the_motion_is_not_adequate() -> None:
+    sheet, x = good_flight()
+    shuffled = np.random.default_rng(1).permutation(x.outputs["G_out"])
+    d = diagnose(packaged(), sheet, [replace(x, outputs={"G_out": shuffled})])
+    assert (d.verdict, d.found) == ("unexplained", ())
+    assert "the output does not follow the motion" in str(d.as_json()["reason"])
+    assert d.explained is not None and d.explained.share < 0.5
+    c = compare(packaged(), sheet, [replace(x, outputs={"G_out": shuffled})])
+    assert not c.adequate
+
+
+def test_a_right_model_explains_nearly_all() -> None:
+    sheet, x = good_flight()
+    c = compare(packaged(), sheet, [x])
+    said = c.as_json()["explained"]
+    assert c.adequate and isinstance(said, dict)
+    assert 0.999 < said["share"] < 1.0
+
+
+def test_noise_that_follows_the_motion_is_said_and_accuses_nothing() -> None:
+    s = scenario(11, duration=300.0)
+    sim = s.simulate()
+    x = sim.flight()
+    a = np.abs(x.channels["a_x"])
+    noise = (sim.G_out - sim.G_out_noise_free) * (0.2 + a / np.sqrt(np.mean(a**2)))
+    d = diagnose(packaged(), s.sheet, [replace(x, outputs={"G_out": sim.G_out_noise_free + noise})])
+    assert d.verdict == "adequate"
+    assert "the noise level changes with abs(a_x)" in str(d.as_json()["reason"])
+
+
+@pytest.mark.parametrize(("frequency", "own"), [(0.5003, False), (0.5, True)])
+def test_a_line_beside_a_multiple_of_the_spin_rate_accuses_nothing(frequency: float, own: bool) -> None:
+    """At 300 s it slips by a tenth of a turn. What keeps step with the disc is the disc's."""
+    s = scenario(12, duration=300.0)
+    sim = s.simulate()
+    x = sim.flight()
+    size = 1.4 * np.std(sim.G_out - sim.G_out_noise_free)
+    G = sim.G_out + size * np.cos(2 * np.pi * frequency * x.time + 1.0)
+    d = diagnose(packaged(), s.sheet, [replace(x, outputs={"G_out": G})])
+    assert d.ranking[0].log_p < -20.0  # an effect alone would be beyond doubt
+    if own:
+        assert d.verdict == "missing-effect"
+        said = str(d.as_json()["reason"])
+        assert f"{d.found[0]} acts as a constant term at twice the spin rate" in said
+        assert "gradient-offset" in said  # of those that would do as well
+        (group,) = d.groups
+        assert group.name == "a constant term at twice the spin rate"
+        assert group.effects[0] == d.found[0] and "gradient-offset" in group.effects
+        assert f"Missing: one of {d.found[0]}" in d._repr_html_()
+        assert f"; {group.name} explains as much: they are one finding" in d._repr_html_()
+        return
+    assert (d.verdict, d.found) == ("unexplained", ())
+    said = re.search(r"a line at about ([0-9.]+) Hz", str(d.as_json()["reason"]))
+    assert said is not None
+    assert abs(float(said[1]) - frequency) < 0.2 / 300.0
+    assert [t.kind for r in d.remainder.searches for t in r.terms] == ["line"]
+
+
+def test_effects_that_look_alike_are_named_by_what_they_share() -> None:
+    alike: Any = [SimpleNamespace(effect="spin-axis-tilt", indistinguishable_from=("imu-misalignment",))]
+    shared: Any = SimpleNamespace(term=Term("cos 1", ("a_z",)))
+    (group,) = group_findings(("spin-axis-tilt",), alike, (), shared)
+    assert group.as_json() == {
+        "name": "a term proportional to a_z at the spin rate",
+        "effects": ["spin-axis-tilt", "imu-misalignment"],
+    }
+    (alone,) = group_findings(("bias-drift",), alike, (), shared)
+    assert alone.name is None
+
+
+@pytest.mark.parametrize(
+    ("lost", "testable"),
+    [
+        (("B_z", "pitch"), {"magnetic-bias", "self-gradient"}),
+        (("roll",), {"magnetic-bias", "self-gradient"}),
+        (("B_x", "B_y", "B_z"), {"self-gradient"}),
+        (("roll", "pitch"), {"magnetic-bias"}),
+    ],
+)
+def test_an_effect_is_tested_with_the_channels_that_are_there(
+    lost: tuple[str, ...], testable: set[str]
+) -> None:
+    sheet, x = good_flight(duration=40.0)
+    x = replace(x, channels={n: v for n, v in x.channels.items() if n not in lost})
+    found = selection.list_testable(fit(packaged(), sheet, observe_flights([x], sheet)))
+    assert {"magnetic-bias", "self-gradient"} & set(found) == testable
+
+
+def test_what_the_recorder_did_is_claimed_where_generic_terms_do_as_well_as_effects() -> None:
+    """What remains is then that of the model without effects, which has other columns than the last fit."""
+    evidence: Any = SimpleNamespace(steps=(), last=None)
+    rival: Any = SimpleNamespace(verdict="partly-explained", rival=True, remains=True, claims=("saturation",))
+    row: Any = SimpleNamespace(effect="saturation")
+    assert complete_ranking([row], 0.0, evidence, rival) == [row]  # type: ignore[arg-type]
+
+
+def test_the_low_frequencies_of_an_accelerometers_resonance_are_not_two_effects() -> None:
+    fitted = SimpleNamespace(model=packaged())
+    found: Any = SimpleNamespace(
+        first=SimpleNamespace(fitted=fitted), alternatives=lambda: {"arm-sag": ("second-order-loop",)}
+    )
+    assert _of_one_kind(found, ("lag", "second-order-loop")) == "accelerometer-resonance"
+    assert _of_one_kind(found, ("lag", "arm-sag")) == "accelerometer-resonance"
+    assert _of_one_kind(found, ("lag", "thermal-scale")) is None

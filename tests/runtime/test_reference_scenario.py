@@ -18,7 +18,7 @@ from ragg_runtime.reference import disc_angle, simulate, still
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.angle import turns
 from ragg_runtime.reference.instruments import perfect
-from ragg_runtime.reference.motion import RecordedSignal, Signal, Sinusoids, recorded_motion
+from ragg_runtime.reference.motion import RecordedSignal, Signal, Sinusoids
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.reference.turbulence import SHAPES, turbulence
 from ragg_runtime.signals.demodulate import demodulate
@@ -184,16 +184,6 @@ def test_record_passes_through_its_samples_and_reproduces_a_sine() -> None:
     np.testing.assert_allclose(sine.value(t), sine.samples, rtol=0, atol=1e-13)
     between = np.arange(5, 55, 0.0173)
     np.testing.assert_allclose(sine.value(between), np.sin(np.pi * between), rtol=0, atol=1e-6)
-
-
-def test_motion_takes_the_derivative_of_its_own_rate() -> None:
-    t = np.arange(0, 30, 1 / 16)
-    rng = np.random.default_rng(0)
-    motion = recorded_motion(t, rng.standard_normal((3, t.size)), rng.standard_normal((3, t.size)))
-    h = 1e-5
-    at = np.array([10.02, 11.3, 15.77])
-    numeric = (motion.at(at, -h).omega - motion.at(at, h).omega) / (2 * h)
-    np.testing.assert_allclose(motion.at(at).omegadot, numeric, rtol=1e-7, atol=1e-6)
 
 
 def test_a_record_too_short_says_so() -> None:

@@ -21,13 +21,14 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.calibrate import list_combinations, list_parameters
 from ragg_runtime.identification import budget, result, series
 from ragg_runtime.identification import comparison as compare
-from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import name_values, output, vector
 from ragg_runtime.model.record import record
+from ragg_runtime.reference.instruments import trimmed
 from ragg_runtime.report import parameters, plots, whiteness
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.pages import write_addition, write_comparison, write_diagnosis
@@ -38,37 +39,10 @@ from ragg_runtime.wording.sections import Bar, Bars, render_text
 from tests.runtime.diagnosed import diagnosed
 
 RATE = 16.0
-UG = 9.8e-6
-PER_UG = 1e-6 / 9.8
-ARCSEC = math.pi / 180 / 3600
 HOSTILE = 'leg <script>alert("1")</script> & $\\frac{x}$ \u202e\x07\udcff'
 
 
 # --- a small flight -----------------------------------------------------------------------------------------
-
-
-def instrument() -> Instrument:
-    return Instrument.build(
-        0.1,
-        0.25,
-        9.8,
-        {
-            "dR": np.array([0, 30, 35, 25]) * 1e-6,
-            "beta_x": np.array([21, 14, 17, 19]) * ARCSEC,
-            "beta_z": np.array([18, 8, 10, 20]) * ARCSEC,
-            "vartheta_y": np.array([21, 10, 7, 19]) * ARCSEC,
-            "vartheta_z": np.array([30, 19, 20, 9]) * ARCSEC,
-            "K0": np.array([10, 2, 5, 8]) * UG,
-            "K1": np.array([10, 10.001, 10.0015, 10.002]) * 1e-3 / 9.8,
-            "K2": np.array([5, 1, 8, 7]) * PER_UG,
-            "K4": np.array([6, 12, 5, 16]) * PER_UG,
-            "K5": np.array([4, 11, 9, 13]) * PER_UG,
-            "K6": np.array([3, 12, 8, 10]) * PER_UG,
-            "K7": np.array([5, 15, 7, 17]) * PER_UG,
-            "K8": np.array([1, 7, 11, 20]) * PER_UG,
-            "k_VI": 1e9,
-        },
-    )
 
 
 def motion(samples: int, seed: int) -> tuple[np.ndarray, dict[str, np.ndarray]]:
@@ -93,8 +67,8 @@ def flight(
     effect: EffectSetting | None = None, samples: int = 3200, seed: int = 1, name: str = "leg 1"
 ) -> Any:
     """A record of the instrument above, calibrated a little off, with white noise of 2 sqrt(2) Eo."""
-    true = instrument()
-    true = true.replace(K0=true.accelerometers["K0"] + UG, K7=true.accelerometers["K7"] * 1.1)
+    true = trimmed()
+    true = true.replace(K0=true.accelerometers["K0"] + 9.8e-6, K7=true.accelerometers["K7"] * 1.1)
     model = load.packaged()
     if effect is not None:
         true = replace(true, effects=(effect,))
@@ -118,12 +92,12 @@ class Case:
 
 @pytest.fixture(scope="module")
 def clean() -> compare.Comparison:
-    return compare.compare(load.packaged(), instrument(), [flight()])
+    return compare.compare(load.packaged(), trimmed(), [flight()])
 
 
 @pytest.fixture(scope="module")
 def cubic() -> Case:
-    made, known = flight(CUBIC, name=HOSTILE), instrument()
+    made, known = flight(CUBIC, name=HOSTILE), trimmed()
     return Case(compare.compare(load.packaged(), known, [made]), diagnosed(known, made), made)
 
 
@@ -272,7 +246,7 @@ def test_unexplained_remainder_is_not_given_a_name(cubic: Case) -> None:
 
 @pytest.mark.usefixtures("no_figures")
 def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
-    known = instrument()
+    known = trimmed()
     extended = derive.with_effects(known, load.packaged(), ["cubic-input"])
     after, before = compare.compare(extended, known, [cubic.flight]), cubic.comparison
     errors = {"before": before.as_json()["error"], "after": after.as_json()["error"]}

@@ -234,15 +234,8 @@ def test_dates_and_times_in_two_columns_of_a_sheet(tmp_path: Path) -> None:
 NOISE = 290 + np.random.default_rng(3).normal(size=500)
 EVERY = np.arange(500) % 97 == 5
 CODES = (
-    -9999.0,
-    -999.25,
-    99999.9,
-    float(np.float32(-9999.9)),
-    -1e32,
-    float(np.float32(-1e32)),
-    9.969209968386869e36,
-    0.0,
-    -1.0,
+    *(-9999.0, -999.25, 99999.9, float(np.float32(-9999.9)), -1e32),
+    *(float(np.float32(-1e32)), 9.969209968386869e36, 0.0, -1.0),
 )
 SMOOTH = np.sin(np.arange(500) / 30)
 
