@@ -404,9 +404,6 @@ def test_effects_equal_numpy(tmp_path: Path) -> None:
 SECONDS = (0.0, 1e6)
 
 
-@pytest.fixture(scope="module")
-
-
 def cases(start: float, seed: int, count: int = 10) -> list[tuple[Array, Array, Array]]:
     """(t, inputs, p): instants of one turn of the disc from ``start``."""
     draw = np.random.default_rng(seed)

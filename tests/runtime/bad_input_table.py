@@ -161,10 +161,6 @@ def struck(x: np.ndarray) -> np.ndarray:
     return np.where(hit, x + 5 * np.std(x) * rng.choice([-1.0, 1.0], len(x)), x)
 
 
-def jittered(size: float) -> Callable[[np.ndarray], np.ndarray]:
-    return lambda t: t + np.random.default_rng(8).uniform(-size, size, len(t)) / 16
-
-
 def voltages_ordered(*order: str) -> Change:
     return lambda x: dataclasses.replace(x, outputs={f"V_{j}": x.outputs[n] for j, n in enumerate(order, 1)})
 

@@ -74,18 +74,6 @@ def test_a_flight_without_hidden_effect_is_adequate_and_its_error_is_the_noise()
 THERMAL = {"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}
 
 
-def test_a_hidden_effect_is_found_and_the_error_falls_to_the_noise() -> None:
-    hidden = {"imu-lever-arm": {"l_x": 3e-3, "l_y": -2e-3}}
-    s, flight = flown(42, hidden, duration=640.0)  # its noise is known to less than a per cent
-    d = diagnosed(s, flight)
-    assert d.verdict == "missing-effect"
-    assert "imu-lever-arm" in claimed(d)
-    assert d.after.rms_Eo < d.before.rms_Eo
-    assert d.after.rms_Eo == pytest.approx(d.noise_floor, rel=0.02)
-    truth = noise_of(s) / d.fitted.k_ggi
-    assert d.noise_floor == pytest.approx(truth, rel=0.02)  # the effect is no part of the noise
-
-
 def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
     s = scenario(45, duration=200.0, rate=RATE, gradient_rms=20e-9)
     clean = s.simulate({}, record_gradient=False).flight()
