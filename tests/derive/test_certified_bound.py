@@ -313,6 +313,11 @@ def test_a_wider_envelope_keeps_no_less(name: str, exponent: float, more: float)
     assert keys(simplified(narrow)) <= keys(simplified(narrow.scaled((name,), 1 + more)))
 
 
+def test_of_a_difference_of_squares_the_larger_one_is_the_bound() -> None:
+    e = DYNAMIC_EXPERIMENT
+    assert float(e.motion()["T_1"]) == pytest.approx(max(e.omega[:2]) ** 2 / 2 + e.Gamma, rel=1e-9)
+
+
 def test_the_dynamic_envelope_holds_the_experiment() -> None:
     """Tables V and VI, motion over one turn of the disc and its exact derivative."""
     e, hour = DYNAMIC_EXPERIMENT, math.radians(1) / 3600

@@ -203,7 +203,7 @@ def true_tensor(flight: Flight) -> NDArray[np.float64]:
 
 @pytest.mark.parametrize(("which", "kind"), [("umbrella", "self"), ("complements", "crossed")])
 def test_channels_of_every_output_are_as_sure_as_they_say(which: str, kind: Kind) -> None:
-    """Against the gradient that was flight_of over, by axes that are computed here."""
+    """Against the gradient that was flown over, by axes that are computed here."""
     _, flight = flight_of(which)
     p, channels, found = compensated(which, kind)
     assert p.converged

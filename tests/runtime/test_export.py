@@ -452,7 +452,7 @@ def test_the_command_follows_a_flight_within_its_uncertainty(
     k1 = [q for q in d["flights"][0]["parameters"] if q["name"] == "K1"]
     assert [q["accelerometer"] for q in k1] == [1, 2, 3, 4]
     fresh = new_model(tmp_path)
-    with pytest.raises(UserError, match="the noise_of is not known"):
+    with pytest.raises(UserError, match="the noise is not known"):
         api.compensate(api.load(fresh), [flight], "online")
     G = np.array(flight.outputs["G_out"][:400])
     G[200:240] = np.nan
