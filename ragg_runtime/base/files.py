@@ -118,8 +118,9 @@ def _umask() -> int:
 
 def opened(path: Path) -> BufferedReader:
     """A user's file, to read. A pipe or a device would be waited for, or never end: UserError."""
-    if path.exists() and not path.is_file() and not path.is_dir():
-        raise UserError("a file is needed here, not a pipe or a device", where=path)
+    if path.exists() and not path.is_file():
+        what = "directory" if path.is_dir() else "pipe or a device"
+        raise UserError(f"a regular file is needed here, not a {what}", where=path)
     return path.open("rb")
 
 
@@ -141,8 +142,6 @@ def read_text(path: Path, longest: int = 1 << 20) -> str:
         raise UserError(
             "the file does not exist", where=path, remedy="check the name and the folder"
         ) from None
-    except IsADirectoryError:
-        raise UserError("a file is needed here, not a directory", where=path) from None
     except UnicodeDecodeError as error:
         raise UserError(
             "the file is not UTF-8 text",

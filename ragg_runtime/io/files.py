@@ -20,7 +20,7 @@ import pyarrow.csv
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import file_digest, replacing, require_space
+from ragg_runtime.base.files import file_digest, opened, replacing, require_space
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.io.array_files import (
@@ -145,11 +145,8 @@ def require_writable(path: Path) -> Callable[[Path, Sequence[DataColumn]], None]
 def _require_content(path: Path, expected: Format) -> None:
     """Compare the first bytes of an existing file with its format."""
     regular = "a CSV, Parquet or NetCDF file, or another that `ragg convert` reads"
-    if path.exists() and not path.is_file():
-        what = f"a flight file is needed here, not a {'directory' if path.is_dir() else 'device or a pipe'}"
-        raise UserError(what, where=path, expected=f"a regular file: {regular}")
     try:
-        with path.open("rb") as stream:
+        with opened(path) as stream:
             head = stream.read(8)
     except FileNotFoundError:
         raise UserError("the flight file does not exist", where=path, expected=regular) from None

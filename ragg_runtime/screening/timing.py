@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise, product
@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from scipy import fft, optimize
 
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.io import Flight
 from ragg_runtime.io.sampling import find_clock_steps
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import disc_angle, find_start
@@ -314,54 +313,47 @@ def propose_parts(model: Model, instrument: Instrument, s: Sampler) -> list[Hypo
     return [Hypothesis(what, remedy, judge(at), COST + 1.0, effects=("gain-step",), calming=False)]
 
 
-_SHIFTED: tuple[tuple[str, str, str, Callable[[Any], dict[str, Any]]], ...] = (
-    ("the motion record is", "motion columns", "the output", lambda k: {"motion_later": k}),
-    ("a_x, a_y, a_z are", "columns", "the output", lambda k: {"motion_later": k, "of": ("a",)}),
-    ("a_x is", "column", "the output", lambda k: {"motion_later": k, "of": ("a_x",)}),
-    ("a_y is", "column", "the output", lambda k: {"motion_later": k, "of": ("a_y",)}),
-    ("the output is", "output column", "motion and disc angle", lambda k: {"output_later": -k}),
-)
-"""What may be late: in words, the columns, against what, and how rows of it are taken."""
+@dataclass(frozen=True)
+class _Late:
+    """What may be late: ``name`` in words, its ``columns``, ``against`` what, the quantities ``of`` motion; none: the output."""
+
+    name: str
+    columns: str
+    against: str
+    of: tuple[str, ...] = ()
+
+    def options(self, k: int | Index) -> dict[str, Any]:
+        """Those of :meth:`Sampler.take` for rows as if this were not ``k`` samples late, one or (n,)."""
+        return {"motion_later": k, "of": self.of} if self.of else {"output_later": -k}
+
+    def describe(self, k: int, rate: float) -> str:
+        """By how much it is late, in words."""
+        way = "late" if (k > 0) == bool(self.of) else "early"
+        return f"{abs(k) / rate:.6g} s ({abs(k)} sample{'s' * (abs(k) > 1)}) {way}"
+
+
+_MOTION = _Late("the motion record is", "motion columns", "the output", ("a", "omega", "omegadot", "Gamma"))
+_FORCE = _Late("a_x, a_y, a_z are", "columns", "the output", ("a",))
+_RATES = _Late("omega_x, omega_y, omega_z are", "columns", "the rest", ("omega", "omegadot"))
+_AXES = (_Late("a_x is", "column", "the output", ("a_x",)), _Late("a_y is", "column", "the output", ("a_y",)))
+_OUTPUT = _Late("the output is", "output column", "motion and disc angle")
 
 
 def _propose_shifts(t: _Trial) -> list[Hypothesis]:
     """Motion, specific force alone, and output apart in time: candidates from a cross-correlation, judged by the model."""
-    s, rate = t.s, t.s.flight.rate
-    rows = s.rows(most=400)
-    lags = [k for k in _lags(s) if k != 0]
+    rows, rate = t.s.rows(most=400), t.s.flight.rate
+    lags = [k for k in _lags(t.s) if k != 0]
     found = []
-    for name, columns, against, shift in _SHIFTED if lags else ():
-        k = _find_lag(t, rows, lags, shift)
-        by, whole = f"{abs(k) / rate:.6g} s", columns not in ("columns", "column")
-        late = "late" if (k > 0) == (name != "the output is") else "early"
-        what = f"{name} {by} ({abs(k)} sample{'s' * (abs(k) > 1)}) {late} against {against}"
-        effects = ("time-offset",) if whole else ()
-        cost = COST if whole else COST + 1.0
+    for x in (_MOTION, _FORCE, *_AXES, _OUTPUT) if lags else ():
+        k = _find_lag(t, rows, lags, x)
+        what = f"{x.name} {x.describe(k, rate)} against {x.against}"
+        remedy = f"shift the {x.columns} by {abs(k) / rate:.6g} s"
+        whole = x in (_MOTION, _OUTPUT)
+        effects, cost = (("time-offset",), COST) if whole else ((), COST + 1.0)
         found.append(
-            t.propose(
-                what,
-                f"shift the {columns} by {by}",
-                cost,
-                kind="shift",
-                calming=False,
-                effects=effects,
-                **shift(k),
-            )
+            t.propose(what, remedy, cost, kind="shift", calming=False, effects=effects, **x.options(k))
         )
     return found
-
-
-_SLIPPED = (
-    *_SHIFTED[:2],
-    (
-        "omega_x, omega_y, omega_z are",
-        "columns",
-        "the rest",
-        lambda k: {"motion_later": k, "of": ("omega", "omegadot")},
-    ),
-    _SHIFTED[-1],
-)
-"""What one of two recorders may have recorded."""
 
 
 def _propose_slips(t: _Trial) -> list[Hypothesis]:
@@ -369,70 +361,53 @@ def _propose_slips(t: _Trial) -> list[Hypothesis]:
     s, n = t.s, len(t.s.flight)
     quarters = [(n * k // 4, n * (k + 1) // 4) for k in range(4)]
     likely = [(a, b, [k for k in _lags(s, a, b) if abs(k) < n // 8]) for a, b in quarters]
-    best: tuple[float, int, Index, Index] | None = None
-    for way, (*_, shift) in enumerate(_SLIPPED):
-        lags = {_find_lag(t, s.rows(a, b, SLIP_ROWS // 4), [0, *some], shift) for a, b, some in likely} | {0}
+    tried: list[tuple[float, _Late, Index, Index]] = []
+    for x in (_MOTION, _FORCE, _RATES, _OUTPUT):
+        lags = {_find_lag(t, s.rows(a, b, SLIP_ROWS // 4), [0, *some], x) for a, b, some in likely} | {0}
         rows = s.rows(reach := max(map(abs, lags)), n - reach, SLIP_ROWS)
-        for late in _follow_lags(t, rows, sorted(lags), shift) if reach else ():
-            misfit = t.fit(rows, **shift(late)).misfit
-            if np.ptp(late) and (best is None or misfit < best[0]):
-                best = misfit, way, rows, late
-    if best is None:
+        for late in _follow_lags(t, rows, sorted(lags), x) if reach else ():
+            if np.ptp(late):
+                tried.append((t.fit(rows, **x.options(late)).misfit, x, rows, late))
+    if not tried:
         return []
-    _, way, rows, late = best
-    name, columns, against, shift = _SLIPPED[way]
+    _, x, rows, late = min(tried, key=lambda one: one[0])
     here = np.flatnonzero(np.diff(late))
-    edges = [0, *(here + 1), len(rows)]
-    alone = [(rows[a:b], [int(late[a])]) for a, b in pairwise(edges)]
-    lags = {0, *late.tolist(), *(_find_lag(t, some, near, shift) for some, near in alone)}
+    alone = [(rows[a:b], [int(late[a])]) for a, b in pairwise([0, *(here + 1), len(rows)])]
+    lags = {0, *late.tolist(), *(_find_lag(t, some, near, x) for some, near in alone)}
     beside = [s.rows(int(rows[k]), int(rows[k + 1]) + 1, SLIP_ROWS) for k in here]
     rows = np.union1d(rows, np.concatenate(beside)).astype(np.intp)
-    late = min(
-        _follow_lags(t, rows, sorted(lags), shift),
-        key=lambda late: t.fit(rows, **shift(late)).misfit,
-    )
+    ways = _follow_lags(t, rows, sorted(lags), x)
+    late = min(ways, key=lambda late: t.fit(rows, **x.options(late)).misfit)
     here = np.flatnonzero(np.diff(late)) + 1
     if not len(here) or len(here) > MOST_SLIPS:
         return []
-
-    parts = _describe_slips(
-        s.flight, name, [(0, int(late[0])), *((int(rows[k]), int(late[k])) for k in here)]
-    )
-    what = f"{name} {', '.join(parts)}, against {against}: did one of two recorders lose samples, or repeat some?"
-    remedy = f"shift the {columns} back from there on, or cut the record there and diagnose the parts"
-    return [t.propose(what, remedy, COST + 1.0, rows, calming=False, **shift(late))]
-
-
-def _describe_slips(x: Flight, name: str, slips: Sequence[tuple[int, int]]) -> list[str]:
-    """By how much what is ``name`` is late from which rows on, in words; the first is that of the beginning."""
-    found = []
-    for n, (row, k) in enumerate(slips):
-        way = "late" if (k > 0) == (name != "the output is") else "early"
-        size = f"{abs(k) / x.rate:.6g} s ({abs(k)} sample{'s' * (abs(k) > 1)}) {way}" if k else "in time"
-        found.append(f"{size} from t = {x.time[row]:.5g} s on" if n else f"{size} at first")
-    return found if slips[0][1] else found[1:]
+    parts = [x.describe(int(late[0]), s.flight.rate) + " at first"] if late[0] else []
+    for k in here:
+        size = x.describe(int(late[k]), s.flight.rate) if late[k] else "in time"
+        parts.append(f"{size} from t = {s.flight.time[rows[k]]:.5g} s on")
+    what = f"{x.name} {', '.join(parts)}, against {x.against}: did one of two recorders lose samples, or repeat some?"
+    remedy = f"shift the {x.columns} back from there on, or cut the record there and diagnose the parts"
+    return [t.propose(what, remedy, COST + 1.0, rows, calming=False, **x.options(late))]
 
 
-def _find_lag(t: _Trial, rows: Index, lags: Sequence[int], shift: Callable[[Any], dict[str, Any]]) -> int:
+def _find_lag(t: _Trial, rows: Index, lags: Sequence[int], x: _Late) -> int:
     """The lag, of some and from the best of these on while less is left, with which the model leaves least of some rows."""
     tried: dict[int, float] = {}
     waiting = [*lags]
     while waiting and len(tried) < MOST_SHIFTS:
-        tried |= {k: t.fit(rows, **shift(k)).misfit for k in waiting}
+        tried |= {k: t.fit(rows, **x.options(k)).misfit for k in waiting}
         best = min(tried, key=lambda k: tried[k])
         waiting = [k for d in (-1, 1) if (k := best + d or d) not in tried]  # over 0, the record as it is
     return best
 
 
-def _follow_lags(
-    t: _Trial, rows: Index, lags: Sequence[int], shift: Callable[[Index], dict[str, Any]]
-) -> Iterator[Index]:
+def _follow_lags(t: _Trial, rows: Index, lags: Sequence[int], x: _Late) -> Iterator[Index]:
     """By how many samples, (rows,) of ``lags`` each, some columns are late all along: by the model as fitted to the first third as it is,
     and to the last third with the lag that suits it best.
     """
     third = len(rows) // 3
-    many = [t.s.take(rows, **shift(np.full(len(rows), k))) for k in lags]
-    systems = [linearise(t.model, t.instrument, x).system(x) for x in many]
+    many = [t.s.take(rows, **x.options(np.full(len(rows), k))) for k in lags]
+    systems = [linearise(t.model, t.instrument, some).system(some) for some in many]
     ends = [slice(0, third), slice(len(rows) - third, None)]
     for end, some in zip(ends, ([lags.index(0)], range(len(lags))), strict=True):
         fits = [_fit_end(*systems[k], end) for k in some]
