@@ -92,24 +92,8 @@ def make_flight(
     valid = _find_valid(placed | outputs, outputs, grid, notes)
     _derive_outputs(outputs, notes, accelerometers)
     channels = {c: fill_gaps(v, np.isfinite(v), turning=is_disc_angle(c)) for c, v in placed.items()}
-    if ANGULAR_ACCELERATION[0] not in channels:
-        slopes, sure = derive_accelerations([placed[n] for n in ANGULAR_RATE], grid.time)
-        valid &= sure  # a single sample between two gaps has no derivative
-        channels |= {
-            n: fill_gaps(x, np.isfinite(x)) for n, x in zip(ANGULAR_ACCELERATION, slopes, strict=True)
-        }
-        notes.append(NOTE)
     _check_gradient(channels, notes)
-    used = int(np.sum(valid))
-    if used <= (1 - MOST_UNUSED) * len(made):
-        raise UserError(
-            "most samples of the flight are incomplete",
-            where=made.place,
-            found=f"{len(made) - used} of {len(made)} samples cannot be used ({'; '.join(notes)})",
-            expected=f"fewer than {100 * MOST_UNUSED:.0f} % without a value",
-            remedy="record all columns at one rate, or resample the file to the lowest rate needed",
-        )
-    return Flight(
+    flight = Flight(
         time=grid.time,
         channels=channels,
         outputs=outputs,
@@ -122,6 +106,30 @@ def make_flight(
         origin=made.origin,
         lacking=np.any([np.isnan(placed[n]) for n in ANGULAR_RATE], axis=0),
     )
+    if ANGULAR_ACCELERATION[0] not in channels:
+        flight = replace(derive_acceleration(flight), notes=(*notes, NOTE))
+    used = int(np.sum(flight.valid))
+    if used <= (1 - MOST_UNUSED) * len(made):
+        raise UserError(
+            "most samples of the flight are incomplete",
+            where=made.place,
+            found=f"{len(made) - used} of {len(made)} samples cannot be used ({'; '.join(flight.notes)})",
+            expected=f"fewer than {100 * MOST_UNUSED:.0f} % without a value",
+            remedy="record all columns at one rate, or resample the file to the lowest rate needed",
+        )
+    return flight
+
+
+def derive_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
+    """The flight with its angular acceleration derived anew, unless it was recorded; rates are ``stuck`` (N,) somewhere."""
+    if not x.written or ANGULAR_ACCELERATION[0] in x.written or ANGULAR_RATE[0] not in x.channels:
+        return x
+    nowhere = np.zeros(len(x), dtype=np.bool_)
+    lacking = (nowhere if x.lacking is None else x.lacking) | (nowhere if stuck is None else stuck)
+    rates = [np.where(lacking, np.nan, x.channels[n]) for n in ANGULAR_RATE]
+    slopes, sure = derive_accelerations(rates, x.time)
+    made = {n: fill_gaps(v, np.isfinite(v)) for n, v in zip(ANGULAR_ACCELERATION, slopes, strict=True)}
+    return replace(x, channels={**x.channels, **made}, valid=x.valid & sure)
 
 
 # --- columns and units ---------------------------------------------------------------------------------

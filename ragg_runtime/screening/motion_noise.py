@@ -19,11 +19,11 @@ from scipy.sparse.linalg import LinearOperator, cg
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS, Units
 from ragg_runtime.io import Flight
+from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT, SPECIFIC_FORCE, Flag
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening.linear_fit import fit_rows
-from ragg_runtime.screening.repeated import derive_acceleration
 from ragg_runtime.screening.sampler import Rows, make_sampler
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.resolution import find_step

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.signal import periodogram
 
 from ragg_runtime.io import Flight
+from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag, is_disc_angle
-from ragg_runtime.signals.angular_acceleration import derive_accelerations
 from ragg_runtime.signals.derivative import fill_gaps, runs
 from ragg_runtime.signals.resolution import find_step
 
@@ -104,20 +104,6 @@ def leave_out_repeated(flight: Flight) -> Flight:
         stuck = np.any([r.left_out for r in rates if r.how == "stuck"] or [~np.ones_like(valid)], axis=0)
         changed = derive_acceleration(changed, stuck)
     return changed.flagged(_flags(found, flight))
-
-
-def derive_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
-    """The flight with its angular acceleration derived anew, unless it was recorded; rates are ``stuck`` (N,) somewhere."""
-    if not x.written or ANGULAR_ACCELERATION[0] in x.written or ANGULAR_ACCELERATION[0] not in x.channels:
-        return x
-    nowhere = np.zeros(len(x), dtype=np.bool_)
-    lacking = (nowhere if x.lacking is None else x.lacking) | (nowhere if stuck is None else stuck)
-    rates = [np.where(lacking, np.nan, x.channels[n]) for n in ANGULAR_RATE]
-    slopes, sure = derive_accelerations(rates, x.time)
-    made = {
-        n: fill_gaps(slope, np.isfinite(slope)) for n, slope in zip(ANGULAR_ACCELERATION, slopes, strict=True)
-    }
-    return replace(x, channels={**x.channels, **made}, valid=x.valid & sure)
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread, split_range
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
+from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import Flag
 from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, find_clock_steps, fit_even_clock
 from ragg_runtime.model.evaluate import scale_factor
@@ -22,7 +23,7 @@ from ragg_runtime.screening import checks
 from ragg_runtime.screening.linear_fit import INDEPENDENT, LinearFit, fit_rows
 from ragg_runtime.screening.mistakes import Finding, find_mistake
 from ragg_runtime.screening.motion_noise import smooth_noisy_motion
-from ragg_runtime.screening.repeated import derive_acceleration, leave_out_repeated
+from ragg_runtime.screening.repeated import leave_out_repeated
 from ragg_runtime.screening.sampler import Sampler, make_sampler
 from ragg_runtime.screening.spikes import describe_spikes, find_spikes, leave_out_glitches
 

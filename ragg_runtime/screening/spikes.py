@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from ragg_runtime.io import Flight
+from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
@@ -17,7 +18,6 @@ from ragg_runtime.io.record import (
     Flag,
     is_disc_angle,
 )
-from ragg_runtime.screening.repeated import derive_acceleration
 from ragg_runtime.signals.derivative import runs
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft, optimize
+from scipy import optimize, signal
 
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.sampling import find_clock_steps
@@ -26,6 +26,7 @@ from ragg_runtime.screening.linear_fit import (
 )
 from ragg_runtime.screening.sampler import Index, Sampler
 from ragg_runtime.signals.demodulate import is_demodulable, low_pass
+from ragg_runtime.signals.fir import convolve
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
@@ -450,24 +451,20 @@ def _lags(s: Sampler, first: int = 0, last: int | None = None) -> Sequence[int]:
         return ()
     carried, in_plane = _mix(s, rows)
     rates = x.channels["omega_x"][rows] + 1j * x.channels["omega_y"][rows]
-    taps = low_pass(x.rate)
-    narrow = fft.next_fast_len(n + len(taps))
-    response = fft.fft(taps, narrow)
-    size = fft.next_fast_len(2 * n)
+    turned, taps = carried * np.exp(1j * s.take(rows).phi), low_pass(x.rate)
 
-    def prepared(z: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        low = fft.ifft(fft.fft(z, narrow) * response)[len(taps) // 2 :][:n]
-        low = np.diff(low)  # slow drifts resemble each other at any lag
-        return np.asarray(fft.fft(low - np.mean(low), size))
+    def prepare(z: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        slope = np.diff(convolve(z, taps, "same"))  # slow drifts resemble each other at any lag
+        return np.asarray(slope - np.mean(slope))
 
-    turned = carried * np.exp(1j * s.take(rows).phi)
-    pairs = [(z, carried) for z in (in_plane, in_plane.real.astype(complex), in_plane.imag.astype(complex))]
-    reach = min(n // 4, int(FARTHEST * x.rate))
+    pairs = [(z, carried) for z in (in_plane, in_plane.real + 0j, in_plane.imag + 0j)]
+    lags = signal.correlation_lags(n - 1, n - 1)
+    near = np.abs(lags) <= min(n // 4, int(FARTHEST * x.rate))
     found: list[int] = []
-    for motion, output in (tuple(map(prepared, pair)) for pair in (*pairs, (rates**2, turned))):
-        for other in (motion, np.conj(np.roll(motion[::-1], 1))):
-            like = np.abs(fft.ifft(other * np.conj(output)))
-            top = int(np.argmax(np.concatenate([like[-reach:], like[: reach + 1]]))) - reach
+    for motion, output in (map(prepare, pair) for pair in (*pairs, (rates**2, turned))):
+        for other in (motion, np.conj(motion)):
+            like = np.abs(signal.correlate(other, output, method="fft"))
+            top = int(lags[near][np.argmax(like[near])])
             found += [k for k in range(top - 2, top + 3) if k not in found]
     return found
 
