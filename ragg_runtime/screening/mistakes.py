@@ -191,9 +191,7 @@ def list_mistakes(
         Whether the angular acceleration was derived from the rate, so that both share its mistakes.
     """
     yield from _demodulated(rows) if rows.recorded.demodulated else _outputs(rows, known, written)
-    for unit, factor in _meant(known, given := written.get("a_x", "m/s^2"), ("m/s^2", "g", "mg", "mGal")):
-        yield _in_unit("a_x, a_y, a_z", unit, given, _scaled(("a",), factor))
-    yield from _units_of_omega(known, written, derived)
+    yield from _units_of_motion(known, written, derived)
     if rows.gradient_recorded:
         undo = _scaled(("Gamma",), -1.0)
         yield ColumnMistake(
@@ -305,30 +303,32 @@ def _meant(known: Units, given: str, possible: Sequence[str]) -> list[tuple[str,
     return found
 
 
-def _units_of_omega(known: Units, written: Mapping[str, str], derived: bool) -> Iterator[ColumnMistake]:
-    both, columns = ("omega", "omegadot"), "omega_x, omega_y, omega_z"
-    given = written.get("omega_x", "rad/s")
-    for unit, factor in _meant(known, given, ("rad/s", "deg/s", "deg/h", "mrad/s", "urad/s")):
-        yield _in_unit(columns, unit, given, _scaled(both if derived else ("omega",), factor))
-        if not derived:
-            one = _in_unit(columns, unit, given, _scaled(both, factor), 1)
-            yield replace(
-                one, what=f"{one.what}, and omegadot likewise", remedy=f"{one.remedy}, and that of omegadot"
-            )
-    given = written.get("omegadot_x", "rad/s^2")
-    units = () if derived else ("rad/s^2", "deg/s^2", "deg/h/s", "deg/h^2")
-    for unit, factor in _meant(known, given, units) if units else ():
-        yield _in_unit("omegadot_x, omegadot_y, omegadot_z", unit, given, _scaled(("omegadot",), factor))
+_MOTION_UNITS = {
+    "a": ("m/s^2", "g", "mg", "mGal"),
+    "omega": ("rad/s", "deg/s", "deg/h", "mrad/s", "urad/s"),
+    "omegadot": ("rad/s^2", "deg/s^2", "deg/h/s", "deg/h^2"),
+}
+"""Quantities of motion and the units in which they may be, SI first."""
+
+
+def _units_of_motion(known: Units, written: Mapping[str, str], derived: bool) -> Iterator[ColumnMistake]:
+    both = ("omega", "omegadot")
+    for stem, units in _MOTION_UNITS.items():
+        if stem == "omegadot" and derived:
+            continue
+        columns, given = ", ".join(f"{stem}_{k}" for k in "xyz"), written.get(f"{stem}_x", units[0])
+        for unit, factor in _meant(known, given, units):
+            undone = both if stem == "omega" and derived else (stem,)
+            yield _in_unit(columns, unit, given, _scaled(undone, factor))
+            if stem == "omega" and not derived:
+                one = _in_unit(columns, unit, given, _scaled(both, factor), 1)
+                what, remedy = f"{one.what}, and omegadot likewise", f"{one.remedy}, and that of omegadot"
+                yield replace(one, what=what, remedy=remedy)
 
 
 def _axes(derived: bool) -> Iterator[ColumnMistake]:
-    groups: list[tuple[tuple[str, ...], int]] = [
-        (("a",), 0),
-        (("omega", "omegadot"), 0),
-        (("a", "omega", "omegadot"), 1),
-    ]
-    if not derived:
-        groups.append((("omega",), 1))
+    both: tuple[str, ...] = ("omega", "omegadot")
+    groups = [(("a",), 0), (both, 0), (("a", *both), 1), *([] if derived else [(("omega",), 1)])]
     for (group, more), order, signs in product(groups, permutations(range(3)), product((1, -1), repeat=3)):
         if order == (0, 1, 2) and signs == (1, 1, 1):
             continue

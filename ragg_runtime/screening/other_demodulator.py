@@ -68,9 +68,8 @@ def list_families() -> Iterator[Family]:
     """Every kind of low-pass; a causal one also with what it delays slow things by taken back."""
     for n in ORDERS:
         slow = 1.0 / (2 * np.pi * np.sin(np.pi / (2 * n)))
-        yield partial(_make_butterworth, "causal", n, 0.0)
-        yield partial(_make_butterworth, "causal", n, slow)
-        yield partial(_make_butterworth, "butterworth", n, 0.0)
+        for kind, early in (("causal", 0.0), ("causal", slow), ("butterworth", 0.0)):
+            yield partial(_make_butterworth, kind, n, early)
     for kind in ("average", "causal average"):
         yield partial(_make_average, kind)
 

@@ -205,46 +205,40 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
 
 
 def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
-    """One flag of each kind, about all columns that share it."""
-    groups: dict[str, list[tuple[str, _Repeated]]] = {}
+    """One flag for all columns of which the same is to be said."""
+    groups: dict[str, dict[str, bool]] = {}
     for name, r in found:
-        places = np.flatnonzero(r.left_out)
-        key = f"{r.how} {r.every or (places[0], len(places))}"
-        groups.setdefault(key, []).append((name, r))
-    return [_flag([n for n, _ in group], group[0][1], flight) for group in groups.values()]
+        groups.setdefault(_describe(r, flight), {})[name] = _is_lost(name, r, flight)
+    flags = []
+    for text, columns in groups.items():
+        lost = any(columns.values())
+        if lost:
+            text += "; the angular acceleration, which is derived from it, changes faster than that"
+        flags.append(Flag(tuple(columns), f"{', '.join(columns)}: {text}", open=lost))
+    return flags
 
 
-def _flag(names: Sequence[str], r: _Repeated, flight: Flight) -> Flag:
+def _describe(r: _Repeated, flight: Flight) -> str:
     at = np.flatnonzero(r.left_out)
-    what = f"{', '.join(names)}: recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
-    lost = (
-        r.every > 0.0
-        and ANGULAR_ACCELERATION[0] not in flight.written
-        and any(_is_lost(n, r, flight) for n in names)
-    )
-    if lost:
-        what += "; the angular acceleration, which is derived from it, changes faster than that"
     if r.how == "stuck":
-        edges = np.flatnonzero(np.diff(at) > 1)
-        begins, ends = at[np.r_[0, edges + 1]], at[np.r_[edges, len(at) - 1]]
+        places = runs(r.left_out)
         some = ", ".join(
-            f"{b - a + 1} equal samples from {flight.time[a]:.5g} s"
-            for a, b in zip(begins[:3], ends[:3], strict=True)
+            f"{x.stop - x.start} equal samples from {flight.time[x.start]:.5g} s" for x in places[:3]
         )
-        more = f" and {len(begins) - 3} times more" if len(begins) > 3 else ""
-        what = (
-            f"{', '.join(names)}: the value is stuck: {some}{more}, unlike noise; {len(at)} samples not used"
-        )
+        more = f" and {len(places) - 3} times more" if len(places) > 3 else ""
+        return f"the value is stuck: {some}{more}, unlike noise; {len(at)} samples not used"
     if r.how == "not renewed":
         where = ", ".join(f"{t:.6g}" for t in flight.time[at[:3]]) + " ..." * (len(at) > 3)
-        what = f"{', '.join(names)}: all repeat their values, or are zero, at {len(at)} sample{'s' * (len(at) > 1)} (t = {where} s)"
-        what += ": readings that did not arrive? not used"
-    return Flag(tuple(names), what, open=lost)
+        count = f"{len(at)} sample{'s' * (len(at) > 1)}"
+        return f"all repeat their values, or are zero, at {count} (t = {where} s): readings that did not arrive? not used"
+    return (
+        f"recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
+    )
 
 
 def _is_lost(name: str, r: _Repeated, flight: Flight) -> bool:
     """Whether an angular rate was recorded too seldom for its derivative: that has power near the highest frequency."""
-    if name not in ANGULAR_RATE:
+    if r.every == 0.0 or name not in ANGULAR_RATE or ANGULAR_ACCELERATION[0] in flight.written:
         return False
     power = periodogram(np.diff(flight.channels[name][~r.left_out]), window="hann")[1]
     return bool(np.sum(power[-len(power) // 4 :]) > LOST**2 * np.sum(power))
