@@ -153,7 +153,8 @@ class OutputChannel(ModelledOutput):
         r, x, moved = self.make_inputs(rows, g)
         o, count = self.observation, len(r.time) // few
         J = np.zeros((len(self.columns), len(o.series), len(r.time)))
-        put_derivatives(J, self.model.evaluators("chain"), self.columns, x, r, o, self.about - moved)
+        where, p = (r.time, x, r.phi), self.about - moved
+        put_derivatives(J, self.model.evaluators("chain"), self.columns, where, p, o.recorded, o.output)
         mixer = np.stack([self.mixer[rows].real, self.mixer[rows].imag]).reshape(2, count, few) / few
         return np.asarray(np.einsum("wcf,ncf->nwc", mixer, combine_output(o, J).reshape(len(J), count, few)))
 

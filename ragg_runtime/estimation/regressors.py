@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation.observation import Observation, Thin, bridge_gaps
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import Output
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.model.evaluate import unit_factor, voltages
@@ -20,6 +21,7 @@ from ragg_runtime.model.lateness import move_record
 from ragg_runtime.model.memory import add_responses, first_memories
 from ragg_runtime.model.model import DerivedEffect, Model
 from ragg_runtime.model.record import Record, list_channels
+from ragg_runtime.model.recorded import RecordedSeries
 
 Array = NDArray[np.float64]
 
@@ -236,13 +238,15 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
     n_base = len(at.base)
     columns = np.zeros((n_base + len(at.candidates) + 1, len(o.series), len(r.time)))
     chain = at.model.evaluators("chain")
-    put_derivatives(columns, chain, at.base, r.inputs(chain.chain), r, o, p)
+    where = (r.time, r.inputs(chain.chain), r.phi)
+    put_derivatives(columns, chain, at.base, where, p, o.recorded, o.output)
     if at.candidates:
         searched = (m for _, m in first_memories((e for e in at.model.candidates if e.searched), r))
         r = add_responses(r, searched, at.model.signatures.INPUTS)
         q = np.concatenate([p, np.zeros(at.model.signatures.SIZE - len(p))])
         module = at.model.evaluators("signatures")
-        put_derivatives(columns[n_base:], module, at.candidates, r.inputs(module.chain), r, o, q)
+        where = (r.time, r.inputs(module.chain), r.phi)
+        put_derivatives(columns[n_base:], module, at.candidates, where, q, o.recorded, o.output)
     for column in columns[:-1] if o.recorded.demodulated else ():
         column[:] = o.recorded.through(column, r)
     if o.thin is None:
@@ -259,22 +263,30 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
 
 
 def put_derivatives(
-    columns: Array, e: Evaluator, parameters: Sequence[Column], x: Array, r: Record, o: Observation, p: Array
+    columns: Array,
+    e: Evaluator,
+    parameters: Sequence[Column],
+    at: tuple[Array, Array, Array],
+    p: Array,
+    recorded: RecordedSeries,
+    output: Output,
 ) -> None:
-    """Put the derivatives by parameters into the first of the columns (n, m, N), which are zero, before any demodulation.
+    """Put the derivatives of an output by parameters into the first of the columns (n, m, N), which are zero, before any demodulation.
 
-    ``x`` (n_inputs, N): the inputs of the record ``r``; each derivative is times its parameter's scale.
+    ``at``: instants (N,), s, inputs (n_inputs, N) and disc angles (N,), rad; ``p``: values of the model's parameters, SI. Each
+    derivative is times its parameter's scale.
     """
+    time, x, phi = at
     row = {name: k for k, (name, _) in enumerate(e.chain.ROWS)}
-    for k, (j, sign) in enumerate(zip(o.output.members, o.output.signs, strict=True)):
-        series, weight = (k, 1) if o.recorded.separate else (0, sign)
+    for k, (j, sign) in enumerate(zip(output.members, output.signs, strict=True)):
+        series, weight = (k, 1) if recorded.separate else (0, sign)
         own = [
             (n, row[c.name], weight * c.scale)
             for n, c in enumerate(parameters)
             if c.accelerometer in (None, j + 1)
         ]
-        for some in split_range(len(r.time), CACHED):
-            slopes = e.derivatives(j, r.time[some], x[:, some], p, r.phi[some])
+        for some in split_range(len(time), CACHED):
+            slopes = e.derivatives(j, time[some], x[:, some], p, phi[some])
             for n, of, scale in own:
                 columns[n, series, some] += scale * slopes[of]
 

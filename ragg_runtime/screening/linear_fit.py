@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.least_squares import r_factor
-from ragg_runtime.estimation.regressors import list_base_columns
+from ragg_runtime.estimation.regressors import list_base_columns, own_columns, put_derivatives
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
@@ -173,29 +173,22 @@ class LinearModel:
 
 def linearise(model: Model, instrument: Instrument, rows: Rows) -> LinearModel:
     """A model about an instrument's values at rows of one output."""
-    chain, p, members = model.chain, vector(model, instrument), rows.output.members
-    eotvos = scale_factor(model, p, instrument.layout.outputs.index(rows.output))
-    x, cos_phi, sin_phi = rows.inputs(chain), np.cos(rows.phi), np.sin(rows.phi)
-    volts = np.empty((len(members), len(rows.time)))
-    by: dict[tuple[str, int | None], Array] = {}
-    for k, j in enumerate(members):
-        q = chain.values_of(j, p)
-        volts[k] = chain.accelerometer(j, rows.time, cos_phi, sin_phi, x, q)
-        slopes = chain.derivatives(j, rows.time, cos_phi, sin_phi, x, q)
-        for (name, shared), slope in zip(chain.ROWS, slopes, strict=True):
-            if shared:
-                by.setdefault((name, None), np.empty_like(volts))[k] = slope
-            else:
-                by[name, j + 1] = slope
-    own = [(c, i) for c, i in list_base_columns(model, instrument) if (c.name, c.accelerometer) in by]
-    columns = [rows.before_demodulation(by[c.name, c.accelerometer], c.accelerometer) for c, _ in own]
-    scales = np.array([c.scale for c, _ in own])
+    p, evaluator, o = vector(model, instrument), model.evaluators("chain"), rows.output
+    place = instrument.layout.outputs.index(o)
+    eotvos = scale_factor(model, p, place)
+    base = list_base_columns(model, instrument)
+    own = [base[k] for k in own_columns([c for c, _ in base], instrument, place)]
+    at = (rows.time, rows.inputs(model.chain), rows.phi)
+    volts = evaluator.voltages(rows.time, at[1], p, rows.phi, o.members)
+    nominal, gradient = rows.before_demodulation(volts, None), _make_gradient(rows)
+    columns = np.zeros((len(own), *nominal.shape))
+    put_derivatives(columns, evaluator, [c for c, _ in own], at, p, rows.recorded, o)
     return LinearModel(
         p=p,
         places=[i for _, i in own],
-        scales=scales,
-        columns=np.concatenate([np.stack(columns) * (scales / eotvos)[:, None, None], _make_gradient(rows)]),
-        nominal=rows.before_demodulation(volts, None),
+        scales=np.array([c.scale for c, _ in own]),
+        columns=np.concatenate([columns / eotvos, gradient]),
+        nominal=nominal,
         eotvos=eotvos,
     )
 
