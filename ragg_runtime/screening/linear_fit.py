@@ -180,33 +180,26 @@ def linearise(model: Model, instrument: Instrument, rows: Rows) -> LinearModel:
     own = [base[k] for k in own_columns([c for c, _ in base], instrument, place)]
     at = (rows.time, rows.inputs(model.chain), rows.phi)
     volts = evaluator.voltages(rows.time, at[1], p, rows.phi, o.members)
-    nominal, gradient = rows.before_demodulation(volts, None), _make_gradient(rows)
+    nominal = rows.before_demodulation(volts, None)
     columns = np.zeros((len(own), *nominal.shape))
     put_derivatives(columns, evaluator, [c for c, _ in own], at, p, rows.recorded, o)
+    gradient = () if rows.gradient_recorded else (_make_gradient(rows),)
     return LinearModel(
         p=p,
         places=[i for _, i in own],
         scales=np.array([c.scale for c, _ in own]),
-        columns=np.concatenate([columns / eotvos, gradient]),
+        columns=np.concatenate([columns / eotvos, *gradient]),
         nominal=nominal,
         eotvos=eotvos,
     )
 
 
 def _make_gradient(rows: Rows) -> Array:
-    """(0 or 2, m, N): columns of a constant gradient where none was recorded, before demodulation."""
+    """(2, m, N): columns of a constant gradient, before demodulation."""
     o = rows.output
-    if rows.gradient_recorded:
-        return np.empty((0, len(rows.data) if not rows.recorded.demodulated else 1, len(rows.time)))
-    share = (
-        np.array(o.carriers)[:, None] * np.array(o.radii)[:, None] / max((*o.radii, 1e-300)) / len(o.members)
-    )
-    turning = np.exp(2j * rows.phi)
-    if not np.any(share.imag):
-        carriers = [share.real * GRADIENT_SCALE * x for x in (np.sin(2 * rows.phi), np.cos(2 * rows.phi))]
-    else:
-        carriers = [x * GRADIENT_SCALE for x in ((share * turning).imag, (share * turning).real)]
-    return np.stack([rows.before_demodulation(x, None) for x in carriers])
+    share = np.array(o.carriers) * np.array(o.radii) / max((*o.radii, 1e-300)) / len(o.members)
+    wave = GRADIENT_SCALE * share[:, None] * np.exp(2j * rows.phi)
+    return np.stack([rows.before_demodulation(x, None) for x in (wave.imag, wave.real)])
 
 
 def find_least(cost: Callable[[float], float], grid: NDArray[np.floating[Any]], finest: float) -> float:
