@@ -78,6 +78,11 @@ def at(*places: object) -> str:
     return ": ".join(str(p) for p in places if p is not None and str(p))
 
 
+def count(number: int, what: str) -> str:
+    """So many of something, in words: ``1 row``, ``2 rows``."""
+    return f"{number} {what}{'s' * (number != 1)}"
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str | None:
     """A remedy that names the closest known name, or ``None``."""
     known = list(known)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean, one_line
+from ragg_runtime.base.errors import UserError, at, count, did_you_mean, one_line
 from ragg_runtime.base.names import EXPECTED, is_column
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
@@ -186,8 +186,7 @@ def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> 
             cold, warm = si[name] <= 0.0, si[name][si[name] > 0.0]
         if cold.any() and len(warm) and np.min(warm) > np.ptp(warm):
             si[name] = np.where(cold, np.nan, si[name])
-            count = count_samples(int(np.sum(cold)))
-            notes.append(f"{name}: {count} not above absolute zero, left out")
+            notes.append(f"{name}: {count(int(np.sum(cold)), 'sample')} not above absolute zero, left out")
     return notes
 
 
@@ -273,18 +272,14 @@ def _find_valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, 
                 bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
         kept = int(np.sum(bridged))
         lost = int(np.sum(lacking)) - kept
-        notes += [f"{name}: without a value at {count_samples(kept)}, interpolated"] if kept else []
-        notes += [f"{name}: without a value at {count_samples(lost)}, not used"] if lost else []
+        notes += [f"{name}: without a value at {count(kept, 'sample')}, interpolated"] if kept else []
+        notes += [f"{name}: without a value at {count(lost, 'sample')}, not used"] if lost else []
         valid &= ~missing | bridged
     return valid
 
 
 def _is_auxiliary(name: str) -> bool:
     return name not in SI_UNITS or name in AUXILIARY
-
-
-def count_samples(count: int) -> str:
-    return "1 sample" if count == 1 else f"{count} samples"
 
 
 def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Accelerometers) -> None:
@@ -343,7 +338,7 @@ def interpolate_slow(time: Array, values: Array, at: Array) -> Array | str:
     linearly, in words.
     """
     if len(values) < FEWEST_VALUES:
-        return f"it has {len(values)} value{'s' * (len(values) != 1)}"
+        return f"it has {count(len(values), 'value')}"
     steps, whole = np.diff(time), float(at[-1] - at[0])
     step = float(np.median(steps))
     near = steps <= BRIDGED_STEPS * step
@@ -367,10 +362,14 @@ def _interpolate_slower(
     """Interpolate auxiliary channels of a lower rate; those that cannot be are left out."""
     for name in filter(_is_auxiliary, list(placed)):
         there = np.isfinite(placed[name])
-        count = int(np.sum(there))
-        if not 0 < count < (1 - SPARSE) * len(grid.index):
+        known = int(np.sum(there))
+        if not 0 < known < (1 - SPARSE) * len(grid.index):
             continue
-        time, values, lacking = grid.time[there], placed[name][there], count_samples(len(grid.index) - count)
+        time, values, lacking = (
+            grid.time[there],
+            placed[name][there],
+            count(len(grid.index) - known, "sample"),
+        )
         if si_units[name] == "rad":
             values = np.unwrap(values)
         made = interpolate_slow(time, values, grid.time)

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at, count
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.instants import WAYS, Stamps, are_packed, count_seconds_since, read_stamps
 from ragg_runtime.io.mapping import Entry, Mapped, Null, TimeEntry
@@ -168,7 +168,7 @@ def _read_columns(
     there = np.isfinite(columns[0].values) if times else np.zeros(0, dtype=np.bool_)
     if there.any() and not there.all():
         lost = int(np.sum(~there))
-        notes.append(f"{lost} row{'s' * (lost > 1)} without a time left out")
+        notes.append(f"{count(lost, 'row')} without a time left out")
         columns = [replace(c, values=c.values[there]) for c in columns]
     if stamps is not None:
         table = replace(table, origin=stamps.origin, instants=stamps.instants)
@@ -277,9 +277,9 @@ def _leave_out_codes(c: DataColumn, null: Null, notes: list[str]) -> DataColumn:
 
     def leave_out(code: float, hit: NDArray[np.bool_]) -> None:
         nonlocal values
-        count, unit = int(np.sum(hit)), "" if c.unit in ("", "1") else f" {c.unit}"
-        if count:
-            shown = f"{count} value{'s' * (count > 1)} of {code:.10g}{unit}"
+        hits, unit = int(np.sum(hit)), "" if c.unit in ("", "1") else f" {c.unit}"
+        if hits:
+            shown = f"{count(hits, 'value')} of {code:.10g}{unit}"
             notes.append(f"{c.name}: left out as missing: {shown}")
             values = np.where(hit, np.nan, values)
 

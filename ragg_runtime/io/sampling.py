@@ -10,7 +10,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at, count
 from ragg_runtime.io.record import Array
 
 JITTER_NOTED = 1e-3
@@ -109,8 +109,8 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
     elif uneven and (np.any(jumps < 1) or np.any(off[jumps == 1] > JITTER_REFUSED)):
         raise _refuse_uneven(time, steps, step, np.where(jumps <= 1, off, 0.0), where)
     index = np.concatenate([[0], np.cumsum(jumps)])
-    count = int(index[-1]) + 1
-    if count > len(time) / (1 - _MOST_MISSING) or not span / step < 2.0**53:
+    size = int(index[-1]) + 1
+    if size > len(time) / (1 - _MOST_MISSING) or not span / step < 2.0**53:
         what = "more than nine samples in ten are missing"
         remedy = "split the record at its gaps into one file each"
         leaps = np.flatnonzero(jumps > 1)
@@ -122,7 +122,7 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
         raise UserError(what, where=where, found=found, remedy=remedy)
     rounded = unround(time, index)
     if rounded is None:
-        whole = time if count == len(time) else np.interp(np.arange(count), index, time)
+        whole = time if size == len(time) else np.interp(np.arange(size), index, time)
         notes += _describe_gaps(time, jumps, step) + _describe_jitter(time, jumps, off, step)
         return Grid(index, whole, step, tuple(notes))
     unit, first, step = rounded
@@ -131,7 +131,7 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
         notes.append(
             f"the time stamps are rounded to {unit:g} s; they are replaced by an even grid of {1 / step:.6g} Hz"
         )
-    return Grid(index, np.asarray(first + step * np.arange(count), dtype=np.float64), step, tuple(notes))
+    return Grid(index, np.asarray(first + step * np.arange(size), dtype=np.float64), step, tuple(notes))
 
 
 def _unroll(time: Array) -> tuple[Array, list[str]]:
@@ -329,9 +329,9 @@ def _describe_gaps(time: Array, jumps: NDArray[np.int64], step: float) -> list[s
     gaps = jumps - 1
     if not gaps.any():
         return []
-    count, missing, longest = int(np.sum(gaps > 0)), int(np.sum(gaps)), int(np.argmax(gaps))
+    places, missing, longest = int(np.sum(gaps > 0)), int(np.sum(gaps)), int(np.argmax(gaps))
     return [
-        f"{count} gap{'s' * (count > 1)}: {missing} of {len(time) + missing} samples missing, the longest lasts"
+        f"{count(places, 'gap')}: {missing} of {len(time) + missing} samples missing, the longest lasts"
         f" {jumps[longest] * step:.6g} s from t = {time[longest]:.10g} s; not used"
     ]
 
@@ -372,7 +372,7 @@ def _refuse_uneven(time: Array, steps: Array, step: float, off: Array, where: st
 def _require_increasing(time: Array, path: Path | str | None, where: str) -> None:
     """UserError unless every instant is later than the one before."""
     if len(time) < 2:
-        rows = f"{len(time)} row{'s' * (len(time) != 1)}"
+        rows = count(len(time), "row")
         raise UserError("too few samples", where=path, found=rows, expected="at least 2, usually thousands")
     if not np.all(np.isfinite(time)):
         row = int(np.flatnonzero(~np.isfinite(time))[0])
@@ -417,7 +417,7 @@ def _describe_coarse(time: Array, steps: Array, single: float | None) -> tuple[s
     """What was found and the remedy where several rows share each stamp: whole seconds, or single precision."""
     edges = np.flatnonzero(steps != 0) + 1
     rows = len(time) / (len(edges) + 1)
-    found = f"{len(edges) + 1} different stamp{'s' * bool(len(edges))} in {len(time)} rows, each in about {rows:.4g} rows"
+    found = f"{count(len(edges) + 1, 'different stamp')} in {len(time)} rows, each in about {rows:.4g} rows"
     rate = "rate"
     if single is not None:
         found += f"; single precision has steps of {single:.3g} s there"

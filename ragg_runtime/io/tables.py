@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError, at, one_line
+from ragg_runtime.base.errors import UserError, at, count, one_line
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
@@ -482,7 +482,7 @@ def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | s
         )
     lost = int(np.sum(which < 0))
     if lost:
-        note = f"{lost} row{'s' * (lost > 1)} without the name of a line left out"
+        note = f"{count(lost, 'row')} without the name of a line left out"
         rest = replace(rest, notes=(*rest.notes, note))
     elif len(named) == 1:
         return [rest]

@@ -25,7 +25,7 @@ import pyarrow as pa
 import pyarrow.csv
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at, count
 from ragg_runtime.io.array_files import convert_arrow, report_damage
 from ragg_runtime.io.instants import are_packed, find_parts
 from ragg_runtime.io.record import SI_UNITS
@@ -242,9 +242,7 @@ def read_csv(path: Path) -> list[DataTable]:
         except pa.ArrowInvalid as error:
             dialect = _changed(dialect, str(error), path)
     if passed:
-        notes.append(
-            f"{len(passed)} line{'s' * (len(passed) > 1)} without data skipped: {', '.join(passed[:3])}"
-        )
+        notes.append(f"{count(len(passed), 'line')} without data skipped: {', '.join(passed[:3])}")
     columns = []
     for k, x in enumerate(map(convert_arrow, table.columns)):
         name, unit = dialect.header.names[k], dialect.header.units[k]
@@ -352,14 +350,14 @@ def _holds_text(rows: Sequence[Sequence[str]], column: int) -> bool:
 
 def _drop_headers(data: bytes, d: _Dialect, notes: list[str]) -> bytes:
     """The text without repeated headings, as in files that were joined."""
-    begins, count = sum(map(len, d.headings)), 0
+    begins, repeated = sum(map(len, d.headings)), 0
     for heading in d.headings:
         if d.delimiter.encode() in heading and data.find(b"\n" + heading, begins - 1) >= 0:
             body = data[begins - 1 :]
-            count += body.count(b"\n" + heading)
+            repeated += body.count(b"\n" + heading)
             data = data[: begins - 1] + body.replace(b"\n" + heading, b"\n\n")
-    if count:
-        notes.append(f"the header is repeated ({count} line{'s' * (count > 1)}): skipped")
+    if repeated:
+        notes.append(f"the header is repeated ({count(repeated, 'line')}): skipped")
     return data
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at, count
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.io import Flight
@@ -151,7 +151,7 @@ def _overflown(flight: Flight) -> list[Flag]:
         moves = moves[moves < LEAP * span]  # not over another leap
         if len(moves) and np.median(moves) > 2 * usual and np.min(moves) > -2 * usual:
             text = (
-                f"{name} leaps from one end of its range to the other and moves on there, {len(leaps)} time{'s' * (len(leaps) > 1)}, first"
+                f"{name} leaps from one end of its range to the other and moves on there, {count(len(leaps), 'time')}, first"
                 f" at t = {flight.time[leaps[0] + 1]:.6g} s: did the numbers of a converter overflow?"
             )
             found.append(Flag((name,), text, open=True))
@@ -218,10 +218,10 @@ def _find_lost_rows(column: str, angle: Array, time: Array) -> list[str]:
     step = float(np.median(passed))
     lost = np.rint((turned / pace - passed) / step)
     clear = np.abs(turned / pace - passed - lost * step) < CLEAR * step
-    count, places = int(np.sum(lost)), int(np.sum(lost > 0))
+    rows, places = int(np.sum(lost)), int(np.sum(lost > 0))
     if not places or not clear.all() or np.any(lost < 0):
         return []
-    one = f"{count} row{'s' if count > 1 else ''} {'are' if count > 1 else 'is'} missing"
+    one = f"{count(rows, 'row')} {'are' if rows > 1 else 'is'} missing"
     at = f"at t = {time[np.flatnonzero(lost)[0]]:.5g} s" + f" and {places - 1} other places" * (places > 1)
     return [f"{one} by {column}, {at}: are the stamps made of row numbers?"]
 

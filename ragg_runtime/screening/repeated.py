@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import periodogram
 
+from ragg_runtime.base.errors import count
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag, is_disc_angle
@@ -229,8 +230,8 @@ def _describe(r: _Repeated, flight: Flight) -> str:
         return f"the value is stuck: {some}{more}, unlike noise; {len(at)} samples not used"
     if r.how == "not renewed":
         where = ", ".join(f"{t:.6g}" for t in flight.time[at[:3]]) + " ..." * (len(at) > 3)
-        count = f"{len(at)} sample{'s' * (len(at) > 1)}"
-        return f"all repeat their values, or are zero, at {count} (t = {where} s): readings that did not arrive? not used"
+        lost = f"all repeat their values, or are zero, at {count(len(at), 'sample')} (t = {where} s)"
+        return f"{lost}: readings that did not arrive? not used"
     return (
         f"recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
     )

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize, signal
 
+from ragg_runtime.base.errors import count
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.sampling import find_clock_steps
 from ragg_runtime.model.model import Model
@@ -273,10 +274,10 @@ def _propose_losses(t: _Trial) -> list[Hypothesis]:
         rises = np.cumsum(np.mod(way * steps + BACK, 2 * np.pi) - BACK)
         angle = way * optimize.isotonic_regression(np.r_[0.0, rises]).x
         turned = abs(float(angle[-1] - angle[0]))
-        count = round(turned / abs(2 * np.pi * f) * rate)
+        number = round(turned / abs(2 * np.pi * f) * rate)
         if turned > LEAST_TURN:
             fitted = t.fit(rows, phase=np.interp(rows, at, angle - angle[0]))
-            found.append((fitted, f"{kind} (about {count} of {len(s.flight)})"))
+            found.append((fitted, f"{kind} (about {number} of {len(s.flight)})"))
     if not found:
         return []
     best = min((x for x, _ in found), key=lambda x: x.share)
@@ -330,7 +331,7 @@ class _Late:
     def describe(self, k: int, rate: float) -> str:
         """By how much it is late, in words."""
         way = "late" if (k > 0) == bool(self.of) else "early"
-        return f"{abs(k) / rate:.6g} s ({abs(k)} sample{'s' * (abs(k) > 1)}) {way}"
+        return f"{abs(k) / rate:.6g} s ({count(abs(k), 'sample')}) {way}"
 
 
 _MOTION = _Late("the motion record is", "motion columns", "the output", ("a", "omega", "omegadot", "Gamma"))

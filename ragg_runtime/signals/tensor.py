@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, count
 
 Array = NDArray[np.float64]
 Axis = Sequence[float] | Array
@@ -99,7 +99,7 @@ def tensor(axes: Sequence[tuple[Axis, Axis]], channels: Array, std: Array) -> Te
     if len(s) < 5 or s[4] < ILL * s[0]:
         raise UserError(
             "the discs do not determine the gravity gradient tensor",
-            found=f"{len(axes)} disc{'s' * (len(axes) != 1)}",
+            found=count(len(axes), "disc"),
             expected="three discs with axes that do not lie in one plane",
         )
     y = channels / std[:, None]

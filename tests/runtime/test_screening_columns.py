@@ -10,10 +10,11 @@ import pytest
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.io import Flight
+from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.io.sampling import find_clock_steps, fit_even_clock, make_grid
 from ragg_runtime.screening.checks import _encoder, _overflown
-from ragg_runtime.screening.repeated import derive_acceleration, leave_out_repeated
+from ragg_runtime.screening.repeated import leave_out_repeated
 from ragg_runtime.screening.spikes import find_glitches, find_spikes, leave_out_glitches
 from ragg_runtime.signals.resolution import find_step
 
