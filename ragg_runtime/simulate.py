@@ -44,7 +44,7 @@ GEOLOGY = 20e-9
 
 
 def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
-    """Simulate a flight of the model's instrument with the numerical reference.
+    """Simulate a flight at 1 g in turbulence, over a varying gradient, with hidden effects, in model.toml's order and kinematics.
 
     Parameters
     ----------
@@ -53,8 +53,12 @@ def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
     effects
         Effects to hide: ``ID:NAME=VALUE[,NAME=VALUE]``, values in the effect's display units, four joined by ``/``.
     options
-        ``duration`` (s), ``rate`` (Hz), ``noise`` (Eo/sqrt(Hz)), ``seed``, ``instrument_seed``, ``sheet_error``, ``shape``, ``voltages``,
-        ``motion``, ``spin``: as for ``ragg simulate``.
+        ``seed``, ``instrument_seed``: of motion, gradient and noise, and of the true instrument, which flights of one seed share.
+        ``duration``, ``rate``, ``noise``: s, Hz, Eo/sqrt(Hz) of the cross channel. ``shape``: spectrum of the motion, ``flat``,
+        ``dryden``, ``kolmogorov`` or ``resonant``. ``sheet_error``: how far the true instrument is from its test sheet; 1 is usual.
+        ``no_gradient``: whether the gravity gradient is left unrecorded, as on a survey. ``voltages``: whether they are recorded.
+        ``motion``: a flight file whose motion and disc angles are flown, at its rate and duration (``mapping`` describes its
+        columns). ``spin``: of the discs (:data:`FORM`), if not steady as on the sheet; their encoders are then recorded.
 
     Returns
     -------
@@ -85,26 +89,7 @@ def simulate_flight(
     mapping: Mapped | None = None,
     spin: Sequence[str] = (),
 ) -> Flight:
-    """Simulate a flight at 1 g in turbulence, over a varying gradient, with hidden effects, in model.toml's order and kinematics.
-
-    Parameters
-    ----------
-    hidden
-        ``ID:NAME=VALUE[,NAME=VALUE]``, values in the effect's display units, four joined by ``/``.
-    seed, instrument_seed
-        Seeds of motion, gradient and noise, and of the true instrument, which flights of one seed share.
-    duration, rate, noise
-        s, Hz, Eo/sqrt(Hz) of the cross channel.
-    sheet_error
-        How far the true instrument is from its test sheet; 1 is usual.
-    no_gradient
-        Whether the gravity gradient is left unrecorded, as on a survey.
-    motion
-        A flight file whose motion and disc angles are flown, at its rate and duration; default: a random motion. ``mapping`` describes
-        its columns.
-    spin
-        Spin of the discs (``spin.FORM``), if not steady as on the sheet; their encoders are then recorded.
-    """
+    """As :func:`simulate`, of an instrument."""
     effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument) for text in hidden)
     form = instrument.form
     if not form.second_order_angles:

@@ -215,14 +215,7 @@ def follow(
 ) -> Compensation:
     """Calibrate and compensate flights sample by sample, from the saved calibration, else from the test sheet.
 
-    Parameters
-    ----------
-    noise
-        Density of the noise of the cross channel, Eo/sqrt(Hz), by default what the saved calibration left.
-    walk
-        Of the cross channel, Eo/sqrt(s), by default so that channels are followed as the demodulators' low-pass would.
-    forget
-        Time constant with which parameters forget, s.
+    ``noise``, ``walk``, ``forget``: as of :func:`ragg.compensate`.
 
     Raises
     ------

@@ -236,11 +236,6 @@ class Contents:
             "parameters": self.parameters(),
             "inputs": self.inputs(),
             "outputs": outputs,
-            **(
-                {"output": outputs[0], "scale_factor": outputs[0]["scale_factor"]}
-                if len(outputs) == 1
-                else {}
-            ),
             "calibration": None if self.saved is None else self.saved.as_json(),
             "example": {
                 "columns": {n: x.tolist() for n, x in motion.items()},
