@@ -46,8 +46,7 @@ class Calibrated:
     @property
     def directions(self) -> tuple[int, int]:
         """How many directions of the parameters the record determines, and how many there are."""
-        deviations = np.linalg.svd(invert_root(information(self.fitted)), compute_uv=False)
-        return int(np.sum(deviations < LEARNED)), len(deviations)
+        return count_directions(self.fitted)
 
     def as_json(self) -> dict[str, Any]:
         """As ``ragg calibrate --json`` writes it."""
@@ -65,6 +64,12 @@ class Calibrated:
     def errors_json(self) -> dict[str, Any]:
         """The ``error`` of the JSON: nominal, calibrated, holdout."""
         return list_errors(self.nominal, self.error, self.holdout)
+
+
+def count_directions(f: Fitted) -> tuple[int, int]:
+    """How many directions of the parameters the record determines, and how many there are."""
+    deviations = np.linalg.svd(invert_root(information(f)), compute_uv=False)
+    return int(np.sum(deviations < LEARNED)), len(deviations)
 
 
 def list_parameters(f: Fitted) -> list[dict[str, Any]]:

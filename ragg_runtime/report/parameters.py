@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
-from ragg_runtime.compensation.calibrate import list_combinations, list_parameters
+from ragg_runtime.compensation.calibrate import LEARNED, count_directions, list_combinations, list_parameters
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.identification import parameters as combinations
 from ragg_runtime.identification.parameters import UNSEEN
@@ -20,9 +20,6 @@ from ragg_runtime.wording import describe_other, numbers
 from ragg_runtime.wording.sections import Matrix, Section, Table
 
 Array = NDArray[np.float64]
-
-DETERMINED = 0.5
-"""Posterior over prior standard deviation below which a principal direction of all parameters is determined."""
 
 SHARE = 0.03
 """Squared share of an unseen direction below which a combination is taken not to be part of it."""
@@ -35,10 +32,8 @@ MOST_LABELS = 24
 
 
 class Visibility(NamedTuple):
-    """How many directions the record determines, those that it does not see at all, and groups that it sees only together."""
+    """Directions that the record does not see at all, and groups that it sees only together."""
 
-    determined: int
-    total: int
     unseen: tuple[str, ...]
     groups: tuple[tuple[str, ...], ...]
 
@@ -65,17 +60,15 @@ def find_directions(f: Fitted) -> tuple[list[str], Array]:
 
 
 def find_visibility(f: Fitted) -> Visibility:
-    """Which directions of the parameters the record determines, and which it leaves at their prior."""
+    """Which directions of the parameters the record leaves at their prior."""
     names, U = find_directions(f)
     variance, vectors = np.linalg.eigh(U @ f.coefficients(())[1] @ U.T)
-    null = vectors[:, variance >= DETERMINED**2]
+    null = vectors[:, variance >= LEARNED**2]
     P = null @ null.T
     own_share = np.diag(P)
     shared = np.flatnonzero((own_share > SHARE) & (own_share <= 1.0 - SHARE))
     count, label = connected_components(np.abs(P[np.ix_(shared, shared)]) > SHARE, directed=False)
     return Visibility(
-        determined=len(own_share) - null.shape[1],
-        total=len(own_share),
         unseen=tuple(names[n] for n in np.flatnonzero(own_share > 1.0 - SHARE)),
         groups=tuple(tuple(names[n] for n in shared[label == k]) for k in range(count)),
     )
@@ -84,13 +77,14 @@ def find_visibility(f: Fitted) -> Visibility:
 def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...]:
     """What the record determines of the parameters, their ``values``, and their correlations, as folded sections."""
     v = find_visibility(f)
-    known = (
-        f"{v.determined} of {v.total} directions of the calibrated parameters are determined by this record"
-    )
+    seen, total = count_directions(f)
+    known = f"{seen} of {total} directions of the calibrated parameters are determined by this record"
     text = [f"{known}; the others stay at their test-sheet values."]
     if v.unseen:
         text.append(f"Not observable: {', '.join(v.unseen)}.")
-    text += [f"Seen only together: {numbers.join_names(group)}." for group in v.groups]
+    if v.groups:
+        groups = "; ".join(numbers.join_names(group) for group in v.groups)
+        text.append(f"Degenerate, only sums or differences are determined: {groups}.")
     matrix, pairs = correlate_parameters(f)
     strongest = Table(("parameter", "and", "correlation"), tuple(pairs), words=2)
     lists = (list_combinations(f), list_parameters(f)) if values else None
