@@ -182,9 +182,7 @@ def _text_table(t: Table, indent: str, verbose: bool) -> list[str]:
 
 def render_html(sections: Sequence[Section], draw: Callable[[Plot], str] = lambda plot: "") -> str:
     """The sections as HTML without style, details folded; ``draw`` gives a plot as SVG."""
-    from markupsafe import Markup
-
-    drawn = [[(Markup(svg), p.caption) for p in s.plots if (svg := draw(p))] for s in sections]
+    drawn = [[(svg, p.caption) for p in s.plots if (svg := draw(p))] for s in sections]
     return _environment().get_template("sections.html.j2").render(sections=zip(sections, drawn, strict=True))
 
 
