@@ -6,7 +6,6 @@ from collections.abc import Iterable, Sequence
 from functools import cache
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from scipy import interpolate, ndimage
 
@@ -163,13 +162,17 @@ DEGREES = (5, 7, 9, 11, 13)
 def smooth_slope(x: Array, half: int, order: int, degree: int = DEGREES[0]) -> Array:
     """First or second derivative per sample, (N,), by polynomials through ``half`` samples on either side.
 
-    Towards an end the polynomial is that through the last 2 ``half`` + 1 samples.
+    Towards an end the polynomial is that through the last 2 ``half`` + 1 samples. The operations and their order are
+    those of the exported programs.
     """
     window, found = 2 * half + 1, np.empty(len(x))
-    ndimage.correlate1d(x, polynomial_weights(half, 0, order, degree), output=found, mode="nearest")
+    middle = polynomial_weights(half, 0, order, degree)
+    if order == 2:
+        middle = _without_mean(middle)
+    ndimage.correlate1d(x, middle, output=found, mode="nearest")
     for k in range(half):
-        found[k] = polynomial_weights(half, k - half, order, degree) @ x[:window]
-        found[len(x) - 1 - k] = polynomial_weights(half, half - k, order, degree) @ x[-window:]
+        found[k] = np.cumsum(polynomial_weights(half, k - half, order, degree) * x[:window])[-1]
+        found[len(x) - 1 - k] = np.cumsum(polynomial_weights(half, half - k, order, degree) * x[-window:])[-1]
     return found
 
 
@@ -215,13 +218,35 @@ def best_degree(x: Iterable[Array], half: int) -> int:
     return degrees[int(np.argmin(np.cumsum([0.0, *grows])))]
 
 
-def polynomial_weights(half: int, at: int, order: int, degree: int) -> Array:
-    """(2 half + 1,): weights of the derivative, of this order, at a sample counted from the middle one (Savitzky and Golay)."""
-    there = [chebyshev.chebval(at / half, chebyshev.chebder(e, order)) for e in np.eye(degree + 1)]
-    return np.asarray(np.array(there) @ _fit_polynomial(half, degree) / half**order)
+def _without_mean(weights: Array) -> Array:
+    """The same even weights with a middle one that makes their sum zero, or a series far from zero would leave its rounding."""
+    found, half = weights.copy(), len(weights) // 2
+    found[half] = -2.0 * np.cumsum(found[:half])[-1]
+    return found
 
 
 @cache
-def _fit_polynomial(half: int, degree: int) -> Array:
-    """(degree + 1, 2 half + 1): coefficients of Chebyshev's polynomials by samples from -half to half."""
-    return np.asarray(np.linalg.pinv(chebyshev.chebvander(np.arange(-half, half + 1) / half, degree)))
+def polynomial_weights(half: int, at: int, order: int, degree: int) -> Array:
+    """(2 half + 1,): weights of the derivative at a sample counted from the middle one (Gorry, Anal. Chem. 62 (1990) 570)."""
+    everywhere = _gram(half, np.arange(-half, half + 1.0), degree)
+    there = _gram(half, np.array([float(at)]), degree)
+    total, below, above = np.zeros(2 * half + 1), 1.0, 2.0 * half + 1.0
+    for k in range(degree + 1):
+        total = total + (2 * k + 1) * below / above * everywhere[k][0] * there[k][order]
+        below *= 2 * half - k
+        above = float(np.cumprod([2.0 * half + k + 2 - i for i in range(k + 2)])[-1])
+    total.flags.writeable = False
+    return total
+
+
+def _gram(half: int, t: Array, degree: int) -> list[list[Array]]:
+    """Gram polynomials of degree 0 ... ``degree`` at t, and their first two derivatives: [degree][order]."""
+    zero = np.zeros(len(t))
+    found = [[zero + 1.0, zero, zero]]
+    for k in range(1, degree + 1):
+        whole = k * (2.0 * half - k + 1)
+        a, b = (4 * k - 2) / whole, (k - 1) * (2.0 * half + k) / whole
+        one, two = found[-1], found[-2] if k > 1 else [zero] * 3
+        slopes = [one[0] * 0.0, one[0], 2.0 * one[1]]
+        found.append([a * (t * one[s] + slopes[s]) - b * two[s] for s in range(3)])
+    return found
