@@ -5,6 +5,7 @@ python -m benchmarks.diagnosis --ablate [--rule ID ...] [--jobs N]
 python -m benchmarks.diagnosis --catalogue [--jobs N]      each effect in turn, 30 sigma
 python -m benchmarks.diagnosis --grammar [--jobs N]        terms drawn from a grammar
 python -m benchmarks.diagnosis --record KIND ... [--count N] [--seed N]      nothing hidden, one kind of record
+python -m benchmarks.diagnosis --ceiling [--jobs N]        what an oracle finds of weak effects
 python -m benchmarks.diagnosis --flight ID      one flight, shown
 """
 
@@ -24,7 +25,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from benchmarks.diagnosis import ablation, array, plan, records, score, table
+from benchmarks.diagnosis import ablation, array, ceiling, plan, records, score, table
 from benchmarks.diagnosis.fly import fly
 from benchmarks.diagnosis.plan import Spec
 from benchmarks.diagnosis.score import Row
@@ -34,7 +35,7 @@ from ragg_runtime.model.model import packaged
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CACHE = ROOT / "build" / "bench-diagnosis.jsonl"
-RESULTS = {n: HERE / f"{n}.csv" for n in ("reference", "grammar", "ablation", "array")}
+RESULTS = {n: HERE / f"{n}.csv" for n in ("reference", "ceiling", "grammar", "ablation", "array")}
 
 ASIDE = ("report", "studio", "cli", "wording", "survey", "experiments", "compensation")
 """Of the runtime: what no diagnosis depends on; a change there flies nothing anew."""
@@ -191,6 +192,16 @@ def _records(options: argparse.Namespace, source: str, pool: Executor | None) ->
     return rows
 
 
+def _ceiling(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
+    cache = Cache(options.cache.with_stem(f"{options.cache.stem}-ceiling"), source)
+    specs = [s for n in options.seed or plan.REFERENCE for s in plan.specs(n) if s.kind in ("five", "ten")]
+    tasks: dict[str, Task] = {s.id: partial(ceiling.tested, s) for s in specs}
+    run(tasks, cache, pool)
+    rows = [{n: str(v) for n, v in cache.lines[s.id].items() if n not in ("key", "source")} for s in specs]
+    print("\n" + "\n".join(table.ceiling(rows)))
+    return rows
+
+
 def _array(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
     cache = Cache(options.cache.with_stem(f"{options.cache.stem}-array"), source)
     tasks = {f"{r}/{c}": partial(array.asked, path, c) for r, path, c in array.cases(options.real)}
@@ -208,6 +219,7 @@ def main(arguments: Sequence[str]) -> int:
     ask("--flight", action="append", default=[], metavar="ID", help="show one flight")
     ask("--array", action="store_true", help="ask the real array instead")
     ask("--catalogue", action="store_true", help="hide each effect of the catalogue in turn")
+    ask("--ceiling", action="store_true", help="what an oracle that knows the noise finds of weak effects")
     ask("--grammar", action="store_true", help="hide terms drawn from a grammar")
     ask("--record", action="append", choices=list(records.KINDS), help="one kind of record, nothing hidden")
     ask("--count", type=int, default=40, help="flights of each of these")
@@ -231,6 +243,7 @@ def main(arguments: Sequence[str]) -> int:
         (options.catalogue, _catalogue),
         (options.grammar, _grammar),
         (options.record, _records),
+        (options.ceiling, _ceiling),
     )
     for asked, other in others:
         what = other if asked else what

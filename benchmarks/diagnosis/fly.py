@@ -204,7 +204,7 @@ def _hidden(spec: Spec, o: Oracle) -> tuple[Hidden, ...]:
         drawn = (o.drawn(effect, EACH, rng) for _ in range(TRIES))
         return tuple(h for h in [next((h for h in drawn if h is not None), None)] if h is not None)
     low, high = {"five": (5.0, 5.0), "ten": (10.0, 10.0), "strong": STRONG}.get(spec.kind, (10.0, 1000.0))
-    strength = float(np.exp(rng.uniform(np.log(low), np.log(high))))
+    strength = min(high, float(np.exp(rng.uniform(np.log(low), np.log(high)))))  # to rounding
     order = np.random.default_rng(list(plan.COUNTS).index(spec.kind)).permutation(len(known))
     place = spec.index + plan.COUNTS[spec.kind] * (spec.sample % 10)
     effect = known[order[place % len(known)]]  # in turn, in an order of each kind's own

@@ -154,6 +154,16 @@ def grammar(rows: Sequence[Row]) -> list[str]:
     ]
 
 
+def ceiling(rows: Sequence[Row]) -> list[str]:
+    """How many of each strength an oracle finds."""
+    heads = ("kind", "the right effect alone, 5 %", "the right effect, as one of the catalogue, 3 %")
+    own = {k: [r for r in rows if r["kind"] == k] for k in dict.fromkeys(r["kind"] for r in rows)}
+    counts = [
+        [k, *(share(x, lambda r, n=n: r[n] == "1") for n in ("alone", "found"))] for k, x in own.items()
+    ]  # type: ignore[misc]
+    return _table(heads, counts)
+
+
 def array(rows: Sequence[Row]) -> list[str]:
     """How many questions hold, of each recording, and claims without evidence."""
     asked = list(dict.fromkeys(r["question"] for r in rows))
@@ -179,11 +189,19 @@ The tables are made from `benchmarks/diagnosis/*.csv`.
     python -m benchmarks.diagnosis --array --real FOLDER
     python -m benchmarks.diagnosis --catalogue
     python -m benchmarks.diagnosis --grammar
+    python -m benchmarks.diagnosis --ceiling
     python -m benchmarks.diagnosis --ablate --jobs 2
 """
 
 SECTIONS = {
     "reference": ("Reference", flights, ""),
+    "ceiling": (
+        "What an oracle finds",
+        ceiling,
+        """
+An oracle that knows the noise and the true instrument tests the effect that is hidden, by the test of the diagnosis (`ceiling.py`).
+""",
+    ),
     "array": (
         "Questions asked of real sensors",
         array,

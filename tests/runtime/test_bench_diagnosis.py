@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from benchmarks.diagnosis import __main__ as command
-from benchmarks.diagnosis import fly, outside, plan, records, score, strength
+from benchmarks.diagnosis import ceiling, fly, outside, plan, records, score, strength
 from benchmarks.diagnosis.plan import Spec
 
 
@@ -47,6 +47,12 @@ def test_the_simulator_confirms_the_strength() -> None:
     assert np.linalg.norm(oracle.projected(oracle.whitened((left[0] - left[1])[None]))) == pytest.approx(
         10.0, rel=0.03
     )
+
+
+def test_the_oracle_finds_what_is_in_the_recorded_motion() -> None:
+    found = ceiling.tested(Spec("ten", "with-temperature", 5, 4401))
+    assert found["hidden"] == "imu-acceleration-bias"
+    assert found["found"] and -30.0 < found["log10_p"] < -12.0
 
 
 def test_what_is_outside_keeps_its_strength_beyond_the_catalogue() -> None:
