@@ -139,6 +139,10 @@ MOST_TRIALS = 150
 """Most trials of a fit; usual are two or three. Where there is no noise but the last digits of a file the floor of the valley is a
 thousand times narrower, and a hundred steps lead along it."""
 
+PACE = 20
+"""Trials after which, again and again, a search must be on its way to its end. Along a valley whose floor is a parabola what is left to
+gain falls with the square of the way that is left, which at the pace of these trials must be gone within the rest of them."""
+
 
 @dataclass(frozen=True)
 class Linear:
@@ -236,6 +240,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
     x = np.array(start, dtype=np.float64)
     at = linearise(x)
     radius, faithful, trials = np.inf, False, 1
+    mark, before = trials, at.cost
 
     def ended(converged: bool, reason: str, faithful: bool = False) -> Minimum[L]:
         return Minimum(x=x, at=at, converged=converged, reason=reason, faithful=faithful)
@@ -266,6 +271,11 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
             if at.decrement < INDISTINGUISHABLE:
                 return ended(True, "no significant gain")
             return ended(False, "no step reduces the misfit")
+        if trials - mark >= PACE:
+            gained, needed = (before - at.cost) * (most - trials), 2.0 * at.decrement * (trials - mark)
+            if at.decrement > max(INDISTINGUISHABLE, SLOW * at.cost) and 0.0 < gained < needed:
+                return ended(False, f"no end in sight after {trials} trials")
+            mark, before = trials, at.cost
     return ended(is_settled(at), f"stopped after {most} trials")
 
 

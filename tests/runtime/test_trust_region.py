@@ -108,6 +108,18 @@ def test_a_small_promise_that_drowns_in_rounding_is_none(promise: float, converg
     assert minimise(grainy, np.zeros(2)).converged is converged
 
 
+@pytest.mark.parametrize(("way", "trials"), [(1000, 22), (60, 60)])
+def test_a_search_is_left_where_its_pace_would_not_bring_it_to_its_end(way: int, trials: int) -> None:
+    seen: list[Array] = []
+
+    def creeping(x: Array) -> Linear:
+        seen.append(x)
+        return Linear(np.eye(1), np.array([1e3 * max(0.0, 1.0 - len(seen) / way)]), 1.0)
+
+    assert minimise(creeping, np.zeros(1)).converged is (way == trials)
+    assert len(seen) == pytest.approx(trials, abs=3)
+
+
 def test_a_point_where_the_model_has_no_output_is_left_alone() -> None:
     def edge(x: Array) -> Linear:
         r = np.sqrt(1.0 - x[0]) if x[0] < 1.0 else np.inf
