@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
+from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
@@ -18,6 +19,7 @@ from ragg_runtime.identification import selection
 from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.omnibus import Remainder, ResidualTerm
 from ragg_runtime.identification.strong import AddedEffect, Stage
+from ragg_runtime.wording.numbers import join_names
 
 SLIP = 6.6
 """Chi-square by which a line must be off the multiple: what keeps step with the disc is taken for the disc's, and seems as far
@@ -31,25 +33,25 @@ rest is its couplings to the motion, which a strong one shows."""
 
 @dataclass(frozen=True)
 class LineAlternative:
-    """A line that explains as much as an effect, which explains the chi-square ``own`` next to the other chosen effects."""
+    """A line that explains as much as some effects, which explain the chi-square ``own`` next to the other chosen effects."""
 
     line: NearLine
-    effect: str
+    effects: tuple[str, ...]
     own: float
 
     @property
     def words(self) -> str:
         return (
             f"a line at about {self.line.frequency:.5g} Hz, near a multiple of the spin rate, explains as much"
-            f" as {self.effect}, which is therefore not claimed"
+            f" as {join_names(self.effects)}, which is therefore not claimed"
         )
 
     def better(self, rem: Remainder) -> bool:
-        """Whether it also explains as much as the effect together with the best generic term of the residual."""
+        """Whether it also explains as much as the effects together with the best generic term of the residual, which is one of many."""
         if not rem.significant:
             return True
-        best = max((t.z**2 for s in rem.searches for t in s.terms), default=0.0)
-        return self.line.chi2 - self.own > best - INDISTINGUISHABLE
+        best = max((t.z**2 - 2.0 * np.log(s.tried) for s in rem.searches for t in s.terms), default=0.0)
+        return bool(self.line.chi2 - self.own > best - INDISTINGUISHABLE)
 
     def within(self, rem: Remainder) -> Remainder:
         """A residual of which this line is the strongest term."""
@@ -98,24 +100,27 @@ class Steady:
 def find_line_rival(
     steps: Sequence[AddedEffect], last: Stage
 ) -> tuple[LineAlternative | None, tuple[Steady, ...]]:
-    """The first chosen effect that a line next to a multiple of the spin rate could replace, and those that are no more than
-    one.
+    """The chosen effects that a line next to a multiple of the spin rate could replace, all of the last stage or the first of them, and
+    those that are no more than one.
     """
     steady = []
     for t in steps:
         line = find_best_line(t.before, ())
         if _in_place(line, t.test.chi2):
-            return LineAlternative(line=line, effect=t.effect, own=t.test.chi2), ()
+            return LineAlternative(line=line, effects=(t.effect,), own=t.test.chi2), ()
         steady += _steady(t.before, line, t.effect, t.test.chi2, t.alternatives)
     field, choice = last.field, last.choice
     alternatives = selection.alternatives(field, choice)
-    for e in choice.chosen:
-        others = [o for o in choice.chosen if o != e]
+    # two effects follow a line farther than one does
+    every = [choice.chosen] if len(choice.chosen) > 1 else []
+    for effects in (*every, *((e,) for e in choice.chosen)):
+        others = [o for o in choice.chosen if o not in effects]
         beside = field.joint([choice.blocks[o] for o in others])[0] if others else 0.0
         line = find_best_line(last.fitted, [n for o in others for n, _ in field.candidates[o]])
         if _in_place(line, choice.chi2 - beside):
-            return LineAlternative(line=line, effect=e, own=choice.chi2 - beside), ()
-        steady += _steady(last.fitted, line, e, choice.chi2 - beside, alternatives[e])
+            return LineAlternative(line=line, effects=effects, own=choice.chi2 - beside), ()
+        if len(effects) == 1:
+            steady += _steady(last.fitted, line, effects[0], choice.chi2 - beside, alternatives[effects[0]])
     return None, tuple(steady)
 
 
@@ -166,7 +171,7 @@ STEP = 0.25
 FINER = 8
 
 TOGETHER = 11
-"""Frequencies whose waves are made at a time: they stay in the cache."""
+"""Frequencies whose waves are made at a time."""
 
 DISTINCT = 1e-6
 """Share of a wave that must be left by what is fitted for it to have a direction of its own."""
@@ -223,60 +228,29 @@ def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
 
 def _explained(x: PreparedFlight, projector: Projector, frequencies: Array) -> tuple[Array, Array]:
     """(n,), (n,): chi-square that a sinusoid of each frequency explains, and its amplitude in whitened rows."""
-    n = len(frequencies)
-    dot, gram = np.zeros(2 * n), np.zeros((2 * n, 2))
-    along = np.zeros((2 * n, len(projector.along)))
 
-    def sums(piece: Piece) -> tuple[Array, Array, Array]:
+    def sums(piece: Piece) -> Array:
         Q = projector.basis(piece)
         right = np.column_stack([projector.left(piece, Q), Q])
-        products, inner = np.empty((2 * n, right.shape[1])), np.empty((2 * n, 2))
-        for k in range(0, n, TOGETHER):
-            X = _waves(x, piece, frequencies[k : k + TOGETHER])
-            m = len(X) // 2
-            for half, partner, first in ((X[:m], X[m:], k), (X[m:], X[:m], n + k)):
-                products[first : first + m] = half @ right
-                inner[first : first + m, 0] = np.einsum("ij,ij->i", half, half)
-                inner[first : first + m, 1] = np.einsum("ij,ij->i", half, partner)
-        return products[:, 0], inner, products[:, 1:]
+        parts = (_waves(x, piece, frequencies[some]) for some in split_range(len(frequencies), TOGETHER))
+        return np.concatenate([np.dstack([X @ right, X @ X.transpose(0, 2, 1)]) for X in parts])
 
-    for d, g, a in x.each(sums):
-        dot += d
-        gram += g
-        along += a
-    whole = gram[:, 0].copy()
-    gram[:, 0] -= np.einsum("ij,ij->i", along, along)
-    gram[:, 1] -= np.einsum("ij,ij->i", along, np.concatenate([along[n:], along[:n]]))
-    G = np.array([[gram[:n, 0], gram[:n, 1]], [gram[n:, 1], gram[n:, 0]]]).transpose(2, 0, 1)
-    d = np.stack([dot[:n], dot[n:]], axis=1)
-    sizes, V = np.linalg.eigh(G)
-    seen = sizes > DISTINCT * np.maximum(whole[:n], whole[n:])[:, None]
+    total = np.sum([*x.each(sums)], axis=0)
+    d, along, whole = total[:, :, 0], total[:, :, 1:-2], total[:, :, -2:]
+    sizes, V = np.linalg.eigh(whole - along @ along.transpose(0, 2, 1))
+    seen = sizes > DISTINCT * np.max(np.diagonal(whole, axis1=1, axis2=2), axis=1)[:, None]
     c = np.einsum("nij,ni->nj", V, d) / np.where(seen, sizes, np.inf)
     return np.sum(c**2 * np.where(seen, sizes, 0.0), axis=1), np.linalg.norm(c, axis=1)
 
 
 def _waves(x: PreparedFlight, piece: Piece, frequencies: Array) -> Array:
-    """(2 n, rows): cosines, then sines, in whitened rows."""
+    """(n, 2, rows): cosines and sines, in whitened rows."""
     r = piece.observation.record
-    X = _turning(2 * np.pi * frequencies, r.time[r.valid])
+    wave = np.exp(1j * np.outer(2 * np.pi * frequencies, r.time[r.valid]))
+    X = np.stack([wave.real, wave.imag], axis=1)
     if x.noise.uneven:
         X /= np.asarray(x.noise.level_of(r.quantity))[r.valid]
     weights = x.noise.weights(piece.observation.weights)
-    X = X if len(weights) == 1 else np.concatenate([w * X for w in weights], axis=1)
-    unknown_gradient.project(X, piece.windows)
-    return X
-
-
-def _turning(rates: Array, time: Array) -> Array:
-    """(2 n, N): cosines, then sines, of evenly spaced rates (n,), rad/s, times time (N,), s, by products."""
-    n = len(rates)
-    X = np.empty((2 * n, len(time)))
-    steps = np.diff(rates, prepend=-np.inf)
-    wave = turn = np.empty(0, dtype=np.complex128)
-    for k, step in enumerate(steps):
-        even = k > 1 and abs(step - steps[k - 1]) < 1e-9 * abs(step)
-        if even and not (k > 2 and abs(steps[k - 1] - steps[k - 2]) < 1e-9 * abs(step)):
-            turn = np.exp(1j * step * time)
-        wave = wave * turn if even else np.exp(1j * rates[k] * time)
-        X[k], X[n + k] = wave.real, wave.imag
+    X = np.concatenate([w * X for w in weights], axis=2)
+    unknown_gradient.project(X.reshape(2 * len(X), -1), piece.windows)
     return X

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation import fitted as fitted_
 from ragg_runtime.estimation import regressors as design
-from ragg_runtime.estimation.fitted import Fitted, Scored, fit
+from ragg_runtime.estimation.fitted import Fitted, Scored, calibrate, fit
 from ragg_runtime.identification import comparison, contenders, omnibus, selection, strong
 from ragg_runtime.identification.claims import SECOND_ORDER, Regression, Robust, Significance
 from ragg_runtime.identification.comparison import Explained, measure_explained
@@ -73,6 +73,13 @@ class Outcome:
     def complaint(self) -> str | None:
         """What speaks against the fit, in words."""
         return self.target.calibration.complaint
+
+    @property
+    def widened(self) -> bool:
+        """Whether the sheet is taken to be less sure than it says, beside effects that are derived into the model."""
+        widths = self.target.instrument.widths
+        sheet = (c.name for c in self.target.calibration.columns if c.effect is None)
+        return not self.given and any(name in widths for name in sheet)
 
     @property
     def remains(self) -> bool:
@@ -161,16 +168,19 @@ class Evidence:
         return Outcome.of(fit(*self._model_with(kept), first.fitted.observations), kept, ())
 
     def gain(self, o: Outcome, effect: str) -> float:
-        """Chi-square that one of an outcome's effects explains given the others, by a fit without it; 0 if it is not derived."""
+        """Chi-square that one of an outcome's effects explains given the others, by a fit without it, whose sheet may be less sure, at the
+        price of its volume; 0 if it is not derived.
+        """
         if not self._is_derived(o):
             return 0.0
         model, instrument = self._model_with([e for e in o.effects if e != effect])
-        f = o.target  # by its noise and with its priors
+        f = o.target  # by its noise, from its priors
         instrument = replace(instrument, widths=f.instrument.widths)
-        return (
-            calibration.fit(model, instrument, f.observations, noise=f.calibration.noise).chi2
-            - f.calibration.chi2
+        without = calibrate(model, instrument, f.observations, noise=f.calibration.noise)
+        less, more = (
+            c.chi2 + calibration.prior_volume(i, c) for i, c in ((f.instrument, f.calibration), without)
         )
+        return more - less
 
     def _is_derived(self, o: Outcome) -> bool:
         return self.extend is not None and bool(self.steps or o.target is not self.last.fitted)

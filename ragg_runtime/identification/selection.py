@@ -223,9 +223,12 @@ def _evidence(f: Field, blocks: Mapping[str, tuple[int, ...]]) -> float:
 
 
 def are_alike(a: Test, b: Test) -> bool:
-    """Whether the second explains as much as the first, or is not distinguishable by its evidence."""
-    as_much = a.chi2 - b.chi2 < INDISTINGUISHABLE and b.log_b > a.log_b - AS_SURE
-    return as_much or b.log_b > a.log_b - DISTINGUISHABLE
+    """Whether the second explains as much as the first, or is not distinguishable by its evidence.
+
+    Each is tempered by what its own scores vary, known to a third from two dozen blocks: both are compared as the first is.
+    """
+    ahead = a.log_b - float(log_bayes(b.chi2 / a.inflation, b.rank)) + b.charge
+    return (a.chi2 - b.chi2 < INDISTINGUISHABLE and ahead < AS_SURE) or ahead < DISTINGUISHABLE
 
 
 def alternatives(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:

@@ -52,8 +52,8 @@ class Conclusion:
         line, steady = find_line_rival(found.steps, last)
         if line is not None and not line.better(outcome.remainder):
             line = None
-        if line is not None and line.effect in outcome.effects:
-            outcome = found.without(outcome, line.effect)
+        for e in () if line is None else (e for e in line.effects if e in outcome.effects):
+            outcome = found.without(outcome, e)
         count = first.field.count + len(outcome.random)
         base = omnibus.remainders(first.fitted) if outcome.effects else None
         lead = None if base is None else _Lead.of(found, outcome, count, base)
@@ -168,7 +168,7 @@ def _drop_unfounded(found: Evidence, o: Outcome) -> tuple[Outcome, list[str]]:
     needed: list[str] = []
     while True:
         e = _weakest(found, o, needed)
-        if e is not None and _is_needed(found, o, e):
+        if e is not None and not (o.widened and e in found.log_p) and _is_needed(found, o, e):
             needed.append(e)
             continue
         e = e or _contradicted(o, found.first) or _unfitted(found, o)
@@ -187,9 +187,17 @@ def _unsure(last: Stage, weak: Sequence[str], claimed: Sequence[str]) -> tuple[s
 
 
 def _weakest(found: Evidence, o: Outcome, needed: Sequence[str]) -> str | None:
-    """The effect that is not significant with the variance of its own scores, the least significant of several."""
-    log_p = found.log_p
-    p = {e: _log_p(o, o.significance(e), log_p.get(e)) for e in o.effects if e not in needed}
+    """The effect that is not significant with the variance of its own scores, the least significant of several.
+
+    Those of the last stage were tested beside the sheet as it was then. If it proves less sure, each competes with one still less sure.
+    """
+    log_p, asked = found.log_p, [e for e in o.effects if e not in needed]
+    p = {
+        e: _log_p_by_fit(found, o, e)
+        if o.widened and e in log_p
+        else _log_p(o, o.significance(e), log_p.get(e))
+        for e in asked
+    }
     weakest = max(p, key=lambda e: (p[e], e), default=None)
     return None if weakest is None or _is_significant(found, o, p[weakest]) else weakest
 
@@ -209,8 +217,13 @@ def _is_significant(found: Evidence, o: Outcome, log_p: float) -> bool:
 
 def _is_needed(found: Evidence, o: Outcome, effect: str) -> bool:
     """Whether an effect is significant by the fit without it: far from there a linearisation may be wrong about what it explains."""
+    return _is_significant(found, o, _log_p_by_fit(found, o, effect))
+
+
+def _log_p_by_fit(found: Evidence, o: Outcome, effect: str) -> float:
+    """Of an effect, by the fit without it."""
     by_fit = replace(o.significance(effect), chi2=max(0.0, found.gain(o, effect)))
-    return _is_significant(found, o, max(_log_p(o, by_fit, None), by_fit.log_p(None, doubted=True)))
+    return max(_log_p(o, by_fit, None), by_fit.log_p(None, doubted=True))
 
 
 def _contradicted(o: Outcome, first: Stage) -> str | None:

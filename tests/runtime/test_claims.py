@@ -12,8 +12,11 @@ from ragg_runtime.estimation import calibration, whitening
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, fit
 from ragg_runtime.estimation.observation import BLOCKS, observe_flights
 from ragg_runtime.estimation.regressors import list_base_columns
-from ragg_runtime.identification import claims, omnibus
+from ragg_runtime.identification import claims, likelihood_ratio, omnibus
 from ragg_runtime.identification.claims import Regression
+from ragg_runtime.identification.likelihood_ratio import log_bayes
+from ragg_runtime.identification.selection import are_alike
+from ragg_runtime.identification.uneven import temper_test
 from ragg_runtime.model import model
 from ragg_runtime.model.derive import with_effects
 from ragg_runtime.reference.scenario import scenario
@@ -32,6 +35,16 @@ def regression(sizes: Array, *, further: int = 0) -> Regression:
         blocks.append(np.linalg.qr(np.column_stack([X, y]), mode="r"))
     effects = (None, *(["e"] * (1 + further)))
     return Regression((tuple(blocks),), np.zeros(2 + further), np.zeros(2 + further), effects)
+
+
+def test_effects_that_explain_the_same_are_alike_however_uneven_their_scores_seem() -> None:
+    plain = likelihood_ratio.Test(
+        chi2=110.0, rank=1, log_p=-50.0, which=(0,), log_b=float(log_bayes(110.0, 1))
+    )
+    first, second = (temper_test(plain, by, np.inf, BLOCKS) for by in (1.1, 1.4))
+    assert first.log_b > second.log_b + 10.0
+    assert are_alike(first, second)
+    assert not are_alike(first, replace(plain, chi2=60.0, log_b=float(log_bayes(60.0, 1))))
 
 
 def test_held_out_blocks_speak_for_what_is_there_and_against_what_is_not() -> None:
