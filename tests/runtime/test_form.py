@@ -147,11 +147,6 @@ def test_folded_and_chain_of_full_kinematics_are_one_model() -> None:
         assert set(e.inputs[-2:]) == set(SPIN)
         G = e.output(r.time, inputs, p)
         assert np.max(np.abs(G - chain)) < 1e-6 * scale_factor(model, p)
-        # without the spin's rate: 2 pi spin_frequency
-        steady = e.output(r.time, [*inputs[:15], None, None], p)
-        np.testing.assert_array_equal(steady, G)
-        with pytest.raises(UserError, match="rate"):
-            e.output(r.time, [*inputs[:15], None, None], p, angle=r.phi)
 
 
 def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
