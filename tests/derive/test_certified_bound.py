@@ -67,12 +67,7 @@ QUIET = dataclasses.replace(
 BARE = dataclasses.replace(DYNAMIC_EXPERIMENT, vartheta_x=1e-3, allotted=1e3, Gamma=3e-6, dR=1e-3)
 """A rough flight with so large an error allotted that angles, imbalances and K a a go."""
 FULL = dataclasses.replace(PAPER_ENVELOPE, kinematics="full", spin_acceleration=1e-3)
-ENVELOPES = {
-    "paper": PAPER_ENVELOPE,
-    "quiet": QUIET,
-    "bare": BARE,
-    "full": FULL,
-}
+ENVELOPES = {"paper": PAPER_ENVELOPE, "quiet": QUIET, "bare": BARE, "full": FULL}
 
 
 @cache

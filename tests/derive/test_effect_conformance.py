@@ -327,8 +327,7 @@ def reach(effect: Effect, q: EffectParameter, share: float) -> float:
 # what is remembered is formed of a record by the runtime: tests/runtime/test_memory.py
 KNOWN = [(e, q) for e, q in FITTED if (e.id in CATALOGUE or e.id in DIRECT) and e.memory is None]
 by_known_parameter = pytest.mark.parametrize(
-    ("effect", "parameter"),
-    [pytest.param(e, q, id=f"{e.id}.{q.name}") for e, q in KNOWN],
+    ("effect", "parameter"), [pytest.param(e, q, id=f"{e.id}.{q.name}") for e, q in KNOWN]
 )
 
 

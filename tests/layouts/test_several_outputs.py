@@ -20,13 +20,7 @@ from ragg_runtime import api
 from ragg_runtime.api import Loaded
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.channel import OutputChannel
-from ragg_runtime.compensation.compensate import (
-    Kind,
-    PreparedFlights,
-    make_channel,
-    make_columns,
-    prepare,
-)
+from ragg_runtime.compensation.compensate import Kind, PreparedFlights, make_channel, make_columns, prepare
 from ragg_runtime.compensation.export.contents import Contents, unit_of
 from ragg_runtime.compensation.export.program import format_csv
 from ragg_runtime.compensation.recursive import Online, Tuning
@@ -347,9 +341,6 @@ def test_the_filter_is_that_of_the_output_that_sees_a_gradient(program: Path, tm
     assert np.max(np.abs(found[:, 1] - got.inline) / got.inline_std) < 1e-4
     assert np.max(np.abs(found[:, 2] - got.cross) / got.cross_std) < 1e-4
     assert found[:, 3] == pytest.approx(got.inline_std, rel=1e-6)
-    m = Loaded(
-        ModelDir(path=tmp_path, text="", instrument=c.instrument, generated=None, history=()),
-        c.model,
-    )
+    m = Loaded(ModelDir(path=tmp_path, text="", instrument=c.instrument, generated=None, history=()), c.model)
     (series,) = api.compensate(m, [x], "online", noise=2.0, walk=1.0).series
     assert ",".join(series) == f"{head},quality_A"

@@ -177,10 +177,7 @@ TABLE = {
         toml(_EFFECTS, 'effects = ["thermal-scal"]'), ("did you mean", "thermal-scale")
     ),
     "an effect whose channel the flight lacks": MessageCase(
-        both(
-            toml(_EFFECTS, 'effects = ["thermal-scale"]'),
-            flown(lambda x: without(x, "temperature")),
-        ),
+        both(toml(_EFFECTS, 'effects = ["thermal-scale"]'), flown(lambda x: without(x, "temperature"))),
         ("thermal-scale", "temperature", "flight.csv", "ragg remove"),
     ),
     "a pipe": MessageCase(

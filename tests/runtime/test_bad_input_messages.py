@@ -6,17 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from bad_input_table import (
-    TABLE,
-    blank,
-    flown,
-    inside,
-    motion,
-    outputs,
-    ran,
-    stage,
-    struck,
-)
+from bad_input_table import TABLE, blank, flown, inside, motion, outputs, ran, stage, struck
 
 from ragg_runtime import api
 

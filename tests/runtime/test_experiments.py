@@ -10,10 +10,7 @@ from click.testing import CliRunner
 
 from ragg_runtime.experiments import paper
 from ragg_runtime.experiments.__main__ import main
-from ragg_runtime.experiments.dynamic import (
-    repeat_dynamic,
-    run_regular,
-)
+from ragg_runtime.experiments.dynamic import repeat_dynamic, run_regular
 from ragg_runtime.experiments.multifrequency import (
     find_centre,
     repeat_multifrequency,
@@ -21,10 +18,7 @@ from ragg_runtime.experiments.multifrequency import (
     subtract_centre,
 )
 from ragg_runtime.experiments.paper import Experiment, Printed, PrintedEntry, judge, write_page
-from ragg_runtime.experiments.runs import (
-    Channels,
-    find_error,
-)
+from ragg_runtime.experiments.runs import Channels, find_error
 from ragg_runtime.experiments.turbulence import draw_motion, repeat_turbulence
 from ragg_runtime.reference.gravity import G
 from ragg_runtime.reference.instruments import table_v

@@ -13,11 +13,7 @@ from hypothesis import strategies as st
 
 from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.edit_toml import (
-    add_effect,
-    remove_effect,
-    set_parameters,
-)
+from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_parameters
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.read_toml import parse_instrument, read_instrument

@@ -19,12 +19,7 @@ from ragg_runtime.model import model as load
 from ragg_runtime.model.memory import add_responses, first_memories, stop
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.effects import EffectValues
-from ragg_runtime.reference.gravity import (
-    G,
-    Gradient,
-    PointMass,
-    components,
-)
+from ragg_runtime.reference.gravity import G, Gradient, PointMass, components
 from ragg_runtime.reference.motion import Sinusoids
 from ragg_runtime.reference.scenario import scenario
 from tests.rate import RATE

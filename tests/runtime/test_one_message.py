@@ -56,12 +56,7 @@ def test_streams_that_are_closed(model: Path) -> None:
 
 @pytest.mark.parametrize(
     "step",
-    [
-        {"before": 3},
-        {"before": {"calibrated": [1]}},
-        {"after": {"rms_Eo": "many"}},
-        {"flights": ["a"]},
-    ],
+    [{"before": 3}, {"before": {"calibrated": [1]}}, {"after": {"rms_Eo": "many"}}, {"flights": ["a"]}],
     ids=str,
 )
 def test_histories_of_odd_shapes(
@@ -168,13 +163,7 @@ def test_a_flight_longer_than_memory(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "asked",
-    [
-        {"noise": 1e308},
-        {"sheet_error": 1e300},
-        {"spin": ["1e300"]},
-        {"spin": ["0.25,0.1@1e300"]},
-    ],
+    "asked", [{"noise": 1e308}, {"sheet_error": 1e300}, {"spin": ["1e300"]}, {"spin": ["0.25,0.1@1e300"]}]
 )
 def test_a_flight_beyond_all_numbers_is_refused(asked: dict[str, Any]) -> None:
     """It ended in a traceback, or in a file of NaN."""

@@ -159,10 +159,7 @@ def test_a_lost_row_is_said_before_the_disc_is_blamed() -> None:
 def test_rows_that_lack_or_are_doubled_all_along_are_said() -> None:
     x, rng = flown(12), np.random.default_rng(1)
     few = rng.random(len(x)) < 0.02
-    for rows, word in (
-        (np.flatnonzero(~few), "missing"),
-        (np.repeat(np.arange(len(x)), 1 + few), "doubled"),
-    ):
+    for rows, word in ((np.flatnonzero(~few), "missing"), (np.repeat(np.arange(len(x)), 1 + few), "doubled")):
         with pytest.raises(UserError, match=rf"rows are {word} \(about (\d+) of \d+\) all along") as caught:
             screen(MODEL, drawn(12).sheet, counted(x, rows))
         count = int(str(caught.value).partition("(about ")[2].split()[0])

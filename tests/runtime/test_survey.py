@@ -372,7 +372,7 @@ class Cluster:
 
     def worker(self) -> subprocess.Popen[bytes]:
         return self._start(
-            *("dask_worker", self.address, "--host", HERE, "--no-nanny", "--nthreads", "1", "--no-dashboard"),
+            *("dask_worker", self.address, "--host", HERE, "--no-nanny", "--nthreads", "1", "--no-dashboard")
         )
 
     @staticmethod

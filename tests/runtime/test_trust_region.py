@@ -39,8 +39,7 @@ def powell(x: Array) -> Array:
 
 
 @pytest.mark.parametrize(
-    ("residual", "start"),
-    [(rosenbrock, [-1.2, 1.0]), (rosenbrock, [8.0, -5.0]), (powell, [0.5, 1.0])],
+    ("residual", "start"), [(rosenbrock, [-1.2, 1.0]), (rosenbrock, [8.0, -5.0]), (powell, [0.5, 1.0])]
 )
 def test_the_minimum_is_that_of_scipy_and_no_accepted_step_went_up(
     residual: Residual, start: list[float]

@@ -65,8 +65,7 @@ def test_conversions(unit: str, si_unit: str, expected: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("unit", "si_unit"),
-    [("m", "s"), ("gram", "m/s^2"), ("ug/g^2", "m/s^2"), ("1", "V")],
+    ("unit", "si_unit"), [("m", "s"), ("gram", "m/s^2"), ("ug/g^2", "m/s^2"), ("1", "V")]
 )
 def test_wrong_dimension_names_both(unit: str, si_unit: str) -> None:
     with pytest.raises(UserError, match="wrong dimension") as caught:
