@@ -61,8 +61,18 @@ def _report_refusal(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        found = error.strerror or error
-        raise UserError("the file cannot be written", where=path, found=found) from None
+        raise refuse_to_write("the file", path, error) from None
+
+
+def refuse_to_write(what: str, where: Path, error: OSError) -> UserError:
+    """What is said where the system refuses to write."""
+    full = error.errno in (errno.ENOSPC, errno.EDQUOT)
+    remedy = (
+        "make room on its disc, or write elsewhere"
+        if full
+        else "check who may write there, or write elsewhere"
+    )
+    return UserError(f"{what} cannot be written", where=where, found=error.strerror or error, remedy=remedy)
 
 
 def _find_mode(path: Path) -> int | None:

@@ -18,7 +18,7 @@ from types import MappingProxyType
 from typing import Any
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import locked, read_text, sync
+from ragg_runtime.base.files import locked, read_text, refuse_to_write, sync
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 
@@ -196,7 +196,7 @@ def create_model_dir(
         fresh.rename(path)
         sync(fresh.parent)
     except OSError as error:
-        raise UserError("the model directory cannot be made", where=path, found=error.strerror) from None
+        raise refuse_to_write("the model directory", path, error) from None
     finally:
         shutil.rmtree(fresh, ignore_errors=True)
     return load_model_dir(path)
@@ -238,7 +238,7 @@ def replace_model_dir(
             "another command is changing the model", where=path, remedy="wait for it to end and try again"
         ) from None
     except OSError as error:
-        raise UserError("the model cannot be written", where=path, found=error.strerror or error) from None
+        raise refuse_to_write("the model", path, error) from None
     return load_model_dir(path)
 
 

@@ -42,8 +42,8 @@ LATEST = 1e4
 """Start of a record after angle 0 of its disc, s, up to which the spin rate is looked for: the grid is the finer."""
 
 SLIP_ROWS, SWITCH, MOST_SLIPS = 800, 30.0, 4
-"""Rows on which slips of one recorder against another are looked for; what a change of the lag costs, as a dozen samples that are ten
-standard deviations off; most of them in a record."""
+"""Rows on which slips of one recorder against another are looked for; what a change of the lag costs, from a third to three times of
+which finds the same (docs/contributors/decisions.md); most of them in a record."""
 
 MOST_SHIFTS = 64
 """Shifts that are tried: about the tops of a cross-correlation, and on from there while less is left."""
@@ -377,7 +377,8 @@ def _propose_slips(t: _Trial) -> list[Hypothesis]:
     alone = [(rows[a:b], [int(late[a])]) for a, b in pairwise([0, *(here + 1), len(rows)])]
     lags = {0, *late.tolist(), *(_find_lag(t, some, near, x) for some, near in alone)}
     beside = [s.rows(int(rows[k]), int(rows[k + 1]) + 1, SLIP_ROWS) for k in here]
-    rows = np.union1d(rows, np.concatenate(beside)).astype(np.intp)
+    rows, reach = np.union1d(rows, np.concatenate(beside)).astype(np.intp), max(map(abs, lags))
+    rows = rows[(rows >= reach) & (rows < n - reach)]  # with every lag
     ways = _follow_lags(t, rows, sorted(lags), x)
     late = min(ways, key=lambda late: t.fit(rows, **x.options(late)).misfit)
     here = np.flatnonzero(np.diff(late)) + 1
