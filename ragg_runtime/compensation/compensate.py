@@ -249,13 +249,8 @@ def _fitted_blocks(
     c = f.calibration
     if kind == "smoothed":
         d = smooth_drift(f, flights)
-        c, every = d.f.calibration, [*enumerate(d.epochs)]
-        return c, [
-            tuple(
-                make_block(c, e.rows, d.steps[k], d.root_within(k)) for k, e in every if e.flight == o.flight
-            )
-            for o in f.observations
-        ]
+        c = d.f.calibration
+        return c, [tuple(make_block(c, *x) for x in d.follow(o.flight)) for o in f.observations]
     if kind == "crossed":
         of_all = [list_base_r_factors(f, k) for k in range(len(f.observations))]
         return c, [tuple(_crossed_block(f, o, b, of_all) for b in range(BLOCKS)) for o in f.observations]

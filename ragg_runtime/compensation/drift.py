@@ -9,7 +9,7 @@ that the filter is linearised again about what it has found.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
+from ragg_runtime.base.threads import split_range
 from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors
 from ragg_runtime.estimation.fitted import Fitted, prepare_evidence
 from ragg_runtime.estimation.least_squares import join
@@ -33,6 +34,12 @@ WORTH = 4.5
 """Log evidence that a kind of parameter must gain by walking: as much as distinguishes two explanations elsewhere."""
 
 HOUR = 3600.0
+
+STAIRS = 8
+"""Steps a turn by which parameters follow a line: their frequency is far above that of the gradient, two a turn."""
+
+WITHIN = 0.128
+"""Variance of a random walk about the line between its means over successive blocks, in that of a step over a block."""
 
 NEAR, TURNS = 0.1, 4
 """Of the sheet's error: how far the mean of the smoothed parameters may be from those about which they are linear; and most
@@ -65,15 +72,28 @@ class Drift:
     roots: Array
     timed: bool
 
-    def root_within(self, k: int) -> Array:
-        """(n, m): root of the covariance of the parameters at an instant of a block, in scales.
+    def follow(self, flight: int) -> Iterator[tuple[slice, Array, Array]]:
+        """Samples of a flight, their parameters (n,) less the calibrated ones, and a root (n, m) of the covariance, in scales.
 
-        A block has their mean. Over its time T a walk is off its mean by T/6 of its variance after a unit of time.
+        Blocks have means. Between their middles parameters are linear, as a step from block to block rings at the gradient's
+        frequency. From there a walk is off by ``WITHIN`` of its variance over a block.
         """
-        e = self.epochs[k]
-        hours = (e.rows.stop - e.rows.start) / self.f.flights[e.flight].record.rate / HOUR
+        r = self.f.flights[flight].record
+        own = [k for k, e in enumerate(self.epochs) if e.flight == flight]
+        middles = [self.epochs[k].middle for k in own]
         walk = np.array([self.rates.get(q.name, 0.0) for q in self.f.calibration.columns])
-        return np.hstack([self.roots[k], np.diag(walk * np.sqrt(hours / 6))[:, walk > 0]])
+        for k in own:
+            rows = self.epochs[k].rows
+            count = rows.stop - rows.start
+            off = np.diag(walk * np.sqrt(WITHIN * count / r.rate / HOUR))[:, walk > 0]
+            root = np.hstack([self.roots[k], off])
+            few = max(1, int(r.rate / (STAIRS * abs(r.spin_frequency)))) if self.rates else count
+            for some in split_range(count, few):
+                first, stop = rows.start + some.start, rows.start + some.stop
+                middle = float(r.time[first] + r.time[stop - 1]) / 2
+                before, share = divmod(float(np.interp(middle, middles, range(len(own)))), 1.0)
+                a, b = own[int(before)], own[min(int(before) + 1, len(own) - 1)]
+                yield slice(first, stop), (1.0 - share) * self.steps[a] + share * self.steps[b], root
 
     def as_json(self) -> dict[str, Any]:
         """The rates of those that walk, and their values in every block."""

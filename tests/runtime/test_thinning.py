@@ -13,7 +13,7 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, Observation, segments, spread, take_beginnings
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
-from ragg_runtime.identification import contenders, omnibus, selection
+from ragg_runtime.identification import contenders, formula, omnibus, selection
 from ragg_runtime.identification.contenders import ContenderFit
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.selection import make_field
@@ -257,7 +257,7 @@ def test_the_division_leaves_no_trace(
     np.testing.assert_allclose(
         parts.residuals(np.zeros(parts.n_base))[0], whole.residuals(zero[: whole.n_base])[0], atol=1e-9
     )
-    a, b = omnibus.remainder(whole), omnibus.remainder(parts)
+    a, b = (formula.propose_formulas(f, (), omnibus.remainder(f)) for f in (whole, parts))
     assert b.searches[0].terms[0].term == a.searches[0].terms[0].term
     assert b.searches[0].terms[0].z == pytest.approx(a.searches[0].terms[0].z, rel=1e-4)  # single precision
 
