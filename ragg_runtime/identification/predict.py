@@ -17,7 +17,7 @@ from ragg_runtime.estimation.least_squares import join, r_factor
 from ragg_runtime.estimation.observation import BLOCKS, ROWS, combine_output
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, flight_segments
 from ragg_runtime.identification import omnibus
-from ragg_runtime.identification.dictionary import Dictionary, Term, harmonics
+from ragg_runtime.identification.dictionary import Term, harmonics
 from ragg_runtime.identification.omnibus import Scores
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import Field, make_field
@@ -200,5 +200,5 @@ def compute_term(prepared: PreparedFlight, harmonic: str, product: str, coeffici
     """(N,) V: a generic term over a whole flight, with this coefficient."""
     r = prepared.observation.record
     channels = () if product == "1" else tuple(product.split("*"))
-    x = coefficient * Dictionary(r).series(Term(harmonic, channels), r)
+    x = coefficient * omnibus.make_dictionary(prepared).series(Term(harmonic, channels), r)
     return np.asarray(np.where(r.valid, x, 0.0))

@@ -85,6 +85,8 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
         f.prepared[0], f.r_factors[0], f.n_base, predict.list_columns(make_field(f, found), found)
     )
     assert np.nanmax(np.abs(given.z)) < h.level
+    squared = predict.compute_term(f.prepared[0], "const", "G_out*G_out", 1.0)  # of the output as the model predicts it
+    assert np.ptp(squared) > 0.0
 
 
 def test_a_window_of_a_series_loses_no_extreme_and_no_gap() -> None:
