@@ -101,9 +101,9 @@ class Bounds:
 
 def instructions() -> int:
     """Arithmetic of the generated C, a sample, with FMA counted once."""
-    from ragg_runtime.model.model import packaged
+    from ragg_runtime.model.model import load_packaged
 
-    text = packaged().sources["folded.c"]
+    text = load_packaged().sources["folded.c"]
     loops = [
         text[text.index(f"static inline void {name}(") :].split("\n}\n")[0] for name in ("disc", "block")
     ]

@@ -28,7 +28,7 @@ from ragg_runtime.identification import motion_design, next_motion
 from ragg_runtime.identification.motion_design import Information
 from ragg_runtime.identification.next_motion import Sinusoid
 from ragg_runtime.io import Flight
-from ragg_runtime.model.model import packaged
+from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, draw_gradient, draw_motion, scenario
 from ragg_runtime.reference.simulate import combine
@@ -54,7 +54,7 @@ def transfer(duration: float = 7200.0) -> dict[str, tuple[Complex, Complex]]:
     phi = 2 * np.pi * s.sheet.spin_frequency * t
     waves = 1e-9 * s.instrument.scale_factor * (g.real / 2 * np.sin(2 * phi) - g.imag * np.cos(2 * phi))
     more = dataclasses.replace(x, outputs={"G_out": x.outputs["G_out"] + waves})
-    found, both = {}, [prepare(packaged(), s.sheet, [y], "self") for y in (more, x)]
+    found, both = {}, [prepare(load_packaged(), s.sheet, [y], "self") for y in (more, x)]
     for name in DEMODULATORS:
         c, other = (make_channel(p, 0, name) for p in both)
         difference = c.compensate().gradient - other.compensate().gradient
@@ -116,7 +116,9 @@ def calibrate_by_runs(seed: int) -> list[tuple[str, float, Array, Array]]:
     (clean,) = observe_flights([dataclasses.replace(flight, outputs=dict(sim.outputs_noise_free))], s.sheet)
 
     def fitted(*flights: Flight) -> Information:
-        return Information.of(fit(packaged(), s.sheet, observe_flights(flights, s.sheet), candidates=False))
+        return Information.of(
+            fit(load_packaged(), s.sheet, observe_flights(flights, s.sheet), candidates=False)
+        )
 
     first, band = fitted(flight), (0.0, next_motion.HIGHEST * s.rate)
     plan = motion_design.design_calibration(first.f, next_motion.LIMITS, duration=RUN, band=band)
@@ -183,7 +185,7 @@ def fly_survey(seed: int) -> tuple[Scenario, list[Flight]]:
 def score_survey(seed: int, kind: str) -> Array:
     """Errors of inline and cross over their standard uncertainties, every two seconds of all flights."""
     s, flights = fly_survey(seed)
-    p = prepare(packaged(), s.sheet, flights, kind)  # type: ignore[arg-type]
+    p = prepare(load_packaged(), s.sheet, flights, kind)  # type: ignore[arg-type]
     found = []
     for n, x in enumerate(flights):
         c = make_channel(p, n, "fir")

@@ -41,14 +41,14 @@ def instrument_and_motion(n: int) -> tuple[Any, Any, Any]:
     """(t, inputs, p): Tables V and VI of the paper, at random; t from START s on."""
     import numpy as np
 
-    from ragg_runtime.model.model import packaged
+    from ragg_runtime.model.model import load_packaged
 
     draw = np.random.default_rng(5)
     arcsec, per_g, g = math.pi / 648000, 1e-6 / 9.8, 9.8
     sizes = {"dR": 35e-6, "K0": 10e-6 * g, "k_VI": 0.0, "K1": 1e-3 / g}
     middle = {"k_VI": 1e9, "K1": 11e-3 / g}
     p = [0.1, 0.25]
-    for name, size in packaged().chain.PARAMETERS[2:]:
+    for name, size in load_packaged().chain.PARAMETERS[2:]:
         spread = sizes.get(name, 20 * (per_g if name.startswith("K") else arcsec))
         p += list(middle.get(name, 0.0) + spread * draw.uniform(-1, 1, size))
     rate = 2000 * arcsec
@@ -60,9 +60,9 @@ def instrument_and_motion(n: int) -> tuple[Any, Any, Any]:
 def contenders(p: Any) -> tuple[dict[str, Call], dict[str, str]]:
     """Name -> (t, inputs, out) -> anything; and what is missing, with the reason."""
     from benchmarks import rivals
-    from ragg_runtime.model.model import packaged
+    from ragg_runtime.model.model import load_packaged
 
-    compiled, blocks = packaged().compiled("c"), packaged().compiled("numpy")
+    compiled, blocks = load_packaged().compiled("c"), load_packaged().compiled("numpy")
     ours: dict[str, Call] = {
         # which allocate what they return, as for users
         OURS: lambda t, x, out: compiled.output(t, x, p),
@@ -112,13 +112,13 @@ def layouts(p: Any) -> Iterator[tuple[str, Any, Any, float]]:
     from ragg_runtime.instrument.form import PRESETS, Form
     from ragg_runtime.instrument.read_toml import parse_instrument
     from ragg_runtime.model import derive
-    from ragg_runtime.model.evaluate import vector
-    from ragg_runtime.model.model import packaged
+    from ragg_runtime.model.evaluate import make_vector
+    from ragg_runtime.model.model import load_packaged
     from tests.layouts import sheets
 
     exact = Form(kinematics="full", **dict(PRESETS["exact"]))  # type: ignore[arg-type]
-    yield PAPER, packaged().compiled("c"), p, 1.0
-    yield "full kinematics", packaged("full").compiled("c"), p, 1.3
+    yield PAPER, load_packaged().compiled("c"), p, 1.0
+    yield "full kinematics", load_packaged("full").compiled("c"), p, 1.3
     yield "full kinematics and exact order", derive.derived((), (), exact)[0].compiled("c"), p, 2.0
     for name, discs, count in (
         ("two complements on a disc, an output", sheets.complements(), 8),
@@ -126,7 +126,7 @@ def layouts(p: Any) -> Iterator[tuple[str, Any, Any, float]]:
     ):
         i = parse_instrument(sheets.sheet(discs, count))
         model = derive.derived((), (), i.form, i.layout)[0]
-        yield name, model.compiled("c"), vector(model, i), 1.3
+        yield name, model.compiled("c"), make_vector(model, i), 1.3
 
 
 def layout_rows(t: Any, x: Any, p: Any) -> list[Row]:

@@ -49,9 +49,9 @@ from ragg_runtime.io.record import distinct
 from ragg_runtime.model import derive
 from ragg_runtime.model.catalogue import Catalogue, effects
 from ragg_runtime.model.directory import CALIBRATION, HistoryStep, replace_model_dir
-from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model.model import missing_channels
-from ragg_runtime.model.record import recorded_channels
+from ragg_runtime.model.evaluate import make_vector
+from ragg_runtime.model.model import list_missing_channels
+from ragg_runtime.model.record import list_recorded_channels
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.run import digest_file, survey
 from ragg_runtime.wording import describe, describe_other
@@ -255,9 +255,9 @@ def add(
     distinct(flights)
     setting = _setting(m, effect, flights)
     others = replace(m.instrument, effects=tuple(s for s in m.instrument.effects if s.id != effect))
-    before = _compare.compare(derive.model_of(others), others, flights) if flights else None
+    before = _compare.compare(derive.load_model(others), others, flights) if flights else None
     extended = replace(others, effects=(*others.effects, setting))
-    model = derive.model_of(extended)
+    model = derive.load_model(extended)
     after: Comparison | None = None
     parameters: tuple[ParameterValue, ...] = ()
     combinations: tuple[ParameterValue, ...] = ()
@@ -285,7 +285,7 @@ def add(
         tell(made)
     if not (save and made.converged):
         return replace(made, loaded=m)
-    directory = replace_model_dir(m.directory, text, generated=derive.files_of(extended), step=step)
+    directory = replace_model_dir(m.directory, text, generated=derive.list_files(extended), step=step)
     return replace(made, loaded=load_state(directory))
 
 
@@ -293,7 +293,7 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
     """The effect as model.toml will list it, its values open but for a step's instant; UserError if it cannot be added."""
     # a candidate of the model has all that is needed here; importing the derivation takes half a second
     found = next((e for e in m.model.candidates if e.id == effect), None)
-    offered = derive.offered(m.instrument, effect) if found is None else found
+    offered = derive.find_offered(m.instrument, effect) if found is None else found
     present = m.instrument.effect(effect) or EffectSetting(effect)
     if {q.name for q in offered.parameters if not q.shape} & present.values.keys():
         raise UserError(
@@ -303,7 +303,7 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
             remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
         )
     for x in flights:
-        missing = missing_channels(offered, recorded_channels(x, m.instrument.layout))
+        missing = list_missing_channels(offered, list_recorded_channels(x, m.instrument.layout))
         if missing:
             raise UserError(
                 f"the effect {effect} needs a channel that the flight lacks",
@@ -431,7 +431,7 @@ def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | N
     directory = replace_model_dir(
         d,
         d.text,
-        generated=derive.files_of(d.instrument),
+        generated=derive.list_files(d.instrument),
         step=step,
         calibration=lambda text: add_entry(text, new, str(d.path / CALIBRATION)),
         mapping=mapping,
@@ -528,9 +528,9 @@ def contents(m: Loaded) -> Contents:
         name=m.name,
         model=m.model,
         instrument=m.instrument,
-        p=vector(m.model, m.instrument) if saved is None else saved.p,
-        sources=folded or derive.plain_c(m.instrument),
-        module=derive.chain_of(m.instrument),
+        p=make_vector(m.model, m.instrument) if saved is None else saved.p,
+        sources=folded or derive.derive_plain_c(m.instrument),
+        module=derive.read_chain(m.instrument),
         origin=of,
         saved=saved,
     )

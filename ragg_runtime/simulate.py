@@ -17,7 +17,7 @@ from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.mapping import Mapped
-from ragg_runtime.model.model import DerivedEffect, packaged
+from ragg_runtime.model.model import DerivedEffect, load_packaged
 from ragg_runtime.model.record import find_start
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.auxiliaries import further, plausible
@@ -178,7 +178,7 @@ def _drawn(seed: int, duration: float, rate: float, shape: str | None) -> refere
 
 def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
     identifier, _, rest = text.partition(":")
-    model = packaged()
+    model = load_packaged()
     effect = model.effect(identifier)
     if effect is None:
         known = ", ".join(e.id for e in model.candidates)

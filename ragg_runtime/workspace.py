@@ -30,7 +30,7 @@ from ragg_runtime.model.directory import (
     load_model_dir,
     replace_model_dir,
 )
-from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening import screen
 from ragg_runtime.wording import describe
@@ -97,7 +97,7 @@ def new(path: Path | str, source: Path | str | None = None, mapping: Path | str 
     made = create_model_dir(
         path,
         completed,
-        generated=derive.files_of(instrument),
+        generated=derive.list_files(instrument),
         history=(HistoryStep("new", now(), text=completed),),
         mapping=kept,
     )
@@ -122,9 +122,9 @@ def load(path: Path | str) -> Loaded:
 
 def load_state(directory: ModelDir) -> Loaded:
     """A model directory that was read, with the model derived for it."""
-    model = derive.model_of(directory.instrument)
-    vector(model, directory.instrument)  # its settings are good
-    note = derive.departure(directory.instrument, directory.generated)
+    model = derive.load_model(directory.instrument)
+    make_vector(model, directory.instrument)  # its settings are good
+    note = derive.describe_departure(directory.instrument, directory.generated)
     return Loaded(directory, model, () if note is None else (note,))
 
 
@@ -140,8 +140,8 @@ def _example_text() -> str:
 def as_of(m: Loaded, text: str, step: HistoryStep | None = None) -> Loaded:
     """The model with another text of model.toml, after this ``step``, in memory alone: the directory stays as it is."""
     instrument = parse_instrument(text, m.directory.path / "model.toml")
-    model = derive.model_of(instrument)
-    vector(model, instrument)
+    model = derive.load_model(instrument)
+    make_vector(model, instrument)
     history = (*m.directory.history, *([] if step is None else [step]))
     directory = replace(m.directory, text=text, instrument=instrument, generated=None, history=history)
     return Loaded(directory, model, m.notes if step is None else ())
@@ -158,7 +158,7 @@ def change(
     planned = as_of(m, text, step)
     if tell is not None:
         tell(planned)
-    generated = derive.files_of(planned.instrument)
+    generated = derive.list_files(planned.instrument)
     return load_state(replace_model_dir(m.directory, text, generated=generated, step=step))
 
 

@@ -30,7 +30,7 @@ from benchmarks.diagnosis.fly import fly
 from benchmarks.diagnosis.plan import Spec
 from benchmarks.diagnosis.score import Row
 from benchmarks.diagnosis.strength import NEVER
-from ragg_runtime.model.model import packaged
+from ragg_runtime.model.model import load_packaged
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -165,7 +165,7 @@ def _fly(options: argparse.Namespace, source: str, pool: Executor | None) -> lis
 
 def _catalogue(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
     cache = Cache(options.cache.with_stem(f"{options.cache.stem}-catalogue"), source)
-    hidden = [e.id for e in packaged().candidates if e.searched and e.id not in NEVER]
+    hidden = [e.id for e in load_packaged().candidates if e.searched and e.id not in NEVER]
     specs = plan.catalogue(len(hidden))
     run({s.id: partial(fly, s) for s in specs}, cache, pool)
     rows = [score.row(cache.lines[s.id]) for s in specs]

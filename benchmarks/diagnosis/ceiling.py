@@ -17,12 +17,12 @@ from benchmarks.diagnosis.fly import Prepared, prepared
 from benchmarks.diagnosis.plan import Spec
 from benchmarks.diagnosis.strength import Hidden, Oracle
 from ragg_runtime.base import false_alarms
-from ragg_runtime.estimation.least_squares import r_factor
+from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.observation import BLOCKS, observe
 from ragg_runtime.estimation.regressors import list_base_columns, predict_observed
 from ragg_runtime.identification import likelihood_ratio
 from ragg_runtime.identification.selection import Field
-from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.evaluate import make_vector
 
 Array = NDArray[np.float64]
 
@@ -53,10 +53,10 @@ def _left(p: Prepared, o: Oracle) -> Array:
     x = observe(
         replace(o.flight, channels={n: p.table[n] for n in o.flight.channels}, outputs=outputs), w.known
     )
-    true = vector(o.model, w.known)
+    true = make_vector(o.model, w.known)
     rest = np.stack(x.series) - predict_observed(o.model, x, true)
     base = list_base_columns(o.model, w.known)
-    sheet = [(vector(o.model, w.scenario.sheet)[k] - true[k]) / c.scale for c, k in base]
+    sheet = [(make_vector(o.model, w.scenario.sheet)[k] - true[k]) / c.scale for c, k in base]
     y = np.concatenate([o.whitened(np.where(o.valid, rest, 0.0)[None])[0], sheet])
     return np.asarray(y - o.Q @ (o.Q.T @ y))
 
@@ -74,7 +74,7 @@ def _log_p(o: Oracle, h: Hidden, left: Array) -> float:
         clipped = o.row(np.clip(G, -most, most) - G)
         return _normal(clipped @ left / np.linalg.norm(clipped))
     block = o.block(h.effect, h.values.get("t_step"))  # type: ignore[arg-type]
-    P = r_factor(np.concatenate([block, left[None]]))
+    P = compute_r_factor(np.concatenate([block, left[None]]))
     columns = [(n, o.columns[k]) for n, k in enumerate(at)]
     charge = float(np.log(2 * BLOCKS)) if o.kinds[h.effect] == "step" else 0.0
     return likelihood_ratio.test(P, columns, np.full(len(P), likelihood_ratio.TESTABLE), charge).log_p
@@ -88,7 +88,7 @@ def _field(o: Oracle, left: Array) -> Field:
     """All effects with columns; steps from the middle on."""
     middle = float(np.mean(o.flight.time[[0, -1]]))
     ids = [e for e, kind in o.kinds.items() if kind in ("deterministic", "step")]
-    T = r_factor(np.concatenate([*(o.block(e, middle) for e in ids), left[None]]))
+    T = compute_r_factor(np.concatenate([*(o.block(e, middle) for e in ids), left[None]]))
     columns = iter(enumerate(o.columns[k] for e in ids for k in o.of(e)))
     candidates = {e: tuple(next(columns) for _ in o.of(e)) for e in ids}
     return Field(T=T, n_base=0, candidates=candidates, rows=o.rows)

@@ -24,8 +24,8 @@ from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.regressors import Column, LinearisationPoint, linearise
 from ragg_runtime.io import Flight
-from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model.model import packaged
+from ragg_runtime.model.evaluate import make_vector
+from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.effects import CATALOGUE
 
 Array = NDArray[np.float64]
@@ -81,7 +81,7 @@ class Oracle:
         catalogue: Container[str] | None = None,
     ) -> None:
         """``lost``: samples whose output is missing; ``catalogue``: the effects that there are (``None``: all)."""
-        self.model, self.flight = packaged(), flight
+        self.model, self.flight = load_packaged(), flight
         known = [e for e in self.model.candidates if catalogue is None or e.id in catalogue]
         self.o = observe(flight, w.known)
         self.valid = self.o.record.valid if lost is None else self.o.record.valid & ~lost
@@ -91,7 +91,7 @@ class Oracle:
         variance = of_each if w.output == "voltages" else np.sum(of_each, axis=0, keepdims=True)
         self.rms = np.sqrt(w.density * flight.rate / 2 * variance)
         self.taps = whitening(noise_rms, flight.rate, len(flight))
-        p = vector(self.model, w.known)
+        p = make_vector(self.model, w.known)
         every, ids = design.list_candidate_columns(self.model, w.known), {e.id for e in known}
         only = tuple(n for n, c in enumerate(every) if c.effect in ids)
         self.raw = linearise(

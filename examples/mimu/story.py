@@ -91,7 +91,7 @@ def calibrated(
     """Calibrate a sheet, with these effects in the model beside its own."""
     i = parse_instrument(text)
     i = dataclasses.replace(i, effects=(*i.effects, *(EffectSetting(e) for e in effects)))
-    model = derive.without_signatures(i, i.form)
+    model = derive.derive_without_signatures(i, i.form)
     f = fit(model, i, observe_flights(flights(i, motion, misread), i))
     c = f.calibration
     std = np.sqrt(np.diag(c.covariance)) * np.array([q.scale for q in c.columns])
@@ -125,7 +125,7 @@ def diagnosed(text: str, misread: float = 1.0, motion: Path = HERE / "motion.par
 
 def diagnosed_of(i: Instrument, both: Sequence[Flight]) -> Diagnosis:
     """The same of any flights of the array."""
-    return diagnose(derive.model_of(i), i, both, partial(derive.with_effects, i))
+    return diagnose(derive.load_model(i), i, both, partial(derive.with_effects, i))
 
 
 TOLERANCE = 0.03

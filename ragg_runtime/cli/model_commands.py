@@ -50,7 +50,7 @@ def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code."""
     from ragg_runtime.model import derive as derivation
 
-    root = derivation.home() if out is None else out
+    root = derivation.find_root() if out is None else out
     if not check:
         changed = derivation.rederive(root)
         for name in changed:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.estimation.fitted import Fitted, fit, noise_floor
+from ragg_runtime.estimation.fitted import Fitted, fit, measure_noise_floor
 from ragg_runtime.estimation.least_squares import Linear, add_prior, join
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.scores import Error, list_errors
@@ -20,8 +20,8 @@ from ragg_runtime.identification.parameters import (
     SEEN,
     Combination,
     find_combinations,
+    list_parameter_values,
     own_name,
-    parameter_values,
 )
 from ragg_runtime.identification.series import list_noise_floor
 from ragg_runtime.instrument.instrument import Instrument
@@ -55,7 +55,7 @@ class Calibrated:
             "converged": f.calibration.converged,
             "effects": [e.id for e in f.model.effects],
             "error": self.errors_json(),
-            "noise_floor": list_noise_floor(f, noise_floor(f)),
+            "noise_floor": list_noise_floor(f, measure_noise_floor(f)),
             "directions": dict(zip(("seen", "fitted"), self.directions, strict=True)),
             "parameters": list_parameters(f),
             "combinations": list_combinations(f),
@@ -78,7 +78,7 @@ def list_parameters(f: Fitted) -> list[dict[str, Any]]:
     values = c.in_scales
     found = []
     for k, (q, column) in enumerate(
-        zip(parameter_values(c.columns, values, c.covariance), c.columns, strict=True)
+        zip(list_parameter_values(c.columns, values, c.covariance), c.columns, strict=True)
     ):
         factor = column.scale / column.unit_factor
         sheet = float(values[k] + f.to_nominal[k]) * factor

@@ -16,7 +16,7 @@ from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import ROWS, combine_output
 from ragg_runtime.estimation.regressors import Column, put_derivatives
 from ragg_runtime.estimation.seen_gradient import Block, ModelledOutput
-from ragg_runtime.estimation.unknown_gradient import spin_frequency
+from ragg_runtime.estimation.unknown_gradient import measure_spin_frequency
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.signals.demodulators import find_demodulator
 
@@ -104,7 +104,7 @@ class OutputChannel(ModelledOutput):
     @property
     def noise_std(self) -> tuple[float, float]:
         """Standard deviations of inline and cross, Eo, that stationary noise of the output causes."""
-        carrier, signs = 2 * spin_frequency(self.observation), self.observation.signs
+        carrier, signs = 2 * measure_spin_frequency(self.observation), self.observation.signs
         power = self.demodulator.pass_power(lambda f: self.noise.psd(f, signs), carrier)
         cross = float(np.sqrt(power)) / self.scale_factor
         return 2 * cross, cross

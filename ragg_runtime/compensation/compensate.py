@@ -37,16 +37,16 @@ from ragg_runtime.estimation.observation import (
     BLOCKS,
     ROWS,
     Observation,
-    block_edges,
     combine_output,
+    divide_into_segments,
+    make_block_edges,
     observe_flights,
-    segments,
     spread,
 )
 from ragg_runtime.estimation.scores import finite, measure_error
 from ragg_runtime.estimation.seen_gradient import Block
-from ragg_runtime.estimation.unknown_gradient import windows
-from ragg_runtime.estimation.whitening import flight_segments
+from ragg_runtime.estimation.unknown_gradient import make_windows
+from ragg_runtime.estimation.whitening import divide_flight
 from ragg_runtime.identification.budget import list_groups
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, sees
@@ -54,7 +54,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.io.files import write_tables
 from ragg_runtime.io.record import GRADIENT, distinct
 from ragg_runtime.io.tables import DataColumn, DataTable
-from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.evaluate import make_vector, scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulators import find_demodulator
 from ragg_runtime.signals.derivative import runs
@@ -273,7 +273,7 @@ def _crossed_block(f: Fitted, o: Observation, b: int, of_all: Sequence[Sequence[
         for y, t in enumerate(r_factors)
         if (x.flight, y) != (o.flight, b)
     ]
-    edges = block_edges(len(o.record.time))
+    edges = make_block_edges(len(o.record.time))
     return make_block(f.calibration, slice(int(edges[b]), int(edges[b + 1])), *fit_some(f, others))
 
 
@@ -349,12 +349,12 @@ def find_nominal_residual(c: OutputChannel, instrument: Instrument) -> Array:
     """(N,) V: the residual with the sheet's values, without what a gradient can be of it: as a record is scored of which the gradient
     is not known.
     """
-    o, sheet = c.observation, vector(c.model, instrument)
+    o, sheet = c.observation, make_vector(c.model, instrument)
     r, rows = o.record, slice(0, len(o.record.time))
     predicted = o.recorded.through(replace(c, about=sheet, blocks=(Block(rows, sheet),)).predict(), r)
     e = np.where(r.valid, combine_output(o, o.data) - predicted, 0.0)
-    for s in flight_segments(o):
-        for w in (w for w in windows(o, s.rows, c.noise) if len(w.plain)):
+    for s in divide_flight(o):
+        for w in (w for w in make_windows(o, s.rows, c.noise) if len(w.plain)):
             own = np.arange(s.rows.start, s.rows.stop)[w.samples]
             own = own[r.valid[own]]
             Q = orthonormalise(combine_output(o, w.plain.reshape(len(w.plain), -1, len(own))))
@@ -382,7 +382,7 @@ def list_contributions(c: OutputChannel, instrument: Instrument) -> list[dict[st
     totals: dict[tuple[str, str | None], Array] = {}
     count, p = 0, c.blocks[0].p
     most = max(ROWS, 4 * len(c.demodulator.taps))
-    for s in spread(segments(len(c.observation.record.time), most), 2):
+    for s in spread(divide_into_segments(len(c.observation.record.time), most), 2):
         some = slice(0, s.rows.stop - s.rows.start)
         part = replace(c, observation=c.observation.part(s.rows), blocks=(Block(some, p),))
         good = (part.flag_samples() & NO_VALUE) == 0

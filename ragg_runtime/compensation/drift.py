@@ -22,7 +22,7 @@ from ragg_runtime.base.threads import split_range
 from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors
 from ragg_runtime.estimation.fitted import Fitted, prepare_evidence
 from ragg_runtime.estimation.least_squares import join
-from ragg_runtime.estimation.observation import BLOCKS, block_edges
+from ragg_runtime.estimation.observation import BLOCKS, make_block_edges
 from ragg_runtime.io import Flight
 
 Array = NDArray[np.float64]
@@ -158,7 +158,7 @@ def _smooth(f: Fitted, starts: Sequence[float], timed: bool, rates: dict[str, fl
     for n, start in enumerate(starts):
         own = [k for k, o in enumerate(f.observations) if o.flight == n]
         t = f.observations[own[0]].record.time
-        edges = block_edges(len(t))
+        edges = make_block_edges(len(t))
         for b in range(BLOCKS):
             rows = slice(int(edges[b]), int(edges[b + 1]))
             if rows.start < rows.stop:

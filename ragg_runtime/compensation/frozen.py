@@ -18,7 +18,7 @@ from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, prepare_evidence
 from ragg_runtime.estimation.least_squares import join
 from ragg_runtime.estimation.noise_estimate import estimate_noise
-from ragg_runtime.estimation.observation import Observation, observe_flights, segments, spread
+from ragg_runtime.estimation.observation import Observation, divide_into_segments, observe_flights, spread
 from ragg_runtime.estimation.regressors import Column, LinearisationPoint
 from ragg_runtime.estimation.scores import Error, finite, log_sf
 from ragg_runtime.identification import comparison
@@ -194,7 +194,7 @@ def retest_change(
         n = len(o.record.time)
         blocks = [slice(0, n)]
         if n > BLOCKS * TESTED:
-            blocks = [s.rows for s in spread(segments(n, TESTED), BLOCKS)]
+            blocks = [s.rows for s in spread(divide_into_segments(n, TESTED), BLOCKS)]
         # of the observation, not of the flight: the disc's angle counts from its beginning
         parts += [o.part(rows) for rows in blocks]
         noise += [own] * len(blocks)

@@ -28,14 +28,14 @@ from ragg_runtime.estimation.regressors import (
     LinearisationPoint,
     linearise,
     list_base_columns,
-    own_columns,
+    list_own_columns,
 )
-from ragg_runtime.identification.parameters import parameter_values
+from ragg_runtime.identification.parameters import list_parameter_values
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.evaluate import make_vector, scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.recorded import put_on_carriers
 from ragg_runtime.signals.demodulate import CUTOFF
@@ -95,10 +95,10 @@ class Online:
     ) -> None:
         """Begin at parameters ``p`` (size,) with ``root`` (all, all) of the information in scales, else at the sheet."""
         self.model, self.instrument, self.tuning, self.place = model, instrument, tuning, place
-        nominal = vector(model, instrument)
+        nominal = make_vector(model, instrument)
         self.p = nominal.copy() if p is None else p.copy()
         every = list_base_columns(model, instrument)
-        self.own = own_columns([c for c, _ in every], instrument, place)
+        self.own = list_own_columns([c for c, _ in every], instrument, place)
         self.columns: tuple[Column, ...] = tuple(every[k][0] for k in self.own)
         self.index = np.array([every[k][1] for k in self.own], dtype=np.intp)
         self.scale = np.array([c.scale for c in self.columns])
@@ -267,7 +267,7 @@ def _follow_flight(
 ) -> tuple[dict[str, NDArray[Any]], list[dict[str, Any]]]:
     """The columns of a flight, and the state of each output's filter at its end; ``tuning.noise`` is a density."""
     endings = column_endings(instrument.layout.output_names)
-    p, root = (vector(model, instrument), None) if saved is None else (saved.p, saved.information)
+    p, root = (make_vector(model, instrument), None) if saved is None else (saved.p, saved.information)
     columns: dict[str, NDArray[Any]] = {}
     said = []
     observations = observe_flights([x], instrument)
@@ -305,5 +305,5 @@ def _flag_bridged(time: Array, o: Observation) -> NDArray[np.int64]:
 def _parameters_json(f: Online) -> list[dict[str, Any]]:
     p, root = f.parameters()
     inverse = np.linalg.inv(root)
-    values = parameter_values(f.columns, p[f.index] / f.scale, inverse @ inverse.T)
+    values = list_parameter_values(f.columns, p[f.index] / f.scale, inverse @ inverse.T)
     return [{**q.as_json(), "name": c.name} for q, c in zip(values, f.columns, strict=True)]

@@ -15,7 +15,7 @@ from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.estimation.regressors import Column, list_base_columns
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.directory import CALIBRATION
-from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.evaluate import make_vector, scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.workspace import Loaded
 
@@ -90,7 +90,7 @@ class Saved:
             found.append("the model has been derived anew since the calibration was saved")
         if not self.converged:
             found.append("the saved calibration had not converged")
-        if not np.array_equal(self.sheet, vector(model, instrument)):
+        if not np.array_equal(self.sheet, make_vector(model, instrument)):
             found.append("model.toml has changed since the calibration was saved; the saved values are used")
         if "balancing-loop" in self.effects:
             found.append(
@@ -214,7 +214,7 @@ def saved_calibration(m: Loaded) -> Saved:
             near = did_you_mean(c.name, [name for name, _ in places]) or again
             what = "the saved calibration names a parameter that the model does not fit"
             raise refuse(what, found=c.label, remedy=near)
-    nominal = vector(model, instrument)
+    nominal = make_vector(model, instrument)
     given = np.setdiff1d(np.arange(len(nominal)), saved.index)
     if not np.array_equal(saved.p[given], nominal[given]):
         what = "model.toml was changed since the calibration was saved: values that are not fitted differ"

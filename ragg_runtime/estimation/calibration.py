@@ -16,12 +16,12 @@ from ragg_runtime.estimation.least_squares import Linear, Minimum, add_prior, jo
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation
-from ragg_runtime.estimation.regressors import Column, LinearisationPoint, spell_name, tested_columns
+from ragg_runtime.estimation.regressors import Column, LinearisationPoint, list_tested_columns, spell_name
 from ragg_runtime.estimation.unknown_gradient import Window
 from ragg_runtime.estimation.whitening import Piece, find_segments, pass_over, take_excerpt
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
-from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.evaluate import make_vector, scale_factor
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
@@ -87,7 +87,7 @@ class _Fall(Linear):
 
     def over(self, size: float) -> _Fall:
         """The same with a noise so many times as large."""
-        fall = _linear(self.data / size, self.to_nominal)
+        fall = _add_prior_to(self.data / size, self.to_nominal)
         rest = fall.rest if np.isfinite(self.rest) else np.inf
         return replace(self, R=fall.R, y=fall.y, rest=rest, data=self.data / size)
 
@@ -114,7 +114,7 @@ class _Task:
 
     @cached_property
     def nominal(self) -> Array:
-        return vector(self.model, self.instrument)
+        return make_vector(self.model, self.instrument)
 
     @cached_property
     def scale(self) -> Array:
@@ -137,7 +137,7 @@ class _Task:
         """What an unknown gradient spans of each flight of one segment, which is the same at every point of a fit."""
         found = [find_segments(o) for o in self.observations]
         return [
-            unknown_gradient.windows(o, s[0].rows, n) if len(s) == 1 else None
+            unknown_gradient.make_windows(o, s[0].rows, n) if len(s) == 1 else None
             for o, n, s in zip(self.observations, noise, found, strict=True)
         ]
 
@@ -159,12 +159,12 @@ class _Task:
         data = join(r_factors)
         if not np.isfinite(data).all():
             return self._nowhere(x)
-        fall = _linear(data, -x)
+        fall = _add_prior_to(data, -x)
         return _Fall(R=fall.R, y=fall.y, rest=fall.rest, data=data, to_nominal=-x, sums=sums, rows=rows)
 
     def noise(self, x: Array) -> list[NoiseModel]:
         """NoiseModel of every flight from what nothing explains about x."""
-        tested = tested_columns(self.model, self.instrument, [o.record for o in self.observations])
+        tested = list_tested_columns(self.model, self.instrument, [o.record for o in self.observations])
         everything = LinearisationPoint(
             self.model, self.instrument, self.vector(x), with_candidates=True, only=tested
         )
@@ -243,20 +243,20 @@ def fit(
         x = begun.fit(x, begun.promised(x)).x
         noise = task.noise(x)
     if unweighted:
-        return _calibration(task, whole.fit(x, max(task.size(noise), whole.left(x) / LEAN)), noise)
+        return _make_calibration(task, whole.fit(x, max(task.size(noise), whole.left(x) / LEAN)), noise)
     if start is None and some is not task:
         x = minimise(lambda at: some.at(at, noise), x).x
     windows = task.windows(noise)
-    return _calibration(task, minimise(lambda at: task.at(at, noise, windows), x), noise)
+    return _make_calibration(task, minimise(lambda at: task.at(at, noise, windows), x), noise)
 
 
-def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[NoiseModel]) -> Calibration:
+def _make_calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[NoiseModel]) -> Calibration:
     """The end of a fit as parameters, levelled."""
     at = found.at
     step = found.last
     for sums in at.sums.values():
-        step = design.level_biases(step, sums, design.null_biases(task.columns))
-    covariance = _linear(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
+        step = design.level_biases(step, sums, design.find_null_biases(task.columns))
+    covariance = _add_prior_to(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
     return Calibration(
         p=task.vector(found.x + step),
         columns=task.columns,
@@ -276,7 +276,7 @@ def _r_factor(piece: Piece) -> tuple[Array, int, Array]:
     return piece.r_factor(), piece.white.shape[1], piece.sums()
 
 
-def _linear(T: Array, to_nominal: Array) -> Linear:
+def _add_prior_to(T: Array, to_nominal: Array) -> Linear:
     """The fit of an R factor [base (n) | residual], the prior in it: its centre is ``to_nominal`` away, its width one scale."""
     R = add_prior(T, range(len(to_nominal)), to_nominal)
     return Linear(R[:-1, :-1], R[:-1, -1], float(R[-1, -1] ** 2))
@@ -318,15 +318,15 @@ class OffSheet:
         }
 
 
-def to_nominal(model: Model, instrument: Instrument, c: Calibration) -> Array:
+def measure_to_nominal(model: Model, instrument: Instrument, c: Calibration) -> Array:
     """(n_base,): how far the nominal values are from the calibrated ones, in scales: the prior's centre."""
     scale = np.array([q.scale for q in c.columns])
-    return np.asarray((vector(model, instrument)[c.index] - c.p[c.index]) / scale)
+    return np.asarray((make_vector(model, instrument)[c.index] - c.p[c.index]) / scale)
 
 
 def list_off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffSheet]:
     """The instrument's parameters that ended more than :data:`FAR` sigmas from their sheet, farthest first."""
-    sheet = vector(model, instrument)
+    sheet = make_vector(model, instrument)
     found = [
         OffSheet(
             name=q.name,
@@ -369,7 +369,7 @@ def widen_priors(model: Model, instrument: Instrument, c: Calibration) -> Instru
     """
     if c.unheld > max(QUIET, HELD * c.excess):
         return None
-    now, then = instrument.widths, _widths(model, instrument, c)
+    now, then = instrument.widths, _estimate_widths(model, instrument, c)
     changed = any(
         not 1 / AGAIN < then.get(n, 1.0) / now.get(n, 1.0) < AGAIN for n in dict.fromkeys((*now, *then))
     )
@@ -382,7 +382,7 @@ def restore_priors(instrument: Instrument, but: Iterable[str] = ()) -> Instrumen
     return replace(instrument, widths=MappingProxyType(kept))
 
 
-def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, float]:
+def _estimate_widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, float]:
     """How many times each prior is wider than on the sheet, at least 1.
 
     Those of one unit are a kind; all with a sigma on the sheet are another one, doubted only where nothing speaks for an effect. Each
@@ -392,7 +392,7 @@ def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, f
     kinds |= {q.name: q.name for q in c.columns if q.effect is not None}
     squares = dict.fromkeys(kinds.values(), 0.0)
     told = dict.fromkeys(kinds.values(), 0.0)
-    sheet = vector(model, instrument)
+    sheet = make_vector(model, instrument)
     for q, k, variance in zip(c.columns, c.index, np.diag(c.covariance), strict=True):
         x = float((c.p[k] - sheet[k]) / q.scale) * instrument.widths.get(q.name, 1.0)
         squares[kinds[q.name]] += x**2
@@ -403,7 +403,7 @@ def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, f
     return {n: width[k] for n, k in kinds.items() if wide[k]}
 
 
-def prior_volume(instrument: Instrument, c: Calibration) -> float:
+def charge_wider_priors(instrument: Instrument, c: Calibration) -> float:
     """The chi-square price of wider priors: the logarithm of the volume that they add, over the parameters that the record determines."""
     width = np.array([instrument.widths.get(q.name, 1.0) for q in c.columns])
     return float(2.0 * np.log(width) @ np.maximum(0.0, 1.0 - np.diag(c.covariance)))

@@ -14,7 +14,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import calibration, regressors, whitening
 from ragg_runtime.estimation.calibration import QUIET, Calibration, widen_priors
-from ragg_runtime.estimation.least_squares import add_prior, fold, prior
+from ragg_runtime.estimation.least_squares import add_prior, fold, make_prior
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, Observation
 from ragg_runtime.estimation.regressors import Column
@@ -22,7 +22,7 @@ from ragg_runtime.estimation.scores import Error, Tally, pool_errors
 from ragg_runtime.estimation.thinning import leave_out_uncertain, measure_beyond
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, prepare_flight
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.evaluate import make_vector, scale_factor
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
@@ -74,7 +74,7 @@ class Fitted:
     @property
     def sheet(self) -> Array:
         """(P,): the parameters as in model.toml."""
-        return vector(self.model, self.instrument)
+        return make_vector(self.model, self.instrument)
 
     @property
     def k_ggi(self) -> float:
@@ -135,7 +135,7 @@ class Fitted:
 
     @property
     def _prior(self) -> Array:
-        return prior(range(self.n_base), self.size + 1, self.to_nominal)
+        return make_prior(range(self.n_base), self.size + 1, self.to_nominal)
 
     def freed(self, name: str, extra: Sequence[int]) -> Array:
         """R factor [base | candidates ``extra`` | residual] without the prior of one parameter of the accelerometers."""
@@ -158,7 +158,7 @@ class Fitted:
         R = np.vstack([T[:n, picked], np.hstack([np.zeros((k - n, n)), below[: k - n, : k - n]])])
         inverse, _ = linalg.lapack.dtrtri(R)
         blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
-        biases = regressors.null_biases(self.calibration.columns)
+        biases = regressors.find_null_biases(self.calibration.columns)
         coefficients = inverse @ np.concatenate([T[:n, -1], below[: k - n, -1]])
         for place in dict.fromkeys(o.place for o in self.observations):
             own = [x[blocks] for x, o in zip(self.sums, self.observations, strict=True) if o.place == place]
@@ -301,10 +301,10 @@ def prepare_evidence(
     candidates: bool = True,
 ) -> Fitted:
     """The evidence about a calibration, however it was found; of its parameters alone without ``candidates``."""
-    tested = regressors.tested_columns(model, instrument, [o.record for o in observations])
+    tested = regressors.list_tested_columns(model, instrument, [o.record for o in observations])
     at = regressors.LinearisationPoint(model, instrument, c.p, with_candidates=candidates, only=tested)
     prepared = tuple(prepare_flight(o, own, at) for o, own in zip(observations, c.noise, strict=True))
-    r_factors, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
+    r_factors, sums = zip(*(whitening.factor_blocks(x) for x in prepared), strict=True)
     return Fitted(
         model=model,
         instrument=instrument,
@@ -313,7 +313,7 @@ def prepare_evidence(
         prepared=prepared,
         r_factors=r_factors,
         sums=sums,
-        to_nominal=calibration.to_nominal(model, instrument, c),
+        to_nominal=calibration.measure_to_nominal(model, instrument, c),
         scales=tuple(scale_factor(model, c.p, o.place) for o in observations),
     )
 
@@ -351,7 +351,7 @@ def estimate_variance(x: PreparedFlight) -> float:
     return share * x.noise.variance(x.observation.signs)
 
 
-def noise_floor(f: Fitted) -> float:
+def measure_noise_floor(f: Fitted) -> float:
     """rms of the noise of G_out before demodulation, Eo."""
     variances = []
     for x, k_ggi, fast in zip(f.prepared, f.scales, f.beyond, strict=True):

@@ -22,10 +22,10 @@ def add_prior(T: Array, columns: Sequence[int], centre: Array | float = 0.0) -> 
 
     ``centre`` (columns,) or one number is where the prior has its mean. A prior is so many further rows of data.
     """
-    return np.asarray(np.linalg.qr(np.vstack([T, prior(columns, T.shape[1], centre)]), mode="r"))
+    return np.asarray(np.linalg.qr(np.vstack([T, make_prior(columns, T.shape[1], centre)]), mode="r"))
 
 
-def prior(columns: Sequence[int], n: int, centre: Array | float = 0.0) -> Array:
+def make_prior(columns: Sequence[int], n: int, centre: Array | float = 0.0) -> Array:
     """(columns, n): the rows of such a prior."""
     rows = np.zeros((len(columns), n))
     rows[range(len(columns)), list(columns)] = 1.0
@@ -46,19 +46,19 @@ PANEL = 32
 """Columns that LAPACK eliminates at a time."""
 
 
-def r_factor(columns: Array) -> Array:
+def compute_r_factor(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows. What is zero stays so, without work."""
     some = find_nonzero(columns)
     k = np.count_nonzero(some)
     R = np.zeros((k, k), order="F")
     for start in range(0, columns.shape[1], CHUNK):
-        R = _entered(R, np.asfortranarray(columns[some, start : start + CHUNK].T))
+        R = _enter_rows(R, np.asfortranarray(columns[some, start : start + CHUNK].T))
     T = np.zeros((len(columns),) * 2)
     T[np.ix_(some, some)] = R
     return T
 
 
-def _entered(R: Array, part: Array, trapezoid: int = 0) -> Array:
+def _enter_rows(R: Array, part: Array, trapezoid: int = 0) -> Array:
     """The factor of the rows of R (n, n), upper triangular, and of ``part`` (m, n), both in Fortran's order and used up; the last
     ``trapezoid`` rows of ``part`` are an upper trapezoid.
     """
@@ -72,7 +72,7 @@ def join(blocks: Sequence[Array]) -> Array:
     """The R factor of several records together, each of them in any rows (k, n) with the right inner products."""
     if len(blocks) == 1:
         return blocks[0]
-    return r_factor(np.vstack(blocks).T)
+    return compute_r_factor(np.vstack(blocks).T)
 
 
 def fold(trapezoids: Sequence[Array]) -> Array:
@@ -82,7 +82,7 @@ def fold(trapezoids: Sequence[Array]) -> Array:
     R = np.zeros((n, n), order="F")
     R[: len(first)] = first
     for t in others:
-        R = _entered(R, np.array(t, order="F"), len(t))
+        R = _enter_rows(R, np.array(t, order="F"), len(t))
     return R
 
 
@@ -252,12 +252,12 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
             return ended(True, "no further gain", faithful)
         step = at.within(radius)
         length = float(np.linalg.norm(step))
-        end, ahead, tried = _followed(linearise, at, x, step)
+        end, ahead, tried = _correct_second_order(linearise, at, x, step)
         trials += tried
         fallen = at.cost - ahead.cost
         ratio = fallen / at.promised(step) if np.isfinite(fallen) else -np.inf
         if ratio < POOR:
-            radius = length * _shrunk(at.slope(step), fallen)
+            radius = length * _shrink(at.slope(step), fallen)
         elif ratio > GOOD:
             radius = max(radius, 2.0 * length)
         if ratio > ACCEPTED:
@@ -279,7 +279,9 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
     return ended(is_settled(at), f"stopped after {most} trials")
 
 
-def _followed(linearise: Callable[[Array], L], at: L, x: Array, step: Array) -> tuple[Array, L, int]:
+def _correct_second_order(
+    linearise: Callable[[Array], L], at: L, x: Array, step: Array
+) -> tuple[Array, L, int]:
     """The end of a step from x, with a second-order correction (Fletcher 1982), the problem about it, and the points tried."""
     end = x + step
     ahead = linearise(end)
@@ -295,7 +297,7 @@ def _followed(linearise: Callable[[Array], L], at: L, x: Array, step: Array) -> 
     return end, ahead, CORRECTIONS + 1
 
 
-def _shrunk(slope: float, fallen: float) -> float:
+def _shrink(slope: float, fallen: float) -> float:
     """Factor for the radius after a poor step: where the parabola with this slope and this fall has its minimum."""
     if not np.isfinite(fallen):
         return 0.1

@@ -201,8 +201,8 @@ class NoiseModel:
         return np.concatenate(found) if found else np.empty((0, series, len(time)))
 
     def variance_shapes(self, r: Record) -> Array:
-        """(k, rows): what the variance of whitened samples may follow (:func:`noise_level.shapes`), one output after the other."""
-        found = noise_level.shapes(r.quantity, level_quantities(r), self.level)[:, r.valid]
+        """(k, rows): what the variance of whitened samples may follow (:func:`noise_level.make_shapes`), one output after the other."""
+        found = noise_level.make_shapes(r.quantity, level_quantities(r), self.level)[:, r.valid]
         return np.tile(found, self.outputs)
 
 

@@ -19,7 +19,7 @@ from ragg_runtime.estimation.observation import (
     THINNER,
     Observation,
     Segment,
-    information_per_sample,
+    measure_information_per_sample,
     spread,
     take_beginnings,
 )
@@ -31,8 +31,15 @@ from ragg_runtime.estimation.residual import (
     fit_columns,
     place_valid,
 )
-from ragg_runtime.estimation.spectrum import LOWEST, Averages, Spectrum, cut_lines, estimate, periodogram
-from ragg_runtime.estimation.whitening import Piece, flight_segments, is_long, pass_over
+from ragg_runtime.estimation.spectrum import (
+    LOWEST,
+    Averages,
+    Spectrum,
+    compute_periodogram,
+    cut_lines,
+    estimate,
+)
+from ragg_runtime.estimation.whitening import Piece, divide_flight, is_long, pass_over
 from ragg_runtime.io.record import ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import take_quantities
 from ragg_runtime.signals.fir import fill_gaps, filter_columns
@@ -94,29 +101,32 @@ def estimate_noise(
             expected=f"at least {SHORTEST}",
             remedy="give a longer or cleaner recording",
         )
-    chosen = _chosen(o, most, samples)
-    parts = _parts(at, o, None, chosen)
+    chosen = _choose_segments(o, most, samples)
+    parts = _fit_segments(at, o, None, chosen)
     if o.recorded.demodulated:
-        return _of_channels(parts, o)
+        return _estimate_of_channels(parts, o)
     apart: Array | None = None
     for _ in range(TURNS_OF_AXES):
-        turn = _principal_components(parts)
+        turn = _find_principal_components(parts)
         if turn is None:
             break
         apart = turn if apart is None else turn @ apart
-        parts = _parts(at, o, apart, chosen)
-    means = averages(at, o, _unwhitened(o, apart)) if slow else None
-    noise = _of_level(parts, o, CONSTANT, means)
+        parts = _fit_segments(at, o, apart, chosen)
+    means = average_residuals(at, o, _make_unit_noise(o, apart)) if slow else None
+    noise = _estimate_spectra(parts, o, CONSTANT, means)
     level = _level(parts, o, noise)
     if (
         level.parts
     ):  # what is loud has been in the fit: of what is quiet columns have left more than the noise
-        parts = _parts(at, o, apart, chosen, level)
-        noise = _of_level(parts, o, level, means)
-    said = (describe_disturbances(_disturbances(parts, o.record.rate)), noise_level.describe_level(level))
+        parts = _fit_segments(at, o, apart, chosen, level)
+        noise = _estimate_spectra(parts, o, level, means)
+    said = (
+        describe_disturbances(_collect_disturbances(parts, o.record.rate)),
+        noise_level.describe_level(level),
+    )
     words = "; ".join(w for w in said if w is not None) or None
     free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
-    return replace(noise, disturbed=words, freedom=free, combinations=apart, lines=_lines(parts, o))
+    return replace(noise, disturbed=words, freedom=free, combinations=apart, lines=_list_lines(parts, o))
 
 
 @dataclass(frozen=True)
@@ -145,7 +155,7 @@ TURNS_OF_AXES = 4
 that is shared became 30 times weaker with each turn in the others."""
 
 
-def _principal_components(parts: Sequence[_Part]) -> Array | None:
+def _find_principal_components(parts: Sequence[_Part]) -> Array | None:
     """(m, m), orthonormal rows: the principal components of the residuals of m voltages; ``None`` if they share little.
 
     What shakes a whole disc (a servo of the spin, an angular acceleration that the motion sensors measure poorly) is in all voltages at
@@ -167,16 +177,16 @@ TURNS = 4
 """Multiples up to which that is so (``line_rival.MULTIPLES``)."""
 
 
-def line_width(o: Observation) -> float:
+def compute_line_width(o: Observation) -> float:
     """Hz on either side of a line within which another is the same one, which wanders."""
     seconds = float(o.record.time[-1] - o.record.time[0])
     return RESOLVED / min(seconds, unknown_gradient.WINDOW_SECONDS)
 
 
-def _lines(parts: Sequence[_Part], o: Observation) -> tuple[SpectralLine, ...]:
+def _list_lines(parts: Sequence[_Part], o: Observation) -> tuple[SpectralLine, ...]:
     """The lines of the output that are none of the motion's: where that has lines itself, they may be."""
-    r, width = o.record, line_width(o)
-    spin = unknown_gradient.spin_frequency(o) if r.turning else np.inf
+    r, width = o.record, compute_line_width(o)
+    spin = unknown_gradient.measure_spin_frequency(o) if r.turning else np.inf
     found: list[SpectralLine] = []
     for p in parts:
         for m, x in enumerate(p.outputs):
@@ -203,18 +213,20 @@ def _has_lines(o: Observation, p: _Part) -> bool:
         if name not in o.record.wide:
             continue
         x = o.record.wide[name][p.rows]
-        power = periodogram(np.where(p.valid, x - np.mean(x[p.valid]), 0.0), o.record.rate)[1][LOWEST:-1]
+        power = compute_periodogram(np.where(p.valid, x - np.mean(x[p.valid]), 0.0), o.record.rate)[1][
+            LOWEST:-1
+        ]
         if np.sum(power - cut_lines(power)) > LOUD * np.sum(power):
             return True
     return False
 
 
-def _of_level(
+def _estimate_spectra(
     parts: Sequence[_Part], o: Observation, level: Level, means: Sequence[Averages] | None
 ) -> NoiseModel:
     """The noise's spectra, given how its level changes."""
-    rate, band = o.record.rate, unknown_gradient.band(o)
-    spin = unknown_gradient.spin_frequency(o) if o.record.turning else None
+    rate, band = o.record.rate, unknown_gradient.find_band(o)
+    spin = unknown_gradient.measure_spin_frequency(o) if o.record.turning else None
     loud = [level.of(take_quantities(o.record, p.rows)) for p in parts]
     mean = float(np.sqrt(np.mean([np.mean(np.square(x)) for x in loud])))
     models, filters = [], []
@@ -248,20 +260,20 @@ def _fill(rest: Array, valid: NDArray[np.bool_], model: Spectrum) -> tuple[Array
     shape = np.where(f < LOWEST * rate / n, 0.0, np.sqrt(model.psd(f) * rate / 2))
     drawn = np.random.default_rng(0).standard_normal((DRAWS, 2 * n))
     noise = fft.irfft(fft.rfft(drawn) * shape, 2 * n)[:, :n]
-    f, power = periodogram(noise - fill_gaps(noise * valid, valid, taps), rate)
+    f, power = compute_periodogram(noise - fill_gaps(noise * valid, valid, taps), rate)
     share = np.convolve(np.mean(power, axis=0) / model.psd(f), np.full(NEIGHBOURS, 1 / NEIGHBOURS), "same")
     return fill_gaps(rest[None], valid, taps)[0], share
 
 
-def _chosen(o: Observation, most: int, samples: int) -> list[Segment]:
+def _choose_segments(o: Observation, most: int, samples: int) -> list[Segment]:
     """The beginnings of at ``most`` so many segments, spread over the flight, with at most so many ``samples`` in all."""
-    found = spread(flight_segments(o), most)
+    found = spread(divide_flight(o), most)
     if not o.recorded.demodulated:  # their columns pass a two-sided filter and are not divided
         found = take_beginnings(found, samples)
     return [s for s in found if np.sum(o.record.valid[s.rows]) >= SHORTEST]
 
 
-def _parts(
+def _fit_segments(
     at: LinearisationPoint,
     o: Observation,
     apart: Array | None,
@@ -269,7 +281,7 @@ def _parts(
     level: Level = CONSTANT,
 ) -> list[_Part]:
     """What is left of some segments of the flight, of the series as they are or in combinations, by a fit that weighs by a level."""
-    band = unknown_gradient.band(o)
+    band = unknown_gradient.find_band(o)
     rate = None if o.recorded.demodulated else o.record.rate
     random = {e.id for e in at.model.candidates if e.kind == "random"}
     shown = [(n, c.effect) for n, c in enumerate(at.candidates, len(at.base)) if c.effect in random]
@@ -283,7 +295,7 @@ def _parts(
         r = piece.observation.record
         valid, loud = r.valid, np.broadcast_to(level.of(r.quantity), r.valid.shape)[r.valid]
         each = np.split(piece.white[piece.nonzero], len(o.series), axis=1)
-        known = [partial(_through, piece, m, len(each), loud) for m in range(len(each))]
+        known = [partial(_divide_by_level, piece, m, len(each), loud) for m in range(len(each))]
         return _Part(
             rows=piece.segment.rows,
             valid=valid,
@@ -298,16 +310,16 @@ def _parts(
             },
         )
 
-    return list(pass_over(at, o, _unwhitened(o, apart, level), part, chosen=chosen))
+    return list(pass_over(at, o, _make_unit_noise(o, apart, level), part, chosen=chosen))
 
 
-def _unwhitened(o: Observation, apart: Array | None, level: Level = CONSTANT) -> NoiseModel:
+def _make_unit_noise(o: Observation, apart: Array | None, level: Level = CONSTANT) -> NoiseModel:
     """What leaves the series as they are, or in combinations, over a level."""
     plain = replace(NoiseModel.white(o.record.rate, len(o.series)), level=level)
     return plain if apart is None else replace(plain, combinations=apart)
 
 
-def _through(piece: Piece, m: int, outputs: int, loud: Array, columns: Array) -> Array:
+def _divide_by_level(piece: Piece, m: int, outputs: int, loud: Array, columns: Array) -> Array:
     """Columns (k, rows) of one output over a level (rows,), without what an unknown gradient spans."""
     columns = columns / loud
     if not piece.windows:
@@ -319,9 +331,9 @@ def _through(piece: Piece, m: int, outputs: int, loud: Array, columns: Array) ->
     return np.asarray(flat.reshape(wide.shape)[:, m])
 
 
-def _of_channels(parts: Sequence[_Part], o: Observation) -> NoiseModel:
+def _estimate_of_channels(parts: Sequence[_Part], o: Observation) -> NoiseModel:
     """Within the demodulator's band the noise of G_out is taken as white; a sample of a seldom recorded channel counts for more."""
-    gain, more = o.recorded.noise_share(o.record), information_per_sample(o.record)
+    gain, more = o.recorded.noise_share(o.record), measure_information_per_sample(o.record)
     squares = free = 0.0
     for p in parts:
         (x,) = p.outputs
@@ -335,7 +347,7 @@ def _of_channels(parts: Sequence[_Part], o: Observation) -> NoiseModel:
     return NoiseModel(spectra=(model,), filters=(np.array([np.sqrt(more) / sigma]),), freedom=freedom)
 
 
-def _disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:
+def _collect_disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:
     """Lines and jumps of all segments, in order."""
     found = [
         replace(d, at=d.at + p.rows.start / rate) if d.kind == "jump" else d
@@ -384,7 +396,9 @@ ENOUGH = 2
 """Means for every column, at least."""
 
 
-def averages(at: LinearisationPoint, o: Observation, unwhitened: NoiseModel) -> list[Averages] | None:
+def average_residuals(
+    at: LinearisationPoint, o: Observation, unwhitened: NoiseModel
+) -> list[Averages] | None:
     """What all columns leave of each output's means; ``None`` of a flight seen in one piece, or in too few means.
 
     ``unwhitened``: the noise that makes the columns as they are, or in combinations.
@@ -415,7 +429,7 @@ def averages(at: LinearisationPoint, o: Observation, unwhitened: NoiseModel) -> 
     if sums is None or np.sum(valid) < ENOUGH * len(sums):
         return None
     rate = o.record.rate / every
-    longest = max(s.rows.stop - s.rows.start for s in flight_segments(o)) / o.record.rate
+    longest = max(s.rows.stop - s.rows.start for s in divide_flight(o)) / o.record.rate
     below = min(PERIODS / longest, rate / MEANS_A_PERIOD)
     found = []
     for k in range(m):

@@ -92,7 +92,7 @@ class Level:
         return level
 
 
-def shapes(quantity: Callable[[str], Array], names: Iterable[str], level: Level) -> Array:
+def make_shapes(quantity: Callable[[str], Array], names: Iterable[str], level: Level) -> Array:
     """What a noise of known weights may still vary with: shapes (k, N) of the variance of whitened samples.
 
     An amplifier's noise is a floor, a part in proportion to what it amplifies, and their products: variances grow with the sizes
@@ -107,7 +107,7 @@ def shapes(quantity: Callable[[str], Array], names: Iterable[str], level: Level)
     return np.stack([np.ones_like(weight), *(f * weight for f in found)])
 
 
-def excess(gram: Array) -> tuple[float, float]:
+def score_excess(gram: Array) -> tuple[float, float]:
     """Score of a variance in squared residuals, standard normal where there is none, and the share of it that no shape explains.
 
     ``gram`` (k + 2, k + 2): inner products of shapes, of the variance, and of the squares, over samples, of which the first shape
@@ -160,8 +160,8 @@ def estimate_level(
 
 def _is_alternative(u: Array, variance: Array, quantities: Mapping[str, Array], asked: int) -> bool:
     """Whether a variance (N,) explains more of u (N,) than shapes of the quantities can."""
-    X = np.stack([*shapes(quantities.__getitem__, quantities, Level()), variance, u**2])
-    return bool(special.log_ndtr(-excess(X @ X.T)[0]) + np.log(asked) < np.log(CHANGES))
+    X = np.stack([*make_shapes(quantities.__getitem__, quantities, Level()), variance, u**2])
+    return bool(special.log_ndtr(-score_excess(X @ X.T)[0]) + np.log(asked) < np.log(CHANGES))
 
 
 @dataclass(frozen=True)
@@ -178,11 +178,11 @@ class _Follows:
 
 def _test(u: Array, name: str, x: Array) -> _Follows:
     """Of u (N,) in groups of x (N,), in each of which the mean square may be another."""
-    edges = _edges(name, x)
+    edges = _find_edges(name, x)
     if not len(edges):
         return _Follows()
     square = u**2
-    count, power = _sums(edges, x, square)
+    count, power = _sum_groups(edges, x, square)
     if len(count) <= len(edges) or np.min(count) < FEWEST:
         return _Follows()
     mean = float(np.mean(square))
@@ -190,14 +190,14 @@ def _test(u: Array, name: str, x: Array) -> _Follows:
     log_p = log_sf(float(np.sum(count * (power / count / mean - 1.0) ** 2)) / max(ratio, 1e-3), len(edges))
     if name == "time":  # a burst is short
         fine = np.quantile(x, np.linspace(0.0, 1.0, min(FINEST, len(x) // FEWEST) + 1)[1:-1])
-        edges = _intervals(fine, *_sums(fine, x, square), float(np.mean(square**2)))
+        edges = _partition_intervals(fine, *_sum_groups(fine, x, square), float(np.mean(square**2)))
         if not len(edges):
             return _Follows()
-        count, power = _sums(edges, x, square)
+        count, power = _sum_groups(edges, x, square)
     mean_of = power / count
     inner = max(2.0, float(np.mean(square**2)) / float(np.average(mean_of**2, weights=count)) - 1.0)
     gain = -0.5 * float(np.sum(count * np.log(np.maximum(mean_of / mean, 1e-300)))) * 2.0 / inner
-    at = edges if name in STEPPED else _sums(edges, x, x)[1] / count
+    at = edges if name in STEPPED else _sum_groups(edges, x, x)[1] / count
     each = 2.0 if name == "time" else 1.0  # an instant, too
     return _Follows(
         log_p,
@@ -206,13 +206,13 @@ def _test(u: Array, name: str, x: Array) -> _Follows:
     )
 
 
-def _sums(edges: Array, x: Array, values: Array) -> tuple[Array, Array]:
+def _sum_groups(edges: Array, x: Array, values: Array) -> tuple[Array, Array]:
     """Number and sum of values (N,) in each group of x (N,)."""
     which = np.searchsorted(edges, x, side="right")
     return np.bincount(which).astype(np.float64), np.bincount(which, values).astype(np.float64)
 
 
-def _edges(name: str, x: Array) -> Array:
+def _find_edges(name: str, x: Array) -> Array:
     if name == "time":
         intervals = min(INTERVALS, len(x) // (2 * FEWEST))
         return np.asarray(np.quantile(x, np.linspace(0.0, 1.0, intervals + 1)[1:-1]), dtype=np.float64)
@@ -225,7 +225,7 @@ def _edges(name: str, x: Array) -> Array:
     return edges[(edges > np.min(x)) & (edges <= np.max(x))]
 
 
-def _intervals(edges: Array, count: Array, power: Array, fourth: float) -> Array:
+def _partition_intervals(edges: Array, count: Array, power: Array, fourth: float) -> Array:
     """Edges between intervals of constant level: the partition of least Gaussian cost (BIC).
 
     A change costs its level and its instant; ``fourth`` is the mean fourth power.

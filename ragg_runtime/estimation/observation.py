@@ -38,18 +38,18 @@ class Segment:
     blocks: tuple[tuple[int, slice], ...]
 
 
-def block_edges(samples: int) -> NDArray[np.intp]:
+def make_block_edges(samples: int) -> NDArray[np.intp]:
     """(BLOCKS + 1,): samples at which the blocks of time begin and end."""
     return np.linspace(0, samples, BLOCKS + 1).astype(np.intp)
 
 
-def segments(samples: int, most: int = ROWS) -> list[Segment]:
+def divide_into_segments(samples: int, most: int = ROWS) -> list[Segment]:
     """The segments of a flight, in order."""
-    edges = [int(e) for e in block_edges(samples)]
+    edges = [int(e) for e in make_block_edges(samples)]
     found: list[Segment] = []
     waiting: list[tuple[int, slice]] = []
     for b in range(BLOCKS):
-        for part in _parts(edges[b], edges[b + 1], most):
+        for part in _divide(edges[b], edges[b + 1], most):
             if waiting and part.stop - waiting[0][1].start > most:
                 found.append(_joined(waiting))
                 waiting = []
@@ -70,7 +70,7 @@ def take_beginnings(found: Sequence[Segment], samples: int) -> list[Segment]:
     return [Segment(slice(s.rows.start, min(s.rows.stop, s.rows.start + each)), ()) for s in found]
 
 
-def _parts(start: int, stop: int, most: int) -> Iterator[slice]:
+def _divide(start: int, stop: int, most: int) -> Iterator[slice]:
     count = max(1, -(-(stop - start) // most))
     edges = np.linspace(start, stop, count + 1).astype(np.intp)
     for a, b in pairwise(edges):
@@ -138,10 +138,10 @@ def _find_usable(
     usable = np.array(valid)
     for x in series:
         usable &= np.isfinite(x)
-    if o.name in flight.outputs and _at_top(flight.outputs[o.name], usable):
+    if o.name in flight.outputs and _reaches_top(flight.outputs[o.name], usable):
         usable &= ~saturation.clipped(flight.outputs[o.name], usable)
     for name in imu_saturation.CHANNELS:
-        if name in flight.channels and _at_top(flight.channels[name], usable):
+        if name in flight.channels and _reaches_top(flight.channels[name], usable):
             usable &= ~imu_saturation.clipped(flight.channels[name], usable)
     return usable
 
@@ -239,7 +239,7 @@ def bridge_gaps(x: Array, valid: NDArray[np.bool_]) -> Array:
     return np.where(valid, x, np.interp(at, at[valid], x[valid]))
 
 
-def _at_top(values: Array, valid: NDArray[np.bool_]) -> bool:
+def _reaches_top(values: Array, valid: NDArray[np.bool_]) -> bool:
     """Whether so many samples are at one extreme value that a range may have been reached."""
     parts = [slice(k, k + ROWS) for k in range(0, len(values), ROWS)]
     tops = [float(np.nanmax(_sizes(values[some], valid[some]), initial=0.0)) for some in parts]
@@ -263,7 +263,7 @@ def _spacing(there: NDArray[np.bool_]) -> int:
     return max(1, int(np.median(np.diff(at)))) if len(at) > 1 else 1
 
 
-def information_per_sample(r: Record) -> float:
+def measure_information_per_sample(r: Record) -> float:
     """How many times more informative a sample of the channels is than one of a record at the full rate."""
     from scipy import signal  # slow to import, and only records of channels need it
 

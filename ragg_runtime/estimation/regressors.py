@@ -15,7 +15,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Output
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
-from ragg_runtime.model.evaluate import unit_factor, voltages
+from ragg_runtime.model.evaluate import evaluate_voltages, find_unit_factor
 from ragg_runtime.model.evaluator import Evaluator, find_places
 from ragg_runtime.model.lateness import move_record
 from ragg_runtime.model.memory import add_responses, first_memories
@@ -68,7 +68,7 @@ def list_base_columns(model: Model, instrument: Instrument) -> list[tuple[Column
     for q in PARAMETERS:
         if q.name in UNOBSERVABLE or q.name in instrument.fixed:
             continue
-        factor = unit_factor(q.display_unit, known)
+        factor = find_unit_factor(q.display_unit, known)
         scales = instrument.sigma(q.name)
         for j in range(instrument.layout.size):
             column = Column(
@@ -85,12 +85,14 @@ def list_base_columns(model: Model, instrument: Instrument) -> list[tuple[Column
         if e.kind in ("deterministic", "step"):
             setting = instrument.effect(e.id)
             out = instrument.held | {f"{e.id}.{n}" for n in (setting.fixed if setting else ())}
-            own = ((c, s) for c, s in _of_effect(e, known, instrument) if not {c.name, c.label} & out)
+            own = (
+                (c, s) for c, s in _list_effect_columns(e, known, instrument) if not {c.name, c.label} & out
+            )
             found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in own]
     return found
 
 
-def own_columns(columns: Sequence[Column], instrument: Instrument, place: int) -> list[int]:
+def list_own_columns(columns: Sequence[Column], instrument: Instrument, place: int) -> list[int]:
     """Which of the fitted parameters an output's accelerometers have, or share with others."""
     members = instrument.layout.outputs[place].members
     return [k for k, c in enumerate(columns) if c.accelerometer is None or c.accelerometer - 1 in members]
@@ -100,10 +102,10 @@ def list_candidate_columns(model: Model, instrument: Instrument) -> list[Column]
     """The parameters of the effects that are searched for and not in the model, in the order of the signatures' rows."""
     known = units(instrument.g0)
     searched = (e for e in model.candidates if e.kind != "output" and e.searched)
-    return [c for e in searched for c, _ in _of_effect(e, known, instrument)]
+    return [c for e in searched for c, _ in _list_effect_columns(e, known, instrument)]
 
 
-def tested_columns(model: Model, instrument: Instrument, records: Sequence[Record]) -> tuple[int, ...]:
+def list_tested_columns(model: Model, instrument: Instrument, records: Sequence[Record]) -> tuple[int, ...]:
     """Places among the candidates' columns of those of which all records have what the effect needs: others are zero."""
     have = [r.recorded for r in records]
     effects = {e.id: e for e in model.candidates}
@@ -117,13 +119,13 @@ def tested_columns(model: Model, instrument: Instrument, records: Sequence[Recor
     return tuple(n for n, c in enumerate(list_candidate_columns(model, instrument)) if is_tested(c))
 
 
-def _of_effect(e: DerivedEffect, known: Units, instrument: Instrument) -> list[tuple[Column, str]]:
+def _list_effect_columns(e: DerivedEffect, known: Units, instrument: Instrument) -> list[tuple[Column, str]]:
     columns = []
     places = instrument.layout.names
     for q in e.parameters:
         if not q.fitted:
             continue
-        factor = unit_factor(q.unit, known)
+        factor = find_unit_factor(q.unit, known)
         scale = EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like)
         scale *= instrument.widths.get(f"{e.id}.{q.name}", 1.0)
         for j in (None,) if q.shared else range(1, instrument.layout.size + 1):
@@ -144,7 +146,7 @@ def find_nonzero(columns: Sequence[Column], instrument: Instrument, place: int) 
     """Which of these columns, and of the residual after them, are not zero in an output; a slice if there is one output."""
     if len(instrument.layout.outputs) == 1:
         return slice(None)
-    return np.array([*own_columns(columns, instrument, place), len(columns)], dtype=np.intp)
+    return np.array([*list_own_columns(columns, instrument, place), len(columns)], dtype=np.intp)
 
 
 def observe_voltages(o: Observation, v: Array, accelerometer: int | None) -> Array:
@@ -155,10 +157,10 @@ def observe_voltages(o: Observation, v: Array, accelerometer: int | None) -> Arr
 def predict_observed(model: Model, o: Observation, p: Array) -> Array:
     """(m, N), V: what a model with parameters p (size,), SI, predicts of what is observed; no unknown gradient."""
     record, rest = move_record(model, o.record, p)
-    return observe_voltages(o, voltages(model.chain, record, rest, o.output), None)
+    return observe_voltages(o, evaluate_voltages(model.chain, record, rest, o.output), None)
 
 
-def null_biases(columns: Sequence[Column]) -> list[int]:
+def find_null_biases(columns: Sequence[Column]) -> list[int]:
     """Places of the instrument's K0 among columns."""
     return [n for n, c in enumerate(columns) if c.name == "K0" and c.effect is None]
 
@@ -232,7 +234,7 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
     ``residual`` (m, N): that of a thinned observation, where it is known already.
     """
     r, p = move_record(at.model, o.record, at.p)
-    V = _voltages(at, o, r, p)
+    V = _evaluate_voltages(at, o, r, p)
     if r.reading is not None:  # in a column of what was read the noise would explain itself
         r = replace(r, reading=np.pad(o.output.combined(V), r.halo, mode="edge"))
     n_base = len(at.base)
@@ -291,7 +293,7 @@ def put_derivatives(
                 columns[n, series, some] += scale * slopes[of]
 
 
-def _voltages(at: LinearisationPoint, o: Observation, r: Record, p: Array) -> Array:
+def _evaluate_voltages(at: LinearisationPoint, o: Observation, r: Record, p: Array) -> Array:
     """Those of the output's accelerometers, (members, N), V."""
     x = r.inputs(at.model.chain)
     return at.model.evaluators("chain").voltages(r.time, x, p, r.phi, o.output.members)
@@ -306,5 +308,5 @@ def thin_residual(at: LinearisationPoint, thin: Thin) -> Array:
 def compute_residual(at: LinearisationPoint, o: Observation) -> Array:
     """Residual (m, N), V, at a point; between its neighbours where a sample is not valid."""
     r, p = move_record(at.model, o.record, at.p)
-    left = o.data - observe_voltages(o, _voltages(at, o, r, p), None)
+    left = o.data - observe_voltages(o, _evaluate_voltages(at, o, r, p), None)
     return np.stack([bridge_gaps(x, r.valid) for x in left])

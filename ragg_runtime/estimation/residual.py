@@ -11,8 +11,15 @@ from numpy.typing import NDArray
 from scipy import fft, linalg
 
 from ragg_runtime.base.threads import split_range
-from ragg_runtime.estimation.least_squares import r_factor
-from ragg_runtime.estimation.spectrum import LOWEST, Spectrum, cut_lines, estimate, hann, periodogram
+from ragg_runtime.estimation.least_squares import compute_r_factor
+from ragg_runtime.estimation.spectrum import (
+    LOWEST,
+    Spectrum,
+    compute_periodogram,
+    cut_lines,
+    estimate,
+    make_hann_window,
+)
 from ragg_runtime.signals.fir import GROUP, fill_gaps, filter_columns, find_nonzero
 
 Array = NDArray[np.float64]
@@ -50,11 +57,11 @@ def find_disturbances(
     rest: Array, valid: NDArray[np.bool_], rate: float, without: tuple[float, float] | None = None
 ) -> list[Disturbance]:
     """Those in a residual (N,), zero where it is not valid; no lines in a band (from, to, Hz) that has lost its noise."""
-    return [*_lines(rest, rate, without), *_jumps(rest, valid, rate)]
+    return [*_find_lines(rest, rate, without), *_find_jumps(rest, valid, rate)]
 
 
-def _lines(rest: Array, rate: float, without: tuple[float, float] | None) -> list[Disturbance]:
-    f, p = (x[LOWEST:-1] for x in periodogram(rest, rate))
+def _find_lines(rest: Array, rate: float, without: tuple[float, float] | None) -> list[Disturbance]:
+    f, p = (x[LOWEST:-1] for x in compute_periodogram(rest, rate))
     if without is not None:
         kept = (f < without[0]) | (f > without[1])
         f, p = f[kept], p[kept]
@@ -77,7 +84,7 @@ def _lines(rest: Array, rate: float, without: tuple[float, float] | None) -> lis
     return found
 
 
-def _jumps(rest: Array, valid: NDArray[np.bool_], rate: float) -> list[Disturbance]:
+def _find_jumps(rest: Array, valid: NDArray[np.bool_], rate: float) -> list[Disturbance]:
     w = max(8, round(WINDOW * rate))
     n = len(rest)
     if n < 8 * w:
@@ -146,7 +153,7 @@ class ProjectedResidual:
         windowed wave it is v'Cv - 2 Re v'CQ Q'v + v'Q (Q'CQ) Q'v.
         """
         n, valid = len(self.valid), self.valid
-        size, window = fft.next_fast_len(2 * n, real=True), hann(n)
+        size, window = fft.next_fast_len(2 * n, real=True), make_hann_window(n)
         if noise is None:
             return self.kept + float(np.sum(window[~valid] ** 2) / np.sum(window**2))
         density = noise.psd(fft.rfftfreq(size, 1.0 / noise.rate)) * noise.rate / 2
@@ -195,9 +202,9 @@ def fit_columns(
     for _ in range(ROUNDS):
         seen = find_disturbances(place_valid(left.rest, valid), valid, rate, band)
         lines = [d for d in seen if d.kind == "line"]
-        jump = None if lines else _jump(left, valid, rate)
+        jump = None if lines else _find_best_jump(left, valid, rate)
         with_it = None if jump is None else _and(left, through(jump.columns(time))[0], valid)
-        if jump is not None and with_it is not None and _told(left, with_it, valid, rate, band):
+        if jump is not None and with_it is not None and _is_significant(left, with_it, valid, rate, band):
             left = beside([*left.found, jump])  # to the sample; those that a mean shows are of no further use
             continue
         if not seen:
@@ -210,8 +217,8 @@ def _and(left: ProjectedResidual, column: Array, valid: NDArray[np.bool_]) -> Pr
     """What is left once one more column (rows,) is fitted: what is new in it takes its share of residual and noise."""
     new = column - (left.directions @ (left.directions.T @ (left.columns @ column))) @ left.columns
     new /= np.linalg.norm(new)
-    nothing = _kept(new[None], np.zeros((1, 1)), valid)
-    kept = np.maximum(left.kept + _kept(new[None], np.ones((1, 1)), valid) - nothing, 0.0)
+    nothing = _share_kept(new[None], np.zeros((1, 1)), valid)
+    kept = np.maximum(left.kept + _share_kept(new[None], np.ones((1, 1)), valid) - nothing, 0.0)
     return replace(left, rest=left.rest - new * float(new @ left.rest), kept=kept)
 
 
@@ -225,12 +232,12 @@ def place_valid(rest: Array, valid: NDArray[np.bool_]) -> Array:
 def _fitted(
     wide: Array, flat: Array, valid: NDArray[np.bool_], rate: float | None, found: list[Disturbance]
 ) -> ProjectedResidual:
-    fit = _least_squares(wide)
+    fit = _solve(wide)
     ends = np.cumsum([0, *(len(d.columns(np.zeros(1))) for d in found)])
     return ProjectedResidual(
         rest=np.asarray(flat[-1] - fit.solution @ wide[:-1]),
         rank=fit.rank,
-        kept=_kept(wide[:-1], fit.directions, valid) if rate else np.empty(0),
+        kept=_share_kept(wide[:-1], fit.directions, valid) if rate else np.empty(0),
         found=found,
         shapes=np.array([fit.solution[a:b] @ wide[a:b] for a, b in pairwise(ends)]).reshape(
             -1, wide.shape[1]
@@ -248,7 +255,7 @@ INSTANTS = 96
 """Instants among which it is sought, and again about the best of them, to the sample."""
 
 
-def _jump(left: ProjectedResidual, valid: NDArray[np.bool_], rate: float) -> Disturbance | None:
+def _find_best_jump(left: ProjectedResidual, valid: NDArray[np.bool_], rate: float) -> Disturbance | None:
     """The jump that would explain most of the residual, fitted jointly with the columns; ``None`` if white noise would do."""
     n = len(left.rest)
     low, high = 0, n
@@ -274,7 +281,7 @@ def _jump(left: ProjectedResidual, valid: NDArray[np.bool_], rate: float) -> Dis
     return Disturbance("jump", float(np.flatnonzero(valid)[edges[best]] / rate), size)
 
 
-def _told(
+def _is_significant(
     before: ProjectedResidual,
     after: ProjectedResidual,
     valid: NDArray[np.bool_],
@@ -292,12 +299,12 @@ EVERY = 1024
 """Bins of a periodogram for which the share that columns leave is computed; it is interpolated in between."""
 
 
-def _kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
+def _share_kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
     """Share of white noise left at each frequency once columns (n, rows) are fitted, |v|^2 - |Q'v|^2 of windowed waves v, gaps
     counted as lost; columns times ``directions`` (n, k) are Q.
     """
     n = len(valid)
-    window = hann(n)
+    window = make_hann_window(n)
     size = fft.next_fast_len(n, real=True)  # a little finer than the periodogram's own frequencies
     bins = size // 2 + 1
     some = np.unique(np.r_[0 : min(bins, EVERY // 2), np.geomspace(1, bins, EVERY).astype(np.intp) - 1])
@@ -332,9 +339,9 @@ class _Fit:
     directions: Array
 
 
-def _least_squares(columns: Array) -> _Fit:
+def _solve(columns: Array) -> _Fit:
     """The fit of columns (n + 1, rows) to the last of them; numerically absent directions are faded out."""
-    R = r_factor(columns)
+    R = compute_r_factor(columns)
     n = len(R) - 1
     norms = np.linalg.norm(R[:, :n], axis=0)
     norms[norms == 0.0] = 1.0

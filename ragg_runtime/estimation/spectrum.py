@@ -132,12 +132,15 @@ def estimate(
     frequency of the record; then a smooth correction, a spline of the logarithm over log frequency, fitted
     as a gamma generalised linear model. Neither bends to a single line.
     """
-    f, p, count = _periodogram(residuals, rate, without, kept, slow)
+    f, p, count = _pool_periodograms(residuals, rate, without, kept, slow)
     low = _lower(f, p, count)
     choices = [
-        _corrected(f, p, count, _red_and_white(*some), dense, humps)
-        for humps in _humps(spin)
-        for some, dense in ((_beside(humps, f, p, count), None), (_beside(humps, *low), rate))
+        _fit_correction(f, p, count, _fit_red_and_white(*some), dense, humps)
+        for humps in _list_humps(spin)
+        for some, dense in (
+            (_leave_out_humps(humps, f, p, count), None),
+            (_leave_out_humps(humps, *low), rate),
+        )
     ]
     # twice the log likelihood against the number of coefficients (BIC)
     chosen = min(choices, key=lambda c: c.cost + c.size * np.log(len(f)))
@@ -173,7 +176,7 @@ APART, HATS = 0.08, 2
 a carrier is as far from it as the noise is slow, and as strong on both sides."""
 
 
-def _humps(spin: float | None) -> list[tuple[float, ...]]:
+def _list_humps(spin: float | None) -> list[tuple[float, ...]]:
     """Frequencies about which the spectrum may be resolved finely."""
     return [()] if spin is None else [(), (spin,), (2 * spin,), (spin, 2 * spin)]
 
@@ -186,7 +189,7 @@ def _hats(f: Array, humps: Sequence[float]) -> Array:
     return np.stack(found, axis=1) if found else np.empty((len(f), 0))
 
 
-def _beside(humps: Sequence[float], f: Array, p: Array, count: Array) -> tuple[Array, Array, Array]:
+def _leave_out_humps(humps: Sequence[float], f: Array, p: Array, count: Array) -> tuple[Array, Array, Array]:
     """The frequencies outside the humps."""
     beside = ~np.any(_hats(f, humps), axis=1)
     return (f[beside], p[beside], count[beside]) if 2 * np.sum(beside) > len(f) else (f, p, count)
@@ -198,7 +201,7 @@ def _lower(f: Array, p: Array, count: Array) -> tuple[Array, Array, Array]:
     return f[low], p[low], count[low]
 
 
-def _corrected(
+def _fit_correction(
     f: Array,
     p: Array,
     count: Array,
@@ -256,7 +259,7 @@ LEFT = 0.1
 """Share of the noise that a fit must have left in a group of frequencies for them to tell its density."""
 
 
-def _periodogram(
+def _pool_periodograms(
     residuals: Sequence[Array],
     rate: float,
     without: tuple[float, float] | None,
@@ -274,7 +277,7 @@ def _periodogram(
         raise ValueError("no segment is long enough to estimate the noise")
     frequency, density, share = [], [], []
     for k in usable:
-        f, p = periodogram(residuals[k], rate)
+        f, p = compute_periodogram(residuals[k], rate)
         # The lowest bins are bent by the mean, the taper and the drifts that a fit takes out.
         used = np.ones(len(f), dtype=np.bool_) if without is None else (f < without[0]) | (f > without[1])
         used[:LOWEST] = used[-1:] = False
@@ -284,7 +287,7 @@ def _periodogram(
         density.append(cut_lines(p[used]))
         share.append(np.ones(len(f))[used] if kept is None else kept[k][used])
     if slow is not None:
-        f, p = periodogram(slow.rest, slow.rate)
+        f, p = compute_periodogram(slow.rest, slow.rate)
         used = f < slow.below
         used[:LOWEST] = False
         frequency.append(f[used])
@@ -340,7 +343,7 @@ EXPONENTS = (1.0, 1.5, 2.0)
 """Of red noise, from flicker to a random walk, each as likely as any other before a record is seen."""
 
 
-def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]:
+def _fit_red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]:
     """alpha f^-b + omega_T by maximum (Whittle) likelihood for each of :data:`EXPONENTS`: the mean density, by their likelihoods.
 
     A few bins hardly determine the exponent, and below them all depends on it: there the mean is over the possible noise.
@@ -379,15 +382,15 @@ def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]
     return density
 
 
-def hann(n: int) -> Array:
+def make_hann_window(n: int) -> Array:
     """(n,): the periodic Hann window."""
     return np.asarray(0.5 + 0.5 * np.cos(np.linspace(-np.pi, np.pi, n + 1))[:-1])
 
 
-def periodogram(x: Array, rate: float) -> tuple[Array, Array]:
+def compute_periodogram(x: Array, rate: float) -> tuple[Array, Array]:
     """Frequencies, Hz, and one-sided density of x (..., N) less its mean, seen through a Hann window."""
     n = x.shape[-1]
-    window = hann(n)
+    window = make_hann_window(n)
     wave = fft.rfft((x - np.mean(x, axis=-1, keepdims=True)) * window)
     power = (wave.real**2 + wave.imag**2) * (1.0 / (rate * np.sum(window**2)))
     power[..., 1 : n // 2 + 1 - (n % 2 == 0)] *= 2.0

@@ -16,13 +16,20 @@ from scipy import ndimage
 
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation import regressors as design
-from ragg_runtime.estimation.observation import Observation, Segment, Thin, bridge_gaps, segments, spread
+from ragg_runtime.estimation.observation import (
+    Observation,
+    Segment,
+    Thin,
+    bridge_gaps,
+    divide_into_segments,
+    spread,
+)
 from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual, linearise
 from ragg_runtime.estimation.residual import find_disturbances
 from ragg_runtime.estimation.whitening import find_segments, is_long
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.record import is_disc_angle
-from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.lateness import list_late
 from ragg_runtime.model.memory import list_memories
 from ragg_runtime.model.model import Model
@@ -45,16 +52,18 @@ def leave_out_uncertain(
     model: Model, instrument: Instrument, observations: Sequence[Observation]
 ) -> list[Observation]:
     """The observations without the samples that the model does not describe: sides of a switch, ends of the motion."""
-    observations = [_inside(model, instrument, o) for o in observations]
+    observations = [_leave_out_ends(model, instrument, o) for o in observations]
     if not any(e.switches for e in model.effects):
         return observations
     # a sample of channels is made of many: of those none is left out
-    return [o if o.recorded.demodulated else _certain(model, instrument, o) for o in observations]
+    return [
+        o if o.recorded.demodulated else _leave_out_open_switches(model, instrument, o) for o in observations
+    ]
 
 
-def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation:
+def _leave_out_ends(model: Model, instrument: Instrument, o: Observation) -> Observation:
     """Without as much of either end as motion may be late, and what an instrument may remember of what was before."""
-    moving, memories = dict(list_late(model)), [*list_memories(model, vector(model, instrument))]
+    moving, memories = dict(list_late(model)), [*list_memories(model, make_vector(model, instrument))]
     if not (moving or memories):
         return o
     r = o.record
@@ -75,9 +84,9 @@ def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation
     return replace(o, record=replace(r, valid=kept))
 
 
-def _certain(model: Model, instrument: Instrument, o: Observation) -> Observation:
+def _leave_out_open_switches(model: Model, instrument: Instrument, o: Observation) -> Observation:
     valid = np.array(o.record.valid)
-    for s in segments(len(valid)):
+    for s in divide_into_segments(len(valid)):
         valid[s.rows] &= ~_open(model, instrument, o.part(s.rows))
     if np.sum(valid) < (1.0 - MOST_LEFT_OUT) * np.sum(o.record.valid):
         return o
@@ -86,7 +95,7 @@ def _certain(model: Model, instrument: Instrument, o: Observation) -> Observatio
 
 def _open(model: Model, instrument: Instrument, o: Observation) -> NDArray[np.bool_]:
     """(N,): whether the side of any of the output's accelerometers is open."""
-    chain, r, p = model.chain, o.record, vector(model, instrument)
+    chain, r, p = model.chain, o.record, make_vector(model, instrument)
     x = r.inputs(chain)
     rows = {name: k for k, (name, shared) in enumerate(chain.ROWS) if not shared}
     base = [c for c, _ in design.list_base_columns(model, instrument) if c.effect is None]
@@ -137,16 +146,16 @@ def thin_observations(
     model: Model, instrument: Instrument, observations: Sequence[Observation]
 ) -> list[Observation]:
     """Observations as thin as their columns allow about the sheet, those of one flight alike; short ones as they are."""
-    at = LinearisationPoint(model, instrument, vector(model, instrument), with_candidates=True)
-    most = [_most(at, o) for o in observations]
+    at = LinearisationPoint(model, instrument, make_vector(model, instrument), with_candidates=True)
+    most = [_find_most(at, o) for o in observations]
     found = []
     for o in observations:
         every = min(k for k, x in zip(most, observations, strict=True) if x.flight == o.flight)
-        found.append(o if every == 1 else _kept(o, _thin(o, every)))
+        found.append(o if every == 1 else _keep_samples(o, _thin(o, every)))
     return found
 
 
-def _most(at: LinearisationPoint, o: Observation) -> int:
+def _find_most(at: LinearisationPoint, o: Observation) -> int:
     """One in how many of its samples is enough."""
     least = max(LEAST_RATE, 2 * (4 * o.record.spin_frequency + ABOVE) / PASSED)
     choices = [k for k in EVERY if o.record.rate >= k * least]
@@ -154,31 +163,31 @@ def _most(at: LinearisationPoint, o: Observation) -> int:
         return 1
     some = spread(find_segments(o), EXCERPTS)
     pieces = [o.part(slice(s.rows.start, min(s.rows.start + EXCERPT, s.rows.stop))) for s in some]
-    whole = [linearise(at, _everywhere(x))[:-1] for x in pieces]
+    whole = [linearise(at, _count_all(x))[:-1] for x in pieces]
 
     def enough(every: int) -> bool:
         thin = [_thin(x, every) for x in pieces]
         short = min(len(x.record.time) for x in pieces) < SHORT * len(thin[0].taps)
-        return not short and _alike(at, thin, whole)
+        return not short and _are_alike(at, thin, whole)
 
     if not enough(choices[-1]):  # a motion that shakes is soon known
         return 1
     every = next((k for k in choices[:-1] if enough(k)), choices[-1])
-    lost = np.mean(o.record.valid) - np.mean(_supported(o.record.valid, _thin(o, every)))
+    lost = np.mean(o.record.valid) - np.mean(_find_supported(o.record.valid, _thin(o, every)))
     return 1 if lost > LOST or any(_has_line(at, _thin(o.part(s.rows), every)) for s in some) else every
 
 
-def _everywhere(o: Observation) -> Observation:
+def _count_all(o: Observation) -> Observation:
     """An observation all of whose samples count: of its motion alone something is asked."""
     return replace(o, record=replace(o.record, valid=np.ones_like(o.record.valid)))
 
 
 def _thin(o: Observation, every: int) -> Thin:
-    taps = low_pass(every)
+    taps = make_low_pass(every)
     return Thin(whole=o, every=every, taps=taps, rows=slice(0, (len(o.record.time) - len(taps)) // every + 1))
 
 
-def low_pass(every: int) -> Array:
+def make_low_pass(every: int) -> Array:
     """(2 h + 1,): taps, their sum 1, for one in so many samples (Kaiser's window)."""
     from scipy import signal  # slow to import, and only long flights need it
 
@@ -205,11 +214,11 @@ def measure_beyond(model: Model, instrument: Instrument, p: Array, o: Observatio
     return max(0.0, float(square) / max(float(count), 1.0))
 
 
-def _alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
+def _are_alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
     """Whether along the thinned motion the same columns are made, of pieces of a flight, as the ``whole`` ones are, thinned."""
     square = off = np.zeros(1)
     for thin, columns in zip(pieces, whole, strict=True):
-        o = replace(_kept(thin.whole, thin), thin=None)
+        o = replace(_keep_samples(thin.whole, thin), thin=None)
         # towards an end or a gap derivatives are of one side
         inside = ndimage.binary_erosion(o.record.valid, iterations=HALO)
         if 2 * np.sum(inside) < len(inside):
@@ -234,7 +243,7 @@ def _has_line(at: LinearisationPoint, thin: Thin) -> bool:
     return any(d.kind == "line" for d in found)
 
 
-def _supported(valid: NDArray[np.bool_], thin: Thin) -> NDArray[np.bool_]:
+def _find_supported(valid: NDArray[np.bool_], thin: Thin) -> NDArray[np.bool_]:
     """(n,): which samples that are kept have nearly all that makes them."""
     found = np.empty(thin.rows.stop, dtype=np.bool_)
     weights = replace(thin, taps=np.abs(thin.taps) / np.sum(np.abs(thin.taps)))
@@ -244,7 +253,7 @@ def _supported(valid: NDArray[np.bool_], thin: Thin) -> NDArray[np.bool_]:
     return found
 
 
-def _kept(o: Observation, thin: Thin) -> Observation:
+def _keep_samples(o: Observation, thin: Thin) -> Observation:
     """The samples of an observation that are kept."""
     r, size, half = o.record, thin.rows.stop, len(thin.taps) // 2
     channels = dict(r.channels)
@@ -256,9 +265,9 @@ def _kept(o: Observation, thin: Thin) -> Observation:
         rows = thin.part(some).span
         there = np.array(r.valid[rows])
         for x, found in zip(o.series, series, strict=True):
-            found[some] = thin.kept(_whole(x[rows], there))
+            found[some] = thin.kept(_fill_in(x[rows], there))
         for n, x in channels.items():
-            whole = _whole(x[rows], there)
+            whole = _fill_in(x[rows], there)
             # of a disc's angle turns may be missing
             wide[n][some] = thin.kept(np.unwrap(whole) if is_disc_angle(n) else whole)
     record = replace(
@@ -267,7 +276,7 @@ def _kept(o: Observation, thin: Thin) -> Observation:
         wide=wide,
         reading=None if r.reading is None else series[0],
         rate=r.rate / thin.every,
-        valid=_supported(r.valid, thin),
+        valid=_find_supported(r.valid, thin),
         halo=(0, 0),
         whole=None,
         instants=None,
@@ -275,7 +284,7 @@ def _kept(o: Observation, thin: Thin) -> Observation:
     return replace(o, record=record, series=tuple(series), thin=thin)
 
 
-def _whole(x: Array, valid: NDArray[np.bool_]) -> Array:
+def _fill_in(x: Array, valid: NDArray[np.bool_]) -> Array:
     """Some samples of a column, in memory, all of them numbers."""
     x = np.array(x)
     return np.nan_to_num(bridge_gaps(x, valid & np.isfinite(x)))

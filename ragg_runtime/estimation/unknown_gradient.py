@@ -69,15 +69,15 @@ def is_unknown(o: Observation) -> bool:
     return not all(g in o.record.wide for g in GRADIENT)
 
 
-def band(o: Observation) -> tuple[float, float] | None:
+def find_band(o: Observation) -> tuple[float, float] | None:
     """Frequencies of G_out, Hz, that an unknown gradient takes; ``None`` if it is known."""
     if not is_unknown(o):
         return None
-    carrier = 2 * spin_frequency(o)
+    carrier = 2 * measure_spin_frequency(o)
     return carrier - TAKEN, carrier + TAKEN
 
 
-def spin_frequency(o: Observation) -> float:
+def measure_spin_frequency(o: Observation) -> float:
     """Mean, Hz, by the encoder where there is one."""
     r = o.record
     if "spin_angle" not in r.wide:
@@ -86,7 +86,7 @@ def spin_frequency(o: Observation) -> float:
     return float(np.abs(np.mean(step))) * r.rate / (2 * np.pi)
 
 
-def splines(time: Array, cosine: Array, sine: Array) -> Array:
+def make_splines(time: Array, cosine: Array, sine: Array) -> Array:
     """(n, N): T_1 times a carrier's sine and T_2 times its cosine for every basis spline of T_1 and of T_2 over ``time``."""
     count = max(4, int(np.ceil((time[-1] - time[0]) / KNOT_SECONDS)) + 3)
     knots = np.concatenate([[time[0]] * 3, np.linspace(time[0], time[-1], count - 2), [time[-1]] * 3])
@@ -95,7 +95,7 @@ def splines(time: Array, cosine: Array, sine: Array) -> Array:
     return np.asarray((basis[:, None, :] * double[None]).reshape(-1, len(time)))
 
 
-def windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
+def make_windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
     """The windows of one segment of a flight, whitened; none if the gradient is known and the output has no lines."""
     if not is_unknown(o) and not noise.lines:
         return []
@@ -115,7 +115,7 @@ def windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
         inside = here[lead:]
         shares = [np.empty((0, len(here)))] * len(o.series)
         if is_unknown(o):
-            shares = _shares(o, splines(*r.carried(slice(a - lead, b))) * here)
+            shares = _share_among_series(o, make_splines(*r.carried(slice(a - lead, b))) * here)
         plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
         levels = level[a - rows.start : b - rows.start]
         lines = noise.line_columns(r.time[a - lead : b], len(o.series))
@@ -129,7 +129,7 @@ def windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]:
     return [w for w in map(window, pairwise(edges)) if w is not None]
 
 
-def _shares(o: Observation, X: Array) -> list[Array]:
+def _share_among_series(o: Observation, X: Array) -> list[Array]:
     """What each series sees of T_1 sin 2 phi and T_2 cos 2 phi in turn, (k, N) each, by the sheet's scale factors."""
     alike = all(s * c == 1 for s, c in zip(o.output.signs, o.output.carriers, strict=True))
     if not o.recorded.separate or (alike and len(set(o.output.radii)) == 1):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base import progress
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.least_squares import join, r_factor
+from ragg_runtime.estimation.least_squares import compute_r_factor, join
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import (
     BLOCKS,
@@ -20,9 +20,9 @@ from ragg_runtime.estimation.observation import (
     THINNER,
     Observation,
     Segment,
-    block_edges,
     combine_output,
-    segments,
+    divide_into_segments,
+    make_block_edges,
     spread,
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise, thin_residual
@@ -58,7 +58,7 @@ class Piece:
         ends = (first, self.segment.rows.stop if stop is None else stop)
         a, b = (int(k) for k in np.searchsorted(self.sample[:valid], ends))
         begins = range(0, max(1, self.white.shape[1]), max(1, valid))  # of every output
-        return r_factor(np.concatenate([self.white[:, k + a : k + b] for k in begins], axis=1))
+        return compute_r_factor(np.concatenate([self.white[:, k + a : k + b] for k in begins], axis=1))
 
     def sums(self, some: slice = slice(None)) -> Array:
         """(n + 1,), V: sums of the columns of G_out over some samples; zero of channels, which have lost their mean."""
@@ -81,22 +81,22 @@ class Piece:
         return combine_output(self.observation, e)
 
 
-def flight_segments(o: Observation) -> list[Segment]:
+def divide_flight(o: Observation) -> list[Segment]:
     """The segments of a flight. Demodulated channels are not divided: their columns pass a two-sided filter."""
     n = len(o.record.time)
     if o.recorded.demodulated:
-        return segments(n, max(n, ROWS))
-    return segments(n, ROWS // THINNER if o.thin is not None and n > ROWS else ROWS)
+        return divide_into_segments(n, max(n, ROWS))
+    return divide_into_segments(n, ROWS // THINNER if o.thin is not None and n > ROWS else ROWS)
 
 
 def is_long(o: Observation) -> bool:
     """Whether a flight is longer than what its noise is seen in at a time: of noise that is slower nothing is known."""
-    return len(flight_segments(o)) > 1
+    return len(divide_flight(o)) > 1
 
 
 def find_segments(o: Observation) -> list[Segment]:
     """The segments of a flight that hold valid samples."""
-    return [s for s in flight_segments(o) if np.any(o.record.valid[s.rows])]
+    return [s for s in divide_flight(o) if np.any(o.record.valid[s.rows])]
 
 
 EXCERPT = 4
@@ -132,7 +132,7 @@ def pass_over(
     """
     n_base = len(at.base)
     nonzero = design.find_nonzero([*at.base, *at.candidates], at.instrument, o.place)
-    found = flight_segments(o) if chosen is None else chosen
+    found = divide_flight(o) if chosen is None else chosen
     memory = noise.memory if whitened else 0
     tail: Array | None = None
     before = 0
@@ -141,12 +141,12 @@ def pass_over(
         part = o.part(s.rows)
         columns = linearise(at, part, None if residual is None else residual[:, s.rows])
         flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
-        taken = unknown_gradient.windows(o, s.rows, noise) if windows is None else windows
+        taken = unknown_gradient.make_windows(o, s.rows, noise) if windows is None else windows
         if whitened:
             series = noise.interpolate(columns[nonzero], part.record.valid)
-            tail = _past(tail, s.rows.start - before, memory)
-            flat = _white(series, len(columns), nonzero, noise, tail, part.record, taken)
-            tail, before = _carried(tail, series, memory), s.rows.stop
+            tail = _recall_past(tail, s.rows.start - before, memory)
+            flat = _whiten_segment(series, len(columns), nonzero, noise, tail, part.record, taken)
+            tail, before = _carry_tail(tail, series, memory), s.rows.stop
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, noise.outputs)
         piece = Piece(
             segment=s,
@@ -164,7 +164,7 @@ def pass_over(
         yield made
 
 
-def _white(
+def _whiten_segment(
     series: Array,
     count: int,
     nonzero: slice | NDArray[np.intp],
@@ -185,14 +185,14 @@ def _white(
     return flat
 
 
-def _past(tail: Array | None, gap: int, memory: int) -> Array | None:
+def _recall_past(tail: Array | None, gap: int, memory: int) -> Array | None:
     """What a filter still remembers after so many zeros."""
     if tail is None or gap >= memory:
         return None
     return np.pad(tail, ((0, 0), (0, 0), (0, gap)))[:, :, -memory:] if gap else tail
 
 
-def _carried(tail: Array | None, columns: Array, memory: int) -> Array | None:
+def _carry_tail(tail: Array | None, columns: Array, memory: int) -> Array | None:
     """What a filter remembers once it has seen ``columns``."""
     if memory == 0:
         return None
@@ -224,7 +224,7 @@ class PreparedFlight:
     @property
     def edges(self) -> NDArray[np.intp]:
         """(BLOCKS + 1,): samples at which the blocks of time begin and end."""
-        return block_edges(len(self.observation.record.time))
+        return make_block_edges(len(self.observation.record.time))
 
     def noise_psd(self, f: Array) -> Array:
         """One-sided density of the noise of the output before demodulation at frequencies f, V^2/Hz."""
@@ -285,7 +285,7 @@ def prepare_flight(
     return PreparedFlight(o, noise, at, residual, tuple(pieces))
 
 
-def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
+def factor_blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
     """Of the columns [base | candidates | residual]: R factors (n + 1, n + 1) of the whitened ones, one a block of
     time, and (BLOCKS, n + 1), V: sums of the plain ones of G_out.
     """
@@ -375,7 +375,7 @@ class Projector:
         return x, replace(self, taken=np.array(places[:k], dtype=np.intp)), places[k:]
 
 
-def projector(
+def make_projector(
     r_factors: Sequence[Array], n_base: int, given: Sequence[int], to_nominal: Array | None = None
 ) -> Projector:
     """The projector onto base and ``given`` candidate columns, from the block R factors of a flight; ``to_nominal`` (n_base,): where the

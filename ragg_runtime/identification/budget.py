@@ -11,7 +11,7 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import measure_error
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
-from ragg_runtime.model.evaluate import output, unit_factor
+from ragg_runtime.model.evaluate import evaluate_output, find_unit_factor
 from ragg_runtime.model.evaluator import find_places
 from ragg_runtime.model.model import Model
 from ragg_runtime.wording import numbers
@@ -47,11 +47,11 @@ def list_contributions(f: Fitted) -> list[Contribution]:
     group of parameters is put to zero.
     """
     found = []
-    full = [output(f.model.chain, o.record, f.calibration.p, o.output) for o in f.observations]
+    full = [evaluate_output(f.model.chain, o.record, f.calibration.p, o.output) for o in f.observations]
     for g in list_groups(f.model, f.instrument, f.calibration.p):
         squares = []
         for o, G, k in zip(f.observations, full, f.scales, strict=True):
-            e = measure_error(G - output(f.model.chain, o.record, g.without, o.output), o.record, k)
+            e = measure_error(G - evaluate_output(f.model.chain, o.record, g.without, o.output), o.record, k)
             squares.append([e.rms_Eo**2, e.inline_Eo**2, e.cross_Eo**2])
         rms, inline, cross = (float(x) for x in np.sqrt(np.mean(squares, axis=0)))
         found.append(Contribution(g.label, rms, inline, cross, g.effect is not None))
@@ -73,7 +73,7 @@ def list_groups(model: Model, instrument: Instrument, p: Array) -> list[Paramete
     for e in model.effects:
         without = p.copy()
         for parameter in (x for x in e.parameters if x.symbol in places and x.fitted):
-            factor = unit_factor(parameter.unit, instrument.units)
+            factor = find_unit_factor(parameter.unit, instrument.units)
             without[places[parameter.symbol]] = (parameter.neutral or 0.0) * factor
         found.append(ParameterGroup(e.id, e.id, e.id, without))
     return [g for g in found if not np.array_equal(g.without, p)]

@@ -28,7 +28,7 @@ from ragg_runtime.identification.dictionary import Dictionary
 from ragg_runtime.identification.features import OUTPUT
 from ragg_runtime.identification.likelihood_ratio import TESTABLE, log_bayes
 from ragg_runtime.identification.omnibus import Omnibus, Remainder, ResidualTerm
-from ragg_runtime.identification.parameters import physical_columns
+from ragg_runtime.identification.parameters import list_physical_columns
 
 Array = NDArray[np.float64]
 
@@ -72,7 +72,7 @@ class Regression:
         effects = [c.effect for c in f.calibration.columns] + [f.candidates[k].effect for k in extra]
         names = {f"{e.id}.{q.name}" for e in f.model.effects for q in e.parameters if q.shape}
         shapes = [n for n, c in enumerate(f.calibration.columns) if c.name in names]
-        absent = _absent(f)
+        absent = _find_absent(f)
         absent[shapes] = 0.0  # of what is not there any shape will do
         return Regression(
             flights=tuple(tuple(t[:, picked] for t in own) for own in f.r_factors),
@@ -123,10 +123,10 @@ class Regression:
         return kept, np.asarray(np.linalg.qr(np.vstack([*rows, sheet]), mode="r"))
 
 
-def _absent(f: Fitted) -> Array:
+def _find_absent(f: Fitted) -> Array:
     """(n_base,): how far the neutral values of effects, and the nominal ones of the instrument, are from the calibrated, in scales."""
     found = f.to_nominal.copy()
-    for n, c, q in physical_columns(f):
+    for n, c, q in list_physical_columns(f):
         found[n] = ((q.neutral or 0.0) * c.unit_factor - f.calibration.p[f.calibration.index[n]]) / c.scale
     return found
 
@@ -204,7 +204,7 @@ class Significance:
         return max(log_p, log_sf_f(self.chi2 / by / self.rank, self.rank, freedom))
 
 
-def held_out_evidence(x: Regression, effect: str) -> float:
+def weigh_held_out(x: Regression, effect: str) -> float:
     """Log of the ratio of the predictive densities of the blocks that a fit does not see, with an effect and without it.
 
     That is what its log evidence gains from them: of an effect that the others do not determine nothing is held against it.
@@ -214,15 +214,15 @@ def held_out_evidence(x: Regression, effect: str) -> float:
     return every - fitted
 
 
-def generic_evidence(
+def weigh_generic_terms(
     bases: Sequence[Remainder], claimed: float, most: int, spread: float = 1.0
 ) -> tuple[float, Remainder]:
     """Log evidence of the best that ``most`` generic terms could do on the residual of a model, and that residual.
 
     ``bases`` are searches for terms of several kinds. Terms that explain hardly more than what is ``claimed`` are taken to explain as much:
-    their chi-squares are those of a periodic filter. ``spread`` as for :func:`evidence`.
+    their chi-squares are those of a periodic filter. ``spread`` as for :func:`weigh_claims`.
     """
-    found = [sum(max([0.0, *_of_terms(s, claimed, most, spread)]) for s in b.searches) for b in bases]
+    found = [sum(max([0.0, *_weigh_terms(s, claimed, most, spread)]) for s in b.searches) for b in bases]
     best = int(np.argmax(found))
     return found[best] - float(np.log(len(bases))), bases[best]
 
@@ -231,7 +231,7 @@ SECOND_ORDER = 0.05
 """Share by which second orders, and the filter that generic terms pass, may change what an explanation explains."""
 
 
-def _of_terms(s: Omnibus, claimed: float, most: int, spread: float) -> list[float]:
+def _weigh_terms(s: Omnibus, claimed: float, most: int, spread: float) -> list[float]:
     charge = float(np.log(max(1, s.tried)))
 
     def explained(chi2: float, rank: int) -> float:
@@ -246,7 +246,7 @@ STEP = 0.01
 """Relative step of a strong term's coefficient: what its chi-square is of is a parabola over a few per cent."""
 
 
-def refit_beside(f: Fitted, t: ResidualTerm) -> float | None:
+def fit_beside(f: Fitted, t: ResidualTerm) -> float | None:
     """Chi-square that the model leaves of a flight beside a steady term, all its parameters fitted again, by the noise of ``f``.
 
     Without the term they were moved so far that a linear fit about them is wrong by more than noise. ``None`` where the term cannot be
@@ -268,7 +268,7 @@ def refit_beside(f: Fitted, t: ResidualTerm) -> float | None:
     return left(float(parabola.deriv().roots()[0].real))
 
 
-def best_single(bases: Sequence[Remainder]) -> float:
+def find_best_single(bases: Sequence[Remainder]) -> float:
     """Chi-square that the best generic term of one coefficient explains."""
 
     def singles(s: Omnibus) -> list[float]:
@@ -277,7 +277,7 @@ def best_single(bases: Sequence[Remainder]) -> float:
     return max(sum(max([0.0, *singles(s)]) for s in b.searches) for b in bases)
 
 
-def evidence(chi2: float, rank: int, charge: float, spread: float = 1.0) -> float:
+def weigh_claims(chi2: float, rank: int, charge: float, spread: float = 1.0) -> float:
     """Log evidence of claims that explain a chi-square with so many coefficients.
 
     ``charge``: logarithm of the number of choices; ``spread``: variance of a whitened generic term's score, 1 of noise alone.

@@ -12,17 +12,17 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import fitted, regressors, unknown_gradient
 from ragg_runtime.estimation.calibration import OffSheet, list_off_sheet
-from ragg_runtime.estimation.fitted import Fitted, Scored, fit, measure_swell, noise_floor
+from ragg_runtime.estimation.fitted import Fitted, Scored, fit, measure_noise_floor, measure_swell
 from ragg_runtime.estimation.observation import combine_output, observe_flights
 from ragg_runtime.estimation.scores import Error, demodulate_residual, list_errors
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import selection, series, several_outputs
-from ragg_runtime.identification.dictionary import carrier, harmonics
-from ragg_runtime.identification.omnibus import Remainder, list_terms, remainder
+from ragg_runtime.identification.dictionary import list_harmonics, make_carrier
+from ragg_runtime.identification.omnibus import Remainder, list_terms, search_residual
 from ragg_runtime.identification.selection import list_testable, make_field
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
-from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulate import is_demodulable, low_pass
 from ragg_runtime.signals.fir import convolve
@@ -73,7 +73,7 @@ class Comparison:
 
     def with_nominal(self, instrument: Instrument) -> Comparison:
         """The same, ``nominal`` being these values."""
-        p = vector(self.fitted.model, instrument)
+        p = make_vector(self.fitted.model, instrument)
         (scored,) = self.fitted.score((), lambda x: compute_nominal_residual(self.fitted, p, x)[None], 1)
         return replace(self, nominal=scored.whole)
 
@@ -120,7 +120,7 @@ class Comparison:
         if len(self.fitted.instrument.layout.outputs) == 1:
             return {}
         return {
-            "outputs": several_outputs.errors(self.fitted, self.residual),
+            "outputs": several_outputs.list_errors_of_outputs(self.fitted, self.residual),
             "together": [t.as_json() for t in several_outputs.compare_outputs(self.fitted)],
         }
 
@@ -158,7 +158,7 @@ class Comparison:
 def measure_harmonics(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
     """Residual demodulated at const, cos k, sin k, as the demodulator would see it, largest first."""
     turning = any(x.observation.record.turning for x in f.prepared)
-    total = dict.fromkeys(harmonics() if turning else ("const",), 0.0)
+    total = dict.fromkeys(list_harmonics() if turning else ("const",), 0.0)
     counted = 0
     for x, k_ggi in zip(f.prepared, f.scales, strict=True):
         rate = x.observation.record.rate
@@ -175,7 +175,7 @@ def measure_harmonics(f: Fitted, coefficients: Array) -> list[dict[str, object]]
         def mix(piece: Piece, v: Array = v, k_ggi: float = k_ggi) -> Array:
             r = piece.observation.record
             e = np.where(r.valid, piece.left(v)[0], 0.0) / k_ggi
-            return np.stack([e * carrier(r, h) * (1 if h == "const" else 2) for h in total])
+            return np.stack([e * make_carrier(r, h) * (1 if h == "const" else 2) for h in total])
 
         for mixed in lean.each(mix, whitened=False):
             mixed = np.concatenate([tail, mixed], axis=1)
@@ -202,19 +202,19 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
     observations = observe_flights(flights, instrument)
     f = fit(model, instrument, observations)
-    calibrated, half, nominal = _three_scores(f)
+    calibrated, half, nominal = _score_three(f)
     if calibrated.whole.rms_V > nominal.whole.rms_V:
         # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
         noise = f.calibration.noise
         f = fit(model, instrument, observations, noise, unweighted=True)
-        calibrated, half, nominal = _three_scores(f)
+        calibrated, half, nominal = _score_three(f)
     made = conclude(f, nominal.whole, calibrated, half.held_out)
     still = tuple(q.reason for x in flights for q in x.flags if q.kind == "still")
     # an output that exceeds stationary noise, where motion was not recorded, is not explained
     return replace(made, adequate=False, grounds=still) if made.adequate and made.remark and still else made
 
 
-def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
+def _score_three(f: Fitted) -> tuple[Scored, Scored, Scored]:
     """As calibrated, as fitted to half of the record, and with model.toml's values as they are."""
     calibrated, held_out, nominal = score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
     return calibrated, held_out, nominal
@@ -228,13 +228,13 @@ def score_with_nominal(f: Fitted, vectors: Sequence[Array]) -> list[Scored]:
 
 def conclude(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> Comparison:
     """Search the residual, and decide whether the model is adequate."""
-    rem, available = remainder(f), list_testable(f)
+    rem, available = search_residual(f), list_testable(f)
     choice = selection.choose(make_field(f, available)) if available else None
     complaint = f.calibration.complaint
-    noise = noise_floor(f)
+    noise = measure_noise_floor(f)
     output_explained = measure_explained(f, calibrated)
     doubt = output_explained.complaint
-    grounds = _grounds(exceeds_noise(f, calibrated, noise), rem, choice)
+    grounds = _list_grounds(exceeds_noise(f, calibrated, noise), rem, choice)
     return Comparison(
         fitted=f,
         nominal=nominal,
@@ -251,7 +251,7 @@ def conclude(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> C
     )
 
 
-def _grounds(exceeds: bool, rem: Remainder, choice: selection.Choice | None) -> list[str]:
+def _list_grounds(exceeds: bool, rem: Remainder, choice: selection.Choice | None) -> list[str]:
     """The tests by which a model is not adequate, in words."""
     found = ["the error is larger than the noise"] if exceeds else []
     if rem.significant:

@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.calibration import prior_volume, restore_priors, to_nominal
+from ragg_runtime.estimation.calibration import charge_wider_priors, measure_to_nominal, restore_priors
 from ragg_runtime.estimation.fitted import Fitted, calibrate
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.thinning import leave_out_uncertain
@@ -75,7 +75,7 @@ def fit_contender(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: I
     """
     observations = leave_out_uncertain(model, sheet, f.observations)
     instrument, c = calibrate(model, sheet, observations, noise=noise)
-    x = -to_nominal(model, instrument, c)
+    x = -measure_to_nominal(model, instrument, c)
     known = len(c.columns) - float(np.trace(c.covariance))
     left_out = f.calibration.rows - c.rows  # each would have its share of the noise
     own = x[[n for n, q in enumerate(c.columns) if q.effect is not None]]
@@ -83,7 +83,7 @@ def fit_contender(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: I
     # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
     tails = float(np.sum(np.log1p(own**2) - own**2))
     return ContenderFit(
-        chi2=c.chi2 + left_out + 2.0 * known + tails + prior_volume(instrument, c),
+        chi2=c.chi2 + left_out + 2.0 * known + tails + charge_wider_priors(instrument, c),
         arrived=c.converged,
     )
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.calibration import QUIET, list_off_sheet
-from ragg_runtime.estimation.fitted import Fitted, calibrate, fit, noise_floor, release_held
+from ragg_runtime.estimation.fitted import Fitted, calibrate, fit, measure_noise_floor, release_held
 from ragg_runtime.estimation.observation import Observation, observe_flights
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.estimation.thinning import thin_observations
@@ -74,7 +74,7 @@ def diagnose_fitted(
     limits: Mapping[str, float] = next_motion.LIMITS,
 ) -> Diagnosis:
     """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.propose_motions``."""
-    output = _output_effects(f, flights)
+    output = _find_output_effects(f, flights)
     first = Stage.of(f)
     apart = find_contradiction(first)
     # before strong effects, whose columns take the place of these
@@ -99,7 +99,7 @@ SAME = 1.05
 
 def _choose_noise(f: Fitted, target: Fitted) -> Fitted:
     """The fit whose noise floor is stated: without effects, as `compare` has it, unless that took what effects explain for noise."""
-    ratio = noise_floor(f) / noise_floor(target)
+    ratio = measure_noise_floor(f) / measure_noise_floor(target)
     return f if 1.0 / SAME < ratio < SAME else target
 
 
@@ -125,7 +125,7 @@ def _make_diagnosis(
         ranking=tuple(sorted(rows, key=sort_by_choice([*found.claims, *outcome.effects]))),
         found=found.claims,
         not_testable=tuple(list_not_testable(first.fitted, first.field)),
-        remainder=left if found.remains else _without_terms(left),
+        remainder=left if found.remains else _drop_terms(left),
         remainder_share=_share(outcome, left) if found.remains else 0.0,
         before=before,
         scored=outcome.scored,
@@ -142,7 +142,7 @@ def _make_diagnosis(
         explained=outcome.explained,
         groups=group_findings(found.claims, ranking, found.steady, found.shared),
         credible_set=credence.credible,
-        holds=_followed(target, evidence.instants, found.claims),
+        holds=_find_change(target, evidence.instants, found.claims),
         staged=bool(evidence.steps),
         off_sheet=tuple(list_off_sheet(target.model, target.instrument, target.calibration)),
     )
@@ -189,7 +189,7 @@ def complete_ranking(
     ]
 
 
-def _followed(
+def _find_change(
     target: Fitted, instants: Sequence[tuple[str, float | None]], found: Sequence[str]
 ) -> sequential.SequentialTest | None:
     """From when on the model no longer holds; a step that is found is such an instant itself."""
@@ -204,11 +204,11 @@ def _followed(
     return followed
 
 
-def _without_terms(rem: Remainder) -> Remainder:
+def _drop_terms(rem: Remainder) -> Remainder:
     return Remainder(tuple(replace(s, terms=()) for s in rem.searches))
 
 
-def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
+def _find_output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
     """Effects of the recorder, recognised in the columns in which each is looked for: the recorded outputs, or those it names."""
     found = set()
     place = f.prepared[0].observation.place
@@ -236,15 +236,15 @@ UNEXPLAINED = 10.0
 def find_contradiction(first: Stage) -> tuple[Disagreement, ...]:
     """The flights that agree, where each is explained by the model and all together are not; ``first`` is the stage without effects."""
     f = first.fitted
-    flights = _by_flight(f)
+    flights = _group_by_flight(f)
     left = float(first.field.P[-1, -1] ** 2)
     if len(flights) < 2 or left < UNEXPLAINED * f.calibration.rows:
         return ()
-    if not all(_quiet(f, x) for x in flights):
+    if not all(_leaves_noise(f, x) for x in flights):
         return ()
     agree: list[list[Sequence[Observation]]] = []
     for one in flights:
-        group = next((g for g in agree if _quiet(f, [*g[0], *one])), None)
+        group = next((g for g in agree if _leaves_noise(f, [*g[0], *one])), None)
         if group is None:
             agree.append([one])
         else:
@@ -257,7 +257,7 @@ def find_disagreement(
 ) -> tuple[Disagreement, ...]:
     """What each flight alone lacks, where each is explained so; nothing if one is not."""
     found: dict[tuple[str, ...], list[str]] = {}
-    for x, own in zip(flights, _by_flight(f), strict=True):
+    for x, own in zip(flights, _group_by_flight(f), strict=True):
         d = diagnose_fitted(fit(f.model, f.instrument, own), [x], extend)
         if d.remains:
             return ()
@@ -265,13 +265,13 @@ def find_disagreement(
     return tuple(Disagreement(tuple(names), effects) for effects, names in found.items())
 
 
-def _by_flight(f: Fitted) -> list[list[Observation]]:
+def _group_by_flight(f: Fitted) -> list[list[Observation]]:
     flights: dict[int, list[Observation]] = {}
     for o in f.observations:
         flights.setdefault(o.flight, []).append(o)
     return list(flights.values())
 
 
-def _quiet(f: Fitted, observations: Sequence[Observation]) -> bool:
+def _leaves_noise(f: Fitted, observations: Sequence[Observation]) -> bool:
     """Whether the model leaves but noise of some of the observations."""
     return calibrate(f.model, f.instrument, observations)[1].excess <= QUIET

@@ -23,7 +23,7 @@ from ragg_runtime.base import series_name
 from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, Series
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.observation import segments
+from ragg_runtime.estimation.observation import divide_into_segments
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 from ragg_runtime.identification import features
 from ragg_runtime.identification.features import OUTPUT, Relaxations
@@ -115,7 +115,7 @@ class Dictionary:
 
     def __init__(self, r: Record, output: Array | None = None) -> None:
         self._record = r
-        self._of_output = {} if output is None else _functions_of(output)
+        self._of_output = {} if output is None else _make_functions(output)
         centred = sorted(n for n in r.wide if n not in _MOTION and _is_channel(n))
         rates = [n for n in _RATES if n.partition("_")[2] in r.wide]
         names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
@@ -135,7 +135,7 @@ class Dictionary:
         ]
         products += list(combinations_with_replacement([n for n in names if n in _CUBIC], 3))
         # of a disc at rest every harmonic is a constant
-        of_one, of_several = (harmonics(n if r.turning else 0) for n in (HIGHEST_OF_ONE, HIGHEST))
+        of_one, of_several = (list_harmonics(n if r.turning else 0) for n in (HIGHEST_OF_ONE, HIGHEST))
         alone = [Term(h, c) for c in products if len(c) <= 1 for h in of_one]
         alone += [Term("const", (f,)) for f in features.FORCES if f in self._size]
         several = [Term(h, c) for c in products if len(c) > 1 for h in of_several]
@@ -169,14 +169,16 @@ class Dictionary:
         """(N,), SI, over a record of this flight."""
         if any(n not in self._size for n in term.channels):
             return self.with_terms([term]).series(term, r)
-        x = carrier(r, term.harmonic)
+        x = make_carrier(r, term.harmonic)
         for name in term.channels:
             x = x * self._channel(name, r)
         return x
 
     def make_chunks(self, r: Record, chosen: Sequence[Term]) -> Iterator[tuple[slice, Singles]]:
         """Of some terms, a few at a time, the places and their series (terms, N) over ``size``, zero where not valid."""
-        carriers = {h: carrier(r, h).astype(np.float32) for h in dict.fromkeys(t.harmonic for t in chosen)}
+        carriers = {
+            h: make_carrier(r, h).astype(np.float32) for h in dict.fromkeys(t.harmonic for t in chosen)
+        }
         wanted = dict.fromkeys(n for t in chosen for n in t.channels)
         channels = {
             n: (np.where(r.valid, self._channel(n, r), 0.0) / self._size[n]).astype(np.float32)
@@ -200,10 +202,10 @@ class Dictionary:
             first = int(np.searchsorted(self._record.time, r.time[0]))
             return self._of_output[name][first : first + len(r.time)]
         slow = self._slow.get(name)
-        return features.series(name, r, self.centre) if slow is None else slow.series(name, r)
+        return features.make_series(name, r, self.centre) if slow is None else slow.series(name, r)
 
 
-def _functions_of(output: Array) -> dict[str, Array]:
+def _make_functions(output: Array) -> dict[str, Array]:
     return {OUTPUT: output, f"abs({OUTPUT})": np.abs(output), f"sign({OUTPUT})": np.sign(output)}
 
 
@@ -265,12 +267,12 @@ def _measure(
     first: dict[str, float] = {}
     sums = {n: np.zeros(2) for n in names}
     ends = {n: np.array([np.inf, -np.inf]) for n in names}
-    for s in segments(len(r.time)):
+    for s in divide_into_segments(len(r.time)):
         part = r.part(s.rows)
         count += float(np.sum(part.valid))
         relaxed = slow.advance(part)
         for n in names:
-            x = (relaxed[n] if n in relaxed else features.series(n, part, centre))[part.valid]
+            x = (relaxed[n] if n in relaxed else features.make_series(n, part, centre))[part.valid]
             if not len(x):
                 continue
             y = x - first.setdefault(n, float(x[0]))  # squares of differences, so that no digits are lost
@@ -287,12 +289,12 @@ def _measure(
     return found, {n: slow for n in names if features.is_slow(n)}
 
 
-def harmonics(highest: int = HIGHEST) -> tuple[str, ...]:
+def list_harmonics(highest: int = HIGHEST) -> tuple[str, ...]:
     """const, cos 1, sin 1 ... up to a multiple of the spin rate."""
     return ("const", *(f"{f} {k}" for k in range(1, highest + 1) for f in ("cos", "sin")))
 
 
-def carrier(r: Record, harmonic: str) -> Array:
+def make_carrier(r: Record, harmonic: str) -> Array:
     """(N,): 1, cos(k phi) or sin(k phi)."""
     h = series_name.harmonic(harmonic)
     if not h.multiple:
@@ -394,13 +396,13 @@ def write_effect(term: Term, centre: Mapping[str, float], unit: str) -> str | No
     for name in dict.fromkeys(term.channels):
         s = series_name.series(name)
         plain = alone and isinstance(s, ChannelName)
-        text = _written(s, {} if plain else centre)
+        text = _write_series(s, {} if plain else centre)
         if text is None:
             return None
         n = term.channels.count(name)
         text = f"({text})" if " " in text and isinstance(s, ChannelName) else text
         factors.append(text if n == 1 else f"{text}**{n}")
-    product = "*".join(("K_x", *factors, *_carrier(term.harmonic)))
+    product = "*".join(("K_x", *factors, *_write_carrier(term.harmonic)))
     return f'{{ id = "my-effect", stage = "transducer", add = "{product}", K_x = {{ unit = "{unit}" }} }}'
 
 
@@ -412,7 +414,7 @@ def list_effect_columns(term: Term) -> list[str]:
         while isinstance(s, Function):
             s = s.of
         if not isinstance(s, ChannelName) and str(s) not in RATES:
-            found[_column(s)] = f"{_column(s)} ({describe_series(s)})"
+            found[_name_column(s)] = f"{_name_column(s)} ({describe_series(s)})"
     return list(found.values())
 
 
@@ -430,25 +432,25 @@ def describe_series(s: Series) -> str:
             return f"{describe_series(of)} through a relaxation of {seconds} s"
 
 
-def _column(s: Series) -> str:
+def _name_column(s: Series) -> str:
     """Name for a column of the flight that holds a series which no expression can form."""
     if isinstance(s, Relaxation):
         return "slow_" + str(s.of).replace("(", "_").replace(")", "")
     return str(s)
 
 
-def _written(s: Series, centre: Mapping[str, float]) -> str | None:
+def _write_series(s: Series, centre: Mapping[str, float]) -> str | None:
     if isinstance(s, Function):
-        inner = _written(s.of, centre)
+        inner = _write_series(s.of, centre)
         return None if inner is None else f"{s.name}({inner})"
-    text = _column(s)
+    text = _name_column(s)
     if not _NAME.fullmatch(text):
         return None
     mean = centre.get(str(s), 0.0)
     return text if not mean else f"{text} {'-' if mean > 0 else '+'} {abs(mean):.6g}"
 
 
-def _carrier(name: str) -> tuple[str, ...]:
+def _write_carrier(name: str) -> tuple[str, ...]:
     """A harmonic of the disc angle as a polynomial in cos_phi and sin_phi (de Moivre)."""
     h = series_name.harmonic(name)
     k = h.multiple

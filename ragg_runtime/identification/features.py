@@ -47,7 +47,7 @@ def is_recorded(name: str, r: Record) -> bool:
 NOTHING: Mapping[str, float] = MappingProxyType({})
 
 
-def series(name: str, r: Record, centre: Mapping[str, float] = NOTHING) -> Array:
+def make_series(name: str, r: Record, centre: Mapping[str, float] = NOTHING) -> Array:
     """(N,), SI: a series over a record or a part of it, relaxations excepted (:class:`Relaxations`); channels less their ``centre``."""
     return _series(series_name.series(name, r.wide.keys()), r, centre)
 
@@ -58,13 +58,13 @@ def _series(s: Series, r: Record, centre: Mapping[str, float]) -> Array:
         return np.asarray(functions[s.name](_series(s.of, r, centre)))
     name = str(s)
     if name not in r.wide and series_name.channel(s) in FORCES:
-        return _turning(name, r)
+        return _turn_forces(name, r)
     known = r.time if name == "time" else r.series(name)
     assert known is not None, name
     return np.asarray(known - centre[name]) if name in centre else known
 
 
-def _turning(name: str, r: Record) -> Array:
+def _turn_forces(name: str, r: Record) -> Array:
     """f_i, f_o and derivatives: real and imaginary part of (d/dt + i Omega)^n (a_y + i a_x) times e^(i phi)."""
     order = {"": 0, "d_": 1, "d2_": 2}[name[:-3]]
     spin = 2j * np.pi * r.spin_frequency
@@ -133,13 +133,13 @@ class Relaxations:
         return np.asarray(linalg.blas.dtbsv(1, bands, x, lower=1, diag=1, overwrite_x=True))
 
 
-def term_unit(channels_: Sequence[str]) -> str:
+def find_term_unit(channels_: Sequence[str]) -> str:
     """Unit of a term's coefficient: V over the units of its channels."""
-    units = [channel_unit(c) for c in channels_]
+    units = [find_channel_unit(c) for c in channels_]
     return "V" if not units else f"V/({'*'.join(units)})"
 
 
-def channel_unit(name: str) -> str:
+def find_channel_unit(name: str) -> str:
     """SI unit of a series."""
     return _unit(series_name.series(name, SI_UNITS.keys()))
 

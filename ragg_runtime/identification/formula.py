@@ -21,9 +21,9 @@ from ragg_runtime.base import series_name
 from ragg_runtime.base.series_name import Function
 from ragg_runtime.estimation import whitening
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.whitening import PreparedFlight, Projector, flight_segments
+from ragg_runtime.estimation.whitening import PreparedFlight, Projector, divide_flight
 from ragg_runtime.identification import omnibus
-from ragg_runtime.identification.dictionary import MEMORY, Dictionary, Term, carrier, harmonics
+from ragg_runtime.identification.dictionary import MEMORY, Dictionary, Term, list_harmonics, make_carrier
 from ragg_runtime.identification.features import FORCES, OUTPUT
 from ragg_runtime.identification.omnibus import Omnibus, Remainder, Scores
 from ragg_runtime.signals.fir import filter_columns
@@ -54,7 +54,7 @@ def propose_formulas(f: Fitted, given: Sequence[int], left: Remainder) -> Remain
 
 
 def _of_flight(f: Fitted, flight: int, given: Sequence[int], search: Omnibus) -> Omnibus:
-    whole = whitening.projector(f.r_factors[flight], f.n_base, given, f.to_nominal)
+    whole = whitening.make_projector(f.r_factors[flight], f.n_base, given, f.to_nominal)
     prepared, projector, _ = whole.lean(f.prepared[flight])
     known = omnibus.make_dictionary(prepared)
     terms, tried = _screen(prepared, projector, known)
@@ -71,7 +71,7 @@ def _of_flight(f: Fitted, flight: int, given: Sequence[int], search: Omnibus) ->
 def _screen(x: PreparedFlight, projector: Projector, known: Dictionary) -> tuple[list[Term], int]:
     """The most promising products, and the number of all."""
     now, factors = _list_factors(known)
-    turns = harmonics() if x.observation.record.turning else ("const",)
+    turns = list_harmonics() if x.observation.record.turning else ("const",)
     stages = [(), *((n,) for n in (*FORCES, OUTPUT) if n in known)]
     d = known.with_terms([Term(h, s) for s, h in product(stages, turns)])
     first = Scores(x, projector, dictionary=d)
@@ -82,11 +82,11 @@ def _screen(x: PreparedFlight, projector: Projector, known: Dictionary) -> tuple
     few = sum(t in now for t in factors)
     dots = np.zeros((len(stages), len(turns), few, len(factors)))
     squares = np.zeros((len(stages), few, len(factors)))
-    for s in flight_segments(x.observation):
+    for s in divide_flight(x.observation):
         r = x.observation.record.part(s.rows)
         F = np.concatenate([X for _, X in d.make_chunks(r, factors)])
         at = [d.series(Term("const", n), r) / d.size(Term("const", n)) for n in stages]
-        carriers = [carrier(r, h) * back[s.rows] for h in turns]
+        carriers = [make_carrier(r, h) * back[s.rows] for h in turns]
         for n, w in enumerate(at):
             squares[n] += (F[:few] ** 2 * (w**2).astype(np.float32)) @ (F**2).T
             for k, c in enumerate(carriers):

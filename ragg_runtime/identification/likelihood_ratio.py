@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from ragg_runtime.estimation.noise_level import excess
+from ragg_runtime.estimation.noise_level import score_excess
 from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.estimation.whitening import Piece
@@ -82,11 +82,11 @@ def measure_explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[f
     return float(np.sum((U[:, keep].T @ P[:, -1]) ** 2)), int(np.sum(keep))
 
 
-def sub_blocks(columns: Sequence[tuple[int, Column]]) -> list[tuple[tuple[int, ...], int]]:
+def list_sub_blocks(columns: Sequence[tuple[int, Column]]) -> list[tuple[tuple[int, ...], int]]:
     """Ways in which an effect may be present, each with the number of its kind: all its parameters; those of one accelerometer; one
     parameter in all accelerometers; one single value.
     """
-    return [(tuple(columns[k][0] for k in block), count) for block, count in _ways(_kinds(columns))]
+    return [(tuple(columns[k][0] for k in block), count) for block, count in _list_ways(_kinds(columns))]
 
 
 Kinds = tuple[tuple[int | None, str], ...]
@@ -97,8 +97,8 @@ def _kinds(columns: Sequence[tuple[int, Column]]) -> Kinds:
 
 
 @lru_cache(maxsize=1024)
-def _ways(kinds: Kinds) -> list[tuple[tuple[int, ...], int]]:
-    """:func:`sub_blocks` of columns of these accelerometers and names, by their places: the same for every record."""
+def _list_ways(kinds: Kinds) -> list[tuple[tuple[int, ...], int]]:
+    """:func:`list_sub_blocks` of columns of these accelerometers and names, by their places: the same for every record."""
     every = tuple(range(len(kinds)))
     families: list[list[tuple[int, ...]]] = [[every]]
     by_accelerometer: dict[int | None, list[int]] = {}
@@ -128,7 +128,7 @@ def test(
     seen = squares > low**2
     alone = np.where(seen, along**2 / np.where(seen, squares, 1.0), 0.0).tolist()
     best, charge = Test(0.0, 0, 0.0, ()), 0.0
-    for block, count in _ways(_kinds(columns)):
+    for block, count in _list_ways(_kinds(columns)):
         chi2, rank = (
             (alone[block[0]], int(seen[block[0]]))
             if len(block) == 1
@@ -155,8 +155,8 @@ class Way:
     count: int
 
 
-def directions(P: Array, blocks: Sequence[tuple[tuple[int, ...], int]], floor: Array) -> list[Way]:
-    """The ways that can be tested of an effect's :func:`sub_blocks`."""
+def find_directions(P: Array, blocks: Sequence[tuple[tuple[int, ...], int]], floor: Array) -> list[Way]:
+    """The ways that can be tested of an effect's :func:`list_sub_blocks`."""
     norms, found = np.linalg.norm(P, axis=0), []
     for block, count in blocks:
         own = [k for k in block if norms[k] > floor[k]]
@@ -166,7 +166,7 @@ def directions(P: Array, blocks: Sequence[tuple[tuple[int, ...], int]], floor: A
     return found
 
 
-def effective_number(effects: Sequence[Sequence[Way]], level: float) -> float:
+def estimate_effective_number(effects: Sequence[Sequence[Way]], level: float) -> float:
     """Number of independent tests whose least p-value is below a level as often as that of these effects.
 
     Columns are alike, and so are the p-values of effects: the least of them, of records of noise with these columns, tells how many
@@ -195,7 +195,7 @@ class Variance:
     """Sums over samples for a score test of a random effect: is the residual larger where it would show, and nowhere else?
 
     ``gram`` (k + 2, k + 2): inner products of what the noise's own variance may follow (k), of the effect's variance, and of the
-    squared residual (:func:`noise_level.excess`).
+    squared residual (:func:`noise_level.score_excess`).
     """
 
     gram: Array
@@ -210,7 +210,7 @@ class Variance:
 
     def test(self) -> Test:
         """Score test of the variance, with the residual's own fourth moment, so that heavy tails raise no alarm."""
-        z, _ = excess(self.gram)
+        z, _ = score_excess(self.gram)
         chi2 = max(z, 0.0) ** 2
         return Test(chi2, 1, float(special.log_ndtr(-z)), (0,), float(log_bayes(chi2, 1)))
 

@@ -106,25 +106,27 @@ def find_line_rival(
     steady = []
     for t in steps:
         line = find_best_line(t.before, ())
-        if _in_place(line, t.test.chi2):
+        if _take_place(line, t.test.chi2):
             return LineAlternative(line=line, effects=(t.effect,), own=t.test.chi2), ()
-        steady += _steady(t.before, line, t.effect, t.test.chi2, t.alternatives)
+        steady += _find_steady(t.before, line, t.effect, t.test.chi2, t.alternatives)
     field, choice = last.field, last.choice
-    alternatives = selection.alternatives(field, choice)
+    alternatives = selection.find_alternatives(field, choice)
     # two effects follow a line farther than one does
     every = [choice.chosen] if len(choice.chosen) > 1 else []
     for effects in (*every, *((e,) for e in choice.chosen)):
         others = [o for o in choice.chosen if o not in effects]
         beside = field.joint([choice.blocks[o] for o in others])[0] if others else 0.0
         line = find_best_line(last.fitted, [n for o in others for n, _ in field.candidates[o]])
-        if _in_place(line, choice.chi2 - beside):
+        if _take_place(line, choice.chi2 - beside):
             return LineAlternative(line=line, effects=effects, own=choice.chi2 - beside), ()
         if len(effects) == 1:
-            steady += _steady(last.fitted, line, effects[0], choice.chi2 - beside, alternatives[effects[0]])
+            steady += _find_steady(
+                last.fitted, line, effects[0], choice.chi2 - beside, alternatives[effects[0]]
+            )
     return None, tuple(steady)
 
 
-def _in_place(line: NearLine | None, chi2: float) -> TypeGuard[NearLine]:
+def _take_place(line: NearLine | None, chi2: float) -> TypeGuard[NearLine]:
     """Whether a line, plainly off the multiple, explains as much."""
     return (
         line is not None
@@ -134,7 +136,7 @@ def _in_place(line: NearLine | None, chi2: float) -> TypeGuard[NearLine]:
     )
 
 
-def _steady(
+def _find_steady(
     f: Fitted, line: NearLine | None, effect: str, chi2: float, others: Sequence[str]
 ) -> list[Steady]:
     """The effect, if a line at the very multiple explains as much, or all but a small part."""
@@ -201,18 +203,18 @@ def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
     r = x.observation.record
     if not r.turning:
         return None
-    x, projector, _ = whitening.projector(f.r_factors[0], f.n_base, given).lean(x)
+    x, projector, _ = whitening.make_projector(f.r_factors[0], f.n_base, given).lean(x)
     width = 1.0 / float(r.time[-1] - r.time[0])
     offsets = np.arange(-REACH, REACH + STEP / 2, STEP) * width
     found = np.concatenate([m * r.spin_frequency + offsets for m in MULTIPLES])
     found = found[found < r.rate / 2 - width]
     if not len(found):
         return None
-    first = _explained(x, projector, found)
+    first = _measure_lines(x, projector, found)
     rough = float(found[int(np.argmax(first[0]))])
     multiple = round(rough / r.spin_frequency) * r.spin_frequency
     near = np.append(rough + np.linspace(-STEP, STEP, 2 * FINER + 1) * width, multiple)
-    chi2, size = _explained(x, projector, near)
+    chi2, size = _measure_lines(x, projector, near)
     k = int(np.argmax(chi2[:-1]))
     if not chi2[k] > 0.0:
         return None
@@ -226,13 +228,13 @@ def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
     )
 
 
-def _explained(x: PreparedFlight, projector: Projector, frequencies: Array) -> tuple[Array, Array]:
+def _measure_lines(x: PreparedFlight, projector: Projector, frequencies: Array) -> tuple[Array, Array]:
     """(n,), (n,): chi-square that a sinusoid of each frequency explains, and its amplitude in whitened rows."""
 
     def sums(piece: Piece) -> Array:
         Q = projector.basis(piece)
         right = np.column_stack([projector.left(piece, Q), Q])
-        parts = (_waves(x, piece, frequencies[some]) for some in split_range(len(frequencies), TOGETHER))
+        parts = (_make_waves(x, piece, frequencies[some]) for some in split_range(len(frequencies), TOGETHER))
         return np.concatenate([np.dstack([X @ right, X @ X.transpose(0, 2, 1)]) for X in parts])
 
     total = np.sum([*x.each(sums)], axis=0)
@@ -243,7 +245,7 @@ def _explained(x: PreparedFlight, projector: Projector, frequencies: Array) -> t
     return np.sum(c**2 * np.where(seen, sizes, 0.0), axis=1), np.linalg.norm(c, axis=1)
 
 
-def _waves(x: PreparedFlight, piece: Piece, frequencies: Array) -> Array:
+def _make_waves(x: PreparedFlight, piece: Piece, frequencies: Array) -> Array:
     """(n, 2, rows): cosines and sines, in whitened rows."""
     r = piece.observation.record
     wave = np.exp(1j * np.outer(2 * np.pi * frequencies, r.time[r.valid]))

@@ -18,7 +18,7 @@ from scipy import linalg, optimize
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.least_squares import r_factor
+from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.observation import combine_output
 from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.estimation.whitening import Piece
@@ -269,7 +269,7 @@ class Information:
     def with_motion(self, motion: Sequence[Sinusoid], simulated: float, duration: float) -> Array:
         """(n, n): the inverse of the R factor with so much, s, of a motion."""
         at = replace(self.f.prepared[0].at, only=())
-        X = r_factor(whiten_motion(self.f, at, motion, simulated))
+        X = compute_r_factor(whiten_motion(self.f, at, motion, simulated))
         return self.inverse(np.vstack([self.root, np.sqrt(duration / simulated) * X]))
 
     @staticmethod
@@ -305,7 +305,7 @@ def _channel_changes(f: Fitted) -> Array:
             where=x.observation.name,
             remedy="give a longer flight of the motion that is to be compensated",
         )
-    return np.asarray(np.stack([r_factor(found[:, k]) for k in range(2)]) / np.sqrt(found.shape[2]))
+    return np.asarray(np.stack([compute_r_factor(found[:, k]) for k in range(2)]) / np.sqrt(found.shape[2]))
 
 
 @one_thread

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.least_squares import orthonormalise, r_factor
+from ragg_runtime.estimation.least_squares import compute_r_factor, orthonormalise
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.identification.selection import Field
 from ragg_runtime.io.record import is_disc_angle
@@ -242,7 +242,7 @@ class Alternatives:
         there = [*range(self.f.n_base), *self.needed]
         directions = np.hstack([s.directions for s in self.strengths.values()])[there]
         X = np.concatenate([X[[there.index(k) for k in self.places]], directions.T @ X])
-        return np.asarray(np.sqrt(duration / simulated) * r_factor(X))
+        return np.asarray(np.sqrt(duration / simulated) * compute_r_factor(X))
 
     def promises(
         self, motion: Sequence[Sinusoid], duration: float, some: Sequence[int] | None = None
@@ -276,7 +276,7 @@ def whiten_motion(f: Fitted, at: LinearisationPoint, motion: Sequence[Sinusoid],
     if not unknown_gradient.is_unknown(o):
         return white
     cosine, sine = r.carriers
-    gradient = unknown_gradient.splines(time, cosine, sine)[:, None] * o.signs[:, None]
+    gradient = unknown_gradient.make_splines(time, cosine, sine)[:, None] * o.signs[:, None]
     Q = orthonormalise(noise.whiten(gradient))
     return white - (white @ Q) @ Q.T
 

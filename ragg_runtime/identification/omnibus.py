@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.noise_estimate import line_width
+from ragg_runtime.estimation.noise_estimate import compute_line_width
 from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.regressors import predict_observed
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
-from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, flight_segments
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, divide_flight
 from ragg_runtime.identification.dictionary import Dictionary, Directions, Term, multiply, sum_squares
-from ragg_runtime.identification.features import term_unit
+from ragg_runtime.identification.features import find_term_unit
 from ragg_runtime.identification.likelihood_ratio import Variance, pool_variances
 from ragg_runtime.identification.spectral_line import Periodogram
 from ragg_runtime.identification.time_varying import BlockScores
@@ -166,7 +166,7 @@ class Scores:
         if unknown_gradient.is_unknown(o):  # there nothing is left of the noise either
             double, width = 2 * o.record.spin_frequency, 2 / unknown_gradient.KNOT_SECONDS
             self._excluded = (double - width, double + width)
-        self._longest = max(s.rows.stop - s.rows.start for s in flight_segments(o))
+        self._longest = max(s.rows.stop - s.rows.start for s in divide_flight(o))
         self.sums = self._zero()
 
     def _zero(self) -> Sums:
@@ -264,16 +264,16 @@ class Scores:
 
 def make_dictionary(x: PreparedFlight) -> Dictionary:
     """Of a flight, with the output that the model predicts."""
-    return Dictionary(x.observation.record, _predicted(x))
+    return Dictionary(x.observation.record, _predict_output(x))
 
 
-def _predicted(x: PreparedFlight) -> Array | None:
+def _predict_output(x: PreparedFlight) -> Array | None:
     """(N,), V: G_out as the model has it, which holds none of the record's noise; ``None`` of several outputs, or of channels."""
     o = x.observation
     if o.recorded.demodulated or len(o.series) != 1:
         return None
     found = np.zeros(len(o.record.time))
-    for s in flight_segments(o):
+    for s in divide_flight(o):
         part = o.part(s.rows)
         found[s.rows] = predict_observed(x.at.model, part, x.at.p)[0]
     return found
@@ -282,7 +282,7 @@ def _predicted(x: PreparedFlight) -> Array | None:
 def choose(s: Scores) -> Omnibus:
     """What is left of a flight: steady terms, or else one that comes and goes, or a line."""
     steady = pursue(s)
-    others = [t for t in (_varying(s), _line(s)) if t is not None]
+    others = [t for t in (_find_varying(s), _find_line(s)) if t is not None]
     log_p = min([steady.log_p, *(p for p, _ in others)])
     significant = [(p, found) for p, found in others if p < np.log(FAMILY)]
     found = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
@@ -293,7 +293,7 @@ def choose(s: Scores) -> Omnibus:
     return replace(steady, terms=found, chi2=max(f.chi2 for f in found))
 
 
-def _varying(s: Scores) -> tuple[float, ResidualTerm] | None:
+def _find_varying(s: Scores) -> tuple[float, ResidualTerm] | None:
     """The term that varies most; one that the model has, with one coefficient for the whole flight, may vary as well as any other."""
     v = s.sums.blocks.best(s.sums.norm2 > 0.0)
     if v is None:
@@ -308,12 +308,12 @@ def _varying(s: Scores) -> tuple[float, ResidualTerm] | None:
     return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
 
 
-def _line(s: Scores) -> tuple[float, ResidualTerm] | None:
+def _find_line(s: Scores) -> tuple[float, ResidualTerm] | None:
     """The strongest line of the residual, if it is not next to one that was taken out (of one that wanders something stays)."""
     if s.prepared.observation.recorded.demodulated:
         return None  # their noise is only white within the demodulator's band
     line = s.sums.spectrum.best()
-    width = line_width(s.prepared.observation)
+    width = compute_line_width(s.prepared.observation)
     if line is None or any(abs(line.frequency - q.frequency) < width for q in s.prepared.noise.lines):
         return None
     # back from the whitened residual: the noise's own density at the line
@@ -444,7 +444,7 @@ class Remainder:
         return bool(self.log_p < np.log(FAMILY))
 
 
-def remainder(f: Fitted, given: Sequence[int] = (), only: int | None = None) -> Remainder:
+def search_residual(f: Fitted, given: Sequence[int] = (), only: int | None = None) -> Remainder:
     """Search the residual, or ``only`` one of its series, once base and ``given`` candidate columns are projected out."""
     return search(f, given, {}, only)[0]
 
@@ -455,7 +455,7 @@ def search(
     """The same, and the sums of ``random`` effects, of which it has the places of their columns, in one pass."""
     searches, counted = [], []
     for x, r_factors in zip(f.prepared, f.r_factors, strict=True):
-        lean, projector, places = whitening.projector(r_factors, f.n_base, given, f.to_nominal).lean(
+        lean, projector, places = whitening.make_projector(r_factors, f.n_base, given, f.to_nominal).lean(
             x, [*random.values()]
         )
 
@@ -469,10 +469,10 @@ def search(
     return Remainder(tuple(searches)), variances
 
 
-def remainders(f: Fitted) -> list[Remainder]:
+def search_residuals(f: Fitted) -> list[Remainder]:
     """What terms of the output are left, and where each accelerometer's voltage was recorded, terms of one voltage alone."""
     count = min(len(o.series) for o in f.observations)
-    return [remainder(f), *(remainder(f, only=k) for k in range(count) if count > 1)]
+    return [search_residual(f), *(search_residual(f, only=k) for k in range(count) if count > 1)]
 
 
 def list_terms(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, object]]:
@@ -486,7 +486,7 @@ def list_terms(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, 
                 "term": t.term.product,
                 "coefficient": float(t.coefficient),
                 "std": float(t.std),
-                "unit": term_unit(t.term.channels),
+                "unit": find_term_unit(t.term.channels),
                 "share": min(1.0, t.mean_square / power),
                 "z": t.z,
                 "kind": t.kind,

@@ -56,7 +56,7 @@ class ParameterValue:
         return own | ({"weights": list(self.weights)} if self.weights else {})
 
 
-def gains(model: Model, p: Array, name: str) -> Array:
+def weigh_accelerometers(model: Model, p: Array, name: str) -> Array:
     """(n,) weight of each accelerometer in G_out, k_VI K1 (Eq. 1), for a parameter of this name, over their mean; ``p`` is the
     model's parameter vector.
     """
@@ -65,7 +65,9 @@ def gains(model: Model, p: Array, name: str) -> Array:
     return np.asarray(g / np.mean(g))
 
 
-def parameter_values(columns: Sequence[Column], values: Array, covariance: Array) -> list[ParameterValue]:
+def list_parameter_values(
+    columns: Sequence[Column], values: Array, covariance: Array
+) -> list[ParameterValue]:
     """Fitted parameters (in scales) in their display units."""
     found = []
     for k, c in enumerate(columns):
@@ -88,7 +90,9 @@ def own_name(c: Column) -> str:
     return c.name.split(".", 1)[1] if c.effect else c.name
 
 
-def patterns(columns: Sequence[Column], weight: Array, layout: Layout = PAPER) -> Iterator[tuple[str, Array]]:
+def list_patterns(
+    columns: Sequence[Column], weight: Array, layout: Layout = PAPER
+) -> Iterator[tuple[str, Array]]:
     """Name and (n,) weights of the combinations of a parameter's n columns, in its display unit; ``weight``: its :func:`gains`.
 
     Of another layout than the paper's: signs times cos and sin of n times the angle on the disc, named by their harmonic.
@@ -135,7 +139,7 @@ def find_combinations(
         each = [columns[k] for k in at]
         known = alone[at] if np.all(alone[at] < SEEN) else np.ones(len(at))
         factor = np.array([c.scale / c.unit_factor for c in each])
-        for label, shares in patterns(each, gains(model, p, name), model.layout):
+        for label, shares in list_patterns(each, weigh_accelerometers(model, p, name), model.layout):
             w = np.zeros(len(columns))
             w[at] = shares * factor
             if std(w) < SEEN * float(np.linalg.norm(w[at] * known)):
@@ -172,7 +176,7 @@ class Estimates:
 
     def list_parameters(self) -> tuple[ParameterValue, ...]:
         """Each in its display unit."""
-        return tuple(parameter_values(self.columns, self.values, self.covariance))
+        return tuple(list_parameter_values(self.columns, self.values, self.covariance))
 
     def list_combinations(self) -> tuple[ParameterValue, ...]:
         """What the record sees of the accelerometers' values together (:func:`find_combinations`)."""
@@ -193,7 +197,7 @@ class Estimates:
         )
 
 
-def physical_columns(f: Fitted) -> list[tuple[int, Column, DerivedParameter]]:
+def list_physical_columns(f: Fitted) -> list[tuple[int, Column, DerivedParameter]]:
     """The fitted columns of effects whose parameter has one physical size, each with its place and that parameter."""
     sizes = {f"{e.id}.{q.name}": q for e in f.model.effects for q in e.parameters if q.physical is not None}
     return [(n, c, sizes[c.name]) for n, c in enumerate(f.calibration.columns) if c.name in sizes]

@@ -13,11 +13,11 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import HELD_OUT_BLOCKS, Fitted
-from ragg_runtime.estimation.least_squares import join, r_factor
+from ragg_runtime.estimation.least_squares import compute_r_factor, join
 from ragg_runtime.estimation.observation import BLOCKS, ROWS, combine_output
-from ragg_runtime.estimation.whitening import Piece, PreparedFlight, flight_segments
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight, divide_flight
 from ragg_runtime.identification import omnibus
-from ragg_runtime.identification.dictionary import Term, harmonics
+from ragg_runtime.identification.dictionary import Term, list_harmonics
 from ragg_runtime.identification.omnibus import Scores
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import Field, make_field
@@ -59,7 +59,7 @@ def pass_unwhitened(f: Fitted) -> Unwhitened:
         parts = []
         for b, rows in piece.segment.blocks:
             here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
-            parts.append((b, r_factor(e[:, here]), int(np.sum(r.valid[here]))))
+            parts.append((b, compute_r_factor(e[:, here]), int(np.sum(r.valid[here]))))
         return parts
 
     for x in f.prepared:
@@ -139,7 +139,7 @@ def compute_signature(f: Fitted, flight: int, v: Array, rows: slice | None = Non
     x = f.prepared[flight]
     wanted = rows or slice(0, len(x.observation.record.time))
     chosen = [
-        s for s in flight_segments(x.observation) if s.rows.start < wanted.stop and s.rows.stop > wanted.start
+        s for s in divide_flight(x.observation) if s.rows.start < wanted.stop and s.rows.stop > wanted.start
     ]
     both = np.stack([v, np.zeros_like(v)])
 
@@ -172,7 +172,7 @@ def score_terms(
     prepared: PreparedFlight, r_factors: Sequence[Array], n_base: int, given: Sequence[int] = ()
 ) -> Heat:
     """The scores of all terms once base and ``given`` candidate columns are projected out, in one pass."""
-    prepared, projector, _ = whitening.projector(r_factors, n_base, given).lean(prepared)
+    prepared, projector, _ = whitening.make_projector(r_factors, n_base, given).lean(prepared)
     scores = Scores(prepared, projector)
     scores.collect(lambda piece, y: None)
     return _tabulate_scores(scores)
@@ -181,7 +181,7 @@ def score_terms(
 def _tabulate_scores(s: Scores) -> Heat:
     norm = np.where(np.isfinite(s.norms), s.norms, np.nan)
     terms = s.dictionary.terms
-    rows = harmonics()
+    rows = list_harmonics()
     columns = tuple(dict.fromkeys(t.product for t in terms if t.harmonic in rows))
     z, coefficient = (np.full((len(rows), len(columns)), np.nan) for _ in range(2))
     row, column = ({name: k for k, name in enumerate(names)} for names in (rows, columns))

@@ -15,7 +15,7 @@ from itertools import chain, combinations, compress
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.identification.likelihood_ratio import log_bayes, sub_blocks
+from ragg_runtime.identification.likelihood_ratio import list_sub_blocks, log_bayes
 from ragg_runtime.identification.selection import Field
 
 Array = NDArray[np.float64]
@@ -65,7 +65,7 @@ class Sets:
         for way, option in zip(holds, options, strict=True):
             way[:, effects.index(option)] = True
         logs = np.tile(self.logs - np.log(len(options)), len(options))
-        return Sets(effects, *_merged(holds.reshape(-1, len(effects)), logs))
+        return Sets(effects, *_merge_sets(holds.reshape(-1, len(effects)), logs))
 
     def probabilities(self) -> Probabilities:
         """The probability of each effect."""
@@ -94,12 +94,12 @@ def weigh_sets(f: Field) -> Sets:
     """All sets of up to :data:`LARGEST` of the field's effects, weighed."""
     norms = np.linalg.norm(f.P, axis=0)
     seen = norms > f.floor
-    blocks = [b for e in sorted(f.candidates) for b in _blocks(f, e, norms, seen)]
+    blocks = [b for e in sorted(f.candidates) for b in _list_blocks(f, e, norms, seen)]
     effects = tuple(dict.fromkeys(b.effect for b in blocks))
     odds = -np.log(max(1, len(effects) - 1))  # of presence, with probability 1/E
-    alone = _evidence(blocks, np.arange(len(blocks), dtype=np.intp)[:, None])
+    alone = _weigh_evidence(blocks, np.arange(len(blocks), dtype=np.intp)[:, None])
     # the longest block first: it costs nothing in a set, and all sets of one shape are worked on at once
-    best = sorted(_best(blocks, alone), key=lambda b: (-len(b.along), b.effect))
+    best = sorted(_choose_best(blocks, alone), key=lambda b: (-len(b.along), b.effect))
     place = np.array([effects.index(b.effect) for b in best], dtype=np.intp)
     every = [np.array([effects.index(b.effect) for b in blocks], dtype=np.intp)[:, None]]
     logs = [np.zeros(1), alone + odds]
@@ -107,16 +107,16 @@ def weigh_sets(f: Field) -> Sets:
         flat = chain.from_iterable(combinations(range(len(best)), size))
         sets = np.fromiter(flat, dtype=np.intp).reshape(-1, size)
         every.append(place[sets])
-        logs.append(_evidence(best, sets) + size * odds)
+        logs.append(_weigh_evidence(best, sets) + size * odds)
     holds = np.zeros((sum(map(len, logs)), len(effects)), dtype=bool)
     first = 1  # the empty set
     for sets in every:
         holds[np.arange(first, first + len(sets))[:, None], sets] = True
         first += len(sets)
-    return Sets(effects, *_merged(holds, np.concatenate(logs)))
+    return Sets(effects, *_merge_sets(holds, np.concatenate(logs)))
 
 
-def _merged(holds: NDArray[np.bool_], logs: Array) -> tuple[NDArray[np.bool_], Array]:
+def _merge_sets(holds: NDArray[np.bool_], logs: Array) -> tuple[NDArray[np.bool_], Array]:
     """Each set once, with the sum of its weights; in an order that depends on nothing but the sets."""
     bits = np.packbits(holds, axis=1)
     # a key that is the same for all: without effects there is no other
@@ -126,10 +126,10 @@ def _merged(holds: NDArray[np.bool_], logs: Array) -> tuple[NDArray[np.bool_], A
     return holds[order[new]], np.logaddexp.reduceat(logs[order], np.flatnonzero(new))
 
 
-def _blocks(f: Field, effect: str, norms: Array, seen: NDArray[np.bool_]) -> list[_Subspace]:
+def _list_blocks(f: Field, effect: str, norms: Array, seen: NDArray[np.bool_]) -> list[_Subspace]:
     """The ways in which an effect may be present; of columns (of these norms) those that the record has ``seen``."""
     made = []
-    for places, count in sub_blocks(f.candidates[effect]):
+    for places, count in list_sub_blocks(f.candidates[effect]):
         usable = [k for k in places if seen[k]]
         if not usable:
             continue
@@ -143,7 +143,7 @@ def _blocks(f: Field, effect: str, norms: Array, seen: NDArray[np.bool_]) -> lis
     return made
 
 
-def _best(blocks: Sequence[_Subspace], alone: Array) -> list[_Subspace]:
+def _choose_best(blocks: Sequence[_Subspace], alone: Array) -> list[_Subspace]:
     """The most probable form of each effect, which represents it in larger sets (with its weight)."""
     chosen: dict[str, tuple[float, _Subspace]] = {}
     for b, value in zip(blocks, alone, strict=True):
@@ -152,7 +152,7 @@ def _best(blocks: Sequence[_Subspace], alone: Array) -> list[_Subspace]:
     return [b for _, b in chosen.values()]
 
 
-def _evidence(blocks: Sequence[_Subspace], sets: NDArray[np.intp]) -> Array:
+def _weigh_evidence(blocks: Sequence[_Subspace], sets: NDArray[np.intp]) -> Array:
     """log B (n,) of sets (n, size) of blocks against the empty set, g averaged and the blocks' weights in."""
     if not len(sets):
         return np.empty(0)
@@ -173,12 +173,12 @@ def _evidence(blocks: Sequence[_Subspace], sets: NDArray[np.intp]) -> Array:
             rest = np.concatenate(further)
             shared = inner[at[:, None], rest]
             G = inner[rest[:, None], rest] - np.einsum("aks,als->kls", shared, shared)
-            chi2[members] += _explained(G, y[rest] - np.einsum("aks,as->ks", shared, y[at]))
+            chi2[members] += _eliminate(G, y[rest] - np.einsum("aks,as->ks", shared, y[at]))
     weight = np.sum(np.array([b.weight for b in blocks])[sets], axis=1)
     return np.asarray(log_bayes(chi2, freedom) + weight)
 
 
-def _explained(G: Array, y: Array) -> Array:
+def _eliminate(G: Array, y: Array) -> Array:
     """y' G^-1 y (sets,) of inner products (k, k, sets) and (k, sets), by elimination in all sets at once; both are overwritten."""
     chi2 = np.zeros(y.shape[1])
     for j in range(len(y)):

@@ -35,7 +35,7 @@ def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
         little = [r for r, (_, f) in zip(noted, flags, strict=True) if f.kind == "still"]
         return replace(d, reasons=(*little, *d.reasons)) if little else d
     if any(f.kind == "motion-noise" for _, f in flags):
-        d = _without_random(d)
+        d = _drop_random(d)
     odd = [f for _, f in flags if f.open]
     if not odd or (d.found and all(set(d.found) <= set(f.effects) for f in odd)):
         return replace(d, reasons=(*noted, *d.reasons))
@@ -48,7 +48,7 @@ def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
     return replace(d, verdict="unexplained", found=(), groups=(), reasons=reasons)
 
 
-def _without_random(d: Diagnosis) -> Diagnosis:
+def _drop_random(d: Diagnosis) -> Diagnosis:
     """The diagnosis without random effects."""
     kinds = {e.id: e.kind for e in d.target.model.candidates}
     kept = tuple(e for e in d.found if kinds.get(e) != "random")

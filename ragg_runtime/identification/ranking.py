@@ -100,7 +100,7 @@ def rank_effects(
     only: Sequence[str] | None = None,
 ) -> tuple[list[Ranked], Error]:
     """Every testable effect, or ``only`` some, with the evidence for it alone, and the error without any."""
-    alternatives = selection.alternatives(field, choice)
+    alternatives = selection.find_alternatives(field, choice)
     asked = choice.tests if only is None else {e: t for e, t in choice.tests.items() if e in only}
     tested = [(e, t, field.testable(e)) for e, t in asked.items() if t.rank]
     fits = [f.coefficients(extra) for _, _, extra in tested]
@@ -142,12 +142,12 @@ def rank_stages(
     the rest against the model as it was.
     """
     free = release_held(target)
-    found = [_ranked_taken(t, free) for t in steps] + list(chosen)
+    found = [_rank_added(t, free) for t in steps] + list(chosen)
     names = {r.effect for r in found}
     return [*found, *(r for r in others if r.effect not in names)]
 
 
-def _ranked_taken(t: AddedEffect, free: Fitted) -> Ranked:
+def _rank_added(t: AddedEffect, free: Fitted) -> Ranked:
     """The row of an effect that was derived into the model; ``free``: the flights with all of them, and all their coefficients."""
     (before,) = t.before.score([np.zeros(t.before.size)])
     after, held_out = t.after.score([np.zeros(t.after.size), t.after.fit_held_out()])
@@ -181,7 +181,7 @@ def list_not_testable(f: Fitted, field: Field) -> list[NotTestable]:
                 NotTestable(e.id, f"it can look like many other effects: add it by name, ragg add ... {e.id}")
             )
         elif e.id in field.candidates and not field.testable(e.id):
-            found.append(NotTestable(e.id, _absorbed(f, field, e)))
+            found.append(NotTestable(e.id, _describe_absorption(f, field, e)))
         elif e.kind == "deterministic" and (why := sheet.describe_doubt(f, e.id)):
             found.append(NotTestable(e.id, why))
     return found
@@ -191,7 +191,7 @@ WEAK = 0.5
 """Share of a signature that the calibration leaves of one that is too weak, and not absorbed."""
 
 
-def _absorbed(f: Fitted, field: Field, e: DerivedEffect) -> str:
+def _describe_absorption(f: Fitted, field: Field, e: DerivedEffect) -> str:
     """In words: which parameters of the model absorb an effect, or that it is too weak to be seen."""
     columns = [n for n, _ in field.candidates[e.id]]
     n = f.n_base

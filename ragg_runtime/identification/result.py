@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.calibration import OffSheet
-from ragg_runtime.estimation.fitted import Fitted, Scored, noise_floor
+from ragg_runtime.estimation.fitted import Fitted, Scored, measure_noise_floor
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.identification import dictionary, series
 from ragg_runtime.identification.comparison import Explained
 from ragg_runtime.identification.dictionary import Term
-from ragg_runtime.identification.features import channel_unit
+from ragg_runtime.identification.features import find_channel_unit
 from ragg_runtime.identification.line_rival import Steady
 from ragg_runtime.identification.next_motion import Proposal
 from ragg_runtime.identification.omnibus import Remainder, ResidualTerm, list_terms
@@ -95,7 +95,7 @@ class Diagnosis:
     @cached_property
     def noise_floor(self) -> float:
         """rms of the noise before demodulation, Eo."""
-        return noise_floor(self.noise)
+        return measure_noise_floor(self.noise)
 
     @property
     def after(self) -> Error:
@@ -136,7 +136,7 @@ class Diagnosis:
         steady = [t for s in self.remainder.searches for t in s.terms if t.kind == "steady"]
         for t in sorted(steady, key=lambda t: -abs(t.z)):
             term = t.term.felt
-            units = [u for c in term.channels if (u := channel_unit(c)) != "1"]
+            units = [u for c in term.channels if (u := find_channel_unit(c)) != "1"]
             line = dictionary.write_effect(term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
             if line is not None:
                 return term, line

@@ -21,7 +21,7 @@ from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.strong import AddedEffect, Stage
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
@@ -46,7 +46,7 @@ class Outcome:
     def of(f: Fitted, effects: Sequence[str], given: Sequence[int]) -> Outcome:
         v = f.vector(f.coefficients(given)[0], given) if given else np.zeros(f.size)
         (scored,) = f.score([v])
-        rem, random = omnibus.search(f, given, _random_columns(f))
+        rem, random = omnibus.search(f, given, _find_random_columns(f))
         return Outcome(
             effects=tuple(effects),
             target=f,
@@ -63,7 +63,7 @@ class Outcome:
 
     @cached_property
     def noise_floor(self) -> float:
-        return fitted_.noise_floor(self.target)
+        return fitted_.measure_noise_floor(self.target)
 
     @cached_property
     def explained(self) -> Explained:
@@ -155,7 +155,7 @@ class Evidence:
         """For every chosen effect those that would explain as much in its place."""
         if self.steps:
             return {t.effect: t.alternatives for t in self.steps}
-        return selection.alternatives(self.first.field, self.first.choice)
+        return selection.find_alternatives(self.first.field, self.first.choice)
 
     def without(self, o: Outcome, effect: str) -> Outcome:
         """An outcome without one of its effects, fitted again."""
@@ -164,7 +164,7 @@ class Evidence:
         if not kept:
             return Outcome.of(first.fitted, (), ())
         if not self._is_derived(o):
-            return Outcome.of(last.fitted, kept, _given(last, kept))
+            return Outcome.of(last.fitted, kept, _list_given(last, kept))
         return Outcome.of(fit(*self._model_with(kept), first.fitted.observations), kept, ())
 
     def gain(self, o: Outcome, effect: str) -> float:
@@ -178,7 +178,8 @@ class Evidence:
         instrument = replace(instrument, widths=f.instrument.widths)
         without = calibrate(model, instrument, f.observations, noise=f.calibration.noise)
         less, more = (
-            c.chi2 + calibration.prior_volume(i, c) for i, c in ((f.instrument, f.calibration), without)
+            c.chi2 + calibration.charge_wider_priors(i, c)
+            for i, c in ((f.instrument, f.calibration), without)
         )
         return more - less
 
@@ -191,18 +192,18 @@ class Evidence:
         if not kept or self.extend is None:
             return first.model, first.instrument
         instants = dict(last.instants) | {t.effect: t.instant for t in self.steps if t.instant is not None}
-        held = last.fitted.instrument.held | _held(last, [e for e in kept if e in last.choice.blocks])
+        held = last.fitted.instrument.held | _list_held(last, [e for e in kept if e in last.choice.blocks])
         return contenders.derive_with(first, kept, instants, self.extend, held=held)
 
 
-def _held(last: Stage, chosen: Sequence[str]) -> frozenset[str]:
+def _list_held(last: Stage, chosen: Sequence[str]) -> frozenset[str]:
     """Coefficients of the chosen effects that their tests do not need: free, those that a record does not determine would wander."""
     return frozenset[str]().union(
         *(strong.list_unneeded(last.field, e, last.choice.blocks[e]) for e in chosen)
     )
 
 
-def _given(last: Stage, chosen: Sequence[str]) -> list[int]:
+def _list_given(last: Stage, chosen: Sequence[str]) -> list[int]:
     """The candidate columns that the tests of the chosen effects need."""
     return [n for e in chosen for n in last.choice.blocks[e]]
 
@@ -219,43 +220,43 @@ def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
 def confirm_choice(steps: Sequence[AddedEffect], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:
     """The chosen effects fitted in the model; and the last stage without those that then have an impossible size."""
     f = last.fitted
-    final = _derived(last, extend)
+    final = _derive_chosen(last, extend)
     while final is not None and (wrong := strong.find_impossible(final, last.choice.chosen)):
         kept = {e: c for e, c in last.field.candidates.items() if e not in wrong}
         field = replace(last.field, candidates=kept)
         last = replace(last, field=field, choice=selection.choose(field))
-        final = _derived(last, extend)
+        final = _derive_chosen(last, extend)
     chosen = [*(t.effect for t in steps), *last.choice.chosen]
-    given = _given(last, last.choice.chosen)
+    given = _list_given(last, last.choice.chosen)
     return last, Outcome.of(f, chosen, given) if final is None else Outcome.of(final, chosen, ())
 
 
-def _derived(last: Stage, extend: Extend | None) -> Fitted | None:
+def _derive_chosen(last: Stage, extend: Extend | None) -> Fitted | None:
     """The chosen effects derived into the model and everything fitted again, if that can be done."""
     f, chosen = last.fitted, last.choice.chosen
     steps = {e.id for e in f.model.candidates if e.kind == "step"}
     if not chosen or extend is None or (steps & set(chosen)):
         return None
     extended = extend(f.model, chosen)
-    instrument = replace(f.instrument, held=f.instrument.held | _held(last, chosen))
-    start = _linear(f, _given(last, chosen), extended, instrument)
+    instrument = replace(f.instrument, held=f.instrument.held | _list_held(last, chosen))
+    start = _start_from_linear_fit(f, _list_given(last, chosen), extended, instrument)
     return fit(extended, instrument, f.observations, f.calibration.noise, start)
 
 
-def _linear(f: Fitted, given: Sequence[int], extended: Model, instrument: Instrument) -> Array:
+def _start_from_linear_fit(f: Fitted, given: Sequence[int], extended: Model, instrument: Instrument) -> Array:
     """Parameter vector of the extended model as the linear fit has it, SI."""
     own = [f.candidates[n] for n in given]
     fitted, _ = f.coefficients(given)
     columns = (*f.calibration.columns, *own)
     before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
     value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
-    p = vector(extended, f.instrument)
+    p = make_vector(extended, f.instrument)
     for c, place in design.list_base_columns(extended, instrument):
         p[place] = value.get(c.label, p[place])  # what but shapes the others has no linear fit
     return p
 
 
-def _random_columns(f: Fitted) -> dict[str, int]:
+def _find_random_columns(f: Fitted) -> dict[str, int]:
     """The place of every random effect's column."""
     if any(o.recorded.demodulated for o in f.observations):
         return {}  # neighbouring samples of a demodulated channel are not independent

@@ -123,7 +123,7 @@ class Field:
     def _tempered(self, t: Test, beside: uneven.ProjectedBlocks, floor: Array) -> Test:
         """A test as sure as the scores in blocks of time are."""
         tested = [self.n_base + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
-        return uneven.temper_test(t, uneven.inflation(beside, tested), self.freedom, len(self.blocks))
+        return uneven.temper_test(t, uneven.measure_inflation(beside, tested), self.freedom, len(self.blocks))
 
     @cached_property
     def count(self) -> int:
@@ -132,10 +132,10 @@ class Field:
 
     @cached_property
     def effective_count(self) -> float:
-        """Number of independent tests that err as often as these, which are alike (:func:`likelihood_ratio.effective_number`)."""
-        every = [likelihood_ratio.sub_blocks(c) for c in self.candidates.values()]
-        ways = [likelihood_ratio.directions(self.P, own, self.floor) for own in every]
-        return likelihood_ratio.effective_number([w for w in ways if w], FAMILY)
+        """Number of independent tests that err as often as these, which are alike (:func:`likelihood_ratio.estimate_effective_number`)."""
+        every = [likelihood_ratio.list_sub_blocks(c) for c in self.candidates.values()]
+        ways = [likelihood_ratio.find_directions(self.P, own, self.floor) for own in every]
+        return likelihood_ratio.estimate_effective_number([w for w in ways if w], FAMILY)
 
     def significant(self, t: Test, family: float = FAMILY) -> bool:
         """Whether the test of an effect is significant over the family."""
@@ -179,13 +179,13 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
     while len(chosen) < MOST and frozenset(chosen) not in seen:
         seen.add(frozenset(chosen))
         level = FURTHER if chosen or beside else FAMILY
-        best = _best({e: t for e, t in remaining.items() if f.significant(t, level)})
+        best = _find_best({e: t for e, t in remaining.items() if f.significant(t, level)})
         if best is None:
             break
         before = blocks
         blocks = blocks | {best: remaining[best].which}
         blocks = _swap(f, [*chosen, best], blocks) if chosen else blocks
-        if not set(chosen) <= set(blocks) and _evidence(f, blocks) <= _evidence(f, before):
+        if not set(chosen) <= set(blocks) and _weigh_blocks(f, blocks) <= _weigh_blocks(f, before):
             blocks = before  # one that holds another as a special case, and is none the better for it
             break
         chosen = list(blocks)
@@ -194,7 +194,7 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
     return Choice(chosen=tuple(chosen), blocks=blocks, tests=first, conditional=remaining, chi2=chi2)
 
 
-def _best(tests: Mapping[str, Test]) -> str | None:
+def _find_best(tests: Mapping[str, Test]) -> str | None:
     """The effect of the greatest evidence."""
     return min(tests, key=lambda e: (-tests[e].log_b, e), default=None)
 
@@ -204,19 +204,19 @@ def _swap(f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]]) -> di
     for old in tuple(chosen):
         others = [e for e in chosen if e != old]
         conditional = f.tests(others)
-        best = _best({e: t for e, t in conditional.items() if f.significant(t)})
+        best = _find_best({e: t for e, t in conditional.items() if f.significant(t)})
         if best is not None and conditional[best].log_b > conditional[old].log_b + SWAPPED:
             chosen = [*others, best]
             blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
     return blocks
 
 
-def evidence(f: Field, choice: Choice) -> float:
+def weigh_choice(f: Field, choice: Choice) -> float:
     """Log evidence of what is chosen against nothing, charged for the choice of the effects and of their columns."""
-    return _evidence(f, choice.blocks) - sum(choice.tests[e].charge for e in choice.chosen)
+    return _weigh_blocks(f, choice.blocks) - sum(choice.tests[e].charge for e in choice.chosen)
 
 
-def _evidence(f: Field, blocks: Mapping[str, tuple[int, ...]]) -> float:
+def _weigh_blocks(f: Field, blocks: Mapping[str, tuple[int, ...]]) -> float:
     """Log evidence of effects together, each with these columns, charged for their choice."""
     chi2, rank = f.joint(list(blocks.values()))
     return float(log_bayes(chi2, rank)) - len(blocks) * float(np.log(max(f.count, 1)))
@@ -231,7 +231,7 @@ def are_alike(a: Test, b: Test) -> bool:
     return (a.chi2 - b.chi2 < INDISTINGUISHABLE and ahead < AS_SURE) or ahead < DISTINGUISHABLE
 
 
-def alternatives(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
+def find_alternatives(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
     """For every chosen effect those that would explain as much in its place."""
     result = {}
     for e in choice.chosen:

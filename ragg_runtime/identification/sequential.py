@@ -18,7 +18,7 @@ from scipy.special import logsumexp
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.least_squares import add_prior, r_factor
+from ragg_runtime.estimation.least_squares import add_prior, compute_r_factor
 
 Array = NDArray[np.float64]
 
@@ -116,8 +116,8 @@ def _blocks(f: Fitted) -> Iterator[_TimeBlock]:
             free = max(0, samples - T.shape[1])
             level = float(np.sqrt((T[-1, -1] ** 2 + KNOWN) / (free + KNOWN)))
             own = np.column_stack([T[:n, :n], T[:n, -1]]) / level
-            z = _innovations(known, own)
-            known = r_factor(np.vstack([known, own]).T)
+            z = _compute_innovations(known, own)
+            known = compute_r_factor(np.vstack([known, own]).T)
             further = T[n:-1, -1][np.diag(T)[n:-1] != 0.0] / level
             yield _TimeBlock(
                 flight=x.observation.name,
@@ -128,7 +128,7 @@ def _blocks(f: Fitted) -> Iterator[_TimeBlock]:
             )
 
 
-def _innovations(known: Array, own: Array) -> Array:
+def _compute_innovations(known: Array, own: Array) -> Array:
     """(n,): what a block's rotated data differ by from what is known, standardised by both uncertainties."""
     n = own.shape[1] - 1
     S = known[:n, :n]

@@ -45,7 +45,7 @@ class SeriesEnvelope:
     rms: Array
 
 
-def envelope(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POINTS) -> SeriesEnvelope:
+def decimate(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POINTS) -> SeriesEnvelope:
     """Decimate (N,) samples to at most ``points`` columns of ``LEAST`` samples or more, without losing an extreme."""
     edges = np.unique(np.linspace(0, len(x), min(points, max(1, len(x) // LEAST)) + 1).astype(np.intp))
     starts = edges[:-1]
@@ -73,7 +73,9 @@ class AmplitudeSpectrum:
     density: Array
 
 
-def spectrum(x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260) -> AmplitudeSpectrum | None:
+def estimate_spectrum(
+    x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260
+) -> AmplitudeSpectrum | None:
     """Welch spectrum over the valid segments of 32 samples and more, averaged to ``points`` steps of log frequency, or ``None``."""
     from scipy import signal  # half a second to import, which a command that draws nothing need not wait for
 
@@ -89,7 +91,7 @@ def spectrum(x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260)
         total += p * (r.stop - r.start)
     psd = total / sum(r.stop - r.start for r in used)
     # The lowest bin is what is left of the mean.
-    return _binned(f[2:], psd[2:], points)
+    return _bin_frequencies(f[2:], psd[2:], points)
 
 
 def pass_band(x: Array, rate: float, low: float, high: float) -> Array:
@@ -98,7 +100,7 @@ def pass_band(x: Array, rate: float, low: float, high: float) -> Array:
     return np.asarray(np.fft.irfft(np.where((f >= low) & (f <= high), np.fft.rfft(x), 0.0), len(x)))
 
 
-def _binned(f: Array, psd: Array, points: int) -> AmplitudeSpectrum:
+def _bin_frequencies(f: Array, psd: Array, points: int) -> AmplitudeSpectrum:
     edges = np.geomspace(f[0] * 0.999, f[-1] * 1.001, points + 1)
     which = np.digitize(f, edges)
     bins = np.unique(which)
@@ -106,7 +108,7 @@ def _binned(f: Array, psd: Array, points: int) -> AmplitudeSpectrum:
     return AmplitudeSpectrum(mean[:, 0], np.sqrt(mean[:, 1]))
 
 
-def noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Array:
+def compute_noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Array:
     """Density of the estimated noise of what was observed as G_out, Eo/sqrt(Hz)."""
     return np.asarray(np.sqrt(_noise_psd(w, spin, f)) / k_ggi)
 
@@ -121,12 +123,12 @@ def _noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
     return np.asarray(psd * np.abs(H) ** 2)
 
 
-def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
+def compute_noise_rms(w: PreparedFlight, k_ggi: float) -> float:
     """rms of the estimated noise of what was observed as G_out, Eo."""
     return float(np.sqrt(estimate_variance(w))) / abs(k_ggi)
 
 
-def demodulated_noise(w: PreparedFlight, k_ggi: float, multiple: int, amplitude: float) -> float:
+def predict_demodulated_noise(w: PreparedFlight, k_ggi: float, multiple: int, amplitude: float) -> float:
     """Standard deviation, Eo, of LP(amplitude cos(2 pi multiple spin t) noise)."""
     r = w.observation.record
     spin, slowest = abs(r.spin_frequency), r.rate / len(r.time)  # what is slower is not in the record
@@ -139,12 +141,12 @@ def demodulated_noise(w: PreparedFlight, k_ggi: float, multiple: int, amplitude:
     return amplitude * float(np.sqrt(share * power)) / k_ggi
 
 
-def channel_noise(f: Fitted) -> tuple[float, float]:
+def predict_channel_noise(f: Fitted) -> tuple[float, float]:
     """Standard deviation of (inline, cross) that the noise alone would give, Eo; NaN if the low-pass is too long."""
     values = [
-        [demodulated_noise(w, k, 2, a) for a in (4.0, 2.0)]
+        [predict_demodulated_noise(w, k, 2, a) for a in (4.0, 2.0)]
         for w, k in zip(f.prepared, f.scales, strict=True)
-        if w.observation.record.turning and _long(w)
+        if w.observation.record.turning and _is_long(w)
     ]
     if not values:
         return float("nan"), float("nan")
@@ -154,27 +156,27 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
 
 def list_noise_floor(f: Fitted, rms_Eo: float) -> dict[str, float | None]:
     """The noise floor as JSON: before demodulation (Eo), and what the noise alone would give in the channels."""
-    inline, cross = channel_noise(f)
+    inline, cross = predict_channel_noise(f)
     return {"rms_Eo": rms_Eo, "inline_Eo": finite(inline), "cross_Eo": finite(cross)}
 
 
-def harmonic_noise(f: Fitted, harmonics: Iterable[str]) -> dict[str, float]:
+def predict_harmonic_noise(f: Fitted, harmonics: Iterable[str]) -> dict[str, float]:
     """The same at harmonics of the spin (const, cos 1 ...), Eo."""
-    works = [(w, s) for w, s in zip(f.prepared, f.scales, strict=True) if _long(w)]
+    works = [(w, s) for w, s in zip(f.prepared, f.scales, strict=True) if _is_long(w)]
     found = {}
     for h in harmonics:
         k = series_name.harmonic(h).multiple
-        squares = [demodulated_noise(w, s, k, 2.0 if k else 1.0) ** 2 for w, s in works]
+        squares = [predict_demodulated_noise(w, s, k, 2.0 if k else 1.0) ** 2 for w, s in works]
         found[h] = float(np.sqrt(np.mean(squares))) if squares else float("nan")
     return found
 
 
-def _long(w: PreparedFlight) -> bool:
+def _is_long(w: PreparedFlight) -> bool:
     r = w.observation.record
     return len(r.time) >= 2 * len(low_pass(r.rate))
 
 
-def blocks(w: PreparedFlight, residual: Array, k_ggi: float) -> tuple[Array, Array]:
+def measure_blocks(w: PreparedFlight, residual: Array, k_ggi: float) -> tuple[Array, Array]:
     """Edges (BLOCKS + 1,) s and rms (BLOCKS,) Eo of a residual in the blocks of time (NaN: no valid sample)."""
     r = w.observation.record
     edges = r.time[np.minimum(w.edges, len(r.time) - 1)]
@@ -192,5 +194,5 @@ def find_worst(f: Fitted, residuals: Sequence[Array], most: int) -> list[int]:
     ratio = []
     for w, e in zip(f.prepared, residuals, strict=True):
         v = w.observation.record.valid
-        ratio.append(float(np.sqrt(np.mean(e[v] ** 2))) / noise_rms(w, 1.0))
+        ratio.append(float(np.sqrt(np.mean(e[v] ** 2))) / compute_noise_rms(w, 1.0))
     return sorted(sorted(range(len(ratio)), key=lambda n: -ratio[n])[:most])

@@ -125,7 +125,7 @@ def estimate_gradient(f: Fitted, n: int) -> Seen:
     return Seen(o.place, r.time[there], g[there].real, g[there].imag, inline_std=2 * cross, cross_std=cross)
 
 
-def errors(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:
+def list_errors_of_outputs(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:
     """The error object of every output of every flight."""
     return [
         {"observation": o.name, "output": o.output.name, **measure_error(e, o.record, k).as_json()}

@@ -29,16 +29,16 @@ def describe_doubt(f: Fitted, effect: str) -> str | None:
     P = likelihood_ratio.project(f.whole, f.n_base)
     known = float(np.linalg.norm(P[:, own]))
     for name in e.told_from:
-        if float(np.linalg.norm(_freed(f, name, own)[:, :-1])) < MOST * known:
+        if float(np.linalg.norm(_project_freed(f, name, own)[:, :-1])) < MOST * known:
             return f"degenerate with {name}: only the prior of {name} separates them"
     if e.common_of is not None:
-        by_each = float(np.sum(P[:, -1] ** 2) - np.sum(_freed(f, e.common_of, own)[:, -1] ** 2))
+        by_each = float(np.sum(P[:, -1] ** 2) - np.sum(_project_freed(f, e.common_of, own)[:, -1] ** 2))
         by_all, _ = likelihood_ratio.measure_explained(P, own, np.zeros(P.shape[1]))
         if by_all < MOST * by_each:
             return f"the errors of {e.common_of} in this record are not common to all accelerometers"
     return None
 
 
-def _freed(f: Fitted, name: str, own: list[int]) -> Array:
+def _project_freed(f: Fitted, name: str, own: list[int]) -> Array:
     """Columns and residual once a base without the prior of that parameter is projected out."""
     return likelihood_ratio.project(f.freed(name, own), f.n_base)

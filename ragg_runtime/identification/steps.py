@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.least_squares import fold, join, pick_columns, r_factor
-from ragg_runtime.estimation.least_squares import prior as prior_rows
+from ragg_runtime.estimation.least_squares import compute_r_factor, fold, join, pick_columns
+from ragg_runtime.estimation.least_squares import make_prior as prior_rows
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS, ROWS
 from ragg_runtime.estimation.regressors import Column, group_by_effect
@@ -66,7 +66,7 @@ def add_steps(
         refined = {e: _refine(f, likeliest[e], columns[e]) for e in found}
         known = {**known, **{e: _sharpen(f, step, columns[e]) for e, step in refined.items()}}
         return add_steps(_estimate_again(f, known), known)
-    instants = _instants(f, {**known, **likeliest})
+    instants = _list_instants(f, {**known, **likeliest})
     return field, replace(begun, prepared=tuple(x.with_steps(instants) for x in f.prepared)), instants
 
 
@@ -76,7 +76,7 @@ def _make_field(f: Fitted, effects: Sequence[str]) -> Field:
     return replace(make_field(f, effects), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
 
 
-def _instants(f: Fitted, steps: Mapping[str, Step]) -> dict[str, float]:
+def _list_instants(f: Fitted, steps: Mapping[str, Step]) -> dict[str, float]:
     """By effect, s."""
     time = f.observations[0].record.time
     return {e: float(time[s.sample]) for e, s in steps.items()}
@@ -84,8 +84,8 @@ def _instants(f: Fitted, steps: Mapping[str, Step]) -> dict[str, float]:
 
 def _begin_at(f: Fitted, steps: Mapping[str, Step]) -> Fitted:
     """The fit with the columns of steps from these samples on, made anew and put through the filter."""
-    prepared = tuple(x.with_steps(_instants(f, steps)) for x in f.prepared)
-    r_factors, sums = zip(*(whitening.blocks(x) for x in prepared), strict=True)
+    prepared = tuple(x.with_steps(_list_instants(f, steps)) for x in f.prepared)
+    r_factors, sums = zip(*(whitening.factor_blocks(x) for x in prepared), strict=True)
     return replace(f, prepared=prepared, r_factors=r_factors, sums=sums)
 
 
@@ -104,7 +104,7 @@ def _zero_before(f: Fitted, steps: Mapping[str, Step], columns: Columns) -> Fitt
 
 def _estimate_again(f: Fitted, steps: Mapping[str, Step]) -> Fitted:
     """The fit by the noise that is left beside the columns of steps."""
-    instants = _instants(f, steps)
+    instants = _list_instants(f, steps)
     noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
     return fit(f.model, f.instrument, f.observations, noise, f.calibration.p)
 
@@ -172,7 +172,7 @@ def _refine(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> Ste
     moved = {"": [(len(given) + n, c) for n, (_, c) in enumerate(columns)]}
     flights = [x.lean(places) for x in f.prepared]
     while reach > 1:
-        low, high = _near(sample, reach, length)
+        low, high = _limit_search(sample, reach, length)
         edges = np.unique(np.linspace(low, high, FINE + 1).astype(np.intp))
         cuts = np.array([0, *edges, length])
         r_factors: list[Array | None] = [None] * (len(cuts) - 1)
@@ -180,7 +180,7 @@ def _refine(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> Ste
         def cut(piece: Piece, own: Sequence[int], cuts: NDArray[np.intp] = cuts) -> list[tuple[int, Array]]:
             X = piece.white[[*own, -1]]
             which = np.searchsorted(cuts, piece.sample, side="right") - 1
-            return [(int(k), r_factor(X[:, which == k])) for k in np.unique(which)]
+            return [(int(k), compute_r_factor(X[:, which == k])) for k in np.unique(which)]
 
         for x, own in flights:
             for parts in x.each(partial(cut, own=own)):
@@ -194,7 +194,7 @@ def _refine(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> Ste
     return replace(step, sample=sample)
 
 
-def _near(sample: int, reach: int, length: int) -> tuple[int, int]:
+def _limit_search(sample: int, reach: int, length: int) -> tuple[int, int]:
     """First and last sample about one at which a step may be: none in the first or last block of time."""
     block = max(1, length // BLOCKS)
     return max(block, sample - reach), min(length - block, sample + reach)
@@ -213,7 +213,7 @@ def _sharpen(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> St
     if length > ROWS:
         return step
     everything = [t for own in f.r_factors for t in own]
-    projector = whitening.projector(everything, f.n_base, step.given)
+    projector = whitening.make_projector(everything, f.n_base, step.given)
     places = [f.n_base + n for n, _ in columns]
     pieces = [p for x in f.prepared for p in x.each(lambda p: p)]
     bases = [projector.basis(p) for p in pieces]
@@ -222,7 +222,7 @@ def _sharpen(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> St
 
     def explained(at: int) -> float:
         X = np.concatenate(
-            [_begun(p, x, at, places) for p, x in zip(pieces, f.prepared, strict=True)], axis=1
+            [_begin_columns(p, x, at, places) for p, x in zip(pieces, f.prepared, strict=True)], axis=1
         )
         whole = np.linalg.norm(X, axis=1)
         X = X - (X @ Q) @ Q.T
@@ -234,11 +234,11 @@ def _sharpen(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> St
 
     sample, reach = step.sample, max(1, length // BLOCKS)
     # the filter of a noise that has the step in it makes a spike of its edge, which a coarse search passes by
-    low, high = _near(sample, POINTS, length)
+    low, high = _limit_search(sample, POINTS, length)
     known = {at: explained(at) for at in range(low, high + 1)}
     while True:
         spacing = max(1, reach // POINTS)
-        low, high = _near(sample, reach, length)
+        low, high = _limit_search(sample, reach, length)
         for at in range(low, high + 1, spacing):
             known.setdefault(at, explained(at))
         sample = max(known, key=lambda at: (known[at], -at))
@@ -247,7 +247,7 @@ def _sharpen(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> St
         reach = spacing
 
 
-def _begun(piece: Piece, prepared: PreparedFlight, at: int, places: Sequence[int]) -> Array:
+def _begin_columns(piece: Piece, prepared: PreparedFlight, at: int, places: Sequence[int]) -> Array:
     """(places, rows): columns of a whole flight from a sample on, whitened; those of other outputs' accelerometers are zero."""
     columns = piece.columns[list(places)]
     columns[:, :, :at] = 0.0

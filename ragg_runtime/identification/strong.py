@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from scipy.special import comb
 
 from ragg_runtime.estimation import calibration
-from ragg_runtime.estimation.calibration import QUIET, prior_volume, restore_priors
+from ragg_runtime.estimation.calibration import QUIET, charge_wider_priors, restore_priors
 from ragg_runtime.estimation.fitted import Fitted, fit, prepare_evidence, release_held
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.identification import contenders, selection
 from ragg_runtime.identification.contenders import Contest, Extend
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
-from ragg_runtime.identification.parameters import physical_columns
+from ragg_runtime.identification.parameters import list_physical_columns
 from ragg_runtime.identification.selection import Choice, Field
 from ragg_runtime.identification.steps import add_steps
 from ragg_runtime.instrument.instrument import Instrument
@@ -69,8 +69,8 @@ class Stage:
 
     def _deviance(self, f: Fitted) -> float:
         """Chi-square of the fit before this stage, with what wider priors cost, less twice the log evidence of what is chosen."""
-        evidence = selection.evidence(self.field, self.choice)
-        return f.calibration.chi2 + prior_volume(f.instrument, f.calibration) - 2.0 * evidence
+        evidence = selection.weigh_choice(self.field, self.choice)
+        return f.calibration.chi2 + charge_wider_priors(f.instrument, f.calibration) - 2.0 * evidence
 
     def without_choice(self) -> Stage:
         """The same, none of the effects being what is missing."""
@@ -130,7 +130,7 @@ def select_strong(first: Stage, extend: Extend | None, budget: Budget) -> tuple[
     found: list[AddedEffect] = []
     stage = first
     while extend is not None and stage.strong and len(found) < selection.MOST and not budget.spent:
-        one = _strongest(stage, extend, budget)
+        one = _add_strongest(stage, extend, budget)
         if one is None:
             return found, stage.without_choice()
         found.append(one)
@@ -143,7 +143,7 @@ def list_unneeded(field: Field, effect: str, which: Sequence[int]) -> frozenset[
     return frozenset(c.label for n, c in field.candidates[effect] if n not in which)
 
 
-def _strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect | None:
+def _add_strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect | None:
     """The effect that explains most once it is in the model, of those that are possible at the size that they then have.
 
     ``None`` where only an impossible one leaves but noise, or none of several comes to an optimum.
@@ -160,10 +160,10 @@ def _strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect | No
 
     contest = Contest(f, entered)
     while True:
-        effect, alternatives = _best(stage, tests, left)
+        effect, alternatives = _choose_best(stage, tests, left)
         if not contest.arrived:
             return None
-        found = _in_model(stage, effect, alternatives, extend)
+        found = _add_to_model(stage, effect, alternatives, extend)
         budget.left -= 1
         if len(tests) == 1 or budget.spent or not find_impossible(found.after, (effect,)):
             return found
@@ -182,7 +182,7 @@ ROOM = 0.1
 def find_impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
     """Those of the effects, all in the fitted model, whose parameter has a size that it cannot have."""
     calibration, found = f.calibration, []
-    for n, c, q in physical_columns(f):
+    for n, c, q in list_physical_columns(f):
         true = float(q.physical or 0.0) * c.unit_factor
         off = abs(float(calibration.p[calibration.index[n]]) - true)
         if off > CERTAIN * c.scale * np.sqrt(calibration.covariance[n, n]) + ROOM * abs(true):
@@ -190,19 +190,19 @@ def find_impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
     return tuple(e for e in dict.fromkeys(effects) if e in found)
 
 
-def _best(
+def _choose_best(
     stage: Stage, tests: Mapping[str, Test], score: Callable[[Sequence[str]], dict[str, float]]
 ) -> tuple[str, tuple[str, ...]]:
     """The effect that leaves least by its ``score``, that of the greatest linear evidence among equals, and those equals."""
     total = stage.field.chi2
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
-    near = sorted(near, key=lambda e: (-_evidence(tests[e], len(stage.field.candidates[e])), e))
+    near = sorted(near, key=lambda e: (-_weigh_evidence(tests[e], len(stage.field.candidates[e])), e))
     tried = near[:CONTENDERS]
     left = score(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
     best = min(tried, key=lambda e: (left[e], e))
     # effects with the same signature are all of its group, however many they are
-    alike = [e for e in near[CONTENDERS:] if _alike(tests[e], tests[best])]
+    alike = [e for e in near[CONTENDERS:] if _are_alike(tests[e], tests[best])]
     left |= score(alike) if alike else {}
     contains = stage.field.contains
     equal = [e for e in left if left[e] < left[best] + INDISTINGUISHABLE]
@@ -214,12 +214,12 @@ def _best(
     return effect, tuple(e for e in others if effect not in contains.get(e, ()))
 
 
-def _evidence(t: Test, columns: int) -> float:
+def _weigh_evidence(t: Test, columns: int) -> float:
     """Log evidence of an effect, charged for the choice of the coefficients that it needs from all that it has."""
     return float(log_bayes(t.chi2, t.rank)) - float(np.log(comb(columns, min(t.rank, columns))))
 
 
-def _in_model(stage: Stage, effect: str, alternatives: tuple[str, ...], extend: Extend) -> AddedEffect:
+def _add_to_model(stage: Stage, effect: str, alternatives: tuple[str, ...], extend: Extend) -> AddedEffect:
     """An effect of a stage derived into the model, with the coefficients that its test needs, and everything fitted anew."""
     f = stage.fitted
     held = list_unneeded(stage.field, effect, stage.choice.tests[effect].which)
@@ -248,7 +248,7 @@ def _with_released(f: Fitted) -> Fitted:
     return fit(f.model, released, f.observations, start=f.calibration.p)
 
 
-def _alike(a: Test, b: Test) -> bool:
+def _are_alike(a: Test, b: Test) -> bool:
     """Whether two effects explain the same, with as much evidence, by a linear test."""
     return abs(a.chi2 - b.chi2) < INDISTINGUISHABLE and _as_sure(a, b)
 

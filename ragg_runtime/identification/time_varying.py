@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from ragg_runtime.estimation.observation import block_edges
+from ragg_runtime.estimation.observation import make_block_edges
 from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification.dictionary import multiply, sum_squares
@@ -62,7 +62,7 @@ class BlockScores:
 
     def __init__(self, count: int, time: Array) -> None:
         self.count = count
-        blocks = block_edges(len(time))
+        blocks = make_block_edges(len(time))
         inner = [np.linspace(a, b, PARTS + 1)[:-1] for a, b in pairwise(blocks)]
         self.edges = np.concatenate([*inner, blocks[-1:]]).astype(np.intp)
         at = np.minimum(self.edges, len(time) - 1)
@@ -119,7 +119,7 @@ class BlockScores:
     def _scatter(self, d: Array, v: Array, block: NDArray[np.intp]) -> Varying:
         starts = np.flatnonzero(np.diff(block, prepend=-1))
         d, v = np.add.reduceat(d, starts, axis=0), np.add.reduceat(v, starts, axis=0)
-        chi2 = np.sum(_ratio(d**2, v), axis=0)
+        chi2 = np.sum(_divide(d**2, v), axis=0)
         k = int(np.argmax(chi2))
         freedom = int(np.sum(v[:, k] > 0.0))
         size2 = float(np.mean(v[v[:, k] > 0.0, k])) if freedom else np.inf
@@ -148,7 +148,7 @@ class BlockScores:
         """The coefficient after an instant less that before it, the mean of both taken out."""
         at = np.arange(PARTS, len(d) - PARTS + 1, PARTS)
         D, V = np.cumsum(d[::-1], axis=0)[::-1], np.cumsum(v[::-1], axis=0)[::-1]
-        share = _ratio(V[at], V[0])
+        share = _divide(V[at], V[0])
         amount = D[at] - share * D[0]
         variance = np.where((share > ONE_SIDED) & (share < 1.0 - ONE_SIDED), V[at] * (1.0 - share), 0.0)
         since = 1.0 - at / len(d)
@@ -164,7 +164,7 @@ class BlockScores:
         amount: Array, variance: Array, share: Array, how: list[str], rows: float = np.inf
     ) -> Varying:
         """The largest of scores of one degree of freedom, (variants, terms); ``share``: mean square of each shape."""
-        chi2 = _ratio(amount**2, variance)
+        chi2 = _divide(amount**2, variance)
         n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
         z = float(np.sqrt(chi2[n, k]))
         share_beyond = 0.0 if np.isinf(rows) else float(special.stdtr(rows, -z))
@@ -184,7 +184,7 @@ class BlockScores:
         C, S, cc, ss, cs = c @ d, s @ d, c**2 @ v, s**2 @ v, (c * s) @ v
         determinant = cc * ss - cs**2
         clear = determinant > ONE_PHASE * cc * ss
-        chi2 = np.where(clear, _ratio(C**2 * ss + S**2 * cc - 2 * C * S * cs, determinant), 0.0)
+        chi2 = np.where(clear, _divide(C**2 * ss + S**2 * cc - 2 * C * S * cs, determinant), 0.0)
         n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
         std = float(1.0 / np.sqrt(max(float(np.sum(v[:, k])), 1e-300)))
         log_p = -float(chi2[n, k]) / 2 + float(np.log(len(CYCLES)))
@@ -200,6 +200,6 @@ class BlockScores:
         )
 
 
-def _ratio(a: Array, b: Array) -> Array:
+def _divide(a: Array, b: Array) -> Array:
     """a / b, zero where b is not positive."""
     return np.asarray(np.where(b > 0.0, a / np.where(b > 0.0, b, 1.0), 0.0))

@@ -62,7 +62,7 @@ class ProjectedBlocks:
         return np.asarray(found - t[:, self.others] @ self.B[n:, columns] if self.others else found)
 
 
-def inflation(beside: ProjectedBlocks, tested: Sequence[int]) -> float:
+def measure_inflation(beside: ProjectedBlocks, tested: Sequence[int]) -> float:
     """How much more the scores vary than they should: at least 1.
 
     That is the variance of a block's score along what is fitted, relative to that of noise of unit variance. What is left

@@ -55,7 +55,7 @@ class Conclusion:
         for e in () if line is None else (e for e in line.effects if e in outcome.effects):
             outcome = found.without(outcome, e)
         count = first.field.count + len(outcome.random)
-        base = omnibus.remainders(first.fitted) if outcome.effects else None
+        base = omnibus.search_residuals(first.fitted) if outcome.effects else None
         lead = None if base is None else _Lead.of(found, outcome, count, base)
         share = 1.0 if lead is None else float(expit(lead.ahead))
         chosen = outcome
@@ -73,14 +73,14 @@ class Conclusion:
         remains = remains or (outcome.exceeds_noise and not random)
         claimed: tuple[str, ...] = ()
         doubted = apart or outcome.explained.complaint is not None
-        one = _of_one_kind(found, outcome.effects)
+        one = _find_common_kind(found, outcome.effects)
         if base is not None and lead is not None and not doubted and one is None:
-            claimed = _claims(outcome, lead, base)
+            claimed = _choose_claims(outcome, lead, base)
         rival = bool(outcome.effects) and not claimed and not remains
         if (
             rival and base is not None and lead is not None
         ):  # generic terms do as well as what was chosen: they are what is left
-            _, left = claims.generic_evidence(base, np.inf, lead.rank)
+            _, left = claims.weigh_generic_terms(base, np.inf, lead.rank)
         remains = remains or rival or doubted
         if not remains:
             claimed = (*claimed, *(e for _, e in random[:1]))
@@ -93,11 +93,11 @@ class Conclusion:
             left=left,
             line=line,
             steady=tuple(s for s in steady if s.effect in claimed),
-            open=_unsure(last, weak, claimed),
+            open=_list_unsure(last, weak, claimed),
             share=share,
             rival=rival,
             one=None if claimed else one,
-            shared=_shared(lead.chi2, base or ())
+            shared=_find_shared_term(lead.chi2, base or ())
             if lead is not None and len(claimed) == 1 and claimed == outcome.effects
             else None,
         )
@@ -167,11 +167,11 @@ def _drop_unfounded(found: Evidence, o: Outcome) -> tuple[Outcome, list[str]]:
     weak: list[str] = []
     needed: list[str] = []
     while True:
-        e = _weakest(found, o, needed)
+        e = _find_weakest(found, o, needed)
         if e is not None and not (o.widened and e in found.log_p) and _is_needed(found, o, e):
             needed.append(e)
             continue
-        e = e or _contradicted(o, found.first) or _unfitted(found, o)
+        e = e or _find_contradicted(o, found.first) or _find_unfitted(found, o)
         if e is None:
             return o, weak
         weak.append(e)
@@ -179,14 +179,14 @@ def _drop_unfounded(found: Evidence, o: Outcome) -> tuple[Outcome, list[str]]:
         o = found.without(o, e)
 
 
-def _unsure(last: Stage, weak: Sequence[str], claimed: Sequence[str]) -> tuple[str, ...]:
+def _list_unsure(last: Stage, weak: Sequence[str], claimed: Sequence[str]) -> tuple[str, ...]:
     """Effects that the record speaks for, but not surely enough: those that went, and others beside what the last stage chose."""
     beside = last.choice.conditional
     near = sorted((t.log_p, e) for e, t in beside.items() if t.rank and t.log_p < np.log(OPEN))
     return tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in near)) if e not in claimed))
 
 
-def _weakest(found: Evidence, o: Outcome, needed: Sequence[str]) -> str | None:
+def _find_weakest(found: Evidence, o: Outcome, needed: Sequence[str]) -> str | None:
     """The effect that is not significant with the variance of its own scores, the least significant of several.
 
     Those of the last stage were tested beside the sheet as it was then. If it proves less sure, each competes with one still less sure.
@@ -226,15 +226,15 @@ def _log_p_by_fit(found: Evidence, o: Outcome, effect: str) -> float:
     return max(_log_p(o, by_fit, None), by_fit.log_p(None, doubted=True))
 
 
-def _contradicted(o: Outcome, first: Stage) -> str | None:
+def _find_contradicted(o: Outcome, first: Stage) -> str | None:
     """The effect that held-out blocks of time speak against most, if plainly; the instant of a step is from all of the record."""
     instants = {e.id for e in first.fitted.model.candidates if e.kind == "step"}
-    speaks = {e: claims.held_out_evidence(o.robust.regression, e) for e in o.effects if e not in instants}
+    speaks = {e: claims.weigh_held_out(o.robust.regression, e) for e in o.effects if e not in instants}
     worst = min(speaks, key=lambda e: (speaks[e], e), default=None)
     return worst if worst is not None and speaks[worst] < -claims.PLAINLY else None
 
 
-def _unfitted(found: Evidence, o: Outcome) -> str | None:
+def _find_unfitted(found: Evidence, o: Outcome) -> str | None:
     """The least significant effect of a fit that has not converged."""
     log_p = {} if o.complaint is None else {e: found.test(e).log_p for e in o.effects}
     return max(log_p, key=lambda e: (log_p[e], e), default=None)
@@ -253,20 +253,20 @@ class _Lead:
     @staticmethod
     def of(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> _Lead:
         chi2, rank = found.explained(o)
-        return _Lead(chi2, rank, _ahead(found, o, chi2, rank, count, base))
+        return _Lead(chi2, rank, _compare_with_terms(found, o, chi2, rank, count, base))
 
 
-def _claims(o: Outcome, lead: _Lead, base: Sequence[Remainder]) -> tuple[str, ...]:
+def _choose_claims(o: Outcome, lead: _Lead, base: Sequence[Remainder]) -> tuple[str, ...]:
     """What of an outcome's effects may be claimed (``claims``)."""
     if o.remains:
-        more = lead.chi2 - lead.rank > claims.MORE * claims.best_single(base)
+        more = lead.chi2 - lead.rank > claims.MORE * claims.find_best_single(base)
         return o.effects if more and lead.ahead > claims.PLAINLY else ()
     # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
     least = -claims.PLAINLY if len(o.effects) == 1 else 0.0
     return o.effects if lead.ahead > least else ()
 
 
-def _of_one_kind(found: Evidence, effects: Sequence[str]) -> str | None:
+def _find_common_kind(found: Evidence, effects: Sequence[str]) -> str | None:
     """The effect of which several of these, or what cannot be told from them, are special cases: of a resonance its low frequencies."""
     others = found.alternatives()
     groups = [{e, *others.get(e, ())} for e in effects]
@@ -275,7 +275,7 @@ def _of_one_kind(found: Evidence, effects: Sequence[str]) -> str | None:
     return next((k for k, own in kinds.items() if sum(bool(own & g) for g in groups) > 1), None)
 
 
-def _shared(chi2: float, base: Sequence[Remainder]) -> ResidualTerm | None:
+def _find_shared_term(chi2: float, base: Sequence[Remainder]) -> ResidualTerm | None:
     """The generic term, cosine and sine of it, that explains what an effect does, up to what the filter of such terms changes."""
     enough = (1.0 - claims.SECOND_ORDER) * chi2
     for s in (s for b in base for s in b.searches if s.steady):
@@ -285,26 +285,26 @@ def _shared(chi2: float, base: Sequence[Remainder]) -> ResidualTerm | None:
     return None
 
 
-def _ahead(
+def _compare_with_terms(
     found: Evidence, o: Outcome, chi2: float, rank: int, count: int, base: Sequence[Remainder]
 ) -> float:
     """Log evidence by which an outcome's effects are ahead of the best generic terms of as many coefficients."""
     spread = max(claims.measure_spread(o.remainder), o.target.calibration.excess) if o.remains else 1.0
     # with a cap, if nothing remains: no terms explain more than all
-    terms, _ = claims.generic_evidence(base, np.inf if o.remains else chi2, rank, spread)
+    terms, _ = claims.weigh_generic_terms(base, np.inf if o.remains else chi2, rank, spread)
     if not o.remains and len(o.effects) > 1:
-        terms = max(terms, _of_strong_term(found, chi2, base))
+        terms = max(terms, _weigh_strong_term(found, chi2, base))
     charge = len(o.effects) * float(np.log(count)) + found.charge(o)
-    return claims.evidence(chi2, rank, charge, spread) - terms
+    return claims.weigh_claims(chi2, rank, charge, spread) - terms
 
 
-def _of_strong_term(found: Evidence, chi2: float, base: Sequence[Remainder]) -> float:
+def _weigh_strong_term(found: Evidence, chi2: float, base: Sequence[Remainder]) -> float:
     """Log evidence of the strongest generic term, if a linear fit is too rough for it, with the model fitted again beside it."""
     (s, *more) = base[0].searches
     if more or not s.steady or s.steady[0].chi2 < strong.STRONG:
         return -np.inf
-    left = claims.refit_beside(found.first.fitted, s.steady[0])
+    left = claims.fit_beside(found.first.fitted, s.steady[0])
     if left is None:
         return -np.inf
     explained = found.first.field.chi2 - left
-    return claims.evidence(min(explained, chi2 + 1.0), 1, float(np.log(s.tried)))
+    return claims.weigh_claims(min(explained, chi2 + 1.0), 1, float(np.log(s.tried)))

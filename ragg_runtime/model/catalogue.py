@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.model.derive import own_entries
+from ragg_runtime.model.derive import list_own_entries
 from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.sections import Section, render_notebook
 
@@ -57,4 +57,4 @@ def effects() -> Catalogue:
     found = find_spec("generated")  # `resources` would import the models, and NumPy for them
     assert found is not None and found.origin is not None
     text = Path(found.origin).with_name("manifest.json").read_text("utf-8")
-    return Catalogue(entries=(*json.loads(text)["catalogue"], *own_entries()))
+    return Catalogue(entries=(*json.loads(text)["catalogue"], *list_own_entries()))

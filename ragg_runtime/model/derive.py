@@ -29,7 +29,7 @@ from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.compile import private_folder
 from ragg_runtime.model.directory import DIGEST, read_digest
-from ragg_runtime.model.model import Model, from_files, packaged
+from ragg_runtime.model.model import Model, load_files, load_packaged
 
 if TYPE_CHECKING:
     from derive.effect import Effect as SymbolicEffect
@@ -41,12 +41,12 @@ _SYMPY = threading.RLock()
 """One thread at a time derives: SymPy's caches are not made for several."""
 
 
-def known(instrument: Instrument) -> Mapping[str, SymbolicEffect]:
+def list_known(instrument: Instrument) -> Mapping[str, SymbolicEffect]:
     """The effects that this instrument's model directory can use, by id: the catalogue's, the user's in Python, its one-line ones."""
     from derive.effects import catalogue
 
     with _SYMPY:
-        found = [*catalogue(), *own_effects()]
+        found = [*catalogue(), *load_own_effects()]
         found += [_expression(s, instrument.path) for s in instrument.effects if s.expression is not None]
     ids = [e.id for e in found]
     if twice := next((i for i in reversed(ids) if ids.count(i) > 1), None):
@@ -87,26 +87,26 @@ def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
         raise UserError("the expression is invalid", where=where, found=str(error)) from error
 
 
-def model_of(instrument: Instrument) -> Model:
+def load_model(instrument: Instrument) -> Model:
     """The model for an instrument's list of effects: the packaged one, or one derived for it."""
-    if not (instrument.effects or own_sources()) and _is_packaged(instrument):
-        return packaged(instrument.form.kinematics)
-    return _executed(tuple(_derived(instrument).items()), instrument.layout)
+    if not (instrument.effects or list_own_sources()) and _is_packaged(instrument):
+        return load_packaged(instrument.form.kinematics)
+    return _execute_files(tuple(_derive_files(instrument).items()), instrument.layout)
 
 
 @cache
-def _executed(files: tuple[tuple[str, str], ...], layout: Layout) -> Model:
-    return from_files(dict(files), layout=_sized(layout))
+def _execute_files(files: tuple[tuple[str, str], ...], layout: Layout) -> Model:
+    return load_files(dict(files), layout=_sized(layout))
 
 
-def _derived(
+def _derive_files(
     instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True
 ) -> Mapping[str, str]:
     """The files of an instrument's model, with effects of these ids (its own if none are given), derived or kept."""
     asked = request(instrument, ids, candidates=candidates)
     files = kept(asked)
     if files is None:
-        every = known(instrument)
+        every = list_known(instrument)
         chosen = _chosen(instrument, every) if ids is None else [find_effect(every, i) for i in ids]
         others = tuple(every.values()) if candidates else ()
         _, files = derived(tuple(chosen), others, instrument.form, instrument.layout)
@@ -118,7 +118,7 @@ def _sized(layout: Layout) -> Layout:
     return FOUR if layout.like_paper else layout
 
 
-def departure(instrument: Instrument, generated: Path | None) -> str | None:
+def describe_departure(instrument: Instrument, generated: Path | None) -> str | None:
     """That a model directory's ``generated/`` was derived for something else, in a sentence; ``None``: it was not."""
     if generated is None or not _has_files(instrument) or read_digest(generated) == request(instrument):
         return None
@@ -138,7 +138,7 @@ def _has_files(instrument: Instrument) -> bool:
     return bool(instrument.effects) or not _is_packaged(instrument)
 
 
-def _symbolic(form: Form, layout: Layout) -> SymbolicForm:
+def _make_symbolic_form(form: Form, layout: Layout) -> SymbolicForm:
     from derive.pipeline import SymbolicForm
     from derive.stages import Order
 
@@ -147,21 +147,21 @@ def _symbolic(form: Form, layout: Layout) -> SymbolicForm:
         misalignment=None if form.misalignment == "exact" else int(form.misalignment),
         second_order_angles=form.second_order_angles,
     )
-    return SymbolicForm(order=order, kinematics=form.kinematics, layout=_placed(layout))
+    return SymbolicForm(order=order, kinematics=form.kinematics, layout=_make_symbolic_layout(layout))
 
 
 def _chosen(instrument: Instrument, every: Mapping[str, SymbolicEffect]) -> list[SymbolicEffect]:
-    form = _symbolic(instrument.form, instrument.layout)
+    form = _make_symbolic_form(instrument.form, instrument.layout)
     found = [find_effect(every, s.id, at(instrument.path, "effects")) for s in instrument.effects]
     for e in found:
         _check_needed(e, form, instrument)
     return found
 
 
-def offered(instrument: Instrument, identifier: str) -> SymbolicEffect:
+def find_offered(instrument: Instrument, identifier: str) -> SymbolicEffect:
     """The effect of this id, which the instrument's model does not hold already; UserError if it does."""
-    e = find_effect(known(instrument), identifier, at(instrument.path))
-    _check_needed(e, _symbolic(instrument.form, instrument.layout), instrument)
+    e = find_effect(list_known(instrument), identifier, at(instrument.path))
+    _check_needed(e, _make_symbolic_form(instrument.form, instrument.layout), instrument)
     return e
 
 
@@ -186,11 +186,11 @@ def derived(
     from derive import pipeline
 
     with _SYMPY:
-        files = pipeline.derive_model(effects, candidates, _symbolic(form, layout))
-    return from_files(files, layout=_sized(layout)), files
+        files = pipeline.derive_model(effects, candidates, _make_symbolic_form(form, layout))
+    return load_files(files, layout=_sized(layout)), files
 
 
-def _placed(layout: Layout) -> SymbolicLayout:
+def _make_symbolic_layout(layout: Layout) -> SymbolicLayout:
     """The layout as the derivation takes it."""
     from derive.layout import PAPER as QUARTERS
     from derive.layout import SymbolicLayout, SymbolicOutput, rest_of_angles
@@ -212,38 +212,38 @@ def with_effects(
     instrument: Instrument, model: Model, further: Sequence[str], *, candidates: bool = False
 ) -> Model:
     """``model`` with further effects derived into it; with the signatures of the others only if ``candidates``."""
-    files = _derived(instrument, [*(e.id for e in model.effects), *further], candidates=candidates)
-    return _executed(tuple(files.items()), instrument.layout)
+    files = _derive_files(instrument, [*(e.id for e in model.effects), *further], candidates=candidates)
+    return _execute_files(tuple(files.items()), instrument.layout)
 
 
-def files_of(instrument: Instrument) -> Mapping[str, str]:
+def list_files(instrument: Instrument) -> Mapping[str, str]:
     """What ``generated/`` of a model directory must hold; empty where the packaged model serves."""
     if not _has_files(instrument):
         return {}
-    found = {n: text for n, text in _derived(instrument).items() if not n.startswith("fits/")}
+    found = {n: text for n, text in _derive_files(instrument).items() if not n.startswith("fits/")}
     return found | {DIGEST: request(instrument)}
 
 
-def without_signatures(instrument: Instrument, form: Form) -> Model:
+def derive_without_signatures(instrument: Instrument, form: Form) -> Model:
     """The instrument's model in another form, with those of its effects that this form does not hold already."""
-    every, symbolic = known(instrument), _symbolic(form, instrument.layout)
+    every, symbolic = list_known(instrument), _make_symbolic_form(form, instrument.layout)
     chosen = (find_effect(every, s.id, at(instrument.path, "effects")) for s in instrument.effects)
     kept = tuple(e for e in chosen if not e.moot(symbolic.order, symbolic.kinematics))
     return derived(kept, (), form, instrument.layout)[0]
 
 
-def plain_c(instrument: Instrument) -> Mapping[str, str]:
+def derive_plain_c(instrument: Instrument) -> Mapping[str, str]:
     """The model in C, for G_out alone, in the order of operations of the NumPy code: file name -> text."""
     from derive import pipeline
 
     return pipeline.derive_plain(
-        _chosen(instrument, known(instrument)), _symbolic(instrument.form, instrument.layout)
+        _chosen(instrument, list_known(instrument)), _make_symbolic_form(instrument.form, instrument.layout)
     )
 
 
-def chain_of(instrument: Instrument) -> str:
+def read_chain(instrument: Instrument) -> str:
     """The text of the chain in NumPy."""
-    files = files_of(instrument)
+    files = list_files(instrument)
     if files:
         return files["chain.py"]
     package = "generated" if instrument.form.kinematics == "platform" else "generated.full"
@@ -266,7 +266,7 @@ def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candida
     asked: list[object] = [
         _derivation(),
         [[i, expressions.get(i)] for i in chosen],
-        sorted(map(_sha256, own_sources().values())),
+        sorted(map(_sha256, list_own_sources().values())),
         instrument.form.as_json(),
         candidates and expressions,
     ]
@@ -342,14 +342,14 @@ VARIABLE = "RAGG_EFFECTS"
 """Names a folder of Python files with ``EFFECT``."""
 
 
-def own_sources() -> Mapping[str, str]:
+def list_own_sources() -> Mapping[str, str]:
     """The text of every module of a package or of RAGG_EFFECTS that defines an effect, by its name or path."""
     return {name: inspect.getsource(module) for name, module in _installed().items()} | _in_folder()
 
 
-def own_effects() -> tuple[SymbolicEffect, ...]:
+def load_own_effects() -> tuple[SymbolicEffect, ...]:
     """The effects that they define, by id; UserError if one cannot be read."""
-    sources = own_sources()
+    sources = list_own_sources()
     if not sources:  # to import what derives takes a while
         return ()
     from derive.effects import of_module, of_text
@@ -364,9 +364,9 @@ def own_effects() -> tuple[SymbolicEffect, ...]:
     return tuple(sorted(found, key=lambda e: e.id))
 
 
-def own_entries() -> tuple[Mapping[str, Any], ...]:
+def list_own_entries() -> tuple[Mapping[str, Any], ...]:
     """Their entries in a catalogue."""
-    found = own_effects()
+    found = load_own_effects()
     if not found:
         return ()
     from derive.ir import manifest_of_effect
@@ -427,6 +427,6 @@ def check(root: Path) -> str | None:
     return versions and f"note: it was derived with SymPy {committed_with}, and is the same here"
 
 
-def home() -> Path:
+def find_root() -> Path:
     """The root of the project, to write to unless another is named."""
     return Path(str(resources.files("derive"))).parent

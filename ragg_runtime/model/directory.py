@@ -32,7 +32,7 @@ LONGEST = 1 << 26  # bytes of history.json and of calibration.json
 _PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second
 
 
-def digest(text: str | None) -> str:
+def compute_digest(text: str | None) -> str:
     """SHA-256 of a file's text, hexadecimal; of a file that is not there, that of nothing."""
     return hashlib.sha256((text or "").encode()).hexdigest()
 
@@ -60,7 +60,9 @@ class HistoryStep:
         if len(self.digests) != 2:
             return False
         before, after = self.digests
-        return before != after and before == digest(calibration if self.action == "calibrate" else model)
+        return before != after and before == compute_digest(
+            calibration if self.action == "calibrate" else model
+        )
 
     def as_json(self) -> dict[str, Any]:
         """The entry as in the file."""
@@ -138,7 +140,9 @@ class ModelDir:
     @property
     def digest(self) -> str:
         """SHA-256 over model, history and calibration, hexadecimal: equal states have equal digests."""
-        return digest("".join(map(digest, (self.text, history_text(self.history), self.calibration))))
+        return compute_digest(
+            "".join(map(compute_digest, (self.text, history_text(self.history), self.calibration)))
+        )
 
 
 def load_model_dir(path: Path | str) -> ModelDir:
@@ -230,7 +234,7 @@ def replace_model_dir(
                 )
             kept = None if calibration is None else calibration(found.calibration)
             changed = (found.text, text) if kept is None else (found.calibration, kept)
-            history = (*found.history, replace(step, digests=tuple(map(digest, changed))))
+            history = (*found.history, replace(step, digests=tuple(map(compute_digest, changed))))
             files = {MAPPING: mapping, HISTORY: history_text(history), CALIBRATION: kept}
             _put(path, files | {MODEL: None if text == found.text else text}, generated)
     except TimeoutError:
@@ -310,8 +314,8 @@ def identity(
 ) -> dict[str, object]:
     """Of a directory as it was read, with the digest of what was derived for it, and as it was ``before`` a change."""
     digests = {
-        "model_digest": digest(directory.text),
-        "model_digest_before": None if before is None else digest(before.text),
+        "model_digest": compute_digest(directory.text),
+        "model_digest_before": None if before is None else compute_digest(before.text),
         "derivation_digest": derivation,
     }
     return {"model": str(directory.path), **{k: v for k, v in digests.items() if v is not None}}

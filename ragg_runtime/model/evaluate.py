@@ -18,7 +18,7 @@ from ragg_runtime.model.record import Record
 Array = NDArray[np.float64]
 
 
-def voltages(chain: ChainModule, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
+def evaluate_voltages(chain: ChainModule, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
     """V_j of the accelerometers of an output, (members, N), V."""
     x = r.inputs(chain)
     return np.stack(
@@ -26,9 +26,9 @@ def voltages(chain: ChainModule, r: Record, p: Array, o: Output = PAPER.outputs[
     )
 
 
-def output(chain: ChainModule, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
+def evaluate_output(chain: ChainModule, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
     """An output, (N,), V (Eq. 15)."""
-    return o.combined(voltages(chain, r, p, o))
+    return o.combined(evaluate_voltages(chain, r, p, o))
 
 
 def scale_factor(model: Model, p: Array, output: int = 0) -> float:
@@ -43,7 +43,7 @@ def name_values(chain: ChainModule, p: Array) -> dict[str, Array]:
     return {name: p[place] for name, place in find_places(chain).items()}
 
 
-def vector(model: Model, instrument: Instrument) -> Array:
+def make_vector(model: Model, instrument: Instrument) -> Array:
     """The parameter vector of ``model.chain``, SI, from model.toml's values; effects' parameters else neutral.
 
     UserError if model.toml gives an effect a parameter that it does not have, or one of a wrong dimension.
@@ -67,12 +67,12 @@ def vector(model: Model, instrument: Instrument) -> Array:
             si = known.base_unit(q.unit)
             given = setting.si(q.name, si, known.g0, shared=q.shared, where=where, count=size)
             values[q.symbol] = (
-                np.full(size, q.default * unit_factor(q.unit, known)) if given is None else given
+                np.full(size, q.default * find_unit_factor(q.unit, known)) if given is None else given
             )
     return np.concatenate([values[name] for name, _ in model.chain.PARAMETERS])
 
 
 @cache
-def unit_factor(unit: str, known: Units) -> float:
+def find_unit_factor(unit: str, known: Units) -> float:
     """SI value of one display unit."""
     return float(known.to_si(1.0, unit, known.base_unit(unit)))

@@ -115,9 +115,9 @@ def _responses(r: Record, m: Memory, wanted: Container[str]) -> dict[str, Array]
     reach = min(int(np.ceil(m.lasts * r.rate)), len(whole.time))
     first, last = max(start - reach, 0), min(stop + reach, len(whole.time))
     near = whole.part(slice(first, last))
-    there = {n: _bridged(x, near.valid) for n, x in _given(m.kind, near).items()}
+    there = {n: _bridge_holes(x, near.valid) for n, x in _given(m.kind, near).items()}
     slips = m.kind in SLIPPING
-    found = _slip(there, m, wanted) if slips else _filtered(there, m, near.rate, reach, wanted)
+    found = _slip(there, m, wanted) if slips else _filter_record(there, m, near.rate, reach, wanted)
     if m.kind in RELAXING:
         t, tau = near.time, m.values["tau"]
         left = np.exp(-t / tau)
@@ -149,7 +149,7 @@ def _stands_at_quarter_turns(r: Record) -> bool:
     return all(abs(cosine * sine) < 1e-9 for cosine, sine, _ in r.input_axes)
 
 
-def _bridged(x: Array, valid: NDArray[np.bool_]) -> Array:
+def _bridge_holes(x: Array, valid: NDArray[np.bool_]) -> Array:
     """A series without holes: a part of a record has zeros for what is missing."""
     there = valid | ((x != 0.0) & np.isfinite(x))
     if there.all() or not there.any():
@@ -189,7 +189,7 @@ def stop(x: Array, w: float) -> Array:
     return (x - low) / w
 
 
-def _filtered(
+def _filter_record(
     given: Mapping[str, Array], m: Memory, rate: float, reach: int, wanted: Container[str]
 ) -> dict[str, Array]:
     found: dict[str, Array] = {}
@@ -198,13 +198,13 @@ def _filtered(
         s = np.asarray(2j * np.pi * rfftfreq(length, 1.0 / rate), dtype=np.complex128)
         ways = {n: H for n, H in _transfer(m, name, s).items() if n in wanted}
         if ways:
-            spectrum: Complex = rfft(_continued(x, reach, length - len(x) - reach))
+            spectrum: Complex = rfft(_continue_smoothly(x, reach, length - len(x) - reach))
             for n, H in ways.items():
                 found[n] = float(H[0].real) * np.mean(x) + irfft(spectrum * H, length)[reach:][: len(x)]
     return found
 
 
-def _continued(x: Array, before: int, after: int) -> Array:
+def _continue_smoothly(x: Array, before: int, after: int) -> Array:
     """A series less its mean that goes on smoothly beyond both ends and fades: an edge would ring in all of it."""
     level = np.mean(x)
     longer = np.pad(x - level, (before, after), mode="reflect", reflect_type="odd")

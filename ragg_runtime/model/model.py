@@ -93,10 +93,10 @@ class DerivedEffect:
 
     def missing(self, recorded: Container[str]) -> tuple[str, ...]:
         """The channels that it needs and a flight, which has those recorded, does not have."""
-        return missing_channels(self, recorded)
+        return list_missing_channels(self, recorded)
 
 
-def missing_channels(e: Any, recorded: Container[str]) -> tuple[str, ...]:
+def list_missing_channels(e: Any, recorded: Container[str]) -> tuple[str, ...]:
     """As :meth:`DerivedEffect.missing`, of an effect of the derivation, too: it has ``channels`` and ``either``."""
     missing = tuple(c for c in e.channels if c not in recorded)
     return () if e.either and len(missing) < len(e.channels) else missing
@@ -162,7 +162,7 @@ class Model:
         return next((e for e in (*self.effects, *self.candidates) if e.id == identifier), None)
 
 
-def packaged(kinematics: str = "platform") -> Model:
+def load_packaged(kinematics: str = "platform") -> Model:
     """The model of the paper, without further effects, as derived and committed; or that of full kinematics."""
     return _packaged(kinematics)
 
@@ -181,7 +181,7 @@ def _packaged(kinematics: str) -> Model:
     return replace(_model(manifest, chain, signatures), c=c, folded=folded, lasting=True)
 
 
-def from_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
+def load_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
     """A model from derived source texts (``derive.pipeline.derive_model``), for this layout.
 
     The texts are executed: pass only what the derivation of this program has just yielded or what is the same bytes.

@@ -88,7 +88,7 @@ class Record:
     @cached_property
     def low_pass(self) -> Demodulator:
         """What inline and cross have passed."""
-        return kernel(self.demodulation, self.rate)
+        return make_kernel(self.demodulation, self.rate)
 
     @property
     def recorded(self) -> frozenset[str]:
@@ -134,7 +134,7 @@ class Record:
         """Of the polynomials that give the disc's rate from its encoder: those of the whole record, in every part of it."""
         if self.whole is not None:
             return self.whole.spin_degree
-        return spin_degree(self.wide.get(self.angle_column), self.rate, self._lateness)
+        return choose_spin_degree(self.wide.get(self.angle_column), self.rate, self._lateness)
 
     @cached_property
     def cos_phi(self) -> Array:
@@ -147,7 +147,7 @@ class Record:
     @property
     def _lateness(self) -> Array | None:
         """Of all samples, those of the halo too."""
-        return lateness(self.time if self.instants is None else self.instants, self.rate)
+        return measure_lateness(self.time if self.instants is None else self.instants, self.rate)
 
     def inputs(self, chain: ChainModule) -> Array:
         """(n_inputs, N) in the order of the module's INPUTS; channels that were not recorded are zero."""
@@ -172,7 +172,7 @@ class Record:
         if name == "time":
             return self.time
         if name == "gap":
-            return _from_gap(self.valid)
+            return _count_from_gap(self.valid)
         if name == "phi":
             return np.asarray(np.mod(self.phi, 2 * np.pi))
         if name in ("input", "input-rms") or name.startswith("input("):
@@ -286,7 +286,7 @@ class Record:
         return None
 
 
-def lateness(time: Array, rate: float) -> Array | None:
+def measure_lateness(time: Array, rate: float) -> Array | None:
     """By how many steps samples at these instants, (N,), s, are later than evenly spaced ones; ``None`` if they are even."""
     late = (time - time[0]) * rate - np.arange(len(time)) if len(time) else time
     return late if np.max(np.abs(late), initial=0.0) > EVEN else None
@@ -319,7 +319,7 @@ def spin(
     return found
 
 
-def spin_degree(encoder: Array | None, rate: float, late: Array | None = None) -> int:
+def choose_spin_degree(encoder: Array | None, rate: float, late: Array | None = None) -> int:
     """Of the polynomials for the rate of the angle (N,), rad, of a whole record; the lowest without an encoder."""
     if encoder is None:
         return DEGREES[0]
@@ -345,7 +345,7 @@ STANDING = 1e-3
 """Range of a recorded disc angle, rad, below which the disc stands still."""
 
 
-def phase(g: complex) -> float:
+def measure_phase(g: complex) -> float:
     """rad, between -pi and pi; 0 of any real number, whose sign is that of the scale factor."""
     return 0.0 if abs(g.imag) <= 1e-12 * abs(g) else float(np.angle(g))
 
@@ -379,7 +379,7 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         valid=flight.valid,
         spin_frequency=disc.spin_frequency,
         angle_column=disc.angle_column,
-        phase=phase(gain(o, k["k_VI"] * k["K1"], instrument.radii + k["dR"])),
+        phase=measure_phase(gain(o, k["k_VI"] * k["K1"], instrument.radii + k["dR"])),
         turning=turning,
         axes=None if disc.level else disc.across,
         demodulation=flight.demodulation or instrument.demodulation or OURS,
@@ -388,7 +388,7 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
     )
 
 
-def recorded_channels(flight: Flight, layout: Layout) -> frozenset[str]:
+def list_recorded_channels(flight: Flight, layout: Layout) -> frozenset[str]:
     """The channels of a flight that an effect may need."""
     read = any(o.name in flight.outputs for o in layout.outputs)
     return frozenset((*flight.channels, *([READING] if read else [])))
@@ -409,7 +409,7 @@ def take_quantities(r: Record, rows: slice) -> Callable[[str], Array]:
     return lambda name: r.part(rows).quantity(name)
 
 
-def _from_gap(valid: NDArray[np.bool_]) -> Array:
+def _count_from_gap(valid: NDArray[np.bool_]) -> Array:
     """(N,): how many samples each is from the nearest one that is not valid; N if all are."""
     n = len(valid)
     at = np.arange(n)
@@ -423,7 +423,7 @@ UNEVEN = 1e-3
 
 
 @cache
-def kernel(d: Demodulation, rate: float) -> Demodulator:
+def make_kernel(d: Demodulation, rate: float) -> Demodulator:
     """Of a record at ``rate``, Hz; where the channels were made at a higher rate, thinned out as they were."""
     every = 1 if d.rate is None else round(d.rate / rate)
     if d.rate is not None and (every < 1 or abs(d.rate / (every * rate) - 1) > UNEVEN):

@@ -56,14 +56,14 @@ def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
     axes = []
     for n, w, k, name in _list_worst(f, lines[0][1]):
         r = w.observation.record
-        edges, level = r.time, series.noise_rms(w, k)
+        edges, level = r.time, series.compute_noise_rms(w, k)
         steps = []
         for label, residuals in lines:
-            edges, rms = series.blocks(w, residuals[n], k)
+            edges, rms = series.measure_blocks(w, residuals[n], k)
             steps.append(Curve(label, edges, rms, _role(label), "steps"))
         ends = (float(edges[0]), float(edges[-1]))
         if envelope:
-            e = series.envelope(r.time, lines[-1][1][n] / k, r.valid)
+            e = series.decimate(r.time, lines[-1][1][n] / k, r.valid)
             band = Curve("min-max", e.time, e.low, "envelope", "band", e.high)
             around = Curve("± rms", e.time, e.rms, width=0.9), Curve("_", e.time, -e.rms, width=0.9)
             axes.append(Axes((band, *around), "residual, Eo", name, ends, level, share=1.3))
@@ -81,12 +81,14 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
     axes = []
     for n, w, k, name in _list_worst(f, lines[0][1]):
         r = w.observation.record
-        found = [(label, series.spectrum(x[n] / k, r.valid, r.rate)) for label, x in lines]
+        found = [(label, series.estimate_spectrum(x[n] / k, r.valid, r.rate)) for label, x in lines]
         curves = [Curve(label, s.frequency, s.density, _role(label)) for label, s in found if s is not None]
         if not curves:
             continue
         grid, spin = curves[0].x, abs(r.spin_frequency)
-        curves.append(Curve("noise, as estimated", grid, series.noise_density(w, k, spin, grid), "noise"))
+        curves.append(
+            Curve("noise, as estimated", grid, series.compute_noise_density(w, k, spin, grid), "noise")
+        )
         marks = tuple(
             (j * spin, "Ω" if j == 1 else f"{j}Ω") for j in range(1, 5) if grid[0] < j * spin < grid[-1]
         )
@@ -113,7 +115,7 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
         # four samples a cycle of the low-pass's edge draw the whole of it
         step = max(1, int(r.rate / (4.0 * series.DRAWN)))
         for channel, part, amplitude in (("inline", np.real, 4.0), ("cross", np.imag, 2.0)):
-            level = series.demodulated_noise(w, k, 2, amplitude)
+            level = series.predict_demodulated_noise(w, k, 2, amplitude)
             curves = tuple(_channel(label, r.time[::step], part(x[::step])) for label, x in made)
             ends = (float(r.time[0]), float(r.time[-1]))
             title = f"{channel} of {name}" if name else channel
@@ -126,7 +128,7 @@ def _channel(label: str, time: Array, x: Array) -> Curve:
     """A line; its envelope where it has more points than can be drawn."""
     if len(x) <= MOST_POINTS:
         return Curve(label, time, x, _role(label), width=0.8)
-    e = series.envelope(time, x, np.isfinite(x), MOST_POINTS // 2)
+    e = series.decimate(time, x, np.isfinite(x), MOST_POINTS // 2)
     return Curve(label, e.time, e.low, _role(label), "band", e.high)
 
 
@@ -135,14 +137,14 @@ def plot_measured(f: Fitted, residual: Residuals) -> Curves:
     (n,) = series.find_worst(f, residual, 1)
     w = f.prepared[n]
     r, y = w.observation.record, series.compute_measured(w)
-    edges, rms = series.blocks(w, residual[n], f.scales[n])
+    edges, rms = series.measure_blocks(w, residual[n], f.scales[n])
     k, spin = int(np.nanargmax(rms)), abs(r.spin_frequency)
     count = int(min(SAMPLES, TURNS * r.rate / spin if spin > 0.0 else SAMPLES, len(r.time)))
     middle = int(np.searchsorted(r.time, 0.5 * (edges[k] + edges[k + 1])))
     first = min(max(0, middle - count // 2), len(r.time) - count)
     part = slice(first, first + count)
     model, window = y - residual[n], (float(r.time[first]), float(r.time[first + count - 1]))
-    wide = [series.envelope(r.time, x, r.valid) for x in (y, model)]
+    wide = [series.decimate(r.time, x, r.valid) for x in (y, model)]
     whole = (
         Curve("measured", wide[0].time, wide[0].low, "before", "band", wide[0].high),
         Curve("model", wide[1].time, wide[1].low, "residual", "outline", wide[1].high),
@@ -165,7 +167,7 @@ def plot_harmonics(f: Fitted, coefficients: Array) -> Bars | None:
     rows = {
         str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.measure_harmonics(f, coefficients)
     }
-    noise = series.harmonic_noise(f, rows)
+    noise = series.predict_harmonic_noise(f, rows)
     # four times the relative uncertainty of the rms of noise in the demodulator's bandwidth
     seconds = sum(float(w.observation.record.time[-1]) for w in f.prepared)
     limit = 1.0 + 4.0 / np.sqrt(4.0 * series.BAND * max(seconds, 1.0))

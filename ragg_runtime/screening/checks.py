@@ -13,7 +13,7 @@ from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE, Flag
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import find_start, recorded_channels
+from ragg_runtime.model.record import find_start, list_recorded_channels
 from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
@@ -62,7 +62,7 @@ def require_comparable(model: Model, instrument: Instrument, flight: Flight) -> 
     """UserError if the flight cannot be compared with this model at all."""
     where = flight.path or flight.name
     for e in model.effects:
-        missing = e.missing(recorded_channels(flight, instrument.layout))
+        missing = e.missing(list_recorded_channels(flight, instrument.layout))
         if missing:
             raise UserError(
                 f"the effect {e.id} of the model needs a channel that the flight lacks",

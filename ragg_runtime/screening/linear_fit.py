@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.least_squares import r_factor
-from ragg_runtime.estimation.regressors import list_base_columns, own_columns, put_derivatives
+from ragg_runtime.estimation.least_squares import compute_r_factor
+from ragg_runtime.estimation.regressors import list_base_columns, list_own_columns, put_derivatives
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.evaluate import make_vector, scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening.sampler import Rows
 
@@ -173,11 +173,11 @@ class LinearModel:
 
 def linearise(model: Model, instrument: Instrument, rows: Rows) -> LinearModel:
     """A model about an instrument's values at rows of one output."""
-    p, evaluator, o = vector(model, instrument), model.evaluators("chain"), rows.output
+    p, evaluator, o = make_vector(model, instrument), model.evaluators("chain"), rows.output
     place = instrument.layout.outputs.index(o)
     eotvos = scale_factor(model, p, place)
     base = list_base_columns(model, instrument)
-    own = [base[k] for k in own_columns([c for c, _ in base], instrument, place)]
+    own = [base[k] for k in list_own_columns([c for c, _ in base], instrument, place)]
     at = (rows.time, rows.inputs(model.chain), rows.phi)
     volts = evaluator.voltages(rows.time, at[1], p, rows.phi, o.members)
     nominal = rows.before_demodulation(volts, None)
@@ -232,7 +232,7 @@ def fit_shrunken(X: Array, y: Array) -> tuple[Array, float]:
 
     The noise is what the fit leaves: starting from "all is noise" it falls until fit and noise agree.
     """
-    R = r_factor(np.vstack([X, y]))
+    R = compute_r_factor(np.vstack([X, y]))
     n = len(X)
     U, s, Vt = np.linalg.svd(R[:n, :n])
     d = U.T @ R[:n, n]

@@ -15,7 +15,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units
 from ragg_runtime.io.record import ANGULAR_ACCELERATION
-from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening import other_demodulator, timing
 from ragg_runtime.screening.linear_fit import INDEPENDENT, Hypothesis, LinearFit, fit_rows
@@ -130,7 +130,7 @@ def _sheets(model: Model, instrument: Instrument, rows: Rows) -> Iterator[Hypoth
 
 def _farthest(model: Model, instrument: Instrument, fitted: LinearFit) -> str:
     """The parameters that lie farthest from their sheet, in its sigmas: both values of up to three."""
-    sheet = vector(model, instrument)
+    sheet = make_vector(model, instrument)
     off = [((fitted.p[k] - sheet[k]) / c.scale, c, k) for c, k in list_base_columns(model, instrument)]
     off = sorted((x for x in off if x[1].effect is None), key=lambda x: -abs(x[0]))
     worst = [x for x in off[:3] if abs(x[0]) > abs(off[0][0]) / 10]

@@ -13,7 +13,7 @@ from scipy import optimize
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import kernel
+from ragg_runtime.model.record import make_kernel
 from ragg_runtime.screening.linear_fit import Hypothesis, LinearFit, linearise
 from ragg_runtime.screening.sampler import Sampler
 from ragg_runtime.screening.timing import COST
@@ -50,7 +50,7 @@ def propose_demodulator(model: Model, instrument: Instrument, s: Sampler) -> Hyp
     def fit(how: Demodulation) -> LinearFit:
         if how.cutoff is not None and how.cutoff > HIGHEST * rate:
             how = replace(how, cutoff=HIGHEST * rate)
-        taps = kernel(how, rate).centred
+        taps = make_kernel(how, rate).centred
         spare = len(taps) // 2 - half
         return linear.fit(replace(rows, taps=taps[spare:-spare] if spare > 0 else np.pad(taps, -spare)))
 

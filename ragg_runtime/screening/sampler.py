@@ -15,7 +15,15 @@ from ragg_runtime.instrument.layout import Disc, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.evaluator import ChainModule
-from ragg_runtime.model.record import SPIN, disc_angle, find_start, kernel, record, spin, strip_derivative
+from ragg_runtime.model.record import (
+    SPIN,
+    disc_angle,
+    find_start,
+    make_kernel,
+    record,
+    spin,
+    strip_derivative,
+)
 from ragg_runtime.model.recorded import RecordedSeries, find_recorded
 from ragg_runtime.signals.fir import convolve
 
@@ -231,7 +239,7 @@ def make_sampler(
         recorded=form,
         usable=usable,
         derived=rates,
-        taps=kernel(how, flight.rate).centred if form.demodulated else np.zeros(0),
+        taps=make_kernel(how, flight.rate).centred if form.demodulated else np.zeros(0),
         columns=columns,
         place=place,
     )

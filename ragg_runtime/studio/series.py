@@ -305,7 +305,7 @@ def draw_spectra(s: State, a: Asked) -> dict[str, Any]:
             x = v.volts(name, rows)
         except UserError:
             continue
-        found = reported.spectrum(x / v.k_ggi, r.valid[rows], r.rate, DENSE)
+        found = reported.estimate_spectrum(x / v.k_ggi, r.valid[rows], r.rate, DENSE)
         if found is not None:
             lines[name] = found
     if not lines:
@@ -314,7 +314,7 @@ def draw_spectra(s: State, a: Asked) -> dict[str, Any]:
     return {
         "frequency": grid.tolist(),
         "lines": {k: x.density.tolist() for k, x in lines.items()},
-        "noise": reported.noise_density(v.prepared, v.k_ggi, r.spin_frequency, grid).tolist(),
+        "noise": reported.compute_noise_density(v.prepared, v.k_ggi, r.spin_frequency, grid).tolist(),
         "spin_Hz": abs(r.spin_frequency),
     }
 

@@ -372,7 +372,7 @@ class Session:
 
 def list_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Loaded:
     """The model with an effect of one's own listed, ``add`` at the transducer (unit of each parameter), in memory alone."""
-    if effect in derive.known(m.instrument):
+    if effect in derive.list_known(m.instrument):
         found, remedy = repr(effect[:80]), "choose another name"
         raise UserError("an effect of this id exists already", found=found, remedy=remedy)
     parameters = MappingProxyType({n: MappingProxyType({"unit": u}) for n, u in units.items()})

@@ -142,7 +142,7 @@ def _diagnose_file(job: Job, file: str) -> Record:
             remedy="put the flights where every worker can read them, or survey without --scheduler",
         )
     instrument = _parse(job.text, job.path)
-    model = derive.model_of(instrument)
+    model = derive.load_model(instrument)
     read = read_flight(path, instrument.g0, accelerometers=instrument.layout, mapping=job.mapped(), line=line)
     flight = screen(model, instrument, read)
     return _make_record(fit(model, instrument, observe_flights([flight], instrument)), flight)

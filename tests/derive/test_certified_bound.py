@@ -40,7 +40,7 @@ from derive.simplify.page import Condition
 from derive.stages import Kinematics
 from derive.symbols import ANGLES, MOTION, QUARTER_TURNS, SECOND_ORDER, SIGNS, SPIN_ACCELERATION, SPIN_RATE
 from ragg_runtime.estimation.regressors import list_base_columns
-from ragg_runtime.model.model import packaged
+from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.instruments import table_v
 
 Array = NDArray[np.float64]
@@ -396,7 +396,7 @@ def test_the_page_counts_parameters_as_the_code_does() -> None:
         terms = (t for of_harmonic in model.amplitudes.values() for t in of_harmonic)
         return len({(t.combination, t.coefficient.monic()) for t in terms})
 
-    assert f"{len(list_base_columns(packaged(), table_v()))} |" in text
+    assert f"{len(list_base_columns(load_packaged(), table_v()))} |" in text
     assert f"in {combinations(simplified())} combinations" in text
     assert f"instead of {combinations(collect())}," in text
     there = {COEFFICIENT_PARAMETERS[k] for *_, powers in keys(collect()) for k, n in enumerate(powers) if n}

@@ -13,7 +13,7 @@ from derive.effect import Effect
 from derive.effects import catalogue
 from derive.expression import ExpressionError, from_expression
 from derive.pipeline import derive_model
-from ragg_runtime.model.model import Model, from_files
+from ragg_runtime.model.model import Model, load_files
 
 K = {"K": {"unit": "ug"}}
 
@@ -119,7 +119,7 @@ CHOSEN = ("arm-sag", "time-offset", "thermal-bias", "second-order-misalignment",
 
 
 def model(*effects: Effect) -> Model:
-    return from_files(derive_model(effects, ()))
+    return load_files(derive_model(effects, ()))
 
 
 def drawn(m: Model, seed: int = 3) -> tuple[dict[str, Array], Array, Array]:

@@ -21,7 +21,7 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import read_flight
 from ragg_runtime.io.draft import draft_mapping
 from ragg_runtime.io.mapping import parse_mapping
-from ragg_runtime.model.model import from_files
+from ragg_runtime.model.model import load_files
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by
 from tests.runtime.commands import ragg
@@ -152,7 +152,7 @@ def test_names_that_are_words_of_c_and_python_work_beside_each_other() -> None:
     ]
     own = replace(made[0], id="a--b", channels=("a-b", "a_b"), transducer=lambda i, f, p, c: i + p["lambda"] * (
         c.channel("a-b") + 10 * c.channel("a_b")))  # fmt: skip
-    m = from_files(derive_model([*made, own], [*made, own]))
+    m = load_files(derive_model([*made, own], [*made, own]))
     t, p = np.zeros(1), np.zeros(m.chain.SIZE)
     K1, gain, further = (2 + 4 * k for k in (7, 14, 15))
     p[K1 : K1 + 4] = p[gain : gain + 4] = 1.0

@@ -11,7 +11,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import derive
-from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.evaluate import make_vector, scale_factor
 from ragg_runtime.model.evaluator import ChainModule
 from tests.generated import fifty_digits as fifty
 from tests.layouts import sheets
@@ -36,7 +36,7 @@ def drawn(chain_inputs: tuple[str, ...]) -> np.ndarray:
 def test_c_agrees_with_numpy() -> None:
     i = instrument("odd", sheets.EXACT)  # the others against fifty digits
     model, _ = derive.derived((), (), i.form, i.layout)
-    p = vector(model, i)
+    p = make_vector(model, i)
     x = drawn(model.chain.INPUTS)
     t, phi = np.arange(N) / 16.0, np.random.default_rng(3).uniform(-3, 3, N)
     c, n = model.compiled("c"), model.compiled("numpy")
@@ -120,7 +120,7 @@ def test_round_off_against_fifty_digits(name: str, head: str) -> None:
     i = instrument(name, head)
     model, _ = derive.derived((), (), i.form, i.layout)
     order = [model.chain.INPUTS.index(n) for n in SEEN if n in model.chain.INPUTS]
-    p, x = vector(model, i), drawn(model.chain.INPUTS)[:, :INSTANTS]
+    p, x = make_vector(model, i), drawn(model.chain.INPUTS)[:, :INSTANTS]
     x[:3] *= 9.8
     t, phi = np.arange(INSTANTS) / 16.0, np.random.default_rng(3).uniform(-3, 3, INSTANTS)
     true = true_outputs(i, model.chain, p, phi, x[order])

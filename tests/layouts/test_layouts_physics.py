@@ -17,9 +17,9 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import EOTVOS, units
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.model import derive
-from ragg_runtime.model.evaluate import output, scale_factor, unit_factor, vector
+from ragg_runtime.model.evaluate import evaluate_output, find_unit_factor, make_vector, scale_factor
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import Record, record, spin_degree
+from ragg_runtime.model.record import Record, choose_spin_degree, record
 from ragg_runtime.model.record import spin as turning_rate
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
@@ -61,11 +61,11 @@ def flown(i: Instrument, kinematics: str, rotations: str) -> Flight:
 def worst(i: Instrument, flight: Flight, inner: slice = slice(20, -20)) -> float:
     """Largest difference of any output, Eo; by default not at the ends, where the rate of a recorded angle is less sure."""
     model, _ = derive.derived((), (), i.form, i.layout)
-    p = vector(model, i)
+    p = make_vector(model, i)
     found = []
     for k, o in enumerate(i.layout.outputs):
         r = record(flight, i, k)
-        left = flight.outputs[o.name] - output(model.chain, r, p, o)
+        left = flight.outputs[o.name] - evaluate_output(model.chain, r, p, o)
         found.append(float(np.max(np.abs(left[inner]))) / scale_factor(model, p, k))
     return max(found)
 
@@ -145,7 +145,7 @@ def test_the_rate_of_a_coarse_encoder_is_as_smooth_as_it_was(encoder: str, f: fl
     angle = 2 * np.pi * f * t + swing * np.sin(2 * np.pi * 0.1 * t)
     noisy = angle + 1e-3 * np.random.default_rng(1).standard_normal(t.size)
     read = noisy if encoder == "1 mrad" else step * np.round(angle / step)
-    assert spin_degree(np.mod(read, 2 * np.pi), 16.0) == DEGREES[0]
+    assert choose_spin_degree(np.mod(read, 2 * np.pi), 16.0) == DEGREES[0]
 
 
 def test_a_gap_in_the_encoder_stays_where_it_is() -> None:
@@ -240,8 +240,10 @@ def leaning() -> Instrument:
 def left(model: Model, flight: Flight, p: NDArray[np.float64]) -> float:
     """Rms of what a model leaves, Eo."""
     i = leaning()
-    found = flight.outputs["G_out"] - output(model.chain, record(flight, i, 0), p, i.layout.outputs[0])
-    k_ggi = scale_factor(base(), vector(base(), i))
+    found = flight.outputs["G_out"] - evaluate_output(
+        model.chain, record(flight, i, 0), p, i.layout.outputs[0]
+    )
+    k_ggi = scale_factor(base(), make_vector(base(), i))
     return float(np.std(found[20:-20])) / k_ggi
 
 
@@ -255,7 +257,10 @@ def test_an_effect_of_a_direction_is_the_reference_s(id_: str) -> None:
     (effect,) = (e for e in catalogue() if e.id == id_)
     known, rng = units(i.g0), np.random.default_rng(1)
     values = {
-        q.name: 3 * q.plausible * unit_factor(q.unit, known) * rng.uniform(0.7, 1.3, 1 if q.shared else 3)
+        q.name: 3
+        * q.plausible
+        * find_unit_factor(q.unit, known)
+        * rng.uniform(0.7, 1.3, 1 if q.shared else 3)
         for q in effect.parameters
     }
     s = simulate(
@@ -268,12 +273,12 @@ def test_an_effect_of_a_direction_is_the_reference_s(id_: str) -> None:
         effects={id_: {n: v if len(v) > 1 else float(v[0]) for n, v in values.items()}},
     )
     model, _ = derive.derived((effect,), (), i.form, i.layout)
-    p, at = vector(model, i), 0
+    p, at = make_vector(model, i), 0
     given = {effect.symbol(q).name: values[q.name] for q in effect.parameters}
     for name, size in model.chain.PARAMETERS:
         p[at : at + size] = given.get(name, p[at : at + size])
         at += size
     flight = s.flight()
-    without = left(base(), flight, vector(base(), i))
+    without = left(base(), flight, make_vector(base(), i))
     assert without > 0.1
     assert left(model, flight, p) < max(WITH_DIRECTIONS[id_] * without, 1e-4)

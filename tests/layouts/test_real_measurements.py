@@ -34,7 +34,7 @@ def calibrated(i: Instrument, *names: str) -> Fitted:
 def calibrated_beside(i: Instrument) -> Fitted:
     """The motion alone, with the candidates' columns."""
     return fit(
-        derive.model_of(i),
+        derive.load_model(i),
         i,
         observe_flights([read_flight(HERE / "motion.parquet", i.g0, accelerometers=i.layout)], i),
     )

@@ -33,7 +33,7 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.model import derive
 from ragg_runtime.model.directory import ModelDir
-from ragg_runtime.model.evaluate import output, vector
+from ragg_runtime.model.evaluate import evaluate_output, make_vector
 from ragg_runtime.model.record import record
 from ragg_runtime.reference import EffectValues
 from ragg_runtime.signals.demodulators import Demodulator
@@ -266,7 +266,7 @@ def contents() -> Contents:
     i = instrument("odd", sheets.FULL)
     model, files = derive.derived((), (), i.form, i.layout)
     return Contents(
-        name="odd", model=model, instrument=i, p=vector(model, i), sources=derive.plain_c(i),
+        name="odd", model=model, instrument=i, p=make_vector(model, i), sources=derive.derive_plain_c(i),
         module=files["chain.py"], origin="values of model.toml",
     )  # fmt: skip
 
@@ -317,7 +317,7 @@ def test_every_output_is_what_python_gives(program: Path, tmp_path: Path) -> Non
     _, again = rows(subprocess.run(command, input=text, capture_output=True, check=True).stdout)
     for k, o in enumerate(c.outputs()):
         r = record(x, c.instrument, k)
-        expected = output(c.model.chain, r, c.p, c.instrument.layout.outputs[k])
+        expected = evaluate_output(c.model.chain, r, c.p, c.instrument.layout.outputs[k])
         limit = max(1e-6 * o.scale_factor, 8 * np.finfo(float).eps * float(np.max(np.abs(expected))))
         assert np.max(np.abs(found[:, 1 + k] - expected)) < limit
         assert np.max(np.abs(again[:, 1 + k] - expected)) < limit

@@ -18,4 +18,4 @@ def diagnosed(known: Scenario | Instrument, *flights: Flight) -> Diagnosis:
     """``known``: the sheet, or a scenario that has one."""
     sheet = known.sheet if isinstance(known, Scenario) else known
     with mock.patch.object(next_motion, "propose_motions", lambda *_: ()):
-        return diagnose(derive.model_of(sheet), sheet, flights, partial(derive.with_effects, sheet))
+        return diagnose(derive.load_model(sheet), sheet, flights, partial(derive.with_effects, sheet))

@@ -7,11 +7,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from ragg_runtime.estimation.fitted import noise_floor
+from ragg_runtime.estimation.fitted import measure_noise_floor
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
-from ragg_runtime.model.model import packaged
+from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import screen
 from ragg_runtime.signals.angular_acceleration import REACH, derive_accelerations, differentiate_rate
@@ -53,7 +53,7 @@ def derived(seed: int, rate: float, trim: str, duration: float):  # type: ignore
     slopes, valid = derive_accelerations([channels[n] for n in ANGULAR_RATE], flight.time)
     channels |= dict(zip(ANGULAR_ACCELERATION, slopes, strict=True))
     flight = dataclasses.replace(flight, channels=channels, valid=valid)
-    return s.sheet, screen(packaged(), s.sheet, flight)
+    return s.sheet, screen(load_packaged(), s.sheet, flight)
 
 
 def test_an_unmatched_instrument_sampled_slowly_is_not_accused() -> None:
@@ -62,11 +62,11 @@ def test_an_unmatched_instrument_sampled_slowly_is_not_accused() -> None:
     Where the turbulence comes in bursts the error does so too, and one in three may be unexplained.
     """
     sheet, flight = derived(7000, 8.0, "table-v", 450.0)
-    assert diagnose(packaged(), sheet, [flight]).verdict == "adequate"
+    assert diagnose(load_packaged(), sheet, [flight]).verdict == "adequate"
 
 
 def test_the_error_of_the_derivative_is_part_of_the_noise() -> None:
     sheet, flight = derived(7016, 8.0, "table-v", 900.0)
-    c = compare(packaged(), sheet, [flight])
-    assert c.calibrated.rms_Eo == pytest.approx(noise_floor(c.fitted), rel=0.15)
+    c = compare(load_packaged(), sheet, [flight])
+    assert c.calibrated.rms_Eo == pytest.approx(measure_noise_floor(c.fitted), rel=0.15)
     assert c.noise_floor > 3 * 2.8, "it is the largest part"

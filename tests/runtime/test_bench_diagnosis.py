@@ -41,7 +41,7 @@ def test_the_simulator_confirms_the_strength() -> None:
     assert hidden is not None
     sim = fly._simulated(w, {effect: hidden.values})
     at = strength.LinearisationPoint(
-        oracle.model, w.known, strength.vector(oracle.model, w.known), with_candidates=False
+        oracle.model, w.known, strength.make_vector(oracle.model, w.known), with_candidates=False
     )
     left = [strength.linearise(at, strength.observe(s.flight(), w.known))[-1] for s in (sim, plain)]
     assert np.linalg.norm(oracle.projected(oracle.whitened((left[0] - left[1])[None]))) == pytest.approx(

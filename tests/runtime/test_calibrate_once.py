@@ -23,7 +23,7 @@ from ragg_runtime.compensation.saved import add_entry, read_saved
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.model import model as load
-from ragg_runtime.model.model import packaged
+from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import scenario
 from tests.rate import RATE
 from tests.runtime.flown_twice import DURATION, files, flights, new_model, run, truth
@@ -135,7 +135,7 @@ def test_of_a_long_flight_some_blocks_say_whether_it_holds(
 
 def test_chi_square_is_one_a_direction_if_nothing_changed() -> None:
     """Over several pairs of flights of unchanged instruments the statistic has its mean."""
-    total, directions, model = 0.0, 0, load.packaged()
+    total, directions, model = 0.0, 0, load.load_packaged()
     for seed in (1, 2):
         s = scenario(seed, duration=300.0, rate=RATE)
         saved = make_saved(calibrate(model, s.sheet, [s.simulate({}).flight()]), [], "now")
@@ -225,7 +225,7 @@ def test_parameters_walk_on_between_flights(monkeypatch: pytest.MonkeyPatch) -> 
         dataclasses.replace(dataclasses.replace(s, instrument=k).simulate({}).flight(), origin=at)
         for k, at in ((later, day + timedelta(hours=1)), (i, day))
     ]
-    f = fit(packaged(), s.sheet, observe_flights(flights, s.sheet), candidates=False)
+    f = fit(load_packaged(), s.sheet, observe_flights(flights, s.sheet), candidates=False)
     monkeypatch.setattr(drift, "_find_rates", lambda *_: {"K1": 1e-4})  # the search takes most of the time
     d = drift.smooth_drift(f, flights)
     assert [e.flight for e in d.epochs] == [1] * 24 + [0] * 24
@@ -239,14 +239,14 @@ def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
     """What is compensated with them is as sure as it says; with constant parameters it is not."""
     s = scenario(3, duration=600.0, rate=RATE, gradient_rms=50e-9)
     still = s.simulate({}).flight()
-    f = fit(packaged(), s.sheet, observe_flights([still], s.sheet), candidates=False)
+    f = fit(load_packaged(), s.sheet, observe_flights([still], s.sheet), candidates=False)
     assert drift.smooth_drift(f, [still]).rates == {}
     x = s.simulate(
         {"gain-drift": {"dK1_dt": [2e-10, -2e-10, 4e-11, -4e-11]}}
     ).flight()  # 1/s: 1e-7 over the flight
     rms = {}
     for kind in ("self", "smoothed"):
-        c = make_channel(prepare(packaged(), s.sheet, [x], kind), 0, "fir")  # type: ignore[arg-type]
+        c = make_channel(prepare(load_packaged(), s.sheet, [x], kind), 0, "fir")  # type: ignore[arg-type]
         found = c.compensate()
         z = ((found.gradient - truth(x, c.demodulator)).real / found.std[0])[:: int(2 * RATE)]
         rms[kind] = np.sqrt(np.nanmean(z**2))

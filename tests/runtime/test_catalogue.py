@@ -12,9 +12,9 @@ from benchmarks.diagnosis import fly, plan, records
 from benchmarks.diagnosis.strength import NEVER, Oracle
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.regressors import LinearisationPoint, group_by_effect, linearise
-from ragg_runtime.identification.selection import Field, alternatives, choose
-from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model.model import packaged
+from ragg_runtime.identification.selection import Field, choose, find_alternatives
+from ragg_runtime.model.evaluate import make_vector
+from ragg_runtime.model.model import load_packaged
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ ABSORBED = ("spin-axis-wobble", "spin-phase-offset")
 
 SEARCHED = [
     e.id
-    for e in packaged().candidates
+    for e in load_packaged().candidates
     if e.kind == "deterministic" and e.searched and e.id not in (*NEVER, *ABSORBED)
 ]
 
@@ -80,10 +80,10 @@ def test_it_is_named_first_or_one_that_is_stated_to_be_like_it(flight: WhitenedF
     hidden = next(h for h in (o.drawn(effect, SIGMAS, rng) for _ in range(DIRECTIONS)) if h is not None)
     sim = fly._simulated(flight.world, {effect: hidden.values})
     known = LinearisationPoint(
-        o.model, flight.world.known, vector(o.model, flight.world.known), with_candidates=False
+        o.model, flight.world.known, make_vector(o.model, flight.world.known), with_candidates=False
     )
     residual = linearise(known, observe(sim.flight(), flight.world.known))[-1]
     field = flight.field(o.whitened(residual[None])[0] + flight.noise)
     choice = choose(field)
     first = choice.chosen[0]
-    assert effect in (first, *alternatives(field, choice)[first])
+    assert effect in (first, *find_alternatives(field, choice)[first])

@@ -49,31 +49,33 @@ def test_effects_that_explain_the_same_are_alike_however_uneven_their_scores_see
 
 def test_held_out_blocks_speak_for_what_is_there_and_against_what_is_not() -> None:
     fitted = np.isin(np.arange(BLOCKS), FITTED_BLOCKS)
-    assert claims.held_out_evidence(regression(np.full(BLOCKS, 2.0)), "e") > 5.0
-    assert claims.held_out_evidence(regression(np.where(fitted, 2.0, -2.0)), "e") < -20.0
-    assert abs(claims.held_out_evidence(regression(np.zeros(BLOCKS)), "e")) < claims.PLAINLY
+    assert claims.weigh_held_out(regression(np.full(BLOCKS, 2.0)), "e") > 5.0
+    assert claims.weigh_held_out(regression(np.where(fitted, 2.0, -2.0)), "e") < -20.0
+    assert abs(claims.weigh_held_out(regression(np.zeros(BLOCKS)), "e")) < claims.PLAINLY
 
 
 def test_coefficients_that_nothing_excites_cost_a_claim_nothing() -> None:
-    few, many = (claims.held_out_evidence(regression(np.full(BLOCKS, 2.0), further=n), "e") for n in (0, 12))
+    few, many = (claims.weigh_held_out(regression(np.full(BLOCKS, 2.0), further=n), "e") for n in (0, 12))
     assert many == pytest.approx(few, abs=3.0)
 
 
 def test_coefficients_that_are_held_are_not_fitted_and_large_ones_widen_their_prior() -> None:
     s = scenario(57, duration=10.0)
-    extended = with_effects(s.sheet, model.packaged(), ["cubic-input"])
+    extended = with_effects(s.sheet, model.load_packaged(), ["cubic-input"])
     labels = [c.label for c, _ in list_base_columns(extended, s.sheet) if c.effect]
     held = replace(s.sheet, held=frozenset(labels[1:]))
     assert [c.label for c, _ in list_base_columns(extended, held) if c.effect] == labels[:1]
     columns, index = zip(*list_base_columns(extended, s.sheet), strict=True)
-    p = calibration.vector(extended, s.sheet)
+    p = calibration.make_vector(extended, s.sheet)
     known = np.array([0.01 if c.effect else 1.0 for c in columns])
     for c, k in zip(columns, index, strict=True):
         p[k] += 40.0 * c.scale * (c.label == labels[0])
     c = calibration.Calibration(
         p, columns, np.array(index), np.diag(known), (), 100, 100.0, 1.0, 1.0, converged=True, reason=""
     )
-    assert calibration._widths(extended, s.sheet, c) == {"cubic-input.K_iii": pytest.approx(20.0, rel=0.02)}
+    assert calibration._estimate_widths(extended, s.sheet, c) == {
+        "cubic-input.K_iii": pytest.approx(20.0, rel=0.02)
+    }
 
 
 def test_terms_explain_what_a_joint_fit_with_the_priors_of_the_base_does() -> None:
@@ -88,7 +90,7 @@ def test_terms_explain_what_a_joint_fit_with_the_priors_of_the_base_does() -> No
         return float(np.sum((y - X @ np.linalg.lstsq(X, y, rcond=None)[0]) ** 2))
 
     T = np.linalg.qr(np.column_stack([base[:ROWS], data]), mode="r")
-    p = whitening.projector([T], 3, (), y[ROWS:])
+    p = whitening.make_projector([T], 3, (), y[ROWS:])
     Q = base[:ROWS] @ p.to_basis
     along, beside = terms.T @ Q, terms - Q @ (Q.T @ terms)
     found = p.explained(along, beside.T @ beside, beside.T @ data)
@@ -99,14 +101,14 @@ def test_terms_explain_what_a_joint_fit_with_the_priors_of_the_base_does() -> No
 
 
 def test_a_strong_term_leaves_but_noise_once_the_model_is_fitted_again_beside_it() -> None:
-    s, derived = scenario(3, duration=120.0, rate=8.0, trim="table-v"), model.packaged()
+    s, derived = scenario(3, duration=120.0, rate=8.0, trim="table-v"), model.load_packaged()
     sim = s.simulate()
     flight, rate = sim.flight(), sim.channels["omega_z"]
     size = 100.0 * np.std(sim.G_out - sim.G_out_noise_free) / np.std(rate)
     changed = flight.outputs["G_out"] + size * rate
     f = fit(derived, s.sheet, observe_flights([replace(flight, outputs={"G_out": changed})], s.sheet))
-    (searched,) = omnibus.remainder(f).searches
+    (searched,) = omnibus.search_residual(f).searches
     term = searched.steady[0]
     assert (term.term.harmonic, term.term.product) == ("const", "omega_z") and term.chi2 > 1e5
-    left = claims.refit_beside(f, term)
+    left = claims.fit_beside(f, term)
     assert left is not None and left < 1.15 * len(flight)

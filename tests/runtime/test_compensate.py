@@ -33,7 +33,7 @@ from tests.runtime.flown_twice import BRIEF, DURATION, files, flights, new_model
 def compensated(
     s: Scenario, x: Flight, kind: Kind = "self", name: str = "fir"
 ) -> tuple[OutputChannel, Compensated]:
-    c = make_channel(prepare(load.packaged(), s.sheet, [x], kind), 0, name)
+    c = make_channel(prepare(load.load_packaged(), s.sheet, [x], kind), 0, name)
     return c, c.compensate()
 
 
@@ -42,7 +42,7 @@ def flown(seed: int, kind: Kind) -> tuple[Flight, PreparedFlights]:
     """A flight over a gradient, fitted."""
     s = scenario(seed, duration=DURATION, rate=RATE, gradient_rms=50e-9)
     x = s.simulate({}).flight()
-    return x, prepare(load.packaged(), s.sheet, [x], kind)
+    return x, prepare(load.load_packaged(), s.sheet, [x], kind)
 
 
 @pytest.mark.parametrize(("kind", "name"), [("crossed", "butterworth"), ("self", "causal")])
@@ -253,4 +253,4 @@ def test_no_such_kind_or_demodulator() -> None:
     with pytest.raises(UserError, match="no such demodulator"):
         find_demodulator("box", RATE)
     with pytest.raises(UserError, match="no such calibration"):
-        prepare(load.packaged(), scenario(11, duration=60.0).sheet, [], "none")  # type: ignore[arg-type]
+        prepare(load.load_packaged(), scenario(11, duration=60.0).sheet, [], "none")  # type: ignore[arg-type]

@@ -23,7 +23,7 @@ from ragg_runtime.estimation.observation import Observation, observe
 from ragg_runtime.io import read_flight, write_flight
 from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import output, scale_factor, vector
+from ragg_runtime.model.evaluate import evaluate_output, make_vector, scale_factor
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.scenario import Scenario, scenario
 from tests.rate import RATE
@@ -103,7 +103,7 @@ def expected(model: Path, flight: Path) -> tuple[Array, float]:
     m = api.load(model)
     p = api.contents(m).p
     x = read_flight(flight, m.instrument.g0)
-    return output(m.model.chain, record(x, m.instrument), p), scale_factor(m.model, p)
+    return evaluate_output(m.model.chain, record(x, m.instrument), p), scale_factor(m.model, p)
 
 
 @pytest.mark.parametrize("which", ["base", "extended"])
@@ -134,7 +134,7 @@ def test_the_angular_acceleration_is_derived_as_python_does_it(
     m = api.load(model)
     x = read_flight(bare, m.instrument.g0)
     p = api.contents(m).p
-    found, k_ggi = output(m.model.chain, record(x, m.instrument), p), scale_factor(m.model, p)
+    found, k_ggi = evaluate_output(m.model.chain, record(x, m.instrument), p), scale_factor(m.model, p)
     there = np.searchsorted(x.time, time - 1e-3)
     assert len(there) == len(rows) - 1
     gaps = np.abs(np.subtract.outer(time, time[[0, 1498, 1499, 2791, 2792, -1]])).min(axis=1)
@@ -156,7 +156,7 @@ def test_the_values_are_the_calibrated_ones(base: tuple[Path, Path, Path]) -> No
     model, folder, _ = base
     m = api.load(model)
     saved = api.saved_calibration(m)
-    assert not np.array_equal(saved.p, vector(m.model, m.instrument))
+    assert not np.array_equal(saved.p, make_vector(m.model, m.instrument))
     told = subprocess.run(
         [folder / "ragg_model", "--values"], capture_output=True, text=True, check=True
     ).stdout
@@ -268,7 +268,7 @@ def test_the_document_holds_everything(extended: tuple[Path, Path, Path], tmp_pa
     assert [e["id"] for e in d["effects"]] == ["lag", "thermal-scale"]
     p = np.concatenate([q["values"] for q in d["parameters"]])
     m = api.load(model)
-    assert np.array_equal(p, vector(m.model, m.instrument))
+    assert np.array_equal(p, make_vector(m.model, m.instrument))
     assert all(q["unit"] and q["meaning"] for q in d["parameters"])
     assert len(d["example"]["G_out"]) == len(d["example"]["columns"]["time"])
     before = (tmp_path / "j" / "model.json").read_bytes()
@@ -320,7 +320,7 @@ def noise_of(s: Scenario) -> float:
 
 def test_with_nothing_forgotten_it_is_the_batch_fit_to_rounding() -> None:
     s, o = observed()
-    f = Online(load.packaged(), s.sheet, Tuning(noise=noise_of(s)))
+    f = Online(load.load_packaged(), s.sheet, Tuning(noise=noise_of(s)))
     rows = f._rows(o)
     n = len(f.columns)
     prior = np.zeros((n + 2, n + 3))
@@ -344,7 +344,7 @@ def test_a_drift_is_followed_with_the_stated_lag() -> None:
     """A scale factor that grows steadily: what the filter believes lags by the time constant of its memory."""
     s, o = observed(700.0)
     forget, rate = 100.0, 1e-8  # s; of A1's own, a second
-    model = load.packaged()
+    model = load.load_packaged()
     filters = [Online(model, s.sheet, Tuning(noise=noise_of(s), walk=0.3, forget=forget)) for _ in range(2)]
     rows = filters[0]._rows(o)
     k = next(n for n, q in enumerate(filters[0].columns) if q.label == "K1[1]")
@@ -368,12 +368,12 @@ def test_gaps_and_missing_samples_are_passed_over() -> None:
     valid = r.valid.copy()
     valid[50:55] = valid[1000:2000] = False
     holed = dataclasses.replace(o, record=dataclasses.replace(r, valid=valid), series=(G,))
-    f = Online(load.packaged(), s.sheet, Tuning(noise=noise_of(s), walk=0.5))
+    f = Online(load.load_packaged(), s.sheet, Tuning(noise=noise_of(s), walk=0.5))
     got = f.feed(holed)
     assert np.isfinite(got.inline).all()
     inside, ahead = (np.searchsorted(got.time, r.time[i]) for i in (1999, 999))
     assert got.inline_std[inside] > 3 * got.inline_std[ahead]  # it wanders meanwhile
-    whole = Online(load.packaged(), s.sheet, Tuning(noise=noise_of(s), walk=0.5)).feed(o)
+    whole = Online(load.load_packaged(), s.sheet, Tuning(noise=noise_of(s), walk=0.5)).feed(o)
     last = np.abs(got.inline[-1] - whole.inline[-1]) / whole.inline_std[-1]
     assert last < 3
 

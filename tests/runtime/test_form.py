@@ -18,9 +18,9 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.files import convert
 from ragg_runtime.model import derive
-from ragg_runtime.model.evaluate import output, scale_factor, vector
-from ragg_runtime.model.model import packaged
-from ragg_runtime.model.record import SPIN, Record, record, spin, spin_degree
+from ragg_runtime.model.evaluate import evaluate_output, make_vector, scale_factor
+from ragg_runtime.model.model import load_packaged
+from ragg_runtime.model.record import SPIN, Record, choose_spin_degree, record, spin
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import screen
@@ -85,17 +85,17 @@ def test_new_writes_full_kinematics_where_the_sheet_has_no_form_and_says_so(tmp_
     (tmp_path / "platform.toml").write_text(sheet("[model]"))
     said = ragg("new", tmp_path / "platform", "--from", tmp_path / "platform.toml").stderr
     assert said == ""
-    assert api.load(tmp_path / "platform").model is packaged()
+    assert api.load(tmp_path / "platform").model is load_packaged()
     said = ragg("new", tmp_path / "own").stderr
     assert said == ""
     m = api.load(tmp_path / "own")
     assert m.instrument.form == Form(kinematics="full")
-    assert m.model is packaged("full")
-    assert api.load(tmp_path / "from-sheet").model is packaged("full")
+    assert m.model is load_packaged("full")
+    assert api.load(tmp_path / "from-sheet").model is load_packaged("full")
 
 
 def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> None:
-    full, platform = packaged("full"), packaged()
+    full, platform = load_packaged("full"), load_packaged()
     assert platform.effect("disc-spin") is not None
     assert full.effect("disc-spin") is None
     m = api.new(tmp_path / "full")
@@ -105,7 +105,7 @@ def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> No
     with pytest.raises(UserError, match="the effect disc-spin is already in the model"):
         api.new(tmp_path / "bad", tmp_path / "bad.toml")
     keeping = parse_instrument(sheet("[model]\norder = { second_order_angles = true }"))
-    assert derive.model_of(keeping).effect("second-order-misalignment") is None
+    assert derive.load_model(keeping).effect("second-order-misalignment") is None
 
 
 @pytest.mark.parametrize(
@@ -122,25 +122,25 @@ def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -
     """Nominal error below 0.1 Eo; measured below 1e-5."""
     instrument = replace(parse_instrument(EXAMPLE), form=form)
     flight = simulate_flight(instrument, (), noise=0.0, sheet_error=0.0, duration=120.0, no_gradient=False)
-    model = derive.without_signatures(instrument, form)
-    p = vector(model, instrument)
+    model = derive.derive_without_signatures(instrument, form)
+    p = make_vector(model, instrument)
     r = record(flight, instrument)
-    left = (flight.outputs["G_out"] - output(model.chain, r, p)) / scale_factor(model, p)
+    left = (flight.outputs["G_out"] - evaluate_output(model.chain, r, p)) / scale_factor(model, p)
     assert np.sqrt(np.mean(left**2)) < 1e-5
     other = replace(instrument, form=PAPER if form == EXACT else EXACT)
-    away = derive.without_signatures(other, other.form)
-    q = vector(away, other)
-    left = (flight.outputs["G_out"] - output(away.chain, r, q)) / scale_factor(away, q)
+    away = derive.derive_without_signatures(other, other.form)
+    q = make_vector(away, other)
+    left = (flight.outputs["G_out"] - evaluate_output(away.chain, r, q)) / scale_factor(away, q)
     assert np.sqrt(np.mean(left**2)) > 0.1
 
 
 def test_folded_and_chain_of_full_kinematics_are_one_model() -> None:
     """Two derived forms, in NumPy and in C, to rounding: 1e-6 Eo."""
-    model, instrument = packaged("full"), parse_instrument(EXAMPLE)
+    model, instrument = load_packaged("full"), parse_instrument(EXAMPLE)
     flight = simulate_flight(instrument, (), noise=0.0, sheet_error=0.0, duration=30.0, no_gradient=False)
     r = record(flight, instrument)
-    p = vector(model, instrument)
-    chain = output(model.chain, r, p)
+    p = make_vector(model, instrument)
+    chain = evaluate_output(model.chain, r, p)
     inputs = r.inputs(model.chain)
     for backend in ("numpy", "c"):
         e = model.compiled(backend)  # type: ignore[arg-type]
@@ -156,7 +156,7 @@ def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
     swing = 1e-3 * np.sin(2 * np.pi * 2 * f * t)
     angle = 2 * np.pi * f * t + swing
     coded = np.mod(step * np.round(angle / step), 2 * np.pi)
-    degree = spin_degree(coded, rate)
+    degree = choose_spin_degree(coded, rate)
     assert degree == 7  # it follows the swing more closely than the lowest
     first, second = (spin(name, coded, t.size, rate, 9.9, degree) for name in SPIN)
     left = np.unwrap(coded) - 2 * np.pi * f * t  # of an angle of hundreds of radians the filter loses digits
@@ -218,7 +218,7 @@ def test_seconds_count_from_zero_whatever_the_first_sample_is(start: float) -> N
     assert r.time[0] == 0.0
     later = record(x.part(slice(100, None)), S.sheet)
     assert later.phi[0] == pytest.approx(np.angle(np.exp(1j * expected[100])), abs=1e-11)
-    assert not [n for n in screen(packaged(), S.sheet, x).notes if "mistake" in n]
+    assert not [n for n in screen(load_packaged(), S.sheet, x).notes if "mistake" in n]
 
 
 def test_instants_count_from_the_first_sample_and_the_sheet_may_say_otherwise() -> None:
@@ -238,9 +238,9 @@ def test_where_the_sheet_speaks_against_it_the_user_is_asked() -> None:
     x = flown(0.0)
     x = replace(x, time=x.time + 10.0, began=None)  # half a turn
     with pytest.raises(UserError, match="angle_origin") as told:
-        screen(packaged(), S.sheet, x)
+        screen(load_packaged(), S.sheet, x)
     assert "at the first sample (t = 10 s), not at t = 0" in str(told.value)
-    screen(packaged(), replace(S.sheet, angle_origin="first-sample"), x)
+    screen(load_packaged(), replace(S.sheet, angle_origin="first-sample"), x)
 
 
 @pytest.mark.parametrize("stamp", ["2026-03-01T12:00:{:05.2f}Z", "12:00:{:05.2f}"])
@@ -267,7 +267,7 @@ def test_a_motion_that_is_flown_keeps_its_time(tmp_path: Path) -> None:
         S.sheet, [], motion=tmp_path / "motion.parquet", noise=0.0, sheet_error=0.0, no_gradient=False
     )
     assert x.time[0] == 11.0
-    model, r = packaged(), record(x, S.sheet)
-    p = vector(model, S.sheet)
-    left = (x.outputs["G_out"] - output(model.chain, r, p)) / scale_factor(model, p)
+    model, r = load_packaged(), record(x, S.sheet)
+    p = make_vector(model, S.sheet)
+    left = (x.outputs["G_out"] - evaluate_output(model.chain, r, p)) / scale_factor(model, p)
     assert np.std(left) < 1e-5

@@ -24,7 +24,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, harmonic, series
 from ragg_runtime.estimation.observation import ROWS
 from ragg_runtime.identification import likelihood_ratio, probability, sequential
-from ragg_runtime.identification.dictionary import harmonics, list_generic
+from ragg_runtime.identification.dictionary import list_generic, list_harmonics
 from ragg_runtime.io import files
 from ragg_runtime.report.plots import draw_plot
 from ragg_runtime.wording.sections import render_html
@@ -79,7 +79,7 @@ def test_evidence_and_e_value_are_those_of_the_page() -> None:
     block = probability._Subspace(effect="e", Q=np.eye(3)[:, :2], along=np.array([3.0, -1.0]), weight=0.0)
     log_b = 10.0 / 2 * g / (1 + g) - 2 / 2 * np.log(1 + g)
     assert np.allclose(
-        probability._evidence([block], np.array([[0]])), np.log(np.mean(np.exp(log_b))), atol=1e-6
+        probability._weigh_evidence([block], np.array([[0]])), np.log(np.mean(np.exp(log_b))), atol=1e-6
     )
     z, v = np.array([0.5, 3.0]), sequential.SIZES[:, None]
     each = (1 + v) ** -0.5 * np.exp(z**2 / 2 * v / (1 + v))
@@ -96,7 +96,7 @@ def test_every_name_of_the_dictionary_is_printed_as_it_was_parsed() -> None:
     names = {n for product in list_generic(["temperature", "time"]) for n in product}
     assert len(names) > 50
     assert [str(series(n)) for n in sorted(names)] == sorted(names)
-    assert [str(harmonic(h)) for h in harmonics()] == list(harmonics())
+    assert [str(harmonic(h)) for h in list_harmonics()] == list(list_harmonics())
 
 
 @pytest.mark.parametrize(

@@ -11,11 +11,11 @@ from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.thinning import leave_out_uncertain
-from ragg_runtime.estimation.unknown_gradient import windows
+from ragg_runtime.estimation.unknown_gradient import make_windows
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import vector, voltages
+from ragg_runtime.model.evaluate import evaluate_voltages, make_vector
 from ragg_runtime.model.lateness import list_late, move_record
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -24,11 +24,11 @@ from ragg_runtime.reference.scenario import Scenario, scenario
 @pytest.fixture(scope="module")
 def world() -> tuple[Scenario, load.Model]:
     s = scenario(71, duration=200.0)
-    return s, derive.with_effects(s.sheet, load.packaged(), ["clock-drift", "time-offset"])
+    return s, derive.with_effects(s.sheet, load.load_packaged(), ["clock-drift", "time-offset"])
 
 
 def _parameters(s: Scenario, model: load.Model, values: dict[str, float]) -> np.ndarray:
-    p = vector(model, s.sheet)
+    p = make_vector(model, s.sheet)
     for k, q in list_late(model):
         p[k] = values[q.name]
     return p
@@ -76,7 +76,7 @@ def test_noise_of_the_motion_makes_no_jumps(world: tuple[Scenario, load.Model]) 
 def test_a_drift_of_half_a_sample_and_more_is_fitted_down_to_noise() -> None:
     s = scenario(72, duration=200.0)
     sim = s.simulate({"clock-drift": {"epsilon": 4e-4}})  # 1.3 samples
-    model = derive.with_effects(s.sheet, load.packaged(), ["clock-drift"])
+    model = derive.with_effects(s.sheet, load.load_packaged(), ["clock-drift"])
     o = observe(sim.flight(), s.sheet)
     f = fitted.fit(model, s.sheet, [o], candidates=False)
     noise = float(np.std(sim.G_out - sim.G_out_noise_free))
@@ -90,7 +90,7 @@ def test_a_drift_of_half_a_sample_and_more_is_fitted_down_to_noise() -> None:
 def test_the_ends_are_left_out_where_motion_is_late(world: tuple[Scenario, load.Model]) -> None:
     s, model = world
     o = observe(s.simulate().flight(), s.sheet)
-    assert leave_out_uncertain(load.packaged(), s.sheet, [o])[0] is o
+    assert leave_out_uncertain(load.load_packaged(), s.sheet, [o])[0] is o
     (kept,) = leave_out_uncertain(model, s.sheet, [o])
     assert np.flatnonzero(~kept.record.valid).tolist() == [0, len(o.record.time) - 1]
     short = o.part(slice(0, 8))
@@ -100,7 +100,7 @@ def test_the_ends_are_left_out_where_motion_is_late(world: tuple[Scenario, load.
 @pytest.fixture(scope="module")
 def switching_world() -> tuple[Scenario, load.Model]:
     s = scenario(61, duration=300.0)
-    return s, derive.with_effects(s.sheet, load.packaged(), ["adc-nonlinearity"])
+    return s, derive.with_effects(s.sheet, load.load_packaged(), ["adc-nonlinearity"])
 
 
 def test_what_is_kept_is_on_the_same_side_for_every_instrument_that_the_sheet_allows(
@@ -111,7 +111,7 @@ def test_what_is_kept_is_on_the_same_side_for_every_instrument_that_the_sheet_al
     (kept,) = leave_out_uncertain(model, s.sheet, [o])
     left_out = o.record.valid & ~kept.record.valid
     assert 0 < np.sum(left_out) < 0.1 * np.sum(o.record.valid)
-    side = np.sign(voltages(model.chain, o.record, vector(model, s.sheet)))
+    side = np.sign(evaluate_voltages(model.chain, o.record, make_vector(model, s.sheet)))
     rng, changed = np.random.default_rng(4), np.zeros(len(left_out), dtype=bool)
     for _ in range(20):
         a = s.sheet.accelerometers
@@ -122,7 +122,9 @@ def test_what_is_kept_is_on_the_same_side_for_every_instrument_that_the_sheet_al
             g0=9.8,
             accelerometers={**a, **drawn},
         )
-        changed |= (np.sign(voltages(model.chain, o.record, vector(model, other))) != side).any(axis=0)
+        changed |= (np.sign(evaluate_voltages(model.chain, o.record, make_vector(model, other))) != side).any(
+            axis=0
+        )
     assert changed.any()
     assert not np.any(changed & kept.record.valid)
 
@@ -133,9 +135,9 @@ def test_what_was_found_for_all_samples_does_not_serve_those_that_are_kept(
     s, model = switching_world
     o = observe(s.simulate(record_gradient=False).flight(), s.sheet)
     noise, every = NoiseModel.white(o.record.rate, 1), slice(0, len(o.record.time))
-    assert len(windows(o, every, noise)[0].places) == np.sum(o.record.valid)
+    assert len(make_windows(o, every, noise)[0].places) == np.sum(o.record.valid)
     (kept,) = leave_out_uncertain(model, s.sheet, [o])
-    assert len(windows(kept, every, noise)[0].places) == np.sum(kept.record.valid)
+    assert len(make_windows(kept, every, noise)[0].places) == np.sum(kept.record.valid)
 
 
 def test_a_model_that_does_not_switch_keeps_every_sample(
@@ -143,7 +145,7 @@ def test_a_model_that_does_not_switch_keeps_every_sample(
 ) -> None:
     s, _ = switching_world
     o = observe(s.simulate().flight(), s.sheet)
-    assert leave_out_uncertain(load.packaged(), s.sheet, [o]) == [o]
+    assert leave_out_uncertain(load.load_packaged(), s.sheet, [o]) == [o]
 
 
 def test_a_sheet_that_knows_nothing_of_the_side_leaves_nothing_out(

@@ -18,19 +18,19 @@ from ragg_runtime.estimation.fitted import estimate_variance, fit
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe, observe_flights
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
-from ragg_runtime.estimation.unknown_gradient import take_out, windows
+from ragg_runtime.estimation.unknown_gradient import make_windows, take_out
 from ragg_runtime.identification import contenders, selection
 from ragg_runtime.identification.comparison import compare, compute_nominal_residual
 from ragg_runtime.identification.diagnose import complete_ranking, diagnose
 from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.ranking import list_not_testable
 from ragg_runtime.identification.result import Diagnosis, group_findings
-from ragg_runtime.identification.verdict import _of_one_kind
+from ragg_runtime.identification.verdict import _find_common_kind
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model.model import packaged
+from ragg_runtime.model.evaluate import make_vector
+from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.simulate import simulate_flight
@@ -60,7 +60,7 @@ def test_a_flight_without_hidden_effect_is_adequate_and_its_error_is_the_noise()
     floors = []
     for seed in (41, 42):  # of a single flight the floor is known to 1.4 %
         s, flight = flown(seed, trim="table-v")
-        c = compare(load.packaged(), s.sheet, [flight])
+        c = compare(load.load_packaged(), s.sheet, [flight])
         assert c.adequate
         truth = noise_of(s) / c.fitted.k_ggi
         assert c.calibrated.rms_Eo == pytest.approx(truth, rel=0.01)
@@ -177,11 +177,11 @@ def test_an_unknown_gradient_is_taken_out_of_each_voltage_by_its_scale_factor() 
     s = scenario(62, trim="table-v", duration=200.0, noise_density=0.0)  # 10 to 12 mA/g
     flight = s.simulate(record_gradient=False).flight(voltages=True)
     o = observe(flight, s.sheet)
-    model = load.packaged()
+    model = load.load_packaged()
     true = s.sheet.replace(**s.instrument.accelerometers)
-    e = linearise(LinearisationPoint(model, s.sheet, vector(model, true), with_candidates=False), o)[-1:]
+    e = linearise(LinearisationPoint(model, s.sheet, make_vector(model, true), with_candidates=False), o)[-1:]
     n = len(o.record.time)
-    left = take_out(e, windows(o, slice(0, n), NoiseModel.white(o.record.rate, 4)), o.record.valid)
+    left = take_out(e, make_windows(o, slice(0, n), NoiseModel.white(o.record.rate, 4)), o.record.valid)
     assert np.std(e) > 1e-3
     assert np.std(left) < 0.01 * np.std(e)
 
@@ -189,7 +189,9 @@ def test_an_unknown_gradient_is_taken_out_of_each_voltage_by_its_scale_factor() 
 def test_of_a_constant_gradient_it_leaves_nothing_and_the_report_says_why() -> None:
     """What it leaves is small before the calibration: to say that this absorbs the rest would be wrong."""
     s = scenario(62, duration=200.0, noise_density=1e-8)
-    f = fitted.fit(load.packaged(), s.sheet, [observe(s.simulate(record_gradient=False).flight(), s.sheet)])
+    f = fitted.fit(
+        load.load_packaged(), s.sheet, [observe(s.simulate(record_gradient=False).flight(), s.sheet)]
+    )
     why = {x.effect: x.why for x in list_not_testable(f, selection.make_field(f, selection.list_testable(f)))}
     assert "a gradient that is not recorded" in why["gradient-offset"]
 
@@ -205,17 +207,17 @@ def good_flight(seed: int = 3, duration: float = 90.0) -> tuple[Instrument, Flig
 def test_an_output_in_which_nothing_follows_the_motion_is_not_adequate() -> None:
     sheet, x = good_flight()
     shuffled = np.random.default_rng(1).permutation(x.outputs["G_out"])
-    d = diagnose(packaged(), sheet, [replace(x, outputs={"G_out": shuffled})])
+    d = diagnose(load_packaged(), sheet, [replace(x, outputs={"G_out": shuffled})])
     assert (d.verdict, d.found) == ("unexplained", ())
     assert "the output does not follow the motion" in str(d.as_json()["reason"])
     assert d.explained is not None and d.explained.share < 0.5
-    c = compare(packaged(), sheet, [replace(x, outputs={"G_out": shuffled})])
+    c = compare(load_packaged(), sheet, [replace(x, outputs={"G_out": shuffled})])
     assert not c.adequate
 
 
 def test_a_right_model_explains_nearly_all() -> None:
     sheet, x = good_flight()
-    c = compare(packaged(), sheet, [x])
+    c = compare(load_packaged(), sheet, [x])
     said = c.as_json()["explained"]
     assert c.adequate and isinstance(said, dict)
     assert 0.999 < said["share"] < 1.0
@@ -227,7 +229,7 @@ def test_noise_that_follows_the_motion_is_said_and_accuses_nothing() -> None:
     x = sim.flight()
     a = np.abs(x.channels["a_x"])
     noise = (sim.G_out - sim.G_out_noise_free) * (0.2 + a / np.sqrt(np.mean(a**2)))
-    d = diagnose(packaged(), s.sheet, [replace(x, outputs={"G_out": sim.G_out_noise_free + noise})])
+    d = diagnose(load_packaged(), s.sheet, [replace(x, outputs={"G_out": sim.G_out_noise_free + noise})])
     assert d.verdict == "adequate"
     assert "the noise level changes with abs(a_x)" in str(d.as_json()["reason"])
 
@@ -240,7 +242,7 @@ def test_a_line_beside_a_multiple_of_the_spin_rate_accuses_nothing(frequency: fl
     x = sim.flight()
     size = 1.4 * np.std(sim.G_out - sim.G_out_noise_free)
     G = sim.G_out + size * np.cos(2 * np.pi * frequency * x.time + 1.0)
-    d = diagnose(packaged(), s.sheet, [replace(x, outputs={"G_out": G})])
+    d = diagnose(load_packaged(), s.sheet, [replace(x, outputs={"G_out": G})])
     assert d.ranking[0].log_p < -20.0  # an effect alone would be beyond doubt
     if own:
         assert d.verdict == "missing-effect"
@@ -286,7 +288,7 @@ def test_an_effect_is_tested_with_the_channels_that_are_there(
 ) -> None:
     sheet, x = good_flight(duration=40.0)
     x = replace(x, channels={n: v for n, v in x.channels.items() if n not in lost})
-    found = selection.list_testable(fit(packaged(), sheet, observe_flights([x], sheet)))
+    found = selection.list_testable(fit(load_packaged(), sheet, observe_flights([x], sheet)))
     assert {"magnetic-bias", "self-gradient"} & set(found) == testable
 
 
@@ -299,10 +301,10 @@ def test_what_the_recorder_did_is_claimed_where_generic_terms_do_as_well_as_effe
 
 
 def test_the_low_frequencies_of_an_accelerometers_resonance_are_not_two_effects() -> None:
-    fitted = SimpleNamespace(model=packaged())
+    fitted = SimpleNamespace(model=load_packaged())
     found: Any = SimpleNamespace(
         first=SimpleNamespace(fitted=fitted), alternatives=lambda: {"arm-sag": ("second-order-loop",)}
     )
-    assert _of_one_kind(found, ("lag", "second-order-loop")) == "accelerometer-resonance"
-    assert _of_one_kind(found, ("lag", "arm-sag")) == "accelerometer-resonance"
-    assert _of_one_kind(found, ("lag", "thermal-scale")) is None
+    assert _find_common_kind(found, ("lag", "second-order-loop")) == "accelerometer-resonance"
+    assert _find_common_kind(found, ("lag", "arm-sag")) == "accelerometer-resonance"
+    assert _find_common_kind(found, ("lag", "thermal-scale")) is None

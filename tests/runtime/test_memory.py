@@ -57,7 +57,7 @@ def test_what_describes_a_memory_is_fitted_down_to_noise(hidden: EffectValues) -
     s = scenario(72, duration=240.0)
     sim = s.simulate(hidden)
     ((effect, values),) = hidden.items()
-    model = derive.with_effects(s.sheet, load.packaged(), [effect])
+    model = derive.with_effects(s.sheet, load.load_packaged(), [effect])
     f = fitted.fit(model, s.sheet, [observe(sim.flight(), s.sheet)], candidates=False)
     kept = f.observations[0].record.valid
     noise = float(np.std(sim.G_out - sim.G_out_noise_free))
@@ -86,7 +86,7 @@ def test_what_slips_follows_the_force_within_its_width() -> None:
 def test_a_part_of_a_record_hears_what_the_whole_one_does() -> None:
     s = scenario(72, duration=120.0)
     r = record(s.simulate().flight(), s.sheet)
-    known = [m for _, m in first_memories(load.packaged().candidates, r)]
+    known = [m for _, m in first_memories(load.load_packaged().candidates, r)]
     names = (
         *("mount_a_x", "curvature_tangential", "rate_radial_by_f_0", "rate_radial_by_Q"),
         *("slip_radial", "play_axial", "play_axial_by_w", "heat_rt", "heat_start_by_tau"),
@@ -153,7 +153,7 @@ def test_a_body_that_moves_is_weighed_and_placed(body: str, M: float, known: boo
     stated = {n: RawQuantity(v + (0.0 if known or n in EDGES else 0.15), "m") for n, v in true.items()}
     setting = EffectSetting(body, MappingProxyType(stated), fixed=frozenset(stated if known else ()))
     sheet = replace(s.sheet, effects=(setting,))
-    model = derive.with_effects(sheet, load.packaged(), [body])
+    model = derive.with_effects(sheet, load.load_packaged(), [body])
     f = fitted.fit(model, sheet, [observe(flight, sheet)], candidates=False)
     c = f.calibration
     found = {

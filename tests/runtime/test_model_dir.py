@@ -21,8 +21,8 @@ from ragg_runtime.model import directory as md
 from ragg_runtime.model.directory import (
     HistoryStep,
     ModelDir,
+    compute_digest,
     create_model_dir,
-    digest,
     load_model_dir,
     replace_model_dir,
 )
@@ -89,7 +89,7 @@ def test_replace(tmp_path: Path, old: int, new: int) -> None:
     made = change(current, new)
     assert state_number(made) == state_number(load_model_dir(made.path)) == new
     assert made.digest != current.digest
-    assert made.history[-1].digests == (digest(text_of(old)), digest(text_of(new)))
+    assert made.history[-1].digests == (compute_digest(text_of(old)), compute_digest(text_of(new)))
     assert (made.path / "notes.txt").read_text() == "mine"
     assert (made.path / "model.toml").stat().st_mode & 0o777 == 0o640
     assert entries(made.path) == [x for x in [*NAMES, "notes.txt"] if x != "generated" or new % 3]

@@ -17,9 +17,9 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import observation
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.model.compile import BuildError, build, find_compiler, load
-from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.evaluator import Evaluator, NativeWarning, _warn_once
-from ragg_runtime.model.model import from_files, packaged
+from ragg_runtime.model.model import load_files, load_packaged
 from ragg_runtime.reference.scenario import scenario
 from tests.generated import draws
 from tests.generated.draws import Array
@@ -52,9 +52,9 @@ def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch
     for off in (False, True):
         if off:
             monkeypatch.setenv("RAGG_NATIVE", "off")
-        model = replace(packaged())  # evaluators of its own
+        model = replace(load_packaged())  # evaluators of its own
         o = observation.observe(flight, s.sheet)
-        at = LinearisationPoint(model, s.sheet, vector(model, s.sheet), with_candidates=True)
+        at = LinearisationPoint(model, s.sheet, make_vector(model, s.sheet), with_candidates=True)
         columns = linearise(at, o)
         assert {model.evaluators(n).backend for n in ("chain", "signatures")} == {"numpy" if off else "c"}
         found.append(columns)
@@ -69,7 +69,7 @@ def test_fits_of_a_derived_model_run_in_machine_code_candidates_too() -> None:
     """Of any length: those of long flights ended in a missing symbol. A directory's files are as they were."""
     chosen = [e for e in catalogue() if e.id in ("cubic-input", "thermal-scale")]
     files = derive_model(chosen[:1], chosen)
-    model = from_files(files)
+    model = load_files(files)
     assert sorted(n for n in files if n.startswith("fits/")) == ["fits/signatures.c", "fits/signatures.h"]
     assert not any("fits/" in n for n in json.loads(files["manifest.json"])["files"])
     t, draw = np.linspace(0.0, 50.0, 300), np.random.default_rng(7)
@@ -86,7 +86,7 @@ def test_wrong_arguments_are_said(backend: str, case: tuple[Array, Array, Array]
     if backend == "c" and not shutil.which("cc"):
         pytest.skip("no C compiler is installed")
     t, inputs, p = case
-    e = packaged().compiled(backend)  # type: ignore[arg-type]
+    e = load_packaged().compiled(backend)  # type: ignore[arg-type]
     with pytest.raises(UserError, match="wrong number of input series"):
         e.output(t, inputs[:14], p)
     with pytest.raises(UserError, match="omega_y is not a series"):
@@ -98,7 +98,7 @@ def test_wrong_arguments_are_said(backend: str, case: tuple[Array, Array, Array]
     with pytest.raises(UserError, match="no such accelerometer"):
         e.derivatives(4, t, inputs, p)
     with pytest.raises(UserError, match="unknown backend"):
-        packaged().compiled("fortran")  # type: ignore[arg-type]
+        load_packaged().compiled("fortran")  # type: ignore[arg-type]
 
 
 def test_without_a_compiler_numpy_serves_and_says_so_once(
@@ -111,13 +111,13 @@ def test_without_a_compiler_numpy_serves_and_says_so_once(
     assert find_compiler()[1:] == ["-m", "ziglang", "cc"]
     monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
     with pytest.warns(NativeWarning, match="slower NumPy code is used: there is no C compiler") as said:
-        e = packaged().compiled()
+        e = load_packaged().compiled()
     assert len(said) == 1
     assert e.backend == "numpy"
-    assert packaged().compiled().backend == "numpy"  # silently: warnings are errors here
+    assert load_packaged().compiled().backend == "numpy"  # silently: warnings are errors here
     assert np.all(np.isfinite(e.output(t, inputs, p)))
     with pytest.raises(UserError, match="there is no C compiler"):
-        packaged().compiled("c")
+        load_packaged().compiled("c")
 
 
 @needs_compiler

@@ -19,7 +19,7 @@ from ragg_runtime.estimation.regressors import LinearisationPoint, compute_resid
 from ragg_runtime.identification import motion_design, next_motion, selection
 from ragg_runtime.identification.selection import Field, make_field
 from ragg_runtime.io import Flight, write_flight
-from ragg_runtime.model.model import packaged
+from ragg_runtime.model.model import load_packaged
 from ragg_runtime.next_flight import next_flight, write_motion
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
@@ -32,7 +32,7 @@ PAIRS = [("lag", "time-offset"), ("lag", "arm-stretch")]
 
 
 def fitted(s: Scenario, *flights: Flight) -> Fitted:
-    return fit(packaged(), s.sheet, observe_flights(flights, s.sheet))
+    return fit(load_packaged(), s.sheet, observe_flights(flights, s.sheet))
 
 
 def flown(

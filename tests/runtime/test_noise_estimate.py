@@ -16,7 +16,7 @@ from ragg_runtime.estimation.noise_level import describe_level, estimate_level
 from ragg_runtime.estimation.residual import describe_disturbances, find_disturbances, fit_columns
 from ragg_runtime.estimation.scores import log_sf, log_sf_f, log_sf_t
 from ragg_runtime.estimation.spectrum import LOWEST, cut_lines, estimate
-from ragg_runtime.estimation.unknown_gradient import splines
+from ragg_runtime.estimation.unknown_gradient import make_splines
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.signals.fir import fill_gaps
@@ -71,7 +71,7 @@ def test_where_all_samples_weigh_the_same_lines_are_noise() -> None:
     further = np.sqrt(2.0) * rms * np.sin(2 * np.pi * 5.1 * time)
     flight = replace(flight, outputs={n: x + further for n, x in flight.outputs.items()})
     o = observation.observe(flight, s.sheet)
-    c = calibration.fit(model.packaged(), s.sheet, [o], unweighted=True)
+    c = calibration.fit(model.load_packaged(), s.sheet, [o], unweighted=True)
     (noise,) = c.noise
     assert noise.lines
     assert noise.spectra[0].rms < 0.6 * rms
@@ -84,7 +84,7 @@ def test_a_jump_beside_an_unknown_gradient_leaves_nothing_of_its_edge() -> None:
     n = 4800
     time = np.arange(n) / RATE
     phase = np.pi * time  # twice the spin rate
-    Q = np.linalg.qr(splines(time, np.cos(phase), np.sin(phase)).T)[0]
+    Q = np.linalg.qr(make_splines(time, np.cos(phase), np.sin(phase)).T)[0]
 
     def through(columns: Array) -> Array:
         return np.asarray(columns - (columns @ Q) @ Q.T)
@@ -221,7 +221,7 @@ def test_a_walk_that_is_slower_than_the_record_is_noise() -> None:
     flight = s.simulate().flight()
     walk = np.cumsum(np.random.default_rng(1).normal(size=len(flight.time))) * 4.0 * 1.6e-3 * 0.04
     flight = replace(flight, outputs={n: x + walk for n, x in flight.outputs.items()})
-    c = calibration.fit(model.packaged(), s.sheet, [observation.observe(flight, s.sheet)])
+    c = calibration.fit(model.load_packaged(), s.sheet, [observation.observe(flight, s.sheet)])
     assert c.excess == pytest.approx(1.0, abs=0.1)
 
 
@@ -287,7 +287,7 @@ def test_noise_of_a_narrow_band_is_known_though_one_sample_in_a_hundred_is_missi
     there = rng.random(len(flight)) > 0.01
     outputs = {n: np.where(there, x + noise, np.nan) for n, x in flight.outputs.items()}
     c = calibration.fit(
-        model.packaged(), s.sheet, [observation.observe(replace(flight, outputs=outputs), s.sheet)]
+        model.load_packaged(), s.sheet, [observation.observe(replace(flight, outputs=outputs), s.sheet)]
     )
     low, high = c.noise[0].spectra[0].psd(np.array([1.0, 7.0]))
     assert low == pytest.approx(2 * 0.16**2 / RATE, rel=0.5)

@@ -26,7 +26,7 @@ def mine(identifier: str) -> str:
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(derive, "_folder", lambda: tmp_path / "cache" / "derived")
     derive._installed.cache_clear()
-    derive._executed.cache_clear()
+    derive._execute_files.cache_clear()
 
 
 def test_effects_folder_is_refused_with_what_to_do(tmp_path: Path) -> None:
@@ -86,8 +86,8 @@ def test_effects_of_an_installed_package(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.syspath_prepend(tmp_path / "site")
     try:
         instrument = api.example()
-        assert [*derive.known(instrument)][-1] == "theirs"
-        assert "theirs" in {e.id for e in derive.model_of(instrument).candidates}
+        assert [*derive.list_known(instrument)][-1] == "theirs"
+        assert "theirs" in {e.id for e in derive.load_model(instrument).candidates}
     finally:
         for name in ("ragg_theirs", "ragg_theirs.power"):
             sys.modules.pop(name, None)
@@ -109,10 +109,10 @@ def test_one_that_cannot_be_read_is_one_message(
     (tmp_path / "mine.py").write_text(text)
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path))
     with pytest.raises(UserError, match=said):
-        derive.model_of(api.example())
+        derive.load_model(api.example())
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path / "nowhere"))
     with pytest.raises(UserError, match="no folder of effects"):
-        derive.model_of(api.example())
+        derive.load_model(api.example())
 
 
 ROOT = Path(api.__file__).parents[1]
@@ -127,7 +127,7 @@ def model(tmp_path: Path) -> Path:
 def derives(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Counts derivations from here on; those of this process so far are forgotten."""
     derive.derived.cache_clear()
-    derive._executed.cache_clear()
+    derive._execute_files.cache_clear()
     count: list[int] = []
     original = pipeline.derive_model
 
@@ -145,7 +145,7 @@ def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: 
     assert ([e.id for e in m.model.effects], m.notes, count) == (["gain-drift"], (), [])
     for file in (model.parent / "cache" / "derived").iterdir():
         file.unlink()
-    assert m.model.digest == derive.model_of(m.instrument).digest
+    assert m.model.digest == derive.load_model(m.instrument).digest
     assert count == [1], "what is not kept is derived"
 
 

@@ -16,7 +16,7 @@ from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.model import packaged
+from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import checks, screen, timing
 from ragg_runtime.screening.motion_noise import predict_true
@@ -33,7 +33,7 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(timing, "propose_times", lambda *_: [])  # test_screening_mistakes.py has these
-    s, model = scenario(3, duration=150.0, rate=RATE, trim="table-v"), packaged()
+    s, model = scenario(3, duration=150.0, rate=RATE, trim="table-v"), load_packaged()
     x = s.simulate().flight()
     rng = np.random.default_rng(1)
     changed = {
@@ -78,7 +78,7 @@ def test_noise_is_smoothed_to_the_best_prediction_at_the_ends_and_beside_a_gap_t
 
 @pytest.mark.parametrize(("size", "used"), [(5.0, True), (50.0, False)])
 def test_a_noisy_gradient_is_smoothed_or_not_used(size: float, used: bool) -> None:
-    s, model = scenario(3, duration=150.0, rate=RATE, trim="table-v"), packaged()
+    s, model = scenario(3, duration=150.0, rate=RATE, trim="table-v"), load_packaged()
     x = s.simulate().flight()
     rng = np.random.default_rng(1)
     noisy = {n: x.channels[n] + size * EOTVOS * rng.standard_normal(len(x)) for n in GRADIENT}

@@ -26,7 +26,7 @@ from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import name_values, output, vector
+from ragg_runtime.model.evaluate import evaluate_output, make_vector, name_values
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.instruments import trimmed
 from ragg_runtime.report import parameters, plots, whiteness
@@ -69,13 +69,13 @@ def flight(
     """A record of the instrument above, calibrated a little off, with white noise of 2 sqrt(2) Eo."""
     true = trimmed()
     true = true.replace(K0=true.accelerometers["K0"] + 9.8e-6, K7=true.accelerometers["K7"] * 1.1)
-    model = load.packaged()
+    model = load.load_packaged()
     if effect is not None:
         true = replace(true, effects=(effect,))
         model = derive.with_effects(true, model, [effect.id])
     time, channels = motion(samples, seed)
     made = Flight(time=time, channels=channels, outputs={}, name=name)
-    G = output(model.chain, record(made, true), vector(model, true))
+    G = evaluate_output(model.chain, record(made, true), make_vector(model, true))
     noise = np.random.default_rng(seed + 1000).normal(0, math.sqrt(8.0) * true.scale_factor * 1e-9, samples)
     return replace(made, outputs={"G_out": G + noise})
 
@@ -92,13 +92,13 @@ class Case:
 
 @pytest.fixture(scope="module")
 def clean() -> compare.Comparison:
-    return compare.compare(load.packaged(), trimmed(), [flight()])
+    return compare.compare(load.load_packaged(), trimmed(), [flight()])
 
 
 @pytest.fixture(scope="module")
 def cubic() -> Case:
     made, known = flight(CUBIC, name=HOSTILE), trimmed()
-    return Case(compare.compare(load.packaged(), known, [made]), diagnosed(known, made), made)
+    return Case(compare.compare(load.load_packaged(), known, [made]), diagnosed(known, made), made)
 
 
 ORIGIN = Origin(
@@ -161,7 +161,7 @@ def test_pages_are_self_contained_well_formed_and_small(cubic: Case) -> None:
     for name, text in pages(cubic).items():
         page = Page(text)
         assert page.open == [], name
-        for said in (ORIGIN.command, "ab" * 32, load.packaged().digest, f"numpy {np.__version__}"):
+        for said in (ORIGIN.command, "ab" * 32, load.load_packaged().digest, f"numpy {np.__version__}"):
             assert said in page.text  # how to make it again
         assert len(text.encode()) < 500_000, name
         assert {"html", "svg", "table", "footer"} <= {tag for tag, _ in page.elements}
@@ -247,7 +247,7 @@ def test_unexplained_remainder_is_not_given_a_name(cubic: Case) -> None:
 @pytest.mark.usefixtures("no_figures")
 def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
     known = trimmed()
-    extended = derive.with_effects(known, load.packaged(), ["cubic-input"])
+    extended = derive.with_effects(known, load.load_packaged(), ["cubic-input"])
     after, before = compare.compare(extended, known, [cubic.flight]), cubic.comparison
     errors = {"before": before.as_json()["error"], "after": after.as_json()["error"]}
     step = {"action": "add", "effect": "cubic-input", "time": "2031-01-01T00:00:00Z"}
@@ -314,7 +314,7 @@ def test_noise_in_the_channels_is_what_demodulated_noise_has(clean: compare.Comp
     noise = np.fft.irfft(spectrum, n)
     phi = 2 * np.pi * 0.25 * np.arange(n) / RATE
     d = demodulate(noise, phi, RATE, f.k_ggi)
-    inline, cross = series.channel_noise(f)
+    inline, cross = series.predict_channel_noise(f)
     assert np.std(d.inline) == pytest.approx(inline, rel=0.05)
     assert np.std(d.cross) == pytest.approx(cross, rel=0.05)
 
@@ -324,7 +324,7 @@ def test_spectrum_has_the_density_of_white_noise_and_the_power_of_a_line() -> No
     n, density, amplitude = 1 << 16, 2.0, 40.0
     time = np.arange(n) / RATE
     x = rng.normal(0, density * math.sqrt(RATE / 2), n) + amplitude * np.sin(2 * np.pi * 3.0 * time)
-    s = series.spectrum(x, np.ones(n, bool), RATE)
+    s = series.estimate_spectrum(x, np.ones(n, bool), RATE)
     assert s is not None
     away = np.abs(s.frequency - 3.0) > 0.2
     assert np.sqrt(np.mean(s.density[away] ** 2)) == pytest.approx(density, rel=0.03)
@@ -336,7 +336,7 @@ def test_envelope_keeps_the_extremes_and_the_power(n: int, points: int, seed: in
     rng = np.random.default_rng(seed)
     x, valid = rng.normal(size=n), rng.random(n) < 0.7
     assume(valid.any())
-    e = series.envelope(np.arange(n) / RATE, x, valid, points)
+    e = series.decimate(np.arange(n) / RATE, x, valid, points)
     assert len(e.time) <= points
     assert np.nanmax(e.high) == np.max(x[valid])
     assert np.nanmin(e.low) == np.min(x[valid])

@@ -14,7 +14,7 @@ from scipy import signal
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model
-from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.evaluate import make_vector, scale_factor
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.screening import mistakes, other_demodulator, screen, timing
 from ragg_runtime.screening.mistakes import Finding, find_mistake
@@ -22,7 +22,7 @@ from ragg_runtime.screening.sampler import make_sampler
 from ragg_runtime.signals.demodulate import demodulate
 
 G0 = 9.8
-MODEL = model.packaged()
+MODEL = model.load_packaged()
 
 
 @cache
@@ -272,7 +272,7 @@ def test_a_gradient_that_is_mostly_noise_is_not_used() -> None:
 
 def demodulated(s: Scenario, x: Flight, low_pass: Any = None) -> Flight:
     """Inline and cross alone; through our low-pass, or another one."""
-    phi, k = 2 * np.pi * 0.25 * x.time, scale_factor(MODEL, vector(MODEL, s.sheet)) * 1e9
+    phi, k = 2 * np.pi * 0.25 * x.time, scale_factor(MODEL, make_vector(MODEL, s.sheet)) * 1e9
     channels = {n: np.full(len(x), np.nan) for n in ("inline", "cross")}
     if low_pass is None:
         d = demodulate(x.outputs["G_out"], phi, x.rate, k)

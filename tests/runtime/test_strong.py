@@ -77,7 +77,7 @@ def test_an_instrument_of_per_cent_and_milli_g_is_calibrated_to_its_noise() -> N
         s.sheet, sigmas=MappingProxyType({k: np.full(4, v) for k, v in sigmas.items()})
     )
     run = dataclasses.replace(s, instrument=true).simulate()
-    c = compare(load.packaged(), sheet, [run.flight()])
+    c = compare(load.load_packaged(), sheet, [run.flight()])
     truth = np.std(run.G_out - run.G_out_noise_free) / c.fitted.k_ggi
     assert c.nominal.rms_Eo > 1e3 * truth
     assert c.calibrated.rms_Eo == pytest.approx(truth, rel=0.01)
@@ -94,7 +94,7 @@ def test_nothing_is_missing_where_a_sheet_that_does_not_say_so_is_far_off() -> N
     a = s.sheet.accelerometers
     true = s.sheet.replace(**{k: a[k] + v * rng.standard_normal(4) for k, v in sheet_of_a_mems(s).items()})
     run = dataclasses.replace(s, instrument=true).simulate()
-    c = compare(load.packaged(), s.sheet, [run.flight()])
+    c = compare(load.load_packaged(), s.sheet, [run.flight()])
     truth = np.std(run.G_out - run.G_out_noise_free) / c.fitted.k_ggi
     assert c.calibrated.rms_Eo == pytest.approx(truth, rel=0.01)
     assert c.converged
@@ -126,7 +126,7 @@ def test_a_parameter_far_off_its_sheet_is_fitted_and_named() -> None:
     s = scenario(3, duration=DURATION, rate=RATE)
     K1 = s.instrument.accelerometers["K1"] * np.array([1.0, 1.04, 1.0, 1.0])
     c = compare(
-        load.packaged(),
+        load.load_packaged(),
         s.sheet,
         [dataclasses.replace(s, instrument=s.instrument.replace(K1=K1)).simulate().flight()],
     )
@@ -175,7 +175,7 @@ def test_a_step_in_red_noise_is_placed_to_the_sample() -> None:
     """Whitened columns that are cut off before the step lack its edge: they put it elsewhere."""
     s = scenario(33, duration=300.0, red_corner=0.05, noise_density=5e-9)
     flight = s.simulate({"bias-step": {"dK0": [1e-8, 0, 0, 0], "t_step": 141.2}}).flight()
-    stage = Stage.of(fit(load.packaged(), s.sheet, observe_flights([flight], s.sheet)))
+    stage = Stage.of(fit(load.load_packaged(), s.sheet, observe_flights([flight], s.sheet)))
     assert stage.choice.chosen == ("bias-step",)
     assert (
         stage.instants["bias-step"] == 141.25
@@ -187,5 +187,5 @@ def test_a_step_in_one_voltage_is_placed_to_the_sample() -> None:
     s = scenario(6, duration=120.0, rate=8.0, trim="table-v")
     effects = {"gain-step": {"dK1": [0, 3e-6, 0, 0], "t_step": 65.3}}
     flight = s.simulate(effects).flight(voltages=True)
-    _, _, instants = add_steps(fit(load.packaged(), s.sheet, observe_flights([flight], s.sheet)))
+    _, _, instants = add_steps(fit(load.load_packaged(), s.sheet, observe_flights([flight], s.sheet)))
     assert instants["gain-step"] == 65.375  # the first sample after it

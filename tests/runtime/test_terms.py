@@ -63,14 +63,14 @@ def test_turning_forces_and_their_derivatives(
     r, exact = smooth
     f, h, t = _force(exact, axis), 1e-4, r.time
     inner = slice(50, -50)
-    np.testing.assert_allclose(features.series(axis, r), f(t), atol=1e-12)
+    np.testing.assert_allclose(features.make_series(axis, r), f(t), atol=1e-12)
     first = (f(t + h) - f(t - h)) / (2 * h)
     second = (f(t + h) - 2 * f(t) + f(t - h)) / h**2
-    np.testing.assert_allclose(features.series(f"d_{axis}", r)[inner], first[inner], atol=1e-5)
-    np.testing.assert_allclose(features.series(f"d2_{axis}", r)[inner], second[inner], atol=1e-4)
-    np.testing.assert_allclose(features.series(f"abs({axis})", r), np.abs(f(t)), atol=1e-12)
+    np.testing.assert_allclose(features.make_series(f"d_{axis}", r)[inner], first[inner], atol=1e-5)
+    np.testing.assert_allclose(features.make_series(f"d2_{axis}", r)[inner], second[inner], atol=1e-4)
+    np.testing.assert_allclose(features.make_series(f"abs({axis})", r), np.abs(f(t)), atol=1e-12)
     clear = np.abs(f(t)) > 1e-9
-    np.testing.assert_array_equal(features.series(f"sign({axis})", r)[clear], np.sign(f(t))[clear])
+    np.testing.assert_array_equal(features.make_series(f"sign({axis})", r)[clear], np.sign(f(t))[clear])
 
 
 def test_forces_of_the_other_accelerometers_are_these_up_to_sign_and_exchange(
@@ -78,7 +78,7 @@ def test_forces_of_the_other_accelerometers_are_these_up_to_sign_and_exchange(
 ) -> None:
     """A2 is half a turn on, A3 a quarter, A4 three quarters: no further terms are needed for them."""
     r, _ = smooth
-    f = {n: features.series(n, r) for n in ("f_i", "f_o")}
+    f = {n: features.make_series(n, r) for n in ("f_i", "f_o")}
     for turns, force, expected in (
         (0.50, "f_i", -f["f_i"]),
         (0.25, "f_i", -f["f_o"]),
@@ -87,7 +87,7 @@ def test_forces_of_the_other_accelerometers_are_these_up_to_sign_and_exchange(
         (0.75, "f_o", -f["f_i"]),
     ):
         turned = dataclasses.replace(r, wide={**r.wide, "spin_angle": r.phi + 2 * np.pi * turns})
-        np.testing.assert_allclose(features.series(force, turned), expected, atol=1e-12)
+        np.testing.assert_allclose(features.make_series(force, turned), expected, atol=1e-12)
 
 
 def test_relaxations_are_those_of_the_differential_equation_wherever_they_are_taken_up(
@@ -129,8 +129,8 @@ def test_what_a_record_lacks_makes_no_term(
 def scored() -> tuple[Scores, Array, Array]:
     """An effect-free flight: its scores, its whitened terms (float32) and the basis of what is projected out."""
     s = scenario(71, duration=300.0)
-    f = fitted.fit(load.packaged(), s.sheet, [observation.observe(s.simulate({}).flight(), s.sheet)])
-    projector = whitening.projector(f.r_factors[0], f.n_base, ())
+    f = fitted.fit(load.load_packaged(), s.sheet, [observation.observe(s.simulate({}).flight(), s.sheet)])
+    projector = whitening.make_projector(f.r_factors[0], f.n_base, ())
     scores = Scores(f.prepared[0], projector)
     (piece,) = scores.collect(lambda piece, y: piece)
     X = scores.whitened(piece, range(len(scores.dictionary.terms)))
@@ -237,7 +237,7 @@ def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
         expression={"stage": "transducer", "add": "K_x*f_i**4", "params": {"K_x": {"unit": unit}}},
     )
     sheet = dataclasses.replace(s.sheet, effects=(mine,))
-    after = comparison.compare(derive.model_of(sheet), sheet, [flight])
+    after = comparison.compare(derive.load_model(sheet), sheet, [flight])
     assert not d.remainder.log_p > -20
     assert after.remainder.log_p > np.log(0.05)
     assert after.calibrated.rms_Eo == pytest.approx(after.noise_floor, rel=0.01)

@@ -11,7 +11,13 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import fitted, noise_estimate, observation, scores, thinning, whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.observation import BLOCKS, Observation, segments, spread, take_beginnings
+from ragg_runtime.estimation.observation import (
+    BLOCKS,
+    Observation,
+    divide_into_segments,
+    spread,
+    take_beginnings,
+)
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.identification import contenders, formula, omnibus, selection
 from ragg_runtime.identification.contenders import ContenderFit
@@ -20,7 +26,7 @@ from ragg_runtime.identification.selection import make_field
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model
-from ragg_runtime.model.evaluate import output, vector
+from ragg_runtime.model.evaluate import evaluate_output, make_vector
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.report import panels
 from tests.rate import RATE as SLOW
@@ -45,12 +51,12 @@ def whole(flown: tuple[Scenario, Flight]) -> Observation:
 
 @pytest.fixture(scope="module")
 def thin(flown: tuple[Scenario, Flight], whole: Observation) -> Observation:
-    (found,) = thinning.thin_observations(model.packaged(), flown[0].sheet, [whole])
+    (found,) = thinning.thin_observations(model.load_packaged(), flown[0].sheet, [whole])
     return found
 
 
 def thinned(sheet: Instrument, flight: Flight) -> Observation:
-    (found,) = thinning.thin_observations(model.packaged(), sheet, [observation.observe(flight, sheet)])
+    (found,) = thinning.thin_observations(model.load_packaged(), sheet, [observation.observe(flight, sheet)])
     return found
 
 
@@ -72,7 +78,7 @@ def test_one_sample_in_twelve_is_kept_at_its_own_instant(whole: Observation, thi
 
 def test_the_low_pass_passes_the_motion_and_stops_what_would_fold() -> None:
     for every in thinning.EVERY:
-        taps = thinning.low_pass(every)
+        taps = thinning.make_low_pass(every)
         f = np.linspace(0, 0.5, 4001)  # of the sampling rate
         middle = np.arange(len(taps)) - len(taps) // 2
         gain = np.abs(np.cos(2 * np.pi * np.outer(f, middle)) @ taps)
@@ -86,12 +92,12 @@ def test_the_residual_is_that_of_the_whole_record_thinned(
 ) -> None:
     """Against the NumPy model along the recorded motion, and a sum over the taps for a few samples."""
     s, _ = flown
-    m = model.packaged()
-    p = vector(m, s.sheet)
+    m = model.load_packaged()
+    p = make_vector(m, s.sheet)
     at = LinearisationPoint(m, s.sheet, p, with_candidates=False)
     found = linearise(at, thin)[-1, 0]
     assert thin.thin is not None
-    full = whole.data[0] - output(m.chain, whole.record, p, whole.output)
+    full = whole.data[0] - evaluate_output(m.chain, whole.record, p, whole.output)
     taps = thin.thin.taps
     for k in (0, 1, 1777, len(found) - 1):
         expected = float(full[k * EVERY : k * EVERY + len(taps)] @ taps[::-1])
@@ -104,15 +110,15 @@ def test_the_diagnosis_is_that_of_the_whole_record(
     flown: tuple[Scenario, Flight], whole: Observation
 ) -> None:
     s, flight = flown
-    d = diagnose(model.packaged(), s.sheet, [flight])
+    d = diagnose(model.load_packaged(), s.sheet, [flight])
     assert len(d.fitted.observations[0].record.time) * EVERY < len(flight.time)
     assert "thinned to 8.333 Hz" in dict(panels.describe_record(d.fitted))["samples"]
     assert (d.verdict, d.found) == ("missing-effect", ("thermal-scale",))
     (v,) = (q for q in d.ranking[0].combinations if q.name == "D34 dK1_dT")
     assert abs(abs(v.value) - 2e-8) < 4 * v.std
-    f = fitted.fit(model.packaged(), s.sheet, [whole])
+    f = fitted.fit(model.load_packaged(), s.sheet, [whole])
     (before,) = f.score([np.zeros(f.size)])
-    assert d.noise_floor == pytest.approx(fitted.noise_floor(f), rel=5e-3)
+    assert d.noise_floor == pytest.approx(fitted.measure_noise_floor(f), rel=5e-3)
     assert d.before.rms_V == pytest.approx(before.whole.rms_V, rel=1e-3)
     assert d.before.rms_Eo == pytest.approx(before.whole.rms_Eo, rel=1e-3)
     assert d.before.inline_Eo == pytest.approx(before.whole.inline_Eo, rel=0.03)
@@ -125,17 +131,17 @@ def test_what_thinning_takes_is_counted_as_noise(flown: tuple[Scenario, Flight],
     s, flight = flown
     loud = 3e-2
     noisy = with_output(flight, loud * np.random.default_rng(5).standard_normal(len(flight.time)))
-    f = fitted.fit(model.packaged(), s.sheet, [thinned(s.sheet, noisy)], candidates=False)
+    f = fitted.fit(model.load_packaged(), s.sheet, [thinned(s.sheet, noisy)], candidates=False)
     (fast,) = f.beyond
     assert fast == pytest.approx((1 - 1 / EVERY) * loud**2, rel=0.03)
-    assert fitted.noise_floor(f) * f.k_ggi == pytest.approx(loud, rel=0.03)
+    assert fitted.measure_noise_floor(f) * f.k_ggi == pytest.approx(loud, rel=0.03)
     (scored,) = f.score([np.zeros(f.size)])
     assert scored.whole.rms_V == pytest.approx(loud, rel=0.03)
 
 
 def test_short_flights_and_slow_ones_stay_as_they_are(flown: tuple[Scenario, Flight]) -> None:
     s, flight = flown
-    m = model.packaged()
+    m = model.load_packaged()
     short = observation.observe(_cut(flight, 25_000), s.sheet)
     assert thinning.thin_observations(m, s.sheet, [short]) == [short]
     slow = scenario(78, duration=2200.0, rate=16.0)
@@ -181,7 +187,7 @@ def test_spikes_cost_a_sample_and_a_gap_what_is_beside_it(flown: tuple[Scenario,
     gap = (o.record.time[missing] > 199.5) & (o.record.time[missing] < 203.5)
     assert 3.0 * RATE / EVERY <= np.sum(gap) <= 3.8 * RATE / EVERY and np.sum(~gap) <= 2
     at = LinearisationPoint(
-        model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=False
+        model.load_packaged(), s.sheet, make_vector(model.load_packaged(), s.sheet), with_candidates=False
     )
     found = linearise(at, o)[-1, 0]
     expected = linearise(at, thinned(s.sheet, flight))[-1, 0]
@@ -217,7 +223,7 @@ def long_flight() -> tuple[Scenario, Flight]:
 
 @pytest.mark.parametrize("samples", [24, 1000, 30000, 40000, 360_000, 8_640_000])
 def test_segments_and_their_blocks_cover_a_flight_once(samples: int) -> None:
-    found = segments(samples)
+    found = divide_into_segments(samples)
     assert [s.rows.start for s in found] == [0, *(s.rows.stop for s in found[:-1])]
     assert found[-1].rows.stop == samples
     assert max(s.rows.stop - s.rows.start for s in found) <= 30000
@@ -235,12 +241,12 @@ def test_the_division_leaves_no_trace(
     valid[4000:4130] = False
     flight = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
     o = observation.observe(flight, s.sheet)
-    noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
-    whole = fitted.fit(model.packaged(), s.sheet, [o], noise)
+    noise = fitted.fit(model.load_packaged(), s.sheet, [o]).calibration.noise
+    whole = fitted.fit(model.load_packaged(), s.sheet, [o], noise)
     monkeypatch.setattr(whitening, "ROWS", 1700)
     monkeypatch.setattr(whitening, "EXCERPT", 1000)
-    assert len(whitening.flight_segments(o)) > 5
-    parts = fitted.fit(model.packaged(), s.sheet, [o], noise)
+    assert len(whitening.divide_flight(o)) > 5
+    parts = fitted.fit(model.load_packaged(), s.sheet, [o], noise)
     scale = np.array([c.scale for c in whole.calibration.columns])
     moved = (parts.calibration.p - whole.calibration.p)[whole.calibration.index] / scale
     assert np.max(np.abs(moved)) < 1e-5  # along what the record hardly sees; nothing in the figures
@@ -257,7 +263,7 @@ def test_the_division_leaves_no_trace(
     np.testing.assert_allclose(
         parts.residuals(np.zeros(parts.n_base))[0], whole.residuals(zero[: whole.n_base])[0], atol=1e-9
     )
-    a, b = (formula.propose_formulas(f, (), omnibus.remainder(f)) for f in (whole, parts))
+    a, b = (formula.propose_formulas(f, (), omnibus.search_residual(f)) for f in (whole, parts))
     assert b.searches[0].terms[0].term == a.searches[0].terms[0].term
     assert b.searches[0].terms[0].z == pytest.approx(a.searches[0].terms[0].z, rel=1e-4)  # single precision
 
@@ -270,7 +276,9 @@ def test_single_missing_samples_do_not_silence_the_demodulator(long_flight: tupl
     found = {}
     for name, valid in (("whole", np.ones(len(flight.time), dtype=bool)), ("scattered", scattered)):
         x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
-        f = fitted.fit(model.packaged(), s.sheet, observation.observe_flights([x], s.sheet), candidates=False)
+        f = fitted.fit(
+            model.load_packaged(), s.sheet, observation.observe_flights([x], s.sheet), candidates=False
+        )
         (found[name],) = f.score([np.zeros(f.size)])
     for part in ("whole", "held_out"):
         a, b = getattr(found["whole"], part), getattr(found["scattered"], part)
@@ -296,9 +304,9 @@ def test_a_long_flight_with_gaps_everywhere_has_no_means(
         x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
         o = observation.observe(x, s.sheet)
         at = LinearisationPoint(
-            model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=True
+            model.load_packaged(), s.sheet, make_vector(model.load_packaged(), s.sheet), with_candidates=True
         )
-        found = noise_estimate.averages(at, o, NoiseModel.white(o.record.rate, len(o.series)))
+        found = noise_estimate.average_residuals(at, o, NoiseModel.white(o.record.rate, len(o.series)))
         assert (found is not None) == there
         if found is not None:
             assert np.array_equal(found[0].rest != 0.0, valid.reshape(-1, 4).all(axis=1))
@@ -334,7 +342,7 @@ def test_noise_slower_than_a_segment_is_seen(monkeypatch: pytest.MonkeyPatch) ->
     flight = s.simulate().flight()
     monkeypatch.setattr(whitening, "ROWS", 850)
     o = observation.observe(flight, s.sheet)
-    (x,) = fitted.fit(model.packaged(), s.sheet, [o], candidates=False).prepared
+    (x,) = fitted.fit(model.load_packaged(), s.sheet, [o], candidates=False).prepared
     f = np.geomspace(4.0 / 1700.0, 3.0, 40)
     assert s.noise is not None
     slope = s.instrument.accelerometers["k_VI"] * s.instrument.accelerometers["K1"]
@@ -346,8 +354,8 @@ def test_noise_slower_than_a_segment_is_seen(monkeypatch: pytest.MonkeyPatch) ->
 
 def test_of_long_flights_as_many_samples_are_taken_whatever_their_length() -> None:
     for samples in (1_000_000, 3_000_000, 16_000_000):
-        found = spread(segments(samples), 4)
+        found = spread(divide_into_segments(samples), 4)
         found_segments = take_beginnings(found, 80_000)
         assert [s.rows.start for s in found_segments] == [s.rows.start for s in found]
         assert [s.rows.stop - s.rows.start for s in found_segments] == [20_000] * 4
-    assert [s.rows for s in take_beginnings(segments(28_800), 80_000)] == [slice(0, 28_800)]
+    assert [s.rows for s in take_beginnings(divide_into_segments(28_800), 80_000)] == [slice(0, 28_800)]

@@ -23,9 +23,9 @@ from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.mapping import parse_mapping
-from ragg_runtime.model.evaluate import scale_factor, vector
-from ragg_runtime.model.model import packaged
-from ragg_runtime.model.record import kernel, record
+from ragg_runtime.model.evaluate import make_vector, scale_factor
+from ragg_runtime.model.model import load_packaged
+from ragg_runtime.model.record import make_kernel, record
 from ragg_runtime.reference import disc_angle, simulate, still
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import perfect
@@ -183,7 +183,10 @@ def flown(trim: str = "table-v") -> tuple[Scenario, Flight]:
 def channels(low: Callable[[Array], Array], every: int = 1, trim: str = "table-v") -> Flight:
     """Inline and cross alone, every so many samples of them and of the motion."""
     s, x = flown(trim)
-    phi, k = 2 * np.pi * 0.25 * x.time, scale_factor(packaged(), vector(packaged(), s.sheet)) * 1e9
+    phi, k = (
+        2 * np.pi * 0.25 * x.time,
+        scale_factor(load_packaged(), make_vector(load_packaged(), s.sheet)) * 1e9,
+    )
     found = {
         "inline": low(4 * x.outputs["G_out"] * np.sin(2 * phi)) / k,
         "cross": low(-2 * x.outputs["G_out"] * np.cos(2 * phi)) / k,
@@ -197,7 +200,7 @@ def channels(low: Callable[[Array], Array], every: int = 1, trim: str = "table-v
 
 
 def compared(x: Flight, trim: str = "table-v") -> Comparison:
-    return compare(packaged(), flown(trim)[0].sheet, [x])
+    return compare(load_packaged(), flown(trim)[0].sheet, [x])
 
 
 @pytest.mark.parametrize("name", ["both ways", "late"])
@@ -220,7 +223,10 @@ def test_channels_that_were_made_at_the_records_own_rate_are_adequate() -> None:
     s, x = flown("matched")
     every = slice(None, None, 4)
     G, time = x.outputs["G_out"][every], x.time[every]
-    phi, k = 2 * np.pi * 0.25 * time, scale_factor(packaged(), vector(packaged(), s.sheet)) * 1e9
+    phi, k = (
+        2 * np.pi * 0.25 * time,
+        scale_factor(load_packaged(), make_vector(load_packaged(), s.sheet)) * 1e9,
+    )
     low = low_pass(RATE / 4)
     made = {
         "inline": signal.oaconvolve(4 * G * np.sin(2 * phi), low, mode="same") / k,
@@ -288,4 +294,4 @@ def test_what_cannot_be_a_demodulator_is_told(table: object, words: str) -> None
 
 def test_a_rate_that_is_no_multiple_is_told() -> None:
     with pytest.raises(UserError, match="not a multiple of the record's"):
-        kernel(Demodulation(rate=10.0), 4.0)
+        make_kernel(Demodulation(rate=10.0), 4.0)

@@ -20,7 +20,7 @@ from ragg_runtime.identification.ranking import Ranked, add_probability
 from ragg_runtime.identification.selection import Field
 from ragg_runtime.identification.sequential import SequentialTest, follow_model, log_e
 from ragg_runtime.model import model
-from ragg_runtime.model.model import packaged
+from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import scenario
 
 ROWS, BLOCKS = 2400, 24
@@ -67,14 +67,14 @@ def test_few_blocks_say_nothing() -> None:
     rng = np.random.default_rng(3)
     M = rng.normal(size=(70, 4))
     blocks = np.split(M, 7)
-    assert uneven.inflation(uneven.ProjectedBlocks(M, blocks, 2, []), [2]) == 1.0
+    assert uneven.measure_inflation(uneven.ProjectedBlocks(M, blocks, 2, []), [2]) == 1.0
     t = likelihood_ratio.Test(30.0, 1, -14.0, (2,))
     assert uneven.temper_test(t, 1.0, np.inf, 24) is t
     assert -6.0 < uneven.temper_test(t, 3.0, np.inf, 24).log_p < -4.0 + np.log(10.0)
 
 
 def test_the_levels_add_up_to_what_is_promised() -> None:
-    candidates = packaged().candidates
+    candidates = load_packaged().candidates
     random = sum(e.kind == "random" for e in candidates)
     columns = sum(e.kind in ("deterministic", "step") for e in candidates)
     every = false_alarms.CATALOGUE * (1 + random / columns) + false_alarms.REMAINDER
@@ -125,7 +125,7 @@ def followed(*hidden: dict[str, dict[str, list[float]]]) -> SequentialTest:
     s = scenario(3, duration=480.0)
     flights = [s.simulate(h).flight(f"leg {n}") for n, h in enumerate(hidden)]
     return follow_model(
-        fitted.fit(model.packaged(), s.sheet, observe_flights(flights, s.sheet), candidates=False)
+        fitted.fit(model.load_packaged(), s.sheet, observe_flights(flights, s.sheet), candidates=False)
     )
 
 

@@ -76,7 +76,7 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
 
     f = diagnosis.fitted
     h = predict.score_terms(f.prepared[0], f.r_factors[0], f.n_base)
-    best = omnibus.remainder(f).searches[0].terms[0]
+    best = omnibus.search_residual(f).searches[0].terms[0]
     at = h.harmonics.index(best.term.harmonic), h.products.index(best.term.product)
     assert h.z[at] == pytest.approx(best.z, rel=1e-6)
     assert abs(best.z) > h.level
@@ -85,7 +85,9 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
         f.prepared[0], f.r_factors[0], f.n_base, predict.list_columns(make_field(f, found), found)
     )
     assert np.nanmax(np.abs(given.z)) < h.level
-    squared = predict.compute_term(f.prepared[0], "const", "G_out*G_out", 1.0)  # of the output as the model predicts it
+    squared = predict.compute_term(
+        f.prepared[0], "const", "G_out*G_out", 1.0
+    )  # of the output as the model predicts it
     assert np.ptp(squared) > 0.0
 
 

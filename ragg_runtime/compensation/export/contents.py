@@ -20,7 +20,7 @@ from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS,
 from ragg_runtime.model.evaluate import name_values, scale_factor
 from ragg_runtime.model.lateness import list_late
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import SPIN, Record, phase
+from ragg_runtime.model.record import SPIN, Record, measure_phase
 from ragg_runtime.signals.angular_acceleration import differentiate_rate
 
 Array = NDArray[np.float64]
@@ -97,7 +97,7 @@ class Contents:
                 angle_column=layout.discs[o.disc].angle_column,
                 spin=1 if layout.like_paper else layout.size + o.members[0],
                 scale_factor=scale_factor(self.model, self.p, k),
-                phase=phase(gain(o, k1, R)),
+                phase=measure_phase(gain(o, k1, R)),
                 sees=sees(o, k1, R) and layout.discs[o.disc].spin_frequency != 0.0,
                 ending=ending,
             )

@@ -17,9 +17,9 @@ from ragg_runtime.base.names import in_comment
 from ragg_runtime.base.templates import make_environment
 from ragg_runtime.compensation.export.contents import DISC, Contents, ExportedOutput, unit_of
 from ragg_runtime.estimation.least_squares import marginalise
-from ragg_runtime.estimation.regressors import Column, list_base_columns, own_columns
+from ragg_runtime.estimation.regressors import Column, list_base_columns, list_own_columns
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT
-from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
 from ragg_runtime.signals.angular_acceleration import REACH, wide_weights
 from ragg_runtime.signals.derivative import DEGREES, WINDOW, weights
@@ -115,7 +115,7 @@ def write_values(c: Contents, name: str) -> str:
 def write_online_values(c: Contents, outputs: Sequence[tuple[int, ExportedOutput]]) -> str:
     """online_values.h: the point about which the model is linearised, what is fitted, what is known of it."""
     columns = list_base_columns(c.model, c.instrument)
-    owned = [own_columns([q for q, _ in columns], c.instrument, k) for k, _ in outputs]
+    owned = [list_own_columns([q for q, _ in columns], c.instrument, k) for k, _ in outputs]
     most = max(map(len, owned))
     return _render(
         "online_values.h",
@@ -135,7 +135,7 @@ def _list_fitted(
 ) -> list[tuple[int, int, int, float, float, str]]:
     """What an output's filter fits: row of the derivatives, member, place, scale, the sheet's value, label."""
     rows = {name: k for k, (name, _) in enumerate(c.model.chain.ROWS)}
-    nominal = vector(c.model, c.instrument)
+    nominal = make_vector(c.model, c.instrument)
     found = []
     for q, at in columns:
         j = -1 if q.accelerometer is None else o.members.index(q.accelerometer - 1)
