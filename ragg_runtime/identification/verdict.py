@@ -48,44 +48,29 @@ class Conclusion:
     @staticmethod
     def of(found: Evidence, output: Sequence[str], *, apart: bool) -> Conclusion:
         """Judge what the search has found; ``output``: what the recorder did."""
-        outcome, last, first = found.outcome, found.last, found.first
-        line, steady = find_line_rival(found.steps, last)
-        if line is not None and not line.better(outcome.remainder):
-            line = None
-        for e in () if line is None else (e for e in line.effects if e in outcome.effects):
-            outcome = found.without(outcome, e)
-        count = first.field.count + len(outcome.random)
-        base = omnibus.search_residuals(first.fitted) if outcome.effects else None
-        lead = None if base is None else _Lead.of(found, outcome, count, base)
-        share = 1.0 if lead is None else float(expit(lead.ahead))
-        chosen = outcome
-        outcome, weak = (outcome, []) if apart else _drop_unfounded(found, outcome)
-        if base is not None and outcome is not chosen:
-            lead = _Lead.of(found, outcome, count, base) if outcome.effects else None
+        chosen, line, steady = _without_lines(found)
+        outcome, weak = (chosen, []) if apart else _drop_unfounded(found, chosen)
+        count = found.first.field.count + len(chosen.random)
+        base = omnibus.search_residuals(found.first.fitted) if chosen.effects else []
+        before = _Lead.of(found, chosen, count, base)
+        lead = before if outcome is chosen else _Lead.of(found, outcome, count, base)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
-        # next to the noise model, whose level has shapes of its own
-        tests = outcome.random.items()
-        random = sorted(
-            (t.log_p, e) for e, t in tests if selection.is_significant(t, count, selection.FURTHER)
-        )
-        # noise that follows the motion grows with the motion: a random effect models just that
-        remains = line is not None or left.significant or outcome.complaint is not None
-        remains = remains or (outcome.exceeds_noise and not random)
-        claimed: tuple[str, ...] = ()
+        random = _list_random(outcome, count)
         doubted = apart or outcome.explained.complaint is not None
         one = _find_common_kind(found, outcome.effects)
-        if base is not None and lead is not None and not doubted and one is None:
-            claimed = _choose_claims(outcome, lead, base)
-        rival = bool(outcome.effects) and not claimed and not remains
-        if (
-            rival and base is not None and lead is not None
-        ):  # generic terms do as well as what was chosen: they are what is left
+        claimed = () if lead is None or doubted or one is not None else _choose_claims(outcome, lead, base)
+        # noise that follows the motion grows with the motion: a random effect models just that
+        exceeds = outcome.exceeds_noise and not random
+        remains = line is not None or left.significant or outcome.complaint is not None or exceeds
+        rival = lead is not None and not claimed and not remains
+        if lead is not None and rival:  # generic terms do as well as what was chosen: they are what is left
             _, left = claims.weigh_generic_terms(base, np.inf, lead.rank)
         remains = remains or rival or doubted
         if not remains:
-            claimed = (*claimed, *(e for _, e in random[:1]))
+            claimed = (*claimed, *random[:1])
         if not doubted:  # what the recorder did is certain, whatever else is in the record
             claimed = (*claimed, *output)
+        alone = lead is not None and len(claimed) == 1 and claimed == outcome.effects
         return Conclusion(
             verdict=name_verdict(claimed=bool(claimed), remains=remains),
             claims=claimed,
@@ -93,13 +78,11 @@ class Conclusion:
             left=left,
             line=line,
             steady=tuple(s for s in steady if s.effect in claimed),
-            open=_list_unsure(last, weak, claimed),
-            share=share,
+            open=_list_unsure(found.last, weak, claimed),
+            share=1.0 if before is None else float(expit(before.ahead)),
             rival=rival,
             one=None if claimed else one,
-            shared=_find_shared_term(lead.chi2, base or ())
-            if lead is not None and len(claimed) == 1 and claimed == outcome.effects
-            else None,
+            shared=_find_shared_term(lead.chi2, base) if lead is not None and alone else None,
         )
 
     @property
@@ -160,6 +143,25 @@ class Conclusion:
 
 OPEN = 0.1
 """p-value from which an effect is named as one for which the record does not suffice."""
+
+
+def _without_lines(found: Evidence) -> tuple[Outcome, LineAlternative | None, tuple[Steady, ...]]:
+    """The outcome without the effects in whose place a line near a multiple of the spin rate does as well; that line, and those effects
+    that are no more than a line at the multiple.
+    """
+    outcome = found.outcome
+    line, steady = find_line_rival(found.steps, found.last)
+    if line is None or not line.better(outcome.remainder):
+        return outcome, None, steady
+    for e in line.effects:
+        outcome = found.without(outcome, e) if e in outcome.effects else outcome
+    return outcome, line, steady
+
+
+def _list_random(o: Outcome, count: int) -> list[str]:
+    """The random effects that are significant next to the noise model, whose level has shapes of its own, the surest first."""
+    tests = ((t, e) for e, t in o.random.items() if selection.is_significant(t, count, selection.FURTHER))
+    return [e for _, e in sorted((t.log_p, e) for t, e in tests)]
 
 
 def _drop_unfounded(found: Evidence, o: Outcome) -> tuple[Outcome, list[str]]:
@@ -251,7 +253,10 @@ class _Lead:
     ahead: float
 
     @staticmethod
-    def of(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> _Lead:
+    def of(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> _Lead | None:
+        """Against the terms of the searches ``base``; ``None`` without effects. ``count``: of how many they were chosen."""
+        if not o.effects:
+            return None
         chi2, rank = found.explained(o)
         return _Lead(chi2, rank, _compare_with_terms(found, o, chi2, rank, count, base))
 
