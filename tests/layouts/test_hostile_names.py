@@ -181,8 +181,14 @@ def test_an_instrument_of_such_names_is_exported(tmp_path: Path) -> None:
 
 def test_columns_of_other_names_are_passed_over_with_a_note(tmp_path: Path) -> None:
     x = flown_by(parse_instrument(sheet(effects="[]")), 10.0)
-    names = ("Temp °C", "_x", "a" * 65, "*/", "remark on the flight")
-    columns = [*(f"{n} [{x.units[n]}]" for n in x.channels), "for [V]", "oil-2 [K]", *names]
+    names = ("Temp °C", "_x", "a" * 65, "*/")
+    columns = [
+        *(f"{n} [{x.units[n]}]" for n in x.channels),
+        "for [V]",
+        "oil-2 [K]",
+        *names,
+        "remark on the flight",
+    ]
     rows = np.column_stack([x.time, *x.channels.values(), x.outputs["for"], x.time])
     text = [",".join(["time [s]", *columns])]
     text += [",".join([*map(repr, map(float, r)), "1", "2", "3", "4", "calm"]) for r in rows]
@@ -191,6 +197,7 @@ def test_columns_of_other_names_are_passed_over_with_a_note(tmp_path: Path) -> N
     assert {*found.channels} == {*x.channels, "oil-2"}
     (note,) = (n for n in found.notes if n.startswith("skipped because of their names"))
     assert all(repr(n) in note for n in names)
+    assert "remark on the flight holds text; it is left out" in found.notes
     (tmp_path / "short.csv").write_text("\n".join(line.partition(",")[2] for line in text) + "\n")
     with pytest.raises(UserError, match=r"time is missing[^$]*skipped because of their names .*'Temp °C'"):
         read_flight(tmp_path / "short.csv", 9.8)

@@ -24,7 +24,7 @@ def mine(identifier: str) -> str:
 
 @pytest.fixture(autouse=True)
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derive, "_folder", lambda: tmp_path / "cache" / "derived")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     derive._installed.cache_clear()
     derive._execute_files.cache_clear()
 
@@ -143,7 +143,7 @@ def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: 
     count = derives(monkeypatch)
     m = api.load(model)
     assert ([e.id for e in m.model.effects], m.notes, count) == (["gain-drift"], (), [])
-    for file in (model.parent / "cache" / "derived").iterdir():
+    for file in (model.parent / "cache" / "ragg" / "derived").iterdir():
         file.unlink()
     assert m.model.digest == derive.load_model(m.instrument).digest
     assert count == [1], "what is not kept is derived"
@@ -180,7 +180,7 @@ def test_generated_is_derived_anew_where_it_is_of_another_model(model: Path) -> 
 
 @pytest.mark.parametrize("damage", ["{", '{"chain.py": 3}'])
 def test_what_is_damaged_is_derived_anew(model: Path, monkeypatch: pytest.MonkeyPatch, damage: str) -> None:
-    for file in (model.parent / "cache" / "derived").iterdir():
+    for file in (model.parent / "cache" / "ragg" / "derived").iterdir():
         file.write_text(damage)
     count = derives(monkeypatch)
     assert [e.id for e in api.load(model).model.effects] == ["gain-drift"]

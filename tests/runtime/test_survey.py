@@ -317,7 +317,7 @@ def test_lines_are_flights(tmp_path: Path) -> None:
     assert record["verdict"] == "adequate"
     assert record["sha256"] == digest_file(files[1]) == digest_file(str(path))
     assert "several lines" in examine(given, str(path))["error"]["message"]
-    assert "no unit" in examine(make_job(toml.read_text(), toml), files[0])["error"]["message"]
+    assert "the columns time, a_x" in examine(make_job(toml.read_text(), toml), files[0])["error"]["message"]
 
 
 def test_flights_of_one_file_name_are_named_with_their_folders_and_in_order() -> None:
