@@ -61,13 +61,13 @@ def detection_limits() -> dict[str, dict[str, str]]:
     from ragg_runtime.estimation.observation import observe_flights
     from ragg_runtime.identification.ranking import list_detectable
     from ragg_runtime.identification.selection import list_testable, make_field
-    from ragg_runtime.model.model import packaged
+    from ragg_runtime.model.model import load_packaged
     from ragg_runtime.reference.auxiliaries import further
     from ragg_runtime.reference.scenario import scenario
 
     s = scenario(1, duration=600.0, rate=8.0)
     s = replace(s, auxiliaries={**s.auxiliaries, **further(np.random.default_rng(1))})
-    f = fit(packaged(), s.sheet, observe_flights([s.simulate().flight()], s.sheet))
+    f = fit(load_packaged(), s.sheet, observe_flights([s.simulate().flight()], s.sheet))
     found: dict[str, dict[str, str]] = {}
     for x in list_detectable(f, make_field(f, list_testable(f))):
         found.setdefault(x.effect, {})[x.name] = f"{x.size:.2g}"
