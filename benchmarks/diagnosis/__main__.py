@@ -151,12 +151,17 @@ def _ablate(options: argparse.Namespace, source: str, pool: Executor | None) -> 
     return rows
 
 
+def _fly_specs(specs: Sequence[Spec], cache: Cache, pool: Executor | None) -> list[Row]:
+    """The rows of flights, those that are not known flown."""
+    run({s.id: partial(fly, s) for s in specs}, cache, pool)
+    return [score.row(cache.lines[s.id]) for s in specs]
+
+
 def _fly(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
     cache = Cache(options.cache, source)
     specs = [s for n in options.seed or plan.REFERENCE for s in plan.specs(n)]
     specs = [s for s in specs if not options.only or s.kind in options.only]
-    run({s.id: partial(fly, s) for s in specs}, cache, pool)
-    rows = [score.row(cache.lines[s.id]) for s in specs]
+    rows = _fly_specs(specs, cache, pool)
     print("\n" + "\n".join(table.flights(rows)))
     if options.against is not None:
         print("\n".join(table.against(rows, read_rows(options.against))))
@@ -167,8 +172,7 @@ def _catalogue(options: argparse.Namespace, source: str, pool: Executor | None) 
     cache = Cache(options.cache.with_stem(f"{options.cache.stem}-catalogue"), source)
     hidden = [e.id for e in load_packaged().candidates if e.searched and e.id not in NEVER]
     specs = plan.catalogue(len(hidden))
-    run({s.id: partial(fly, s) for s in specs}, cache, pool)
-    rows = [score.row(cache.lines[s.id]) for s in specs]
+    rows = _fly_specs(specs, cache, pool)
     print("\n" + "\n".join(table.catalogue(rows)))
     return rows
 
@@ -176,8 +180,7 @@ def _catalogue(options: argparse.Namespace, source: str, pool: Executor | None) 
 def _grammar(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
     cache = Cache(options.cache.with_stem(f"{options.cache.stem}-grammar"), source)
     specs = plan.grammar()
-    run({s.id: partial(fly, s) for s in specs}, cache, pool)
-    rows = [score.row(cache.lines[s.id]) for s in specs]
+    rows = _fly_specs(specs, cache, pool)
     print("\n" + "\n".join(table.grammar(rows)))
     return rows
 
@@ -186,8 +189,7 @@ def _records(options: argparse.Namespace, source: str, pool: Executor | None) ->
     cache = Cache(options.cache, source)
     seeds = options.seed or [plan.RECORDS]
     specs = [s for r in options.record for n in seeds for s in plan.of_record(r, options.count, n)]
-    run({s.id: partial(fly, s) for s in specs}, cache, pool)
-    rows = [score.row(cache.lines[s.id]) for s in specs]
+    rows = _fly_specs(specs, cache, pool)
     print("\n" + "\n".join(table.quiet_records(rows)))
     return rows
 

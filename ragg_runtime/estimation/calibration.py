@@ -87,7 +87,7 @@ class _Fall(Linear):
 
     def over(self, size: float) -> _Fall:
         """The same with a noise so many times as large."""
-        fall = _add_prior_to(self.data / size, self.to_nominal)
+        fall = _make_linear(self.data / size, self.to_nominal)
         rest = fall.rest if np.isfinite(self.rest) else np.inf
         return replace(self, R=fall.R, y=fall.y, rest=rest, data=self.data / size)
 
@@ -159,7 +159,7 @@ class _Task:
         data = join(r_factors)
         if not np.isfinite(data).all():
             return self._nowhere(x)
-        fall = _add_prior_to(data, -x)
+        fall = _make_linear(data, -x)
         return _Fall(R=fall.R, y=fall.y, rest=fall.rest, data=data, to_nominal=-x, sums=sums, rows=rows)
 
     def noise(self, x: Array) -> list[NoiseModel]:
@@ -256,7 +256,7 @@ def _make_calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[NoiseM
     step = found.last
     for sums in at.sums.values():
         step = design.level_biases(step, sums, design.find_null_biases(task.columns))
-    covariance = _add_prior_to(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
+    covariance = _make_linear(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
     return Calibration(
         p=task.vector(found.x + step),
         columns=task.columns,
@@ -276,7 +276,7 @@ def _r_factor(piece: Piece) -> tuple[Array, int, Array]:
     return piece.r_factor(), piece.white.shape[1], piece.sums()
 
 
-def _add_prior_to(T: Array, to_nominal: Array) -> Linear:
+def _make_linear(T: Array, to_nominal: Array) -> Linear:
     """The fit of an R factor [base (n) | residual], the prior in it: its centre is ``to_nominal`` away, its width one scale."""
     R = add_prior(T, range(len(to_nominal)), to_nominal)
     return Linear(R[:-1, :-1], R[:-1, -1], float(R[-1, -1] ** 2))

@@ -231,14 +231,6 @@ class Thin:
         return convolve(x, self.taps)[..., :: self.every]
 
 
-def bridge_gaps(x: Array, valid: NDArray[np.bool_]) -> Array:
-    """A series (N,), straight from neighbour to neighbour where a sample is not valid."""
-    if valid.all() or not valid.any():
-        return x
-    at = np.arange(len(x))
-    return np.where(valid, x, np.interp(at, at[valid], x[valid]))
-
-
 def _reaches_top(values: Array, valid: NDArray[np.bool_]) -> bool:
     """Whether so many samples are at one extreme value that a range may have been reached."""
     parts = [slice(k, k + ROWS) for k in range(0, len(values), ROWS)]

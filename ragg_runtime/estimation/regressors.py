@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import split_range
-from ragg_runtime.estimation.observation import Observation, Thin, bridge_gaps
+from ragg_runtime.estimation.observation import Observation, Thin
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Output
 from ragg_runtime.instrument.parameters import PARAMETERS
@@ -22,6 +22,7 @@ from ragg_runtime.model.memory import add_responses, first_memories
 from ragg_runtime.model.model import DerivedEffect, Model
 from ragg_runtime.model.record import Record, list_channels
 from ragg_runtime.model.recorded import RecordedSeries
+from ragg_runtime.signals.derivative import bridge_gaps
 
 Array = NDArray[np.float64]
 

@@ -20,7 +20,6 @@ from ragg_runtime.estimation.observation import (
     Observation,
     Segment,
     Thin,
-    bridge_gaps,
     divide_into_segments,
     spread,
 )
@@ -34,6 +33,7 @@ from ragg_runtime.model.lateness import list_late
 from ragg_runtime.model.memory import list_memories
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import HALO
+from ragg_runtime.signals.derivative import bridge_gaps
 from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]

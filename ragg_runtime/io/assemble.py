@@ -30,7 +30,7 @@ from ragg_runtime.io.sampling import Grid, make_grid
 from ragg_runtime.io.tables import DataTable
 from ragg_runtime.io.text_tables import TWO_ROWS
 from ragg_runtime.signals.angular_acceleration import NOTE, derive_accelerations
-from ragg_runtime.signals.derivative import fill_gaps, runs
+from ragg_runtime.signals.derivative import bridge_gaps, runs
 
 BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded."""
@@ -91,7 +91,7 @@ def make_flight(
     notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
     valid = _find_valid(placed | outputs, outputs, grid, notes)
     _derive_outputs(outputs, notes, accelerometers)
-    channels = {c: fill_gaps(v, np.isfinite(v), turning=is_disc_angle(c)) for c, v in placed.items()}
+    channels = {c: bridge_gaps(v, np.isfinite(v), turning=is_disc_angle(c)) for c, v in placed.items()}
     _check_gradient(channels, notes)
     flight = Flight(
         time=grid.time,
@@ -128,7 +128,7 @@ def derive_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
     lacking = (nowhere if x.lacking is None else x.lacking) | (nowhere if stuck is None else stuck)
     rates = [np.where(lacking, np.nan, x.channels[n]) for n in ANGULAR_RATE]
     slopes, sure = derive_accelerations(rates, x.time)
-    made = {n: fill_gaps(v, np.isfinite(v)) for n, v in zip(ANGULAR_ACCELERATION, slopes, strict=True)}
+    made = {n: bridge_gaps(v, np.isfinite(v)) for n, v in zip(ANGULAR_ACCELERATION, slopes, strict=True)}
     return replace(x, channels={**x.channels, **made}, valid=x.valid & sure)
 
 

@@ -19,6 +19,7 @@ from scipy.interpolate import make_interp_spline
 from ragg_runtime.model.evaluator import find_places
 from ragg_runtime.model.model import DerivedEffect, Model
 from ragg_runtime.model.record import Record
+from ragg_runtime.signals.derivative import bridge_gaps
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -152,10 +153,7 @@ def _stands_at_quarter_turns(r: Record) -> bool:
 def _bridge_holes(x: Array, valid: NDArray[np.bool_]) -> Array:
     """A series without holes: a part of a record has zeros for what is missing."""
     there = valid | ((x != 0.0) & np.isfinite(x))
-    if there.all() or not there.any():
-        return x
-    at = np.arange(len(x))
-    return np.asarray(np.interp(at, at[there], x[there]))
+    return bridge_gaps(x, there)
 
 
 def _slip(force: Mapping[str, Array], m: Memory, wanted: Container[str]) -> dict[str, Array]:

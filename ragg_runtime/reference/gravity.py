@@ -12,7 +12,6 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicSpline
 
 from ragg_runtime.base.errors import UserError
 
@@ -75,12 +74,6 @@ class Gradient:
     def difference(self, time: Array, r: Array) -> Array:
         """Gamma r, (3, N) m/s^2."""
         return contract(self.gradient(time), r)
-
-
-def gradient_series(time: ArrayLike, tensor: ArrayLike) -> Gradient:
-    """A gradient known at instants (M,) s as (6, M) s^-2, interpolated by cubic splines."""
-    spline = CubicSpline(np.asarray(time, dtype=np.float64), np.asarray(tensor, dtype=np.float64), axis=1)
-    return Gradient(lambda t: np.asarray(spline(t), dtype=np.float64))
 
 
 @dataclass(frozen=True)

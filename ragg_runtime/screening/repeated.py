@@ -13,7 +13,7 @@ from ragg_runtime.base.errors import count
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag, is_disc_angle
-from ragg_runtime.signals.derivative import fill_gaps, runs
+from ragg_runtime.signals.derivative import bridge_gaps, runs
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
@@ -84,7 +84,7 @@ def leave_out_repeated(flight: Flight) -> Flight:
         if name in outputs:
             outputs[name] = np.where(r.left_out, np.nan, x)
         else:
-            channels[name] = fill_gaps(
+            channels[name] = bridge_gaps(
                 np.array(x), there & ~r.left_out, smooth=r.how != "stuck", turning=name in angles
             )
             if r.how == "stuck" or name not in angles:  # a disc turns smoothly between two angles
@@ -95,7 +95,7 @@ def leave_out_repeated(flight: Flight) -> Flight:
         lost = _find_lost_packets([channels[n] for n in names], valid)
         if lost.any():
             found += [(n, _Repeated("not renewed", lost, 0.0)) for n in names]
-            channels |= {n: fill_gaps(channels[n], valid & ~lost, smooth=True) for n in names}
+            channels |= {n: bridge_gaps(channels[n], valid & ~lost, smooth=True) for n in names}
             valid &= ~lost
     if not found:
         return flight

@@ -120,12 +120,12 @@ def weights(window: int, at: int, band: float = BAND) -> Array:
     return weights
 
 
-def fill_gaps(x: Array, there: NDArray[np.bool_], *, smooth: bool = False, turning: bool = False) -> Array:
+def bridge_gaps(x: Array, there: NDArray[np.bool_], *, smooth: bool = False, turning: bool = False) -> Array:
     """A series (N,) between the samples that are there (N,): linearly, or by a spline.
 
     The angle of a disc is ``turning``: whole turns may be missing in it, and it turns on beyond the ends.
     """
-    if there.all():
+    if there.all() or not there.any():
         return x
     at, k = np.flatnonzero(there), np.arange(len(x))
     known = np.unwrap(x[at]) if turning else x[at]

@@ -70,9 +70,8 @@ def fill_gaps(columns: Array, there: NDArray[np.bool_], taps: Array) -> Array:
     if not len(missing) or len(taps) == 1 or len(missing) == len(there):
         return columns
     w = np.append(taps[: REACH - 1], np.sum(taps[REACH - 1 :]))
-    inverse = np.correlate(w, w, "full")[
-        len(w) - 1 :
-    ]  # inner products of the filter's response and itself, later
+    # inner products of the filter's response and itself, later: the noise's inverse covariance
+    inverse = np.correlate(w, w, "full")[len(w) - 1 :]
     inverse[0] *= 1.0 + ROUNDING
     apart = np.searchsorted(missing, missing + len(w)) - np.arange(len(missing))
     G = np.zeros((int(np.max(apart)), len(missing)))
