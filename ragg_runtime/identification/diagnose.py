@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.estimation.calibration import QUIET, list_off_sheet
-from ragg_runtime.estimation.fitted import Fitted, calibrate, fit, measure_noise_floor, release_held
-from ragg_runtime.estimation.observation import Observation, observe_flights
+from ragg_runtime.estimation.calibration import list_off_sheet
+from ragg_runtime.estimation.fitted import Fitted, fit, measure_noise_floor, release_held
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.estimation.thinning import thin_observations
 from ragg_runtime.identification import (
@@ -24,6 +24,7 @@ from ragg_runtime.identification import (
 )
 from ragg_runtime.identification.claims import Regression, Robust, add_shift
 from ragg_runtime.identification.contenders import Extend
+from ragg_runtime.identification.disagreement import are_far_apart, find_disagreement
 from ragg_runtime.identification.formula import propose_formulas
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.parameters import Estimates
@@ -76,13 +77,14 @@ def diagnose_fitted(
     """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.propose_motions``."""
     output = _find_output_effects(f, flights)
     first = Stage.of(f)
-    apart = find_contradiction(first)
+    several = len(flights) > 1
+    apart = find_disagreement(first, extend) if several and are_far_apart(first) else ()
     # before strong effects, whose columns take the place of these
     ranked = rank_effects(first.fitted, first.field, first.choice, first.instants, output)
     evidence = search(first, extend, apart=bool(apart))
     found = Conclusion.of(evidence, output, apart=bool(apart))
-    if not apart and len(flights) > 1 and found.contradictory:
-        apart = find_disagreement(f, flights, extend)
+    if several and found.remains and not apart:
+        apart = find_disagreement(first, extend)
         found = replace(found, verdict="unexplained", claims=()) if apart else found
     if found.remains and not (apart or found.line or found.outcome.explained.complaint):
         o, claimed = found.outcome, set(found.claims) & set(found.outcome.effects)
@@ -227,51 +229,3 @@ def _find_output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
 def _present(r: Recogniser, c: Array, valid: NDArray[np.bool_], noise: float) -> bool:
     """Whether an effect of the recorder shows in a column (N,), which is not kept in memory."""
     return r.present(c, np.isfinite(c) & valid, noise)
-
-
-UNEXPLAINED = 10.0
-"""Times the noise's chi-square that all effects of the catalogue together must leave for flights to contradict each other."""
-
-
-def find_contradiction(first: Stage) -> tuple[Disagreement, ...]:
-    """The flights that agree, where each is explained by the model and all together are not; ``first`` is the stage without effects."""
-    f = first.fitted
-    flights = _group_by_flight(f)
-    left = float(first.field.P[-1, -1] ** 2)
-    if len(flights) < 2 or left < UNEXPLAINED * f.calibration.rows:
-        return ()
-    if not all(_leaves_noise(f, x) for x in flights):
-        return ()
-    agree: list[list[Sequence[Observation]]] = []
-    for one in flights:
-        group = next((g for g in agree if _leaves_noise(f, [*g[0], *one])), None)
-        if group is None:
-            agree.append([one])
-        else:
-            group.append(one)
-    return tuple(Disagreement(tuple(x[0].flight_name for x in g), ()) for g in agree)
-
-
-def find_disagreement(
-    f: Fitted, flights: Sequence[Flight], extend: Extend | None
-) -> tuple[Disagreement, ...]:
-    """What each flight alone lacks, where each is explained so; nothing if one is not."""
-    found: dict[tuple[str, ...], list[str]] = {}
-    for x, own in zip(flights, _group_by_flight(f), strict=True):
-        d = diagnose_fitted(fit(f.model, f.instrument, own), [x], extend)
-        if d.remains:
-            return ()
-        found.setdefault(tuple(sorted(d.found)), []).append(own[0].flight_name)
-    return tuple(Disagreement(tuple(names), effects) for effects, names in found.items())
-
-
-def _group_by_flight(f: Fitted) -> list[list[Observation]]:
-    flights: dict[int, list[Observation]] = {}
-    for o in f.observations:
-        flights.setdefault(o.flight, []).append(o)
-    return list(flights.values())
-
-
-def _leaves_noise(f: Fitted, observations: Sequence[Observation]) -> bool:
-    """Whether the model leaves but noise of some of the observations."""
-    return calibrate(f.model, f.instrument, observations)[1].excess <= QUIET

@@ -196,13 +196,19 @@ class Reason:
 
 @dataclass(frozen=True)
 class Disagreement:
-    """Flights that agree, and what these lack: others lack something else, and all together are not explained."""
+    """Flights that agree, and what these lack: others lack something else, and all together are not ``explained``, as these may be."""
 
     flights: tuple[str, ...]
     found: tuple[str, ...]
+    explained: bool = True
 
     def as_json(self) -> dict[str, object]:
-        return {"flights": list(self.flights), "found": list(self.found)}
+        return {"flights": list(self.flights), "found": list(self.found), "explained": self.explained}
+
+    def in_words(self) -> str:
+        """``lag and something unknown in friday, sunday``."""
+        what = [*self.found, *([] if self.explained else ["something unknown"])] or ["nothing"]
+        return f"{' and '.join(what)} in {', '.join(self.flights)}"
 
 
 def describe_disagreement(apart: Sequence[Disagreement]) -> str | None:
@@ -211,12 +217,13 @@ def describe_disagreement(apart: Sequence[Disagreement]) -> str | None:
         return None
     names = "; ".join(", ".join(g.flights) for g in apart)
     count = sum(len(g.flights) for g in apart)
-    if any(g.found for g in apart):
-        said = "; ".join(f"{' and '.join(g.found) or 'nothing'} in {', '.join(g.flights)}" for g in apart)
-        return (
-            f"each of the {count} flights is explained separately, but not all together: {said}. Was the instrument, its mounting,"
-            " an axis or a unit changed between them?"
+    if any(g.found or not g.explained for g in apart):
+        each = f"each of the {count} flights is explained separately, but not all together"
+        lead = (
+            each if all(g.explained for g in apart) else "one set of parameters does not explain all flights"
         )
+        said = "; ".join(g.in_words() for g in apart)
+        return f"{lead}: {said}. Was the instrument, its mounting, an axis or a unit changed between them?"
     return (
         f"each of the {count} flights is explained separately, but they are inconsistent, and no effect of"
         f" the catalogue explains the difference. Consistent flights: {names}. Was the instrument, its mounting, an axis or a unit"

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.special import expit
 
-from ragg_runtime.estimation.calibration import QUIET
 from ragg_runtime.identification import claims, comparison, omnibus, selection, strong
 from ragg_runtime.identification.claims import Significance
 from ragg_runtime.identification.likelihood_ratio import Test
@@ -84,12 +83,6 @@ class Conclusion:
             one=None if claimed else one,
             shared=_find_shared_term(lead.chi2, base) if lead is not None and alone else None,
         )
-
-    @property
-    def contradictory(self) -> bool:
-        """Whether flights that contradict each other would explain the verdict."""
-        far = self.outcome.target.calibration.excess > QUIET
-        return self.verdict == "unexplained" or (self.remains and far)
 
     def remarks(self, apart: str | None, spent: bool) -> list[str]:
         """What is wrong with the record, or what else than the effects found would do, or how the record is disturbed."""

@@ -18,7 +18,7 @@ from ragg_runtime.io.record import ANGULAR_ACCELERATION
 from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening import other_demodulator, timing
-from ragg_runtime.screening.linear_fit import INDEPENDENT, Hypothesis, LinearFit, fit_rows
+from ragg_runtime.screening.linear_fit import INDEPENDENT, RARE, Hypothesis, LinearFit, fit_rows
 from ragg_runtime.screening.sampler import Rows, Sampler, find_stem
 
 Array = NDArray[np.float64]
@@ -72,7 +72,7 @@ def find_mistake(model: Model, instrument: Instrument, s: Sampler) -> Finding | 
     """
     rows = s.take(s.rows())
     before = fit_rows(model, instrument, rows)
-    if before.rms < SUSPICIOUS and before.surprise < SURPRISING:
+    if before.rms < SUSPICIOUS and before.surprise < SURPRISING and before.kept > 1.0 - RARE:
         return None
     tried = [*_sheets(model, instrument, rows), *_wrong(model, instrument, s, rows)]
     tried += timing.propose_times(model, instrument, s)

@@ -45,6 +45,9 @@ SLIP_ROWS, SWITCH, MOST_SLIPS = 800, 30.0, 4
 """Rows on which slips of one recorder against another are looked for; what a change of the lag costs, from a third to three times of
 which finds the same (docs/contributors/decisions.md); most of them in a record."""
 
+SLIP_PARTS, SLIP_TURNS = 16, 4
+"""Most parts of a record whose lags are looked for, and turns of the disc in each: a slip must fill one."""
+
 MOST_SHIFTS = 64
 """Shifts that are tried: about the tops of a cross-correlation, and on from there while less is left."""
 
@@ -361,8 +364,10 @@ def _propose_shifts(t: _Trial) -> list[Hypothesis]:
 def _propose_slips(t: _Trial) -> list[Hypothesis]:
     """From some instant on, some columns are late: one of two recorders lost samples, or wrote some twice, perhaps several times."""
     s, n = t.s, len(t.s.flight)
-    quarters = [(n * k // 4, n * (k + 1) // 4) for k in range(4)]
-    likely = [(a, b, [k for k in _lags(s, a, b) if abs(k) < n // 8]) for a, b in quarters]
+    turns = s.flight.duration * abs(s.disc.spin_frequency)
+    few = int(np.clip(turns / SLIP_TURNS, 4, SLIP_PARTS))
+    ends = [n * k // few for k in range(few + 1)]
+    likely = [(a, b, [k for k in _lags(s, a, b, beside=0) if abs(k) < n // 8]) for a, b in pairwise(ends)]
     tried: list[tuple[float, _Late, Index, Index]] = []
     for x in (_MOTION, _FORCE, _RATES, _OUTPUT):
         lags = {_find_lag(t, s.rows(a, b, SLIP_ROWS // 4), [0, *some], x) for a, b, some in likely} | {0}
@@ -442,9 +447,9 @@ def find_path(costs: Array, switch: float) -> Index:
     return path
 
 
-def _lags(s: Sampler, first: int = 0, last: int | None = None) -> Sequence[int]:
+def _lags(s: Sampler, first: int = 0, last: int | None = None, beside: int = 2) -> Sequence[int]:
     """Samples by which the motion may be late in a segment: where the demodulated output resembles a_x + i a_y, or one of them, or,
-    at twice the spin rate, the square of the rates in the disc's plane, most.
+    at twice the spin rate, the square of the rates in the disc's plane, most; and so many samples ``beside``.
     """
     x, f = s.flight, abs(s.disc.spin_frequency)
     rows = np.arange(first, min(len(x) if last is None else last, first + LONGEST))
@@ -467,7 +472,7 @@ def _lags(s: Sampler, first: int = 0, last: int | None = None) -> Sequence[int]:
         for other in (motion, np.conj(motion)):
             like = np.abs(signal.correlate(other, output, method="fft"))
             top = int(lags[near][np.argmax(like[near])])
-            found += [k for k in range(top - 2, top + 3) if k not in found]
+            found += [k for k in range(top - beside, top + beside + 1) if k not in found]
     return found
 
 

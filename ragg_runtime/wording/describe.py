@@ -383,7 +383,8 @@ def _remarks(d: Json) -> list[str]:
                 f"This record cannot distinguish {main} from {join_names(others, 'or')}{term}: they are one finding."
             )
     for x in d.get("disagree") or ():
-        what = join_names([str(e) for e in x["found"]]) or "no effect"
+        unknown = [] if x["explained"] else ["something that no effect explains"]
+        what = join_names([*map(str, x["found"]), *unknown]) or "no effect"
         said.append(
             f"Alone, {write_flights(x['flights'])} {'needs' if len(x['flights']) == 1 else 'need'} {what}."
         )

@@ -151,7 +151,10 @@ def test_what_each_flight_alone_lacks_is_said_where_all_together_are_not_explain
     d = diagnosed(one, named_flight(one, "monday", hidden), named_flight(other, "tuesday"))
     assert (d.verdict, d.found) == ("unexplained", ())
     said = d.as_json()["disagree"]
-    assert said == [{"flights": ["monday"], "found": ["cubic-input"]}, {"flights": ["tuesday"], "found": []}]
+    assert said == [
+        {"flights": ["monday"], "found": ["cubic-input"], "explained": True},
+        {"flights": ["tuesday"], "found": [], "explained": True},
+    ]
     assert "cubic-input in monday; nothing in tuesday" in str(d.as_json()["reason"])
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -174,12 +175,15 @@ def test_a_record_of_two_instruments_is_said_with_the_time() -> None:
 
 
 @pytest.mark.usefixtures("timing_alone")
-@pytest.mark.parametrize(("start", "samples"), [(("G_",), 2), (("a_", "om"), -5)])
+@pytest.mark.parametrize(
+    ("start", "samples", "end"), [(("G_",), 2, np.inf), (("a_", "om"), -5, np.inf), (("a_", "om"), -3, 150.0)]
+)
 def test_a_recorder_that_slips_against_the_other_is_said_with_the_time(
-    start: tuple[str, ...], samples: int
+    start: tuple[str, ...], samples: int, end: float
 ) -> None:
+    """Of a few rows a robust fit sees nothing but that they are many outliers."""
     x = flown(12)
-    late = np.arange(len(x)) - np.where(x.time < 110.0, 0, samples)
+    late = np.arange(len(x)) - np.where((x.time < 110.0) | (x.time > end), 0, samples)
     late = np.minimum(late, len(x) - 1)
     moved = {n: v[late] if n.startswith(start) else v for n, v in (*x.channels.items(), *x.outputs.items())}
     slipped = replace(x, channels={n: moved[n] for n in x.channels}, outputs={"G_out": moved["G_out"]})
@@ -187,8 +191,11 @@ def test_a_recorder_that_slips_against_the_other_is_said_with_the_time(
     said = (
         rf"{name} is {abs(samples) / 16:g} s \({abs(samples)} samples\) {way} from t = 1(09|10)(\.\d+)? s on"
     )
-    with pytest.raises(UserError, match=said):
-        screen(MODEL, drawn(12).sheet, slipped)
+    try:
+        notes = screen(MODEL, drawn(12).sheet, slipped).notes
+    except UserError as refused:
+        notes = (str(refused),)
+    assert any(re.search(said, n) for n in notes)
 
 
 @pytest.mark.parametrize("size", [0.025, 1.0])
