@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -20,7 +19,7 @@ from ragg_runtime.io.record import (
     is_disc_angle,
 )
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.fir import fill_gaps, filter_columns
+from ragg_runtime.signals.fir import Floats, fill_gaps, filter_columns
 
 Array = NDArray[np.float64]
 
@@ -41,11 +40,12 @@ class SpectralLine:
 class NoiseModel:
     """The noise of an observation of m series (:mod:`noise_estimate`); :meth:`whiten` makes it white, of unit variance.
 
-    It is stationary noise of a spectrum for every whitened series, times a level that may follow what is known from sample to sample
-    (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965), and lines. The filters are causal and finite: linear, hence
-    exact on columns however much larger than the noise they are, and a long record can be streamed through them. Samples that are not
-    valid are interpolated, in data and columns alike, as the noise makes most likely (:func:`fir.fill_gaps`), and the filters start from
-    rest: what the model explains it explains before and after; only the noise next to the start is not perfectly white.
+    It is noise of a spectrum for every whitened series, whose level may follow what is known from sample to sample, and lines. What
+    follows it is all of the noise (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965), or what is new in each sample.
+    The filters are causal and finite: linear, hence exact on columns however much larger than the noise they are, and a long record can
+    be streamed through them. Samples that are not valid are interpolated, in data and columns alike, as the noise makes most likely
+    (:func:`fir.fill_gaps`), and the filters start from rest: what the model explains it explains before and after; only the noise next to
+    the start is not perfectly white.
 
     Attributes
     ----------
@@ -53,6 +53,9 @@ class NoiseModel:
         Of every whitened series; taps of the filters, 1/V.
     level
         The noise level from sample to sample.
+    level_first
+        Whether the level multiplies the coloured noise and is divided out before the filters; or the white noise that a filter has
+        coloured, and is divided out after them.
     lines
         Those that are neither of the motion nor next to a multiple of the spin rate; they are projected out of data and columns.
     combinations
@@ -66,6 +69,7 @@ class NoiseModel:
     spectra: tuple[Spectrum, ...]
     filters: tuple[Array, ...]
     level: Level = field(default_factory=Level)
+    level_first: bool = False
     lines: tuple[SpectralLine, ...] = ()
     combinations: Array | None = field(default=None, compare=False)
     disturbed: str | None = None
@@ -119,11 +123,7 @@ class NoiseModel:
 
     def swell(self, r: Record) -> float:
         """Power of all noise of a record over that of the segments that it was estimated from."""
-        return float(np.mean(np.square(np.broadcast_to(self.level_of(r.quantity), r.valid.shape)[r.valid])))
-
-    def level_of(self, quantity: Callable[[str], Array]) -> Array | float:
-        """(N,), or one number if it is constant: the level where quantities, by name, are (N,)."""
-        return self.level.of(quantity)
+        return float(np.mean(np.square(np.broadcast_to(self.level.of(r.quantity), r.valid.shape)[r.valid])))
 
     def weights(self, w: Array) -> Array:
         """(outputs,): how what counts so in the series (m,) counts in the whitened ones."""
@@ -142,13 +142,22 @@ class NoiseModel:
         lead: int = 0,
     ) -> Array:
         """Columns (n, m, N) V, zero where a sample is not valid, through :meth:`interpolate` and :meth:`filter`."""
-        return self.filter(self.interpolate(columns, valid), valid, level, lead=lead)
+        return self.filter(self.interpolate(columns, valid, level), valid, level, lead=lead)
 
-    def interpolate(self, columns: Array, valid: NDArray[np.bool_] | None = None) -> Array:
+    def divide(self, x: Floats, level: Array | float, *, filtered: bool) -> Floats:
+        """Series (..., N), before or after they are ``filtered``, over the level, if it is divided out there."""
+        if not self.uneven or filtered is self.level_first:
+            return x
+        return np.asarray(x / np.asarray(level, dtype=x.dtype))
+
+    def interpolate(
+        self, columns: Array, valid: NDArray[np.bool_] | None = None, level: Array | float = 1.0
+    ) -> Array:
         """(n, outputs, N): what the filters take of columns (n, m, N), gaps filled as the noise makes most likely."""
         x = columns
         if self.combinations is not None:
             x = np.matmul(self.combinations, columns)
+        x = self.divide(x, level, filtered=False)
         if valid is None or valid.all():
             return x
         return np.stack([fill_gaps(x[:, k], valid, taps) for k, taps in enumerate(self.filters)], axis=1)
@@ -171,7 +180,7 @@ class NoiseModel:
         valid
             (N,): which samples are wanted; ``None``: all.
         level
-            (N - lead,) or one number: :meth:`level_of` these samples.
+            (N,) or one number: :attr:`level` at these samples.
         tail
             (n, outputs, T): the samples before them; ``None``: the filters start from rest.
         lead
@@ -181,10 +190,11 @@ class NoiseModel:
         -------
         (n, rows): one output after the other.
         """
+        after = level if np.ndim(level) == 0 else np.asarray(level)[lead:]
 
         def through(k: int) -> Array:
             y = filter_columns(series[:, k], self.filters[k], None if tail is None else tail[:, k], lead)
-            y = y / level if self.uneven else y
+            y = self.divide(y, after, filtered=True)
             return y if valid is None or valid.all() else y[:, valid[lead:]]
 
         if self.outputs == 1:

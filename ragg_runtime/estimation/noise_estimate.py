@@ -12,6 +12,7 @@ from scipy import fft
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import noise_level, unknown_gradient
+from ragg_runtime.estimation.least_squares import add_prior
 from ragg_runtime.estimation.noise import NoiseModel, SpectralLine, level_quantities
 from ragg_runtime.estimation.noise_level import Level
 from ragg_runtime.estimation.observation import (
@@ -42,7 +43,7 @@ from ragg_runtime.estimation.spectrum import (
 from ragg_runtime.estimation.whitening import Piece, divide_flight, is_long, pass_over
 from ragg_runtime.io.record import ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import take_quantities
-from ragg_runtime.signals.fir import fill_gaps, filter_columns
+from ragg_runtime.signals.fir import fill_gaps
 
 Array = NDArray[np.float64]
 
@@ -120,13 +121,17 @@ def estimate_noise(
     ):  # what is loud has been in the fit: of what is quiet columns have left more than the noise
         parts = _fit_segments(at, o, apart, chosen, level)
         noise = _estimate_spectra(parts, o, level, means)
+    noise = replace(noise, combinations=apart, lines=_list_lines(parts, o))
+    if level.parts:
+        either = (replace(noise, level_first=x) for x in (False, True))
+        noise = max(either, key=lambda n: _compute_evidence(at, o, n, chosen))
     said = (
         describe_disturbances(_collect_disturbances(parts, o.record.rate)),
         noise_level.describe_level(level),
     )
     words = "; ".join(w for w in said if w is not None) or None
     free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
-    return replace(noise, disturbed=words, freedom=free, combinations=apart, lines=_list_lines(parts, o))
+    return replace(noise, disturbed=words, freedom=free)
 
 
 @dataclass(frozen=True)
@@ -366,9 +371,9 @@ def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
     alternatives: dict[str, list[Array]] = {}
     for p in parts:
         r = o.record.part(p.rows)
-        for m, taps in enumerate(noise.filters):
-            filled = fill_gaps(p.rest(m)[None], p.valid, taps)
-            white.append(filter_columns(filled, taps)[0][p.valid])
+        rests = np.stack([p.rest(m) for m in range(noise.outputs)])
+        white.append(noise.whiten(rests[None], p.valid)[0])
+        for m in range(noise.outputs):
             for n in names:
                 quantities[n].append(r.quantity(n)[p.valid])
             for e, variance in p.random.items():
@@ -378,6 +383,26 @@ def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
         {n: np.concatenate(x) for n, x in quantities.items()},
         {e: np.concatenate(x) for e, x in alternatives.items()},
     )
+
+
+VAGUE = 1e3
+"""Scales of a column within which its coefficient is expected where noises are compared: none is known."""
+
+
+def _compute_evidence(
+    at: LinearisationPoint, o: Observation, noise: NoiseModel, chosen: Sequence[Segment]
+) -> float:
+    """Of a noise against one of the same filters and level: logarithm, whatever the coefficients of the columns in each segment are.
+
+    Coefficients that are fitted with one noise take more of what is not that noise: residuals alone favour the noise they were made with.
+    """
+    found = 0.0
+    for T in pass_over(at, o, noise, lambda piece: piece.r_factor(), chosen=chosen):
+        n = len(T) - 1
+        T[:, :n] *= VAGUE
+        R = np.diag(add_prior(T, range(n), np.zeros(n)))
+        found -= 0.5 * float(R[-1] ** 2) + float(np.sum(np.log(np.abs(R[:-1]))))
+    return found
 
 
 MEANS = 8192

@@ -2,7 +2,7 @@
 
 A level that is taken as constant where it changes biases every test: noisy intervals weigh too much, and a
 term that is large where the noise is large looks significant. A noise whose level follows what is known is made white of
-unit variance by one factor per sample after its filter (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965).
+unit variance by one factor per sample, before its filter or after it, whichever is likelier (``NoiseModel.level_first``).
 Whether the level follows something is asked by the studentised test of R. Koenker (J. Econometrics 17, 1981): the squares
 against groups of samples, with their own fourth moment, so that heavy tails are no evidence.
 """

@@ -100,7 +100,6 @@ def make_windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]
     if not is_unknown(o) and not noise.lines:
         return []
     r = o.record
-    level = np.ones(rows.stop - rows.start) * noise.level_of(take_quantities(r, rows))
     valid = np.array(r.valid[rows])
     rank = np.concatenate([[0], np.cumsum(valid)])
     count = max(1, round((rows.stop - rows.start) / (WINDOW_SECONDS * r.rate)))
@@ -117,10 +116,10 @@ def make_windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]
         if is_unknown(o):
             shares = _share_among_series(o, make_splines(*r.carried(slice(a - lead, b))) * here)
         plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
-        levels = level[a - rows.start : b - rows.start]
+        level = noise.level.of(take_quantities(r, slice(a - lead, b)))
         lines = noise.line_columns(r.time[a - lead : b], len(o.series))
         together = np.concatenate([np.stack(shares, axis=1), lines * here])
-        white = noise.whiten(together, here, levels, lead=lead)
+        white = noise.whiten(together, here, level, lead=lead)
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
         places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(noise.outputs)])
         samples = slice(a - rows.start, b - rows.start)

@@ -27,7 +27,6 @@ from ragg_runtime.estimation.observation import (
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise, thin_residual
 from ragg_runtime.estimation.unknown_gradient import Window
-from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]
 R = TypeVar("R")
@@ -143,9 +142,11 @@ def pass_over(
         flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
         taken = unknown_gradient.make_windows(o, s.rows, noise) if windows is None else windows
         if whitened:
-            series = noise.interpolate(columns[nonzero], part.record.valid)
+            level = noise.level.of(part.record.quantity)
+            series = noise.interpolate(columns[nonzero], part.record.valid, level)
             tail = _recall_past(tail, s.rows.start - before, memory)
-            flat = _whiten_segment(series, len(columns), nonzero, noise, tail, part.record, taken)
+            white = noise.filter(series, part.record.valid, level, tail=tail)
+            flat = _project_segment(white, series, len(columns), nonzero, taken)
             tail, before = _carry_tail(tail, series, memory), s.rows.stop
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, noise.outputs)
         piece = Piece(
@@ -164,17 +165,10 @@ def pass_over(
         yield made
 
 
-def _whiten_segment(
-    series: Array,
-    count: int,
-    nonzero: slice | NDArray[np.intp],
-    noise: NoiseModel,
-    tail: Array | None,
-    record: Record,
-    windows: Sequence[Window],
+def _project_segment(
+    some: Array, series: Array, count: int, nonzero: slice | NDArray[np.intp], windows: Sequence[Window]
 ) -> Array:
-    """(count, rows): of so many columns those that are not zero, ``series``, whitened, without what an unknown gradient spans."""
-    some = noise.filter(series, record.valid, noise.level_of(record.quantity), tail=tail)
+    """(count, rows): of so many columns those that are not zero, ``series``, whitened, ``some``, without what an unknown gradient spans."""
     if windows:
         some = some.copy() if np.shares_memory(some, series) else some
         unknown_gradient.project(some, windows)

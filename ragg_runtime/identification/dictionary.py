@@ -343,13 +343,11 @@ class Directions:
         self, prepared: PreparedFlight, dictionary: Dictionary, piece: Piece, only: int | None = None
     ) -> None:
         self.piece, self.dictionary, self.whole = piece, dictionary, prepared.observation
-        r = piece.observation.record
-        self.filters = prepared.noise.taps(MEMORY)
+        self.noise, self.filters = prepared.noise, prepared.noise.taps(MEMORY)
         o = piece.observation
         self.weights = prepared.noise.weights(
             o.weights if only is None else np.where(np.arange(len(o.signs)) == only, o.signs, 0.0)
         )
-        self.level = prepared.noise.level_of(r.quantity)
 
     def whitened(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
         """Places of some terms, their series (terms, N), and these whitened (terms, rows), through the filter."""
@@ -357,19 +355,18 @@ class Directions:
         rows = piece.segment.rows
         lead = min(rows.start, max(len(t) for t in self.filters) - 1)
         wide = self.whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
-        valid = o.record.valid
+        valid, level = o.record.valid, np.broadcast_to(self.noise.level.of(wide.quantity), wide.valid.shape)
         for at, x in self.dictionary.make_chunks(wide, terms):
             if o.recorded.demodulated:  # what the recorder made of G_out before it was recorded
                 x = o.recorded.through(x.astype(np.float64), wide).astype(np.float32)
                 x[:, ~wide.valid] = 0.0
-            parts = [
-                _keep_valid(self._even(filter_columns(x, np.asarray(w * taps), lead=lead)), valid)
+            even = self.noise.divide(x, level, filtered=False)
+            made = (
+                filter_columns(even, np.asarray(w * taps), lead=lead)
                 for w, taps in zip(self.weights, self.filters, strict=True)
-            ]
+            )
+            parts = [_keep_valid(self.noise.divide(X, level[lead:], filtered=True), valid) for X in made]
             yield at, x[:, lead:], self._without_gradient(parts)
-
-    def _even(self, X: Singles) -> Singles:
-        return X if isinstance(self.level, float) else np.asarray(X / self.level.astype(np.float32))
 
     def _without_gradient(self, parts: Sequence[Singles]) -> Singles:
         X = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)

@@ -114,11 +114,12 @@ def _filter_back(x: PreparedFlight, parts: Sequence[tuple[NDArray[np.intp], Arra
     for sample, left in parts:
         count = len(left) // noise.outputs
         y[:, sample[:count]] = left.reshape(noise.outputs, count)
-    y /= noise.level_of(o.record.quantity)
+    level = noise.level.of(o.record.quantity)
+    y = noise.divide(y, level, filtered=True)
     found = np.zeros(y.shape[1])
     for own, w, taps in zip(y, noise.weights(o.weights), noise.taps(MEMORY), strict=True):
         found += filter_columns(np.ascontiguousarray(own[None, ::-1]), np.asarray(w * taps))[0, ::-1]
-    return found
+    return noise.divide(found, level, filtered=False)
 
 
 def _list_factors(d: Dictionary) -> tuple[list[Term], list[Term]]:

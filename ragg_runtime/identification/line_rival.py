@@ -246,12 +246,12 @@ def _measure_lines(x: PreparedFlight, projector: Projector, frequencies: Array) 
 
 
 def _make_waves(x: PreparedFlight, piece: Piece, frequencies: Array) -> Array:
-    """(n, 2, rows): cosines and sines, in whitened rows."""
+    """(n, 2, rows): cosines and sines, in whitened rows, of a level that hardly changes within the filter's memory."""
     r = piece.observation.record
     wave = np.exp(1j * np.outer(2 * np.pi * frequencies, r.time[r.valid]))
     X = np.stack([wave.real, wave.imag], axis=1)
     if x.noise.uneven:
-        X /= np.asarray(x.noise.level_of(r.quantity))[r.valid]
+        X /= np.asarray(x.noise.level.of(r.quantity))[r.valid]
     weights = x.noise.weights(piece.observation.weights)
     X = np.concatenate([w * X for w in weights], axis=2)
     unknown_gradient.project(X.reshape(2 * len(X), -1), piece.windows)

@@ -253,7 +253,7 @@ def _begin_columns(piece: Piece, prepared: PreparedFlight, at: int, places: Sequ
     columns[:, :, :at] = 0.0
     own = columns.any(axis=(1, 2))
     r, noise = piece.observation.record, prepared.noise
-    X = noise.whiten(columns[own], r.valid, noise.level_of(r.quantity))
+    X = noise.whiten(columns[own], r.valid, noise.level.of(r.quantity))
     unknown_gradient.project(X, piece.windows)
     found = np.zeros((len(columns), X.shape[1]))
     found[own] = X

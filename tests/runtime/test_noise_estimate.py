@@ -225,6 +225,22 @@ def test_a_walk_that_is_slower_than_the_record_is_noise() -> None:
     assert c.excess == pytest.approx(1.0, abs=0.1)
 
 
+@pytest.mark.parametrize("swells", [True, False])
+def test_noise_that_swells_is_told_from_white_noise_that_does(swells: bool) -> None:
+    """Of drifting noise in proportion to |a_x| the level is divided out first; beside drifts that stay as they are, after the filter."""
+    s = scenario(12, duration=200.0, rate=RATE)
+    flight = s.simulate().flight()
+    size = np.abs(flight.channels["a_x"])
+    level = 0.2 + size / np.sqrt(np.mean(size**2))
+    white, other = 0.1 * np.random.default_rng(2).normal(size=(2, len(flight)))
+    drift = signal.lfilter([0.15], [1.0, -0.98], other)
+    noise = level * (white + drift) if swells else level * white + drift
+    flight = replace(flight, outputs={n: x + noise for n, x in flight.outputs.items()})
+    c = calibration.fit(model.load_packaged(), s.sheet, [observation.observe(flight, s.sheet)])
+    assert [p.name for p in c.noise[0].level.parts] == ["abs(a_x)"]
+    assert c.noise[0].level_first is swells
+
+
 LONG = 10240
 LONG_TIME = np.arange(LONG) / RATE
 

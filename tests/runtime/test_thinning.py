@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import fitted, noise_estimate, observation, scores, thinning, whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise import NoiseModel
+from ragg_runtime.estimation.noise_level import Level, LevelFactor
 from ragg_runtime.estimation.observation import (
     BLOCKS,
     Observation,
@@ -235,13 +237,15 @@ def test_segments_and_their_blocks_cover_a_flight_once(samples: int) -> None:
 def test_the_division_leaves_no_trace(
     long_flight: tuple[Scenario, Flight], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The same noise, calibration and evidence, from one segment and from many, to rounding; with a gap."""
+    """The same calibration and evidence, from one segment and from many, to rounding; with a gap, and a level that changes."""
     s, flight = long_flight
     valid = np.ones(len(flight.time), dtype=bool)
     valid[4000:4130] = False
     flight = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
     o = observation.observe(flight, s.sheet)
-    noise = fitted.fit(model.load_packaged(), s.sheet, [o]).calibration.noise
+    louder = Level((LevelFactor("time", np.array([0.0, 300.0, 600.0]), np.array([1.0, 3.0, 1.0])),))
+    estimated = fitted.fit(model.load_packaged(), s.sheet, [o]).calibration.noise
+    noise = [replace(n, level=louder, level_first=True) for n in estimated]
     whole = fitted.fit(model.load_packaged(), s.sheet, [o], noise)
     monkeypatch.setattr(whitening, "ROWS", 1700)
     monkeypatch.setattr(whitening, "EXCERPT", 1000)
