@@ -198,7 +198,7 @@ RULES: tuple[Rule, ...] = (
     Rule("lines", "lines of the output are fitted beside the columns before the noise is estimated",
          (*quiet("line", "mains"), ("outside", "white")), ("estimation/residual.py:_find_lines",),
          (Patch("estimation.residual:_find_lines", _empty),)),
-    Rule("noise-level", "the noise's level follows time, motion, angle or gaps",
+    Rule("noise-level", "the noise's level follows time, motion or angle",
          (*quiet("ramp", "along-axes", "with-ax", "with-size", "cyclic"), ("ten", "along-axes"), ("ten", "ramp")),
          ("estimation/noise_level.py", "estimation/noise_estimate.py:_level"),
          (Patch("estimation.noise_estimate:_level", _level, acts=lambda r: bool(r.parts)),)),

@@ -225,5 +225,4 @@ def level_quantities(r: Record) -> list[str]:
         names += [f"input({k})" for k in r.different_axes] if len(r.different_axes) > 1 else []
     names += sorted(n for n in r.wide if n not in MOTION and not is_disc_angle(n))
     names += ["phi"] if r.turning else []
-    names += [] if r.valid.all() else ["gap"]
     return names

@@ -33,20 +33,14 @@ FINEST = 512
 GROUPS = (*(np.arange(1, 8) / 8), 15 / 16, 31 / 32)
 """Shares of the samples, in the order of some quantity, at which groups end: forces have long tails, and there the noise is loudest."""
 
-STEPPED = ("time", "phi", "gap")
-"""Quantities between whose groups the level steps; with any other one it goes on smoothly."""
+STEPPED = ("time", "phi")
+"""Quantities between whose groups the level steps; with any other one it goes on smoothly, and variances may grow."""
 
 SECTORS = 16
 """Sectors of the disc's angle: a level that swells twice a turn takes eight for each time."""
 
-SHAPELESS = ("time", "phi", "gap")
-"""Quantities with which no variance grows."""
-
 ABSENT = 1e-9
 """Share of a direction's square below which it is rounding."""
-
-NEAR = (1.5, 2.5, 4.5, 8.5, 16.5, 32.5, 64.5)
-"""Samples from a gap between which groups are divided: what is derived there is poorer, and a filter starts anew."""
 
 FEWEST = 20
 """Samples that a group must have."""
@@ -100,7 +94,7 @@ def make_shapes(quantity: Callable[[str], Array], names: Iterable[str], level: L
     """
     found = [np.ones_like(quantity("time"))]
     for n in dict.fromkeys(names):
-        if n not in SHAPELESS:
+        if n not in STEPPED:
             x = quantity(n)
             found += [x, x**2] if n.startswith(("abs(", "input(")) or n in ("input-rms", "input") else [x]
     weight = np.broadcast_to(level.of(quantity), found[0].shape) ** -2.0
@@ -216,9 +210,6 @@ def _find_edges(name: str, x: Array) -> Array:
     if name == "time":
         intervals = min(INTERVALS, len(x) // (2 * FEWEST))
         return np.asarray(np.quantile(x, np.linspace(0.0, 1.0, intervals + 1)[1:-1]), dtype=np.float64)
-    if name == "gap":
-        fewest = np.array([min(np.sum(x <= edge), np.sum(x > edge)) for edge in NEAR])
-        return np.array(NEAR)[fewest >= 2 * FEWEST]
     if name == "phi":
         return np.linspace(0.0, 2 * np.pi, SECTORS + 1)[1:-1]
     edges: Array = np.unique(np.quantile(x, GROUPS)).astype(np.float64)
@@ -256,7 +247,6 @@ def describe_level(level: Level) -> str | None:
     names = {
         "time": "over the record",
         "phi": "with the disc angle",
-        "gap": "next to gaps",
         "input-rms": "with the specific force along the input axes",
         "input": "with the specific force along the input axes",
     }

@@ -164,15 +164,12 @@ class Record:
         return None if found is None else self._inner(found)
 
     def quantity(self, name: str) -> Array:
-        """(N,): what a level of noise may follow: ``time``, ``phi`` (from 0 to 2 pi), ``gap`` (samples from the next that is
-        not valid), a channel, ``abs(CHANNEL)``, ``abs(VECTOR)``, its length, ``input(K)``, the size of the specific force along the
-        input axis of the output's accelerometer K, ``input`` and ``input-rms``, mean and quadratic mean of these, which weigh by the
-        power that they add.
+        """(N,): what a level of noise may follow: ``time``, ``phi`` (from 0 to 2 pi), a channel, ``abs(CHANNEL)``, ``abs(VECTOR)``, its
+        length, ``input(K)``, the size of the specific force along the input axis of the output's accelerometer K, ``input`` and
+        ``input-rms``, mean and quadratic mean of these, which weigh by the power that they add.
         """
         if name == "time":
             return self.time
-        if name == "gap":
-            return _count_from_gap(self.valid)
         if name == "phi":
             return np.asarray(np.mod(self.phi, 2 * np.pi))
         if name in ("input", "input-rms") or name.startswith("input("):
@@ -407,15 +404,6 @@ def list_channels(names: Iterable[str]) -> frozenset[str]:
 def take_quantities(r: Record, rows: slice) -> Callable[[str], Array]:
     """:meth:`Record.quantity` of some samples, which are copied only if one is asked for."""
     return lambda name: r.part(rows).quantity(name)
-
-
-def _count_from_gap(valid: NDArray[np.bool_]) -> Array:
-    """(N,): how many samples each is from the nearest one that is not valid; N if all are."""
-    n = len(valid)
-    at = np.arange(n)
-    before = at - np.maximum.accumulate(np.where(valid, -n, at))
-    after = np.minimum.accumulate(np.where(valid, 2 * n, at)[::-1])[::-1] - at
-    return np.minimum(np.minimum(before, after), n).astype(np.float64)
 
 
 UNEVEN = 1e-3
