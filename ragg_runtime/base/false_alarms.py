@@ -6,8 +6,9 @@ that share of them. By the union bound (Bonferroni) the tests that decide the ve
     CATALOGUE   the effects that are columns, and steps: the least p-value times the number of effects tested
   + a random effect is tested besides, at CATALOGUE over the number of effects: one effect of thirty adds 0.001
   + REMAINDER   what no effect explains, all generic terms together; divided by REMAINDER_SHARES
+  + the first share of it once more: all products of the formula
 
-which is 0.035. The rest of the promise is for the noise spectrum, which is estimated from the same record and not known: a
+which is 0.037. The rest of the promise is for the noise spectrum, which is estimated from the same record and not known: a
 few of its bins at low frequency carry the drifts. COMPANION enters only where there is an effect, and LEVEL, CHANGE, FROZEN and
 SURVEY are remarks next to the verdict: each is the level of its own statement.
 

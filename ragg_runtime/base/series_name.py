@@ -5,7 +5,7 @@ Results name what a generic term is made of by text that a reader can take liter
 - a channel: ``a_x``, ``temperature``, ``time``, or ``f_i``, ``f_o``, the forces that turn with the disc;
 - its derivatives by time: ``d_a_x``, ``d2_a_x``;
 - ``abs(X)``, ``sign(X)``, ``square(X)``;
-- ``slow(X, 20 s)``: X through a relaxation of a time constant, as in creep;
+- ``slow(X, 20 s)``, ``slow(X Y, 20 s)``: X, or a product, through a relaxation of a time constant, as in creep;
 - harmonics of the disc angle: ``const``, ``cos 2``, ``sin 1``.
 """
 
@@ -53,6 +53,16 @@ class Function:
 
 
 @dataclass(frozen=True)
+class Product:
+    """A product of series that relaxes as a whole."""
+
+    of: tuple[Series, ...]
+
+    def __str__(self) -> str:
+        return " ".join(str(s) for s in self.of)
+
+
+@dataclass(frozen=True)
 class Relaxation:
     """Another series through a relaxation of a time constant, in seconds as they are written."""
 
@@ -63,7 +73,7 @@ class Relaxation:
         return f"slow({self.of}, {self.seconds} s)"
 
 
-Series = ChannelName | Derivative | Function | Relaxation
+Series = ChannelName | Derivative | Function | Product | Relaxation
 
 _FUNCTION = re.compile(r"(abs|sign|square)\((.+)\)")
 _RELAXATION = re.compile(r"slow\((.+), ([0-9.]+) s\)")
@@ -79,19 +89,23 @@ def series(name: str, channels: Collection[str] = ()) -> Series:
 def _parsed(name: str, channels: frozenset[str]) -> Series:
     if name in channels:
         return ChannelName(name)
+    if (found := _RELAXATION.fullmatch(name)) is not None:
+        return Relaxation(_parsed(found[1], channels), found[2])
+    if " " in name:
+        return Product(tuple(_parsed(x, channels) for x in name.split(" ")))
     if (found := _FUNCTION.fullmatch(name)) is not None:
         kind: FunctionName = "abs" if found[1] == "abs" else "sign" if found[1] == "sign" else "square"
         return Function(kind, _parsed(found[2], channels))
-    if (found := _RELAXATION.fullmatch(name)) is not None:
-        return Relaxation(_parsed(found[1], channels), found[2])
     if (found := _DERIVATIVE.fullmatch(name)) is not None:
         return Derivative(ChannelName(found[2]), int(found[1] or 1))
     return ChannelName(name)
 
 
-def channel(s: Series) -> str:
-    """Name of the channel or force at the bottom of a series."""
-    return s.name if isinstance(s, ChannelName) else channel(s.of)
+def list_channels(s: Series) -> tuple[str, ...]:
+    """Names of the channels and forces at the bottom of a series."""
+    if isinstance(s, Product):
+        return tuple(n for x in s.of for n in list_channels(x))
+    return (s.name,) if isinstance(s, ChannelName) else list_channels(s.of)
 
 
 @dataclass(frozen=True)

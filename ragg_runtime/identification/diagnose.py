@@ -38,7 +38,13 @@ from ragg_runtime.identification.ranking import (
     sort_by_choice,
     weigh_effects,
 )
-from ragg_runtime.identification.result import Diagnosis, Disagreement, describe_disagreement, group_findings
+from ragg_runtime.identification.result import (
+    Diagnosis,
+    Disagreement,
+    describe_disagreement,
+    group_findings,
+    name_verdict,
+)
 from ragg_runtime.identification.search import Evidence, Outcome, search
 from ragg_runtime.identification.strong import Stage
 from ragg_runtime.identification.verdict import Conclusion
@@ -86,10 +92,12 @@ def diagnose_fitted(
     if several and found.remains and not apart:
         apart = find_disagreement(first, extend)
         found = replace(found, verdict="unexplained", claims=()) if apart else found
-    if found.remains and not (apart or found.line or found.outcome.explained.complaint):
+    if not (apart or found.line or found.outcome.explained.complaint) and (found.remains or not found.claims):
         o, claimed = found.outcome, set(found.claims) & set(found.outcome.effects)
         beside = (o.target, o.given) if claimed else (first.fitted, ())
-        found = replace(found, left=propose_formulas(*beside, found.left))
+        left = propose_formulas(*beside, found.left)
+        if found.remains or left.significant:
+            found = replace(found, verdict=name_verdict(claimed=bool(found.claims), remains=True), left=left)
     ranking = complete_ranking(*ranked, evidence, found)
     noise = _choose_noise(f, found.outcome.target)
     return _make_diagnosis(evidence, found, ranking, ranked[1], noise, apart, limits)

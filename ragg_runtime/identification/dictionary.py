@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import series_name
-from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, Series
+from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Product, Relaxation, Series
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.observation import divide_into_segments
@@ -83,7 +83,9 @@ class Term:
     @property
     def order(self) -> int:
         """Number of channels, and of functions of them: how much a term asks one to believe."""
-        return sum(1 + name.count("(") for name in self.channels)
+        return sum(
+            n.count("(") + len(series_name.list_channels(series_name.series(n))) for n in self.channels
+        )
 
     @property
     def felt(self) -> Term:
@@ -385,7 +387,7 @@ def write_effect(term: Term, centre: Mapping[str, float], unit: str) -> str | No
 
     ``centre`` are the means that auxiliary channels enter less; ``unit`` is that of the term's channels.
     """
-    if any(series_name.channel(series_name.series(n)) == OUTPUT for n in term.channels):
+    if any(OUTPUT in series_name.list_channels(series_name.series(n)) for n in term.channels):
         return None  # no stage sees the output
     # of the only channel of a term that does not turn the mean is a parameter of the model; elsewhere it would be a further term
     alone = term.harmonic == "const" and sum(n in centre for n in term.channels) == 1
@@ -423,16 +425,22 @@ def describe_series(s: Series) -> str:
         case Derivative(of, order):
             return f"{'second ' if order == 2 else ''}time derivative of {of}"
         case Function(name, of):
-            recorded = isinstance(of, ChannelName) and of.name not in (*_MOTION, *features.FORCES)
-            return f"{_FUNCTION_NAMES[name]} of {describe_series(of)}{' less its mean' if recorded else ''}"
+            return f"{_FUNCTION_NAMES[name]} of {_describe_centred(of)}"
+        case Product(factors):
+            return " times ".join(_describe_centred(x) for x in factors)
         case Relaxation(of, seconds):
             return f"{describe_series(of)} through a relaxation of {seconds} s"
+
+
+def _describe_centred(s: Series) -> str:
+    recorded = isinstance(s, ChannelName) and s.name not in (*_MOTION, *features.FORCES)
+    return f"{describe_series(s)}{' less its mean' if recorded else ''}"
 
 
 def _name_column(s: Series) -> str:
     """Name for a column of the flight that holds a series which no expression can form."""
     if isinstance(s, Relaxation):
-        return "slow_" + str(s.of).replace("(", "_").replace(")", "")
+        return "slow_" + re.sub(r"[( ]", "_", str(s.of)).replace(")", "")
     return str(s)
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ragg_runtime.base import series_name
-from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, Series
+from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Product, Relaxation, Series
 from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.model.record import Record
 
@@ -38,10 +38,9 @@ def is_slow(name: str) -> bool:
 
 def is_recorded(name: str, r: Record) -> bool:
     """Whether a record has all that a series needs."""
-    base = series_name.channel(series_name.series(name, r.wide.keys()))
-    if base in FORCES and base not in r.wide:
-        return "a_x" in r.wide and "a_y" in r.wide
-    return base == "time" or base in r.wide
+    found = series_name.list_channels(series_name.series(name, r.wide.keys()))
+    needed = {x for n in found for x in (("a_x", "a_y") if n in FORCES and n not in r.wide else (n,))}
+    return needed <= {"time", *r.wide}
 
 
 NOTHING: Mapping[str, float] = MappingProxyType({})
@@ -56,8 +55,10 @@ def _series(s: Series, r: Record, centre: Mapping[str, float]) -> Array:
     if isinstance(s, Function):
         functions = {"abs": np.abs, "sign": np.sign, "square": np.square}
         return np.asarray(functions[s.name](_series(s.of, r, centre)))
+    if isinstance(s, Product):
+        return np.asarray(np.prod([_series(x, r, centre) for x in s.of], axis=0))
     name = str(s)
-    if name not in r.wide and series_name.channel(s) in FORCES:
+    if name not in r.wide and series_name.list_channels(s)[0] in FORCES:
         return _turn_forces(name, r)
     known = r.time if name == "time" else r.series(name)
     assert known is not None, name
@@ -77,9 +78,19 @@ def _turn_forces(name: str, r: Record) -> Array:
     return np.asarray(z.real if name.endswith("f_i") else z.imag)
 
 
+def begins_at_zero(s: Series, centre: Mapping[str, float]) -> bool:
+    """Whether a series relaxes from zero: a force that turns with the disc, or a function of what has no ``centre``; others from their
+    first value.
+    """
+    if isinstance(s, Product):
+        return any(begins_at_zero(x, centre) for x in s.of)
+    (base,) = series_name.list_channels(s)
+    return base in FORCES or (isinstance(s, Function) and base not in centre)
+
+
 class Relaxations:
-    """Series ``slow(X, T s)``: y' = (X - y)/T, from rest; zero is the value at the first valid sample of a channel, and of a function
-    of one that has a ``centre``.
+    """Series ``slow(X, T s)``: y' = (X - y)/T, from rest; zero is the value at the first valid sample, unless X turns with the disc
+    (:func:`begins_at_zero`).
 
     They are run through once, segment by segment (:meth:`advance`), and then taken up again anywhere
     (:meth:`series`, which changes nothing).
@@ -118,8 +129,7 @@ class Relaxations:
     def _run(self, name: str, r: Record, last: float) -> Array:
         of, c = self._of[name]
         x = _series(of, r, self._centre)
-        base = series_name.channel(of)
-        if base in FORCES or (isinstance(of, Function) and base not in self._centre):
+        if begins_at_zero(of, self._centre):
             origin = 0.0
         else:
             if of not in self._origin and r.valid.any():
@@ -154,5 +164,7 @@ def _unit(s: Series) -> str:
         case Function(name, of):
             unit = _unit(of)
             return {"abs": unit, "sign": "1", "square": f"({unit})^2"}[name]
+        case Product(factors):
+            return "*".join(f"({_unit(x)})" for x in factors)
         case Relaxation(of):
             return _unit(of)

@@ -7,7 +7,15 @@ import re
 import unicodedata
 from collections.abc import Sequence
 
-from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Relaxation, Series, series
+from ragg_runtime.base.series_name import (
+    ChannelName,
+    Derivative,
+    Function,
+    Product,
+    Relaxation,
+    Series,
+    series,
+)
 
 THIN = "\u202f"
 MINUS = "\u2212"
@@ -196,6 +204,8 @@ def product(name: str) -> str:
 
 def _channel(s: Series) -> str:
     match s:
+        case Product(factors):
+            return f"({' · '.join(_channel(x) for x in factors)})"
         case Relaxation(of, seconds):
             return f"{_channel(of)} relaxing in {seconds}{THIN}s"
         case Function(name, of):

@@ -78,7 +78,8 @@ def test_the_levels_add_up_to_what_is_promised() -> None:
     random = sum(e.kind == "random" for e in candidates)
     columns = sum(e.kind in ("deterministic", "step") for e in candidates)
     every = false_alarms.CATALOGUE * (1 + random / columns) + false_alarms.REMAINDER
-    assert every < 0.0355 < false_alarms.PROMISED  # as the module says; the rest is left to the noise
+    every += false_alarms.REMAINDER * false_alarms.REMAINDER_SHARES[0]
+    assert every < 0.0375 < false_alarms.PROMISED  # as the module says; the rest is left to the noise
     assert sum(false_alarms.REMAINDER_SHARES) == 1.0
     assert (selection.MOST - 1) * false_alarms.COMPANION < false_alarms.CATALOGUE
 
