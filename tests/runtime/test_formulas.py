@@ -21,7 +21,15 @@ from derive import pipeline
 from derive.symbols import MOTION
 from generated import folded
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Product, Relaxation, harmonic, series
+from ragg_runtime.base.series_name import (
+    ChannelName,
+    Derivative,
+    Function,
+    Product,
+    Relaxation,
+    harmonic,
+    series,
+)
 from ragg_runtime.estimation.observation import ROWS
 from ragg_runtime.identification import likelihood_ratio, probability, sequential
 from ragg_runtime.identification.dictionary import list_generic, list_harmonics
@@ -108,7 +116,9 @@ def test_every_name_of_the_dictionary_is_printed_as_it_was_parsed() -> None:
         ("slow(square(a_z), 20 s)", Relaxation(Function("square", ChannelName("a_z")), "20")),
         (
             "slow(sign(a_x) abs(B_y), 5 s)",
-            Relaxation(Product((Function("sign", ChannelName("a_x")), Function("abs", ChannelName("B_y")))), "5"),
+            Relaxation(
+                Product((Function("sign", ChannelName("a_x")), Function("abs", ChannelName("B_y")))), "5"
+            ),
         ),
         ("slow(a_z)", ChannelName("slow(a_z)")),
         ("abs(a", ChannelName("abs(a")),
