@@ -143,7 +143,14 @@ def diagnose(
     return heed_flags(d, flights)
 
 
-LIMIT_UNITS = {"a": "m/s^2", "omega": "rad/s", "jerk": "m/s^3", "alpha": "rad/s^2"}
+LIMIT_UNITS = {
+    "a": "m/s^2",
+    "omega": "rad/s",
+    "jerk": "m/s^3",
+    "alpha": "rad/s^2",
+    "mass": "m",
+    "speed": "m/s",
+}
 
 
 def parse_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
@@ -157,7 +164,7 @@ def parse_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
                 "the limit of a motion cannot be read",
                 where="--limit",
                 found=text,
-                expected="a=50mg, omega=500deg/h, jerk=1m/s^3 or alpha=1deg/s^2; of one axis a_z=50mg",
+                expected="a=50mg, omega=500deg/h, jerk=1m/s^3, alpha=1deg/s^2, mass=0.5m or speed=0.1m/s; of one axis a_z=50mg",
             )
         q = read_quantity(size, f"--limit {name}", count=1)
         value = m.instrument.units.to_si(np.asarray(q.value), q.unit, LIMIT_UNITS[kind], f"--limit {name}")

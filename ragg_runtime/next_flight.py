@@ -30,7 +30,9 @@ from ragg_runtime.identification.motion_design import (
 from ragg_runtime.identification.next_motion import (
     AXES,
     HIGHEST,
+    MASS,
     find_unit,
+    list_axes,
     move_channels,
 )
 from ragg_runtime.io import Flight, write_flight
@@ -43,12 +45,13 @@ CHANNELS = ("inline_Eo", "cross_Eo")
 
 @dataclass(frozen=True)
 class NextFlight:
-    """A multisine about the mean of the flights."""
+    """A multisine about the mean of the flights; ``body``: what is moved beside the instrument, in words."""
 
     design: Design
     mean: Mapping[str, float]
     duration: float
     rate: float
+    body: str = ""
 
     def motion(self) -> Flight:
         """The motion as a flight without output."""
@@ -96,6 +99,7 @@ def next_flight(
     ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold; ``criterion``: of a calibration.
     """
     rate, band = _possible(m, flights, limits, rate, band)
+    body = _name_body(m) if len(list_axes(limits)) > len(AXES) else ""
     made: Design | None
     if purpose == "calibration":
         f = fit(m.model, m.instrument, observe_flights(flights, m.instrument), candidates=False)
@@ -107,7 +111,23 @@ def next_flight(
     tones = list_tones(m.instrument.spin_frequency, limits, band)
     made = made or Design(multisine(tones, share_evenly(tones)), ())
     mean = {n: float(np.mean([np.mean(x.channels[n][x.valid]) for x in flights])) for n in AXES}
-    return NextFlight(made, mean, duration, rate)
+    if body:
+        mean |= dict.fromkeys(MASS, 0.0)
+    return NextFlight(made, mean, duration, rate, body)
+
+
+def _name_body(m: Loaded) -> str:
+    """What the model has beside the instrument, and where; UserError if that is nothing."""
+    bodies = {e.id for e in m.model.effects if e.channels == MASS}
+    for e in m.instrument.effects:
+        if e.id in bodies:
+            return f"{e.id}, {', '.join(f'{n} = {value}' for n, value in e.values.items())}"
+    raise UserError(
+        "the model has no body that could be moved",
+        where="--limit mass",
+        expected="near-sphere or near-cuboid among the effects of model.toml, with its mass and place",
+        remedy="ragg effects near-sphere says how it is listed",
+    )
 
 
 def _possible(
@@ -167,7 +187,8 @@ def certify(plan: Json, f: Fitted, calibration: Json) -> dict[str, Any]:
     parameters add to the channels of the first flight.
     """
     both = [*calibration["combinations"], *calibration["parameters"]]
-    found = {(q["name"], q.get("accelerometer")): q for q in both}
+    full = [f"{q['effect']}.{q['name']}" if q.get("effect") else q["name"] for q in both]
+    found = {(name, q.get("accelerometer")): q for name, q in zip(full, both, strict=True)}
     reached = Information.of(f)
     then = dict(zip(CHANNELS, reached.channels(reached.inverse(reached.root)), strict=True))
     now, planned = (plan["channels"][when] for when in ("now", "planned"))

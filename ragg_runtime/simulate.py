@@ -24,6 +24,7 @@ from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues, channels_needed, resolve
 from ragg_runtime.reference.instruments import perturbed
+from ragg_runtime.reference.motion import RecordedSignal
 from ragg_runtime.reference.rotation import Rotations
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.reference.turning import Turning
@@ -116,7 +117,7 @@ def simulate_flight(
             kinematics=form.kinematics,
             effects=effects,
             seed=seed,
-            auxiliaries=_auxiliaries(seed, effects, instrument.layout.size),
+            auxiliaries=_auxiliaries(seed, effects, instrument.layout.size, record, start),
             turning=parse_turning(spin, instrument.layout, record, start),
         )
         found = s.flight("simulated", voltages=voltages)
@@ -143,12 +144,18 @@ _ROTATIONS: Mapping[int | str, Rotations] = {1: "first-order", 2: "second-order"
 """How the mounting of ``[model] order`` turns in the simulator."""
 
 
-def _auxiliaries(seed: int, effects: EffectValues, count: int) -> dict[str, Auxiliary]:
-    """What every carrier records, and what the effects ask for beyond that."""
+def _auxiliaries(
+    seed: int, effects: EffectValues, count: int, record: Flight | None, start: float
+) -> dict[str, Auxiliary]:
+    """What every carrier records, and what the effects ask for beyond that; as ``record`` has it, from ``start``, s, on."""
     asked = {c for e, values in resolve(effects, count).items() for c in channels_needed(e, values)}
     rare = further(np.random.default_rng([seed, 14]))
     usual = plausible(np.random.default_rng([seed, 12]))
-    return {**usual, **{name: rare[name] for name in rare if name in asked}}
+    found: dict[str, Auxiliary] = {**usual, **{name: rare[name] for name in rare if name in asked}}
+    if record is not None:
+        time = record.time - record.time[0] + start
+        found |= {n: RecordedSignal(time, x).value for n, x in record.channels.items() if n in asked}
+    return found
 
 
 def _noise(density: float, radius: float) -> Noise | None:

@@ -24,7 +24,6 @@ from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification.next_motion import (
     AT_REST,
-    AXES,
     LONGEST,
     RATIOS,
     SIMULATED,
@@ -32,6 +31,7 @@ from ragg_runtime.identification.next_motion import (
     Separation,
     Sinusoid,
     find_limit,
+    list_axes,
     whiten_motion,
 )
 from ragg_runtime.identification.parameters import find_combinations
@@ -141,7 +141,7 @@ def _mostly(few: Sequence[int], tones: Sequence[Tone]) -> Array:
 def list_tones(spin: float, limits: Mapping[str, float], band: tuple[float, float]) -> list[Tone]:
     """The sinusoids within a band."""
     found = []
-    for axis in AXES:
+    for axis in list_axes(limits):
         for ratio in GRID:
             frequency = ratio * (abs(spin) or AT_REST)
             if band[0] <= frequency <= band[1]:

@@ -36,6 +36,9 @@ WORTHWHILE = 1.05
 
 AXES = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
 
+MASS = ("mass_x", "mass_y", "mass_z")
+"""How far a body beside the instrument, ``near-sphere`` or ``near-cuboid`` of the model, is moved: axes where a limit says so."""
+
 LIMITS: Mapping[str, float] = {"a": 0.49, "omega": 2.4e-3}
 """Largest amplitudes, m/s^2 and rad/s: 50 mg and 500 deg/h, what a stabilised platform lets through."""
 
@@ -291,6 +294,8 @@ def _continued(f: Fitted, samples: int) -> dict[str, Array]:
     for name, x in first.channels.items():
         if is_disc_angle(name):
             continue
+        if name in MASS:
+            continue  # the body is where it was put up
         if name.partition("_")[0] in ("a", "omega", "omegadot", "Gamma"):
             found[name] = np.full(samples, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
         else:
@@ -328,7 +333,9 @@ def move_channels(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: A
     found: dict[str, Array] = {}
     for axis, frequency, amplitude, phase in motion:
         w = 2 * np.pi * frequency
-        found[axis] = found.get(axis, calm[axis]) + amplitude * np.sin(w * time + phase)
+        found[axis] = found.get(axis, calm.get(axis, np.zeros(len(time)))) + amplitude * np.sin(
+            w * time + phase
+        )
         if axis.startswith("omega_"):
             name = axis.replace("omega_", "omegadot_")
             found[name] = found.get(name, calm[name]) + amplitude * w * np.cos(w * time + phase)
@@ -337,11 +344,11 @@ def move_channels(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: A
 
 def find_unit(axis: str) -> str:
     """SI unit of the motion about an axis."""
-    return "m/s^2" if axis.startswith("a_") else "rad/s"
+    return {"a": "m/s^2", "omega": "rad/s", "mass": "m"}[axis.partition("_")[0]]
 
 
-SLOPES = {"a": "jerk", "omega": "alpha"}
-"""The limit of the rate of change of each kind of motion, m/s^3 and rad/s^2; where it is not given there is none."""
+SLOPES = {"a": "jerk", "omega": "alpha", "mass": "speed"}
+"""The limit of the rate of change of each kind of motion, m/s^3, rad/s^2 and m/s; where it is not given there is none."""
 
 
 def find_limit(limits: Mapping[str, float], axis: str, *, slope: bool = False) -> float:
@@ -349,6 +356,11 @@ def find_limit(limits: Mapping[str, float], axis: str, *, slope: bool = False) -
     kind, _, k = axis.partition("_")
     name = SLOPES[kind] if slope else kind
     return limits.get(f"{name}_{k}", limits.get(name, np.inf))
+
+
+def list_axes(limits: Mapping[str, float]) -> tuple[str, ...]:
+    """Those of the platform, and of a body that is moved."""
+    return (*AXES, *(n for n in MASS if find_limit(limits, n) < np.inf))
 
 
 def list_pairs(groups: Mapping[str, Sequence[str]]) -> list[tuple[str, str]]:
