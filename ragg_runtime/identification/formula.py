@@ -107,8 +107,8 @@ def _screen(x: PreparedFlight, projector: Projector, known: Dictionary) -> tuple
             begin = 0.0 if origin is None else (origin[a] * origin[a:])[:, None]
             P = _average(np.where(r.valid, P - begin, np.float32(0.0)), few)
             for m, c in enumerate(decay, 1):
-                filtered = (np.array(v, dtype=np.float32) for v in ([1 - c], [1, -c]))
-                y, last[m, a, a:] = signal.lfilter(*filtered, P, zi=last[m, a, a:])
+                share, pole = np.array([1 - c], dtype=np.float32), np.array([1, -c], dtype=np.float32)
+                y, last[m, a, a:] = signal.lfilter(share, pole, P, zi=last[m, a, a:])
                 dots[m, a, a:] += y @ sums[0]
                 squares[m, a, a:] += y**2 @ sums[1]
     half = np.where([h == "const" for h in turns], 1.0, 0.5)
