@@ -16,6 +16,13 @@ COARSE = 0.5
 """Quantisation step, in standard deviations of the noise, from which it is reported."""
 
 
+GAPS = 100
+"""Smallest distances of values whose common divisor is the step: the closest two of a wide range are several steps apart."""
+
+OFF = 1e-3
+"""Part of a step by which values may lie off its multiples, to the rounding of the file."""
+
+
 def present(values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
     """Of an output (N,), V, with the standard deviation of its noise, V."""
     return quantisation(values, valid, noise) is not None
@@ -28,11 +35,14 @@ def quantisation(G: Array, valid: NDArray[np.bool_], noise: float) -> float | No
         return None
     steps = np.diff(values)
     q = float(np.min(steps))
+    for distance in np.sort(steps)[:GAPS].tolist():
+        while q >= COARSE * noise and (left := abs(distance - round(distance / q) * q)) > OFF * q:
+            distance, q = q, left  # Euclid's algorithm
     if q < COARSE * noise:
         return None
-    # all values multiples of one step, to the rounding of the file
     q = float(np.median(steps / np.rint(steps / q)))
-    if np.max(np.abs(values / q - np.rint(values / q))) > 1e-3:
+    q = float(np.sum(steps) / np.rint(np.sum(steps) / q))
+    if np.max(np.abs(values / q - np.rint(values / q))) > OFF:
         return None
     return q
 

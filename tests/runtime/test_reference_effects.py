@@ -10,6 +10,7 @@ import pytest
 import sympy as sp
 
 from derive.effects import catalogue
+from derive.effects.quantisation import quantisation
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.units import units
 from ragg_runtime.reference import CATALOGUE, MotionSignals, Simulation, Sinusoids, simulate, still
@@ -291,6 +292,12 @@ def test_saturation_and_quantisation() -> None:
     rounded = run({"quantisation": {"q": 0.5}}).G_out
     np.testing.assert_array_equal(rounded, 0.5 * np.round(rounded / 0.5))
     assert 0.2 < np.max(np.abs(rounded - PLAIN.G_out)) <= 0.25
+    # in a wide range the closest two values are several steps apart: their common divisor is the step
+    values = 0.003 * np.random.default_rng(0).integers(-(10**7), 10**7, 2000)
+    valid = np.ones(len(values), dtype=bool)
+    assert np.min(np.diff(np.unique(values))) > 0.005
+    assert quantisation(values, valid, 0.003) == pytest.approx(0.003, rel=1e-9)
+    assert quantisation(values + np.random.default_rng(1).normal(size=len(values)), valid, 0.003) is None
 
 
 # --- bad input ---
