@@ -133,13 +133,12 @@ def _find_absent(f: Fitted) -> Array:
 
 @dataclass(frozen=True)
 class Robust:
-    """The fit with a covariance (n, n) from the scores in ``blocks`` blocks of time, next to the model's own."""
+    """The fit with a covariance (n, n) from the scores in blocks of time, next to the model's own."""
 
     regression: Regression
     value: Array
     covariance: Array
     sandwich: Array
-    blocks: int
 
     @staticmethod
     def of(x: Regression) -> Robust:
@@ -151,7 +150,7 @@ class Robust:
             left = t[:, -1] - t[:, :n] @ value
             scores.append(A.T @ (U @ ((U.T @ left) / np.sqrt(np.maximum(w, LEVERAGE)))))
         S = root @ np.array(scores).T
-        return Robust(x, value, root @ root.T, S @ S.T, len(scores))
+        return Robust(x, value, root @ root.T, S @ S.T)
 
     @property
     def stated(self) -> Array:
@@ -175,17 +174,25 @@ class Robust:
         along = U @ (y / spread)
         expected = float(np.sum(y**2 / spread))
         by = float(along @ self.sandwich[own] @ along) / expected if expected > 0.0 else 1.0
-        return Significance(chi2=expected, rank=len(y), inflation=by, blocks=self.blocks)
+        direction, blocks = self.covariance[:, E] @ along, self.regression.blocks()
+        carried = np.array([np.sum((t[:, :-1] @ direction) ** 2) for t in blocks])
+        carriers = float(np.sum(carried) ** 2 / np.sum(carried**2)) if expected > 0.0 else 1.0
+        return Significance(chi2=expected, rank=len(y), inflation=by, blocks=len(blocks), carriers=carriers)
 
 
 @dataclass(frozen=True)
 class Significance:
-    """The chi-square of ``rank`` coefficients, and how much more its scores vary between blocks of time than the noise would."""
+    """The chi-square of ``rank`` coefficients, and how much more its scores vary between blocks of time than the noise would.
+
+    ``carriers``: number of equal blocks by which that is as well known (F. Satterthwaite, Biometrics 2, 1946): those that hardly carry
+    the effect tell nothing.
+    """
 
     chi2: float
     rank: int
     inflation: float
     blocks: int
+    carriers: float
 
     def log_p(self, log_p: float | None, *, doubted: bool) -> float:
         """Logarithm of the p-value with the variance of the scores.
@@ -198,7 +205,7 @@ class Significance:
             log_p = log_sf(self.chi2, self.rank)
         if not self.rank or freedom < 1.0:
             return log_p
-        if not doubted and self.inflation < float(fdtri(freedom, 1e9, 1.0 - SCATTER)):
+        if not doubted and self.inflation < float(fdtri(max(1.0, self.carriers - 1.0), 1e9, 1.0 - SCATTER)):
             return log_p
         by = max(1.0, self.inflation)
         return max(log_p, log_sf_f(self.chi2 / by / self.rank, self.rank, freedom))

@@ -13,6 +13,7 @@ from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.regressors import Column, group_by_effect
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
+from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.identification import likelihood_ratio, sheet, uneven
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 
@@ -44,8 +45,8 @@ class Field:
     """An R factor [base | candidates | residual] with the prior in, and the effects in it.
 
     ``candidates`` are columns after the base, by effect; ``penalty`` the logarithm of the number of variants an effect was chosen
-    from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``blocks``: R factors
-    of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``).
+    from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``flights``: those whose
+    samples temper the tests, where the noise is uneven (``uneven``).
     ``contains``: the special cases of effects, which are no alternatives to them.
     """
 
@@ -55,7 +56,7 @@ class Field:
     rows: int
     penalty: Mapping[str, float] = field(default_factory=dict)
     freedom: float = np.inf
-    blocks: tuple[Array, ...] = ()
+    flights: tuple[PreparedFlight, ...] = ()
     contains: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     norms: Array = field(init=False)
     P: Array = field(init=False)
@@ -110,20 +111,19 @@ class Field:
             for e, columns in self.candidates.items()
             if e not in given
         }
-        if self.blocks and any(map(self._raises, found.values())):
+        raised = [e for e, t in found.items() if self._raises(t)]
+        if self.flights and raised:
             others = [self.n_base + n for e in given for n, _ in self.candidates[e]]
-            beside = uneven.ProjectedBlocks(self.T, self.blocks, self.n_base, others)
-            found |= {e: self._tempered(t, beside, floor) for e, t in found.items() if self._raises(t)}
+            norms = np.linalg.norm(P, axis=0)
+            tested = [[self.n_base + n for n in found[e].which if norms[n] > floor[n]] for e in raised]
+            scatter = uneven.Beside(self.T, self.flights, self.n_base, others).measure_scatter(tested)
+            for e, by, known in zip(raised, scatter.inflation, scatter.freedom, strict=True):
+                found[e] = uneven.temper_test(found[e], float(by), float(known), self.freedom)
         return found
 
     def _raises(self, t: Test) -> bool:
         """Whether a test says anything: those that do not stay as they are."""
         return t.rank > 0 and t.log_p <= np.log(FAMILY)
-
-    def _tempered(self, t: Test, beside: uneven.ProjectedBlocks, floor: Array) -> Test:
-        """A test as sure as the scores in blocks of time are."""
-        tested = [self.n_base + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
-        return uneven.temper_test(t, uneven.measure_inflation(beside, tested), self.freedom, len(self.blocks))
 
     @cached_property
     def count(self) -> int:
@@ -225,7 +225,7 @@ def _weigh_blocks(f: Field, blocks: Mapping[str, tuple[int, ...]]) -> float:
 def are_alike(a: Test, b: Test) -> bool:
     """Whether the second explains as much as the first, or is not distinguishable by its evidence.
 
-    Each is tempered by what its own scores vary, known to a third from two dozen blocks: both are compared as the first is.
+    Each is tempered by what its own scores vary, which is not known exactly: both are compared as the first is.
     """
     ahead = a.log_b - float(log_bayes(b.chi2 / a.inflation, b.rank)) + b.charge
     return (a.chi2 - b.chi2 < INDISTINGUISHABLE and ahead < AS_SURE) or ahead < DISTINGUISHABLE
@@ -248,15 +248,13 @@ def make_field(f: Fitted, available: Sequence[str]) -> Field:
     candidates = group_by_effect(f.candidates)
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
-    uneven_noise = any(n.uneven for n in f.calibration.noise)
-    blocks = uneven.list_nonempty_blocks(t for own in f.r_factors for t in own) if uneven_noise else ()
     return Field(
         T=f.whole,
         n_base=f.n_base,
         candidates=kept,
         rows=f.calibration.rows,
         freedom=freedom,
-        blocks=blocks,
+        flights=f.prepared if any(n.uneven for n in f.calibration.noise) else (),
         contains={e.id: e.contains for e in f.model.candidates},
     )
 

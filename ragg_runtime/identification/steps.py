@@ -60,14 +60,16 @@ def add_steps(
     likeliest = _scan(f, {e: own for e, own in columns.items() if e not in known}, beside)
     begun = _zero_before(f, likeliest, columns)
     field = _make_field(begun, [*available, *columns])
-    # blocks of time do not judge a step yet: one that is in the noise makes it uneven
-    found = [e for e in selection.choose(replace(field, blocks=())).chosen if e in likeliest]
+    # samples do not judge a step yet: one that is in the noise makes it uneven
+    found = [e for e in selection.choose(replace(field, flights=())).chosen if e in likeliest]
     if found:
         refined = {e: _refine(f, likeliest[e], columns[e]) for e in found}
         known = {**known, **{e: _sharpen(f, step, columns[e]) for e, step in refined.items()}}
         return add_steps(_estimate_again(f, known), known)
     instants = _list_instants(f, {**known, **likeliest})
-    return field, replace(begun, prepared=tuple(x.with_steps(instants) for x in f.prepared)), instants
+    prepared = tuple(x.with_steps(instants) for x in f.prepared)
+    tests = replace(field, flights=prepared if field.flights else ())
+    return tests, replace(begun, prepared=prepared), instants
 
 
 def _make_field(f: Fitted, effects: Sequence[str]) -> Field:

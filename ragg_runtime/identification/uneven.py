@@ -2,97 +2,110 @@
 
 A likelihood-ratio test trusts that whitened noise has unit variance everywhere. Where the noise's level was seen to change
 (``estimation.noise_level``) the weights are estimates by groups, tails are heavy, and a term that is large in a few swings
-of the motion rides on them. The scores of what is tested, summed in blocks of time, give their real variance: the
-ratio to what unit variance gives divides chi-square (J. N. K. Rao, A. J. Scott, Ann. Stat. 12, 1984, first-order correction).
-That ratio is known from so many blocks: the test then follows Fisher's F, as one of a variance that was estimated.
+of the motion rides on them. The squares of the residual, weighted by those of what is tested, give the real variance of its score
+(H. White, Econometrica 48, 1980): its ratio to what unit variance gives divides chi-square (J. N. K. Rao, A. J. Scott, Ann. Stat. 12,
+1984, first-order correction). It is known from as many samples as carry the score (F. Satterthwaite, Biometrics 2, 1946): the test then
+follows Fisher's F, as one of a variance that was estimated.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.scores import log_sf
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 
 Array = NDArray[np.float64]
-
-FEWEST = 8
-"""Blocks from which a spread of scores is taken for known: of fewer it is known to a factor of two at best."""
 
 DIRECTIONS = 1e-7
 """Relative size below which a direction of the tested columns is rounding."""
 
 
 @dataclass(frozen=True)
-class ProjectedBlocks:
-    """An R factor [columns | data] and those of blocks of time, with what is in the model projected out.
+class Scatter:
+    """How much more than they should the scores of some tests vary, (m,), and the degrees of freedom (m,) that tell it."""
+
+    inflation: Array
+    freedom: Array
+
+    @staticmethod
+    def of(direction: Array, left: Array) -> Array:
+        """(3, m): the sums over samples that it follows from: directions (rows, m), and what is left beside each (rows, m)."""
+        square = direction**2
+        return np.stack([np.sum(square, axis=0), np.sum(square**2, axis=0), np.sum(square * left**2, axis=0)])
+
+    @staticmethod
+    def from_sums(sums: Array) -> Scatter:
+        """Of the sums (3, m) of all samples."""
+        square, fourth, score = sums
+        return Scatter(np.maximum(1.0, score / square), square**2 / fourth)
+
+
+@dataclass(frozen=True)
+class Beside:
+    """An R factor [columns | data] with what is in the model projected out, and the flights that it is of.
 
     Attributes
     ----------
-    T, blocks
-        R factors: of everything, and of those blocks in which there is any sample.
+    T
+        The R factor of everything.
     base, others
         What is in the model: the first so many columns, and others.
     B
         (base + others, columns + 1): what these explain of every column, and of the data.
-    data
-        What is left of the data, of everything and of each block.
     """
 
     T: Array
-    blocks: Sequence[Array]
+    flights: Sequence[PreparedFlight]
     base: int
     others: Sequence[int]
     B: Array = field(init=False)
-    data: tuple[Array, ...] = field(init=False)
 
     def __post_init__(self) -> None:
-        given = [*range(self.base), *self.others]
-        object.__setattr__(self, "B", np.linalg.lstsq(self.T[:, given], self.T, rcond=None)[0])
-        object.__setattr__(self, "data", tuple(self.left(t, [-1])[:, 0] for t in (self.T, *self.blocks)))
+        object.__setattr__(self, "B", np.linalg.lstsq(self.T[:, self.given], self.T, rcond=None)[0])
 
-    def left(self, t: Array, columns: Sequence[int]) -> Array:
-        """What is left of some columns of the R factor of everything, or of a block."""
-        n = self.base
-        found = t[:, columns] - t[:, :n] @ self.B[:n, columns]
-        return np.asarray(found - t[:, self.others] @ self.B[n:, columns] if self.others else found)
+    @property
+    def given(self) -> list[int]:
+        return [*range(self.base), *self.others]
+
+    def fit(self, tested: Sequence[int]) -> Array:
+        """(len(tested),): the coefficients of further columns."""
+        X, y = (self.T[:, k] - self.T[:, self.given] @ self.B[:, k] for k in (tested, [-1]))
+        return np.asarray(np.linalg.lstsq(X, y, rcond=DIRECTIONS)[0][:, 0])
+
+    def measure_scatter(self, tests: Sequence[Sequence[int]]) -> Scatter:
+        """Of each of some tests, of so many columns: along what is fitted, beside it, so that what is tested raises no doubt of itself."""
+        n, columns = len(self.given), sorted({k for tested in tests for k in tested})
+        along, left = np.zeros((2, n + len(columns), len(tests)))
+        for m, tested in enumerate(tests):
+            g = self.fit(tested)
+            along[[n + columns.index(k) for k in tested], m] = g
+            along[:n, m] = -self.B[:, tested] @ g
+            left[:, m] = -along[:, m]
+            left[:n, m] -= self.B[:, -1]
+        sums = np.zeros((3, len(tests)))
+        for x in self.flights:
+            lean, own = x.lean([*self.given, *columns])
+
+            def of(piece: Piece, own: Sequence[int] = own) -> Array:
+                X = piece.white[own].T
+                return Scatter.of(X @ along, piece.white[-1][:, None] + X @ left)
+
+            sums += sum(lean.each(of))
+        return Scatter.from_sums(sums)
 
 
-def measure_inflation(beside: ProjectedBlocks, tested: Sequence[int]) -> float:
-    """How much more the scores vary than they should: at least 1.
-
-    That is the variance of a block's score along what is fitted, relative to that of noise of unit variance. What is left
-    of the data has the columns ``tested`` fitted, too, so that what is tested raises no doubt about itself.
+def temper_test(t: Test, by: float, known: float, freedom: float = np.inf) -> Test:
+    """A test whose chi-square is divided by the variance of its scores, ``known`` from so many degrees of freedom, where the noise is
+    from ``freedom``; corrections for variants stay.
     """
-    if len(beside.blocks) < FEWEST:
-        return 1.0
-    whole, *parts = beside.data
-    U, s, Vt = np.linalg.svd(beside.left(beside.T, tested), full_matrices=False)
-    known = s > DIRECTIONS * s[0]
-    W = Vt[known].T / s[known]
-    along = U[:, known].T @ whole
-    g = W @ along
-    power = 0.0
-    for t, y in zip(beside.blocks, parts, strict=True):
-        X = beside.left(t, tested)
-        power += float(g @ (X.T @ (y - X @ g))) ** 2
-    return max(1.0, power / float(along @ along))
-
-
-def list_nonempty_blocks(blocks: Iterable[Array]) -> tuple[Array, ...]:
-    """Those in which there is any sample."""
-    return tuple(t for t in blocks if np.any(t))
-
-
-def temper_test(t: Test, by: float, freedom: float, blocks: int) -> Test:
-    """A test whose chi-square is divided by the variance of the blocks; corrections for variants stay."""
     if by <= 1.0:
         return t
-    known = min(freedom, blocks - 1.0)
-    change = log_sf(t.chi2 / by, t.rank, known) - log_sf(t.chi2, t.rank, freedom)
+    change = log_sf(t.chi2 / by, t.rank, min(freedom, known)) - log_sf(t.chi2, t.rank, freedom)
     less = float(log_bayes(t.chi2, t.rank) - log_bayes(t.chi2 / by, t.rank))
     return replace(t, log_p=min(0.0, t.log_p + change), log_b=t.log_b - less, inflation=by)

@@ -13,7 +13,7 @@ from ragg_runtime.estimation.fitted import FITTED_BLOCKS, fit
 from ragg_runtime.estimation.observation import BLOCKS, observe_flights
 from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.identification import claims, likelihood_ratio, omnibus
-from ragg_runtime.identification.claims import Regression
+from ragg_runtime.identification.claims import Regression, Robust
 from ragg_runtime.identification.likelihood_ratio import log_bayes
 from ragg_runtime.identification.selection import are_alike
 from ragg_runtime.identification.uneven import temper_test
@@ -41,10 +41,21 @@ def test_effects_that_explain_the_same_are_alike_however_uneven_their_scores_see
     plain = likelihood_ratio.Test(
         chi2=110.0, rank=1, log_p=-50.0, which=(0,), log_b=float(log_bayes(110.0, 1))
     )
-    first, second = (temper_test(plain, by, np.inf, BLOCKS) for by in (1.1, 1.4))
+    first, second = (temper_test(plain, by, 23.0) for by in (1.1, 1.4))
     assert first.log_b > second.log_b + 10.0
     assert are_alike(first, second)
     assert not are_alike(first, replace(plain, chi2=60.0, log_b=float(log_bayes(60.0, 1))))
+
+
+def test_blocks_that_hardly_carry_an_effect_tell_nothing_of_its_scores() -> None:
+    everywhere = regression(np.full(BLOCKS, 2.0))
+    (blocks,) = everywhere.flights
+    somewhere = tuple(t * [1.0, 1.0 if b % 6 == 0 else 1e-3, 1.0] for b, t in enumerate(blocks))
+    assert Robust.of(everywhere).significance("e").carriers == pytest.approx(BLOCKS, abs=1.0)
+    of_few = Robust.of(replace(everywhere, flights=(somewhere,))).significance("e")
+    assert of_few.carriers == pytest.approx(4.0, abs=0.3)
+    assert replace(of_few, inflation=3.0).log_p(-9.0, doubted=False) == -9.0
+    assert replace(of_few, inflation=3.0, carriers=24.0).log_p(-9.0, doubted=False) > -9.0
 
 
 def test_held_out_blocks_speak_for_what_is_there_and_against_what_is_not() -> None:
