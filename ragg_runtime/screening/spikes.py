@@ -18,7 +18,7 @@ from ragg_runtime.io.record import (
     Flag,
     is_disc_angle,
 )
-from ragg_runtime.signals.derivative import runs
+from ragg_runtime.signals.derivative import bridge_gaps, runs
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -120,19 +120,20 @@ def leave_out_glitches(flight: Flight) -> Flight:
 
 
 def find_glitches(x: Array, valid: Mask) -> tuple[Mask, Array]:
-    """Spikes of a smooth record (N,), and the record with them interpolated.
+    """Spikes of a smooth record (N,), which is interpolated where it lacks something, and the record with them interpolated.
 
     A glitch is off the prediction by its neighbours (a polynomial of the fifth degree through three samples on
     either side) by ``GLITCH`` times the usual error of that, and by more than twice the range of everything
     within a dozen samples. The largest go first, since they distort the prediction of the others.
     """
-    found, there = np.zeros(len(x), dtype=np.bool_), valid & np.isfinite(x)
-    if np.sum(there) < 8 * SIDE:
+    found, there = np.zeros(len(x), dtype=np.bool_), np.isfinite(x)
+    if np.sum(valid & there) < 8 * SIDE:
         return found, x
-    off, mended = _glitches(x[there])
-    if not off.any() or np.mean(off) > MOST:
-        return found, x
-    found[there], whole = off, np.array(x)
+    # also in samples that are not used, since filters and derivatives of the record reach into them
+    found[there], mended = _glitches(x[there])
+    if not found.any() or np.mean(found[valid]) > MOST:
+        return np.zeros_like(found), x
+    whole = np.array(x)
     whole[there] = mended
     return found, whole
 
@@ -153,25 +154,24 @@ def find_lost_angles(angle: Array, valid: Mask) -> tuple[Mask, Array]:
 
 def _glitches(x: Array) -> tuple[Mask, Array]:
     """Glitches of a series without gaps (N,), and the series with them interpolated."""
-    off, y = np.zeros(len(x), dtype=np.bool_), x
+    # plain ones first, which may be neighbours: the prediction by such would be far off beside them
+    off = find_spikes(x, np.ones(len(x), dtype=np.bool_))
+    y = bridge_gaps(x, ~off, smooth=True)
     for _ in range(12):
         size = np.abs(np.diff(np.pad(y, 3, mode="reflect"), 6)) / 20.0  # off the prediction
         limit = GLITCH / MEDIAN_OF_NORMAL * float(np.median(size))
         at = np.flatnonzero(size > limit)
         if len(at):
             at = at[size[at] > GLITCH / MEDIAN_OF_NORMAL * _in_blocks(size, 0.5)[at]]
-            at = at[(size[at] > 2 * _spread(x, at)) & (size[at] >= np.max(_about(size, at, 3), axis=1))]
+            at = at[(size[at] > 2 * _spread(y, at)) & (size[at] >= np.max(_about(size, at, 3), axis=1))]
         if not len(at):
             break
         off[at] = True
-        y = np.array(x)
-        y[off] = np.interp(np.flatnonzero(off), np.flatnonzero(~off), x[~off])
-    if y is x:
-        return off, x
+        y = bridge_gaps(x, ~off, smooth=True)
     # what was only distorted by a neighbouring glitch stays
     at = np.flatnonzero(off)
-    off[at] = np.abs(x[at] - y[at]) > 2 * _spread(x, at)
-    return off, np.where(off, y, x)
+    off[at] = np.abs(x[at] - y[at]) > 2 * _spread(y, at)
+    return off, bridge_gaps(x, ~off, smooth=True)
 
 
 def _about(x: Array, at: NDArray[np.intp], side: int) -> Array:
