@@ -20,6 +20,7 @@ from ragg_runtime.io.record import (
     GRADIENT,
     RATES,
     SI_UNITS,
+    WIDEST_SPIKE,
     Array,
     Flight,
     Mask,
@@ -121,12 +122,19 @@ def make_flight(
 
 
 def derive_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
-    """The flight with its angular acceleration derived anew, unless it was recorded; rates are ``stuck`` (N,) somewhere."""
+    """The flight with its angular acceleration derived anew, unless it was recorded; rates are ``stuck`` (N,) somewhere.
+
+    Over few samples without a rate it is derived as over spikes, which are no gap.
+    """
     if not x.written or ANGULAR_ACCELERATION[0] in x.written or ANGULAR_RATE[0] not in x.channels:
         return x
     nowhere = np.zeros(len(x), dtype=np.bool_)
     lacking = (nowhere if x.lacking is None else x.lacking) | (nowhere if stuck is None else stuck)
-    rates = [np.where(lacking, np.nan, x.channels[n]) for n in ANGULAR_RATE]
+    gap = np.zeros_like(lacking)
+    for run in runs(lacking):
+        gap[run] = run.stop - run.start > WIDEST_SPIKE
+    bridged = (bridge_gaps(x.channels[n], ~lacking, smooth=True) for n in ANGULAR_RATE)
+    rates = [np.where(gap, np.nan, v) for v in bridged]
     slopes, sure = derive_accelerations(rates, x.time)
     made = {n: bridge_gaps(v, np.isfinite(v)) for n, v in zip(ANGULAR_ACCELERATION, slopes, strict=True)}
     return replace(x, channels={**x.channels, **made}, valid=x.valid & sure)
