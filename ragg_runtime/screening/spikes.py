@@ -13,6 +13,8 @@ from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
+    AUXILIARY,
+    SI_UNITS,
     SPECIFIC_FORCE,
     WIDEST_SPIKE,
     Flag,
@@ -43,6 +45,9 @@ USUAL = 0.95
 
 MEDIAN_OF_NORMAL = 0.67
 """Median of the modulus of a normal variable, in standard deviations."""
+
+SLOW = 0.1
+"""Step from sample to sample, over the standard deviation, up to which a channel is slow: what varies faster may well have peaks."""
 
 MOST = 0.05
 """Largest fraction of the samples that can be spikes; more of them are no glitches but the signal."""
@@ -110,6 +115,10 @@ def leave_out_glitches(flight: Flight) -> Flight:
         if mask.any():
             valid &= ~mask
             flags[name] = Flag((name,), describe_spikes(name, mask, flight.time))
+    for name in [n for n in channels if n not in angles and (n in AUXILIARY or n not in SI_UNITS)]:
+        mask, channels[name] = find_spikes_of_slow(channels[name])
+        if mask.any():
+            flags[name] = Flag((name,), describe_spikes(name, mask, flight.time))
     if not flags:
         return flight
     changed = replace(flight, channels=channels, valid=valid)
@@ -136,6 +145,18 @@ def find_glitches(x: Array, valid: Mask) -> tuple[Mask, Array]:
     whole = np.array(x)
     whole[there] = mended
     return found, whole
+
+
+def find_spikes_of_slow(x: Array) -> tuple[Mask, Array]:
+    """Spikes of an auxiliary channel (N,) that is slow without them, and the channel with them interpolated, as where it has no value."""
+    there = np.isfinite(x)
+    found = find_spikes(x, there)
+    mended = bridge_gaps(x, there & ~found)
+    if np.std(np.diff(mended)) > SLOW * np.std(mended):
+        return np.zeros_like(found), x
+    at = np.flatnonzero(found)
+    found[at] = np.abs(x[at] - mended[at]) > 2 * _spread(mended, at)
+    return found, np.where(found, mended, x)
 
 
 def find_lost_angles(angle: Array, valid: Mask) -> tuple[Mask, Array]:

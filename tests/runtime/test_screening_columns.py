@@ -191,6 +191,26 @@ def test_glitches_of_smooth_motion_are_interpolated() -> None:
     assert find_glitches(SMOOTH, ALL)[1] is SMOOTH
 
 
+def test_spikes_are_found_beside_each_other_and_in_samples_that_are_not_used() -> None:
+    """The angular acceleration is derived through them, and an effect of a slow channel would follow its spikes."""
+    x = SMOOTH.copy()
+    x[[500, 503, 507, 511, 2000, 2001]] += [30.0, 25.0, 20.0, -30.0, 28.0, 20.0]
+    valid = ALL.copy()
+    valid[[503, 3000]] = False
+    channels = dict.fromkeys(ANGULAR_RATE, SMOOTH) | {
+        "omega_x": x,
+        "temperature": 290 + x,
+        "vibration_rms": NOISE**2,
+    }
+    flight = Flight(TIME, channels, {}, valid=valid, written=dict.fromkeys(ANGULAR_RATE, "rad/s"))
+    found = leave_out_glitches(flight)
+    assert [f.columns for f in found.flags] == [("omega_x",), ("temperature",)]
+    assert np.max(np.abs(found.channels["omega_x"] - SMOOTH)) < 0.1
+    assert np.max(np.abs(found.channels["temperature"] - 290 - SMOOTH)) < 0.5
+    slope = np.gradient(SMOOTH, TIME)
+    assert np.max(np.abs(found.channels["omegadot_x"] - slope)[found.valid]) < 0.1 * np.max(np.abs(slope))
+
+
 def test_readings_that_did_not_arrive_are_left_out() -> None:
     """All axes of a sensor repeat their values at once, or are zero; coarse axes do so by chance."""
     rng, lost = np.random.default_rng(8), np.arange(9, N, 50)
