@@ -219,8 +219,10 @@ def calibrate(
     found = kept.as_json()
     if planned is not None:
         found |= next_flight.certify(planned, kept.calibrated.fitted, found)
-    use = f"{next_command('compensate', model_dir, records)} -o compensated.csv --calibration frozen"
-    said = describe_other.describe_calibration(found, [x.name for x in records], use if kept.saved else "")
+    drifts = drift and found["drifting"]["rates"]
+    use = f"{next_command('compensate', model_dir, records)} -o compensated.csv --calibration "
+    then = f"{use}{'smoothed' if drifts else 'frozen'}" if drifts or kept.saved else ""
+    said = describe_other.describe_calibration(found, [x.name for x in records], then)
     page = lambda origin: pages.write_calibration(said, kept.calibrated.fitted, origin)  # noqa: E731
     conclude(found, said, source_of(kept.loaded, records), page)
 

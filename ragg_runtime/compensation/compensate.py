@@ -208,7 +208,7 @@ def prepare(
         change = retest_change(model, instrument, observations, saved, c)
     else:
         # constant parameters leave the drift, which is no noise: it is followed from where they leave the smallest rms
-        f = fit(model, instrument, observations, unweighted=kind == "smoothed")
+        f = fit(model, instrument, observations, unweighted=kind == "smoothed", candidates=False)
         c, blocks = _fitted_blocks(f, flights, kind)
     return PreparedFlights(
         model=model,

@@ -4,7 +4,7 @@ The blocks' R factors are the measurements of a square-root information filter, 
 Methods for Discrete Sequential Estimation, 1977; D. Fraser and J. Potter, IEEE Trans. Autom. Control 14, 1969). Which parameters
 walk, and how fast, is chosen by the evidence of the forward filter: kind by kind, the same share of the sheet's error an hour for
 all accelerometers (as GOCE: C. Siemes et al. 2012). Constant parameters that take a drift for their own are far from those that walk, so
-that the filter is linearised again about what it has found.
+that the filter is linearised again about what it has found, with the noise that is left then: theirs holds the walk.
 """
 
 from __future__ import annotations
@@ -22,7 +22,11 @@ from ragg_runtime.base.threads import split_range
 from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors
 from ragg_runtime.estimation.fitted import Fitted, prepare_evidence
 from ragg_runtime.estimation.least_squares import join
+from ragg_runtime.estimation.noise import NoiseModel
+from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS, make_block_edges
+from ragg_runtime.estimation.regressors import LinearisationPoint, list_tested_columns
+from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.io import Flight
 
 Array = NDArray[np.float64]
@@ -139,17 +143,35 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
         The parameters in each block of time, about a fit to which they are near.
     """
     starts, timed = find_starts(flights)
-    rates: dict[str, float] | None = None
-    for _ in range(TURNS):
-        d = _smooth(f, starts, timed, rates)
-        mean, rates = np.mean(d.steps, axis=0), dict(d.rates)
-        if np.max(np.abs(mean), initial=0.0) < NEAR:
+    d = _smooth(f, starts, timed, None)
+    for turn in range(TURNS):
+        if not d.rates or (turn and np.max(np.abs(np.mean(d.steps, axis=0))) < NEAR):
             break
-        c = f.calibration
+        c = d.f.calibration
         p = c.p.copy()
-        p[c.index] += mean * np.array([q.scale for q in c.columns])
-        f = prepare_evidence(f.model, f.instrument, f.observations, replace(c, p=p), candidates=False)
+        p[c.index] += np.mean(d.steps, axis=0) * np.array([q.scale for q in c.columns])
+        c = replace(c, p=p) if turn else replace(c, p=p, noise=tuple(_estimate_noise(d)))
+        f = prepare_evidence(f.model, f.instrument, f.observations, c, candidates=False)
+        d = _smooth(f, starts, timed, dict(d.rates) if turn else None)
     return d
+
+
+def _estimate_noise(d: Drift) -> list[NoiseModel]:
+    """Of every observation what nothing explains beside the parameters as they drift: constant ones leave their walk as noise."""
+    f, found = d.f, []
+    tested = list_tested_columns(f.model, f.instrument, [o.record for o in f.observations])
+    at = LinearisationPoint(f.model, f.instrument, f.calibration.p, with_candidates=True, only=tested)
+    for x in f.prepared:
+        o, steps = x.observation, np.zeros((len(x.observation.record.time), f.n_base))
+        for rows, step, _ in d.follow(o.flight):
+            steps[rows] = step
+
+        def drift(piece: Piece, steps: Array = steps) -> Array:
+            return np.asarray(np.einsum("nmk,kn->mk", piece.columns[: f.n_base], steps[piece.segment.rows]))
+
+        walked = np.concatenate([*x.each(drift, whitened=False)], axis=1)
+        found.append(estimate_noise(at, replace(o, series=tuple(np.atleast_2d(o.data) - walked))))
+    return found
 
 
 def _smooth(f: Fitted, starts: Sequence[float], timed: bool, rates: dict[str, float] | None) -> Drift:
