@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from types import MappingProxyType
 
 import numpy as np
@@ -33,9 +34,11 @@ class AccelerometerParameter:
 
     def plausible_si(self, nominal: Vector, g0: float) -> Vector:
         """Plausible error of each value of ``nominal`` (any shape), in ``si_unit``, with g = ``g0`` m/s^2."""
-        if self.relative:
-            return np.abs(nominal) * self.plausible
-        return np.full_like(nominal, units(g0).to_si(self.plausible, self.display_unit, self.si_unit))
+        return np.abs(nominal) * self.plausible if self.relative else np.full_like(nominal, self._plausible(g0))
+
+    @cache  # a search for mistakes asks a thousand times
+    def _plausible(self, g0: float) -> float:
+        return units(g0).to_si(self.plausible, self.display_unit, self.si_unit)
 
 
 def _second_order(index: int, product: str) -> AccelerometerParameter:
