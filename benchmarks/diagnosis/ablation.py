@@ -220,7 +220,7 @@ RULES: tuple[Rule, ...] = (
          STRONG, ("identification/strong.py", "identification/contenders.py"),
          (Patch("identification.strong:STRONG", np.inf, constant=True, acts=_false),)),
     Rule("contenders", "of a strong effect up to three contenders are fitted in the model",
-         STRONG, ("identification/contenders.py:Contest", "identification/strong.py:_choose_best"),
+         STRONG, ("identification/contenders.py:fit_contender", "identification/strong.py:_choose_best"),
          (Patch("identification.strong:CONTENDERS", 1, constant=True),)),
     Rule("impossible", "an effect that is possible at one size only is excluded at another",
          (*OUTSIDE, ("off-sheet", "white"), ("strong", "white")), ("identification/strong.py:find_impossible",),

@@ -2,28 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ragg_runtime.estimation.calibration import charge_wider_priors, measure_to_nominal, restore_priors
 from ragg_runtime.estimation.fitted import Fitted, calibrate
-from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.thinning import leave_out_uncertain
-from ragg_runtime.estimation.whitening import take_excerpt
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model.model import Model
-
-Array = NDArray[np.float64]
-
-APART = 100.0
-"""Chi-square by which a contender must leave more than another one of an excerpt to be out of the contest (10 sigma): of two that
-are alike the coefficients fit so much of the noise that one may be ahead by a dozen or two."""
 
 
 class Extend(Protocol):
@@ -68,13 +59,13 @@ class ContenderFit:
     arrived: bool
 
 
-def fit_contender(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: Instrument) -> ContenderFit:
-    """What a nonlinear fit leaves with effects in the model.
+def fit_contender(f: Fitted, model: Model, sheet: Instrument) -> ContenderFit:
+    """What a nonlinear fit to the flights of a fit leaves with effects in the model, by its noise.
 
     Every parameter that only the sheet knew before, and the record does now, costs 2 (AIC).
     """
     observations = leave_out_uncertain(model, sheet, f.observations)
-    instrument, c = calibrate(model, sheet, observations, noise=noise)
+    instrument, c = calibrate(model, sheet, observations, noise=f.calibration.noise)
     x = -measure_to_nominal(model, instrument, c)
     known = len(c.columns) - float(np.trace(c.covariance))
     left_out = f.calibration.rows - c.rows  # each would have its share of the noise
@@ -86,41 +77,3 @@ def fit_contender(f: Fitted, noise: Sequence[NoiseModel], model: Model, sheet: I
         chi2=c.chi2 + left_out + 2.0 * known + tails + charge_wider_priors(instrument, c),
         arrived=c.converged,
     )
-
-
-@dataclass(frozen=True)
-class Contest:
-    """What contenders leave of the flights of the fit ``f`` without them, each fitted once; of long ones first an excerpt.
-
-    ``entered``: of a contender its model and sheet, as for :func:`fit_contender`.
-    """
-
-    f: Fitted
-    entered: Callable[[str], tuple[Model, Instrument]]
-    _of_all: dict[str, ContenderFit] = field(default_factory=dict)
-    _of_some: dict[str, ContenderFit] = field(default_factory=dict)
-
-    @property
-    def arrived(self) -> bool:
-        """Whether any fit came to an optimum, or none was made."""
-        made = self._of_some | self._of_all
-        return not made or any(x.arrived for x in made.values())
-
-    def left(self, ids: Sequence[str]) -> dict[str, float]:
-        """Chi-square that each leaves of all; of those that the excerpt puts out of the contest what it says of them."""
-        shorter = tuple(take_excerpt(o) for o in self.f.observations)
-        share = sum(int(np.sum(o.record.valid)) for o in shorter) / sum(
-            int(np.sum(o.record.valid)) for o in self.f.observations
-        )
-        if share == 1.0:
-            return {e: self._fitted(e, self.f, self._of_all).chi2 for e in ids}
-        some = replace(self.f, observations=shorter)
-        rough = {e: self._fitted(e, some, self._of_some).chi2 for e in ids}
-        least = min(rough.values())
-        near = {e: self._fitted(e, self.f, self._of_all).chi2 for e in ids if rough[e] < least + APART}
-        return {e: min(near.values()) + (x - least) / share for e, x in rough.items()} | near
-
-    def _fitted(self, e: str, f: Fitted, fits: dict[str, ContenderFit]) -> ContenderFit:
-        if e not in fits:
-            fits[e] = fit_contender(f, f.calibration.noise, *self.entered(e))
-        return fits[e]

@@ -17,7 +17,7 @@ from ragg_runtime.estimation.calibration import QUIET, charge_wider_priors, rest
 from ragg_runtime.estimation.fitted import Fitted, fit, prepare_evidence, release_held
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.identification import contenders, selection
-from ragg_runtime.identification.contenders import Contest, Extend
+from ragg_runtime.identification.contenders import ContenderFit, Extend
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.parameters import list_physical_columns
 from ragg_runtime.identification.selection import Choice, Field
@@ -156,12 +156,13 @@ def _add_strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect 
 
     def left(ids: Sequence[str]) -> dict[str, float]:
         budget.left -= len(ids)
-        return contest.left(ids)
+        fits.update({e: contenders.fit_contender(f, *entered(e)) for e in ids if e not in fits})
+        return {e: fits[e].chi2 for e in ids}
 
-    contest = Contest(f, entered)
+    fits: dict[str, ContenderFit] = {}
     while True:
         effect, alternatives = _choose_best(stage, tests, left)
-        if not contest.arrived:
+        if fits and not any(x.arrived for x in fits.values()):
             return None
         found = _add_to_model(stage, effect, alternatives, extend)
         budget.left -= 1

@@ -34,11 +34,14 @@ class AccelerometerParameter:
 
     def plausible_si(self, nominal: Vector, g0: float) -> Vector:
         """Plausible error of each value of ``nominal`` (any shape), in ``si_unit``, with g = ``g0`` m/s^2."""
-        return np.abs(nominal) * self.plausible if self.relative else np.full_like(nominal, self._plausible(g0))
+        if self.relative:
+            return np.abs(nominal) * self.plausible
+        return np.full_like(nominal, _convert(self.plausible, self.display_unit, self.si_unit, g0))
 
-    @cache  # a search for mistakes asks a thousand times
-    def _plausible(self, g0: float) -> float:
-        return units(g0).to_si(self.plausible, self.display_unit, self.si_unit)
+
+@cache  # a search for mistakes asks a thousand times
+def _convert(value: float, unit: str, si_unit: str, g0: float) -> float:
+    return units(g0).to_si(value, unit, si_unit)
 
 
 def _second_order(index: int, product: str) -> AccelerometerParameter:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation import fitted, noise_estimate, observation, scores, thinning, whitening
-from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.noise_level import Level, LevelFactor
 from ragg_runtime.estimation.observation import (
@@ -21,8 +19,7 @@ from ragg_runtime.estimation.observation import (
     take_beginnings,
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
-from ragg_runtime.identification import contenders, formula, omnibus, selection
-from ragg_runtime.identification.contenders import ContenderFit
+from ragg_runtime.identification import formula, omnibus, selection
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.selection import make_field
 from ragg_runtime.instrument.instrument import Instrument
@@ -32,7 +29,6 @@ from ragg_runtime.model.evaluate import evaluate_output, make_vector
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.report import panels
 from tests.rate import RATE as SLOW
-from tests.runtime.diagnosed import diagnosed
 
 pytestmark = pytest.mark.usefixtures("no_next_motion")
 
@@ -315,27 +311,6 @@ def test_a_long_flight_with_gaps_everywhere_has_no_means(
         if found is not None:
             assert np.array_equal(found[0].rest != 0.0, valid.reshape(-1, 4).all(axis=1))
         assert noise_estimate.estimate_noise(at, o).spectra[0].rms > 0.0
-
-
-def test_contenders_of_a_long_flight_are_told_apart_on_an_excerpt(
-    long_flight: tuple[Scenario, Flight], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The right effect, and only those fitted to everything that the excerpt left in the contest."""
-    s, flight = long_flight
-    monkeypatch.setattr(whitening, "ROWS", 1700)
-    monkeypatch.setattr(whitening, "EXCERPT", 3)
-    fitted_to: list[int] = []
-
-    def left(f: Fitted, *given: Any) -> ContenderFit:
-        fitted_to.append(int(np.sum(f.observations[0].record.valid)))
-        return original(f, *given)
-
-    original = contenders.fit_contender
-    monkeypatch.setattr(contenders, "fit_contender", left)
-    long = diagnosed(s, flight)
-    assert long.staged and long.found == ("thermal-scale",)
-    whole = fitted_to.count(int(np.sum(flight.valid)))
-    assert 0 < whole < len(fitted_to) - whole
 
 
 def test_noise_slower_than_a_segment_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
