@@ -18,7 +18,7 @@ from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.regressors import Column, LinearisationPoint, list_tested_columns, spell_name
 from ragg_runtime.estimation.unknown_gradient import Window
-from ragg_runtime.estimation.whitening import Piece, find_segments, pass_over, take_excerpt
+from ragg_runtime.estimation.whitening import Piece, find_segments, pass_over
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.evaluate import make_vector, scale_factor
@@ -126,13 +126,6 @@ class _Task:
         p[self.index] += x * self.scale
         return p
 
-    def take_excerpt(self) -> _Task:
-        """The same of some segments of long flights; itself if none is long."""
-        shorter = [take_excerpt(o) for o in self.observations]
-        if all(a is b for a, b in zip(shorter, self.observations, strict=True)):
-            return self
-        return replace(self, observations=shorter)
-
     def windows(self, noise: Sequence[NoiseModel]) -> _Windows:
         """What an unknown gradient spans of each flight of one segment, which is the same at every point of a fit."""
         found = [find_segments(o) for o in self.observations]
@@ -141,9 +134,8 @@ class _Task:
             for o, n, s in zip(self.observations, noise, found, strict=True)
         ]
 
-    def at(self, x: Array, noise: Sequence[NoiseModel], windows: _Windows | None = None) -> _Fall:
+    def at(self, x: Array, noise: Sequence[NoiseModel], windows: _Windows) -> _Fall:
         """Linearised about x."""
-        windows = [None] * len(noise) if windows is None else windows
         p = self.vector(x)
         places = {o.place for o in self.observations}
         if not all(scale_factor(self.model, p, place) > 0.0 for place in places):
@@ -233,19 +225,16 @@ def fit(
     """Least squares on all flights at once, from the nominal values or from ``start``.
 
     First every sample weighs the same; from what is left the noise is estimated, and the fit goes on whitened, unless ``unweighted``
-    is asked for, so that the rms is as small as it can be. Long flights begin on an excerpt.
+    is asked for, so that the rms is as small as it can be.
     """
     task = _Task(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
-    whole, some = _Unweighted(task), task.take_excerpt()
+    whole = _Unweighted(task)
     if noise is None:
-        begun = whole if some is task else _Unweighted(some)
-        x = begun.fit(x, begun.promised(x)).x
+        x = whole.fit(x, whole.promised(x)).x
         noise = task.noise(x)
     if unweighted:
         return _make_calibration(task, whole.fit(x, max(task.size(noise), whole.left(x) / LEAN)), noise)
-    if start is None and some is not task:
-        x = minimise(lambda at: some.at(at, noise), x).x
     windows = task.windows(noise)
     return _make_calibration(task, minimise(lambda at: task.at(at, noise, windows), x), noise)
 

@@ -23,7 +23,6 @@ from ragg_runtime.estimation.observation import (
     combine_output,
     divide_into_segments,
     make_block_edges,
-    spread,
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise, thin_residual
 from ragg_runtime.estimation.unknown_gradient import Window
@@ -96,21 +95,6 @@ def is_long(o: Observation) -> bool:
 def find_segments(o: Observation) -> list[Segment]:
     """The segments of a flight that hold valid samples."""
     return [s for s in divide_flight(o) if np.any(o.record.valid[s.rows])]
-
-
-EXCERPT = 4
-"""Most segments of an excerpt."""
-
-
-def take_excerpt(o: Observation) -> Observation:
-    """The observation with but some segments of a long flight valid, evenly spread: for strong signals they are as good as all."""
-    found = find_segments(o)
-    if len(found) <= EXCERPT:
-        return o
-    valid = np.zeros(len(o.record.time), dtype=np.bool_)
-    for s in spread(found, EXCERPT):
-        valid[s.rows] = o.record.valid[s.rows]
-    return replace(o, record=replace(o.record, valid=valid, whole=o.record.whole or o.record))
 
 
 def pass_over(

@@ -244,7 +244,6 @@ def test_the_division_leaves_no_trace(
     noise = [replace(n, level=louder, level_first=True) for n in estimated]
     whole = fitted.fit(model.load_packaged(), s.sheet, [o], noise)
     monkeypatch.setattr(whitening, "ROWS", 1700)
-    monkeypatch.setattr(whitening, "EXCERPT", 1000)
     assert len(whitening.divide_flight(o)) > 5
     parts = fitted.fit(model.load_packaged(), s.sheet, [o], noise)
     scale = np.array([c.scale for c in whole.calibration.columns])
