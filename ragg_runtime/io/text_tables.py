@@ -44,7 +44,7 @@ from ragg_runtime.io.tables import (
 _WORDS = "nan NaN NAN NaT NA N/A n/a n.a. <NA> null NULL None -nan nan(ind) -nan(ind)"
 _OF_C = tuple(f"{sign}1.#{word}" for sign in ("", "-") for word in ("IND", "QNAN", "INF"))
 _OF_EXCEL = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
-MISSING = ("", "-", "--", *("*" * k for k in range(1, 25)), *_WORDS.split(), *_OF_C, *_OF_EXCEL)
+MISSING = ("", "?", *(c * k for c in "-*" for k in range(1, 25)), *_WORDS.split(), *_OF_C, *_OF_EXCEL)
 """Cells that hold nothing; Fortran writes asterisks for what has no room."""
 
 QUANTITY = re.compile(

@@ -492,3 +492,12 @@ def test_a_header_over_two_rows_is_named_where_its_names_are_not_known(tmp_path:
     (tmp_path / "x.csv").write_text(text(rows_above, rows()))
     with pytest.raises(UserError, match=r"columns time, force_x.*G_out; the header spans two rows"):
         read_flight(tmp_path / "x.csv", G0)
+
+
+@pytest.mark.parametrize("cell", ["---", "-----", "?", "****", "1.#QNAN", "n/a"])
+def test_cells_that_say_that_nothing_was_measured(tmp_path: Path, cell: str) -> None:
+    cells = rows()
+    cells[20][2] = cell
+    (tmp_path / "x.csv").write_text(text(PLAIN, cells))
+    found = read_flight(tmp_path / "x.csv", G0)
+    assert "a_y: without a value at 1 sample, not used" in found.notes
