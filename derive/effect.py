@@ -162,13 +162,6 @@ class Effect:
         (q, f, p, c) -> force that the second-order terms see; f is the full sensed force.
     transducer
         (i, f, p, c) -> I_j/K_j1, m/s^2, from that of Eq. 1.
-    common_of
-        Parameter of the accelerometers of which it is what all have in common: the sheet's sigma holds each of them.
-    told_from
-        Parameters of the accelerometers that would do the same if the sheet was wrong about them: it is offered where the
-        record separates it from them, whatever the prior.
-    turning
-        Whether it is one only where the disc turns: of one that stands still it is a constant that something else is, too.
     switches
         Whether it changes at once where an accelerometer's voltage passes zero: a fit then does without the samples of which
         the sheet leaves the side open.
@@ -203,9 +196,6 @@ class Effect:
     instrument: Callable[[Mapping[str, sp.Expr], Values, Context], Mapping[str, sp.Expr]] | None = None
     second_order: Callable[[SensedForce, SensedForce, Values, Context], SensedForce] | None = None
     transducer: Callable[[sp.Expr, SensedForce, Values, Context], sp.Expr] | None = None
-    common_of: str | None = None
-    told_from: tuple[str, ...] = ()
-    turning: bool = False
     switches: bool = False
     memory: str | None = None
     searched: bool = True

@@ -30,7 +30,5 @@ EFFECT = Effect(
             "delta_R", r"\Delta R", "mm", "arms less the sheet's radius", 0.1, shared=True, like="dR"
         ),
     ),
-    common_of="dR",
-    told_from=("K1",),
     instrument=instrument,
 )

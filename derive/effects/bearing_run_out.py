@@ -50,5 +50,4 @@ EFFECT = Effect(
         for a, word in (("c", "cosine"), ("s", "sine"))
     ),
     field=field,
-    turning=True,
 )

@@ -36,5 +36,4 @@ EFFECT = Effect(
         for a, word in (("c", "cosine"), ("s", "sine"))
     ),
     disc_angle=disc_angle,
-    turning=True,
 )

@@ -28,5 +28,4 @@ EFFECT = Effect(
     ),
     parameters=shared_components("w", "xy", "rad", "lean of the disc about its own {k} axis", 1e-5),
     geometry=geometry,
-    turning=True,
 )

@@ -31,9 +31,6 @@ FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
 HELD_OUT_BLOCKS = tuple(b for b in range(BLOCKS) if b not in FITTED_BLOCKS)
 """Blocks of time on which a held-out fit is made; the others, in turn with them, score it."""
 
-FREE = 1e-3
-"""Weight of a word of the sheet that is not taken: a thousand sigma off costs no more than one."""
-
 WIDENED = 3
 """Most times that a sheet is taken to be less sure than it says."""
 
@@ -136,14 +133,6 @@ class Fitted:
     @property
     def _prior(self) -> Array:
         return make_prior(range(self.n_base), self.size + 1, self.to_nominal)
-
-    def freed(self, name: str, extra: Sequence[int]) -> Array:
-        """R factor [base | candidates ``extra`` | residual] without the prior of one parameter of the accelerometers."""
-        picked = [*range(self.n_base), *(self.n_base + k for k in extra), -1]
-        sheet = self._prior[:, picked]
-        of_it = [k for k, c in enumerate(self.calibration.columns) if c.effect is None and c.name == name]
-        sheet[of_it] *= FREE
-        return np.asarray(np.linalg.qr(np.vstack([self.data[:, picked], sheet]), mode="r"))
 
     def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
         """Fit of base and ``extra`` candidate regressors, in scales, with its covariance, priors included.

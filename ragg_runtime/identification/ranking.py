@@ -10,7 +10,7 @@ import numpy as np
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted, release_held
 from ragg_runtime.estimation.scores import Error, finite
-from ragg_runtime.identification import likelihood_ratio, probability, selection, sheet
+from ragg_runtime.identification import likelihood_ratio, probability, selection
 from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.parameters import Estimates, ParameterValue
 from ragg_runtime.identification.probability import Probabilities
@@ -182,8 +182,6 @@ def list_not_testable(f: Fitted, field: Field) -> list[NotTestable]:
             )
         elif e.id in field.candidates and not field.testable(e.id):
             found.append(NotTestable(e.id, _describe_absorption(f, field, e)))
-        elif e.kind == "deterministic" and (why := sheet.describe_doubt(f, e.id)):
-            found.append(NotTestable(e.id, why))
     return found
 
 

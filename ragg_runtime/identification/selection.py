@@ -14,7 +14,7 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.regressors import Column, group_by_effect
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.estimation.whitening import PreparedFlight
-from ragg_runtime.identification import likelihood_ratio, sheet, uneven
+from ragg_runtime.identification import likelihood_ratio, uneven
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 
 Array = NDArray[np.float64]
@@ -260,13 +260,10 @@ def make_field(f: Fitted, available: Sequence[str]) -> Field:
 
 
 def list_testable(f: Fitted) -> list[str]:
-    """Deterministic candidates of which every flight has the channels, and that are no error of the sheet."""
+    """Deterministic candidates of which every flight has the channels."""
     have = [o.record.recorded for o in f.observations]
     return [
         e.id
         for e in f.model.candidates
-        if e.kind == "deterministic"
-        and e.searched
-        and not any(e.missing(h) for h in have)
-        and sheet.describe_doubt(f, e.id) is None
+        if e.kind == "deterministic" and e.searched and not any(e.missing(h) for h in have)
     ]

@@ -67,8 +67,7 @@ class DerivedParameter:
 class DerivedEffect:
     """A physical effect, from the manifest of the derivation.
 
-    ``common_of``, ``told_from``: parameters of the accelerometers that the sheet gives; ``turning``: it exists only where the disc
-    turns (:mod:`ragg_runtime.identification.sheet`); ``switches``: where a voltage passes zero;
+    ``switches``: whether it does where a voltage passes zero;
     ``memory``: through what it takes the record (:mod:`ragg_runtime.model.memory`); ``searched``: whether a diagnosis looks for it;
     ``contains``: effects that are special cases.
     """
@@ -83,9 +82,6 @@ class DerivedEffect:
     kind: str
     parameters: tuple[DerivedParameter, ...]
     either: bool = False
-    common_of: str | None = None
-    told_from: tuple[str, ...] = ()
-    turning: bool = False
     switches: bool = False
     memory: str | None = None
     searched: bool = True
@@ -223,5 +219,5 @@ def _effect(entry: Mapping[str, Any]) -> DerivedEffect:
     parameters = tuple(
         DerivedParameter(**{**q, "late": tuple(q.get("late", ()))}) for q in entry["parameters"]
     )
-    several = {k: tuple(entry.get(k, ())) for k in ("channels", "told_from", "contains")}
+    several = {k: tuple(entry.get(k, ())) for k in ("channels", "contains")}
     return DerivedEffect(**{**entry, **several, "parameters": parameters})

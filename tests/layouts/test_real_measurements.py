@@ -13,7 +13,6 @@ from examples.mimu.sheet import sheet
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe_flights
-from ragg_runtime.identification.sheet import describe_doubt
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import read_flight
@@ -29,15 +28,6 @@ def calibrated(i: Instrument, *names: str) -> Fitted:
     model, _ = derive.derived((), (), i.form, i.layout)
     flights = [read_flight(HERE / f"{n}.parquet", i.g0, accelerometers=i.layout) for n in names]
     return fit(model, i, observe_flights(flights, i))
-
-
-def calibrated_beside(i: Instrument) -> Fitted:
-    """The motion alone, with the candidates' columns."""
-    return fit(
-        derive.load_model(i),
-        i,
-        observe_flights([read_flight(HERE / "motion.parquet", i.g0, accelerometers=i.layout)], i),
-    )
 
 
 def values(c: Calibration, name: str) -> tuple[np.ndarray, np.ndarray]:
@@ -87,14 +77,6 @@ def test_the_lever_arm_that_is_left_out_is_found_and_agrees_with_the_survey() ->
     for name, known in (("l_x", 0.0), ("l_y", 0.0), ("l_z", -2e-3)):
         assert abs(arm[name].value - known) < 3 * arm[name].std
     assert arm["l_z"].std < 3e-4
-
-
-def test_the_length_of_one_arm_alone_is_no_arm_length() -> None:
-    text = story.LEFT_OUT["arm length"].replace("11.964 mm", "13.364 mm")
-    i = parse_instrument(text.replace("dR = { value = 0,", "dR = { value = [-3, 0, 0, 0],"))
-    f = calibrated_beside(i)
-    assert "not common to all accelerometers" in str(describe_doubt(f, "arm-length"))
-    assert "does not spin" in str(describe_doubt(f, "bearing-run-out"))
 
 
 def test_the_grade_of_a_sheet_is_that_of_its_sigmas() -> None:
