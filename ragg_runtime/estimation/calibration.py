@@ -287,14 +287,6 @@ class OffSheet:
     unit: str
     accelerometer_name: str = ""
 
-    def in_words(self) -> str:
-        """``K1 of A2 is 40 sigma off its sheet: 10.4 instead of 10 mA/g``."""
-        of = "" if self.accelerometer is None else f" of {self.accelerometer_name}"
-        return (
-            f"{self.name}{of} is {abs(self.sigmas):.3g} sigma off its sheet: "
-            f"{self.value:.6g} instead of {self.sheet:.6g} {self.unit}"
-        )
-
     def as_json(self) -> dict[str, object]:
         return {
             "name": self.name,

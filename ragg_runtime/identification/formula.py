@@ -83,16 +83,38 @@ def _screen(x: PreparedFlight, projector: Projector, known: Dictionary) -> tuple
     gain = (first.sums.norm2 / first.sums.raw[1]).reshape(len(stages), len(turns))
     named = (f"{function}({n})" for function in ("square", "sign", "abs") for n in d.channels)
     d = d.with_terms([ONE, *(Term("const", (n,)) for n in (*d.channels, *named))])
-    factors = d.terms
-    at_zero = [any(begins_at_zero(series_name.series(n), d.centre) for n in t.channels) for t in factors]
-    few = max(1, int(x.observation.record.rate * MEMORIES[0] / FINE))
-    decay = np.exp(-few / (x.observation.record.rate * np.array(MEMORIES)))
-    shape = (1 + len(MEMORIES), len(factors), len(factors))
+    dots, squares = _sum_products(x, d, stages, turns, back)
+    half = np.where([h == "const" for h in turns], 1.0, 0.5)
+    length = (squares[..., None] * (gain * half)).reshape(dots.shape)
+    score = np.where(length > 0.0, np.abs(dots) / np.sqrt(np.where(length > 0.0, length, 1.0)), 0.0)
+    each = score.reshape(-1, score.shape[-1])
+    best = np.argpartition(-each, OF_EACH, axis=0)[:OF_EACH] * each.shape[1] + np.arange(each.shape[1])
+    best = np.union1d(best, np.argpartition(-score, SHORTLIST, axis=None)[:SHORTLIST])
+    terms = [
+        _make_term(
+            turns[k % len(turns)], stages[k // len(turns)], m, (*d.terms[a].channels, *d.terms[b].channels)
+        )
+        for m, a, b, k in zip(*np.unravel_index(best[score.flat[best] > 0.0], score.shape), strict=True)
+    ]
+    return terms, int(np.count_nonzero(score))
+
+
+def _sum_products(
+    x: PreparedFlight, d: Dictionary, stages: Sequence[tuple[str, ...]], turns: Sequence[str], back: Array
+) -> tuple[Array, Array]:
+    """(memories, n, n, stages x turns): scores of the products of two of a dictionary's n terms, as they are and relaxing; and
+    (memories, n, n, stages): their squares, times those of the stage. ``back`` (N,): see :func:`_filter_back`.
+    """
+    rate = x.observation.record.rate
+    few = max(1, int(rate * MEMORIES[0] / FINE))
+    decay = np.exp(-few / (rate * np.array(MEMORIES)))
+    at_zero = [any(begins_at_zero(series_name.series(n), d.centre) for n in t.channels) for t in d.terms]
+    shape = (1 + len(MEMORIES), len(d.terms), len(d.terms))
     dots, squares = np.zeros((*shape, len(stages) * len(turns))), np.zeros((*shape, len(stages)))
     last, origin = np.zeros((*shape, 1), dtype=np.float32), None
     for s in divide_flight(x.observation):
         r = x.observation.record.part(s.rows)
-        F = np.concatenate([X for _, X in d.make_chunks(r, factors)])
+        F = np.concatenate([X for _, X in d.make_chunks(r, d.terms)])
         at = np.array([d.series(Term("const", n), r) / d.size(Term("const", n)) for n in stages])
         turned = np.array([make_carrier(r, h) * back[s.rows] for h in turns])
         weights = (at[:, None] * turned).reshape(dots.shape[-1], -1).T.astype(np.float32)
@@ -100,7 +122,7 @@ def _screen(x: PreparedFlight, projector: Projector, known: Dictionary) -> tuple
         sums = _average(weights.T, few).T * few, _average(power.T, few).T * few
         if origin is None and r.valid.any():
             origin = np.where(at_zero, np.float32(0.0), F[:, np.argmax(r.valid)])
-        for a in range(len(factors)):
+        for a in range(len(F)):
             P = F[a] * F[a:]  # a product of two is one, in either order
             dots[0, a, a:] += P @ weights
             squares[0, a, a:] += P**2 @ power
@@ -111,19 +133,7 @@ def _screen(x: PreparedFlight, projector: Projector, known: Dictionary) -> tuple
                 y, last[m, a, a:] = signal.lfilter(share, pole, P, zi=last[m, a, a:])
                 dots[m, a, a:] += y @ sums[0]
                 squares[m, a, a:] += y**2 @ sums[1]
-    half = np.where([h == "const" for h in turns], 1.0, 0.5)
-    length = (squares[..., None] * (gain * half)).reshape(dots.shape)
-    score = np.where(length > 0.0, np.abs(dots) / np.sqrt(np.where(length > 0.0, length, 1.0)), 0.0)
-    each = score.reshape(-1, score.shape[-1])
-    best = np.argpartition(-each, OF_EACH, axis=0)[:OF_EACH] * each.shape[1] + np.arange(each.shape[1])
-    best = np.union1d(best, np.argpartition(-score, SHORTLIST, axis=None)[:SHORTLIST])
-    terms = [
-        _make_term(
-            turns[k % len(turns)], stages[k // len(turns)], m, (*factors[a].channels, *factors[b].channels)
-        )
-        for m, a, b, k in zip(*np.unravel_index(best[score.flat[best] > 0.0], score.shape), strict=True)
-    ]
-    return terms, int(np.count_nonzero(score))
+    return dots, squares
 
 
 def _average(X: Array | Singles, few: int) -> Singles:

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from ragg_runtime.base.errors import UserError, at, check_choice, check_keys, check_table
-from ragg_runtime.base.files import read_text
 from ragg_runtime.base.names import is_name, read_name
 from ragg_runtime.instrument.demodulation import read_demodulation
 from ragg_runtime.instrument.form import read_form
@@ -36,13 +35,8 @@ from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, Vector
 from ragg_runtime.instrument.units import Units, read_quantity, units
 
 
-def read_instrument(path: Path | str) -> Instrument:
-    """The instrument of a ``model.toml``; UserError names file and key, what is there and what should be."""
-    return parse_instrument(read_text(Path(path)), Path(path))
-
-
 def parse_instrument(text: str, path: Path | None = None) -> Instrument:
-    """As :func:`read_instrument`, from the text of the file; ``path`` names it in messages."""
+    """The instrument of a ``model.toml``; UserError names file (``path``) and key, what is there and what should be."""
     try:
         table = tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # numbers of thousands of digits, brackets in brackets

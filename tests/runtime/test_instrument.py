@@ -13,10 +13,11 @@ from hypothesis import strategies as st
 
 from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import read_text
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_parameters
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
-from ragg_runtime.instrument.read_toml import parse_instrument, read_instrument
+from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity
 
 TEXT = """# The maker's test sheet.
@@ -126,23 +127,22 @@ def test_shared_parameters_have_one_value() -> None:
 )
 def test_what_is_refused(tmp_path: Path, text: str, facts: tuple[str, ...]) -> None:
     path = tmp_path / "sheet.toml"
-    path.write_text(text)
     with pytest.raises(UserError) as caught:
-        read_instrument(path)
+        parse_instrument(text, path)
     for fact in (str(path), *facts):
         assert fact in str(caught.value), f"{fact!r} is not in: {caught.value}"
 
 
 def test_files_that_cannot_be_read(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="does not exist"):
-        read_instrument(tmp_path / "none.toml")
+        read_text(tmp_path / "none.toml")
     with pytest.raises(UserError, match="directory"):
-        read_instrument(tmp_path)
+        read_text(tmp_path)
     (tmp_path / "latin.toml").write_bytes(TEXT.replace("ug", "µg").encode("latin-1"))
     with pytest.raises(UserError, match="not UTF-8"):
-        read_instrument(tmp_path / "latin.toml")
+        read_text(tmp_path / "latin.toml")
     (tmp_path / "windows.toml").write_bytes(b"\xef\xbb\xbf" + TEXT.replace("\n", "\r\n").encode())
-    assert read_instrument(tmp_path / "windows.toml").radius == 0.1
+    assert parse_instrument(read_text(tmp_path / "windows.toml")).radius == 0.1
 
 
 def test_edits_keep_everything_else() -> None:
