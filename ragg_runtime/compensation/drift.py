@@ -20,12 +20,11 @@ from scipy import optimize
 
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors
+from ragg_runtime.estimation.calibration import estimate_noises
 from ragg_runtime.estimation.fitted import Fitted, prepare_evidence
 from ragg_runtime.estimation.least_squares import join
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS, make_block_edges
-from ragg_runtime.estimation.regressors import LinearisationPoint, list_tested_columns
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.io import Flight
 
@@ -158,9 +157,7 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
 
 def _estimate_noise(d: Drift) -> list[NoiseModel]:
     """Of every observation what nothing explains beside the parameters as they drift: constant ones leave their walk as noise."""
-    f, found = d.f, []
-    tested = list_tested_columns(f.model, f.instrument, [o.record for o in f.observations])
-    at = LinearisationPoint(f.model, f.instrument, f.calibration.p, with_candidates=True, only=tested)
+    f, left = d.f, []
     for x in f.prepared:
         o, steps = x.observation, np.zeros((len(x.observation.record.time), f.n_base))
         for rows, step, _ in d.follow(o.flight):
@@ -170,8 +167,8 @@ def _estimate_noise(d: Drift) -> list[NoiseModel]:
             return np.asarray(np.einsum("nmk,kn->mk", piece.columns[: f.n_base], steps[piece.segment.rows]))
 
         walked = np.concatenate([*x.each(drift, whitened=False)], axis=1)
-        found.append(estimate_noise(at, replace(o, series=tuple(np.atleast_2d(o.data) - walked))))
-    return found
+        left.append(replace(o, series=tuple(np.atleast_2d(o.data) - walked)))
+    return estimate_noises(f.model, f.instrument, left, f.calibration.p)
 
 
 def _smooth(f: Fitted, starts: Sequence[float], timed: bool, rates: dict[str, float] | None) -> Drift:

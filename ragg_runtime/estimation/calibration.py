@@ -156,11 +156,7 @@ class _Task:
 
     def noise(self, x: Array) -> list[NoiseModel]:
         """NoiseModel of every flight from what nothing explains about x."""
-        tested = list_tested_columns(self.model, self.instrument, [o.record for o in self.observations])
-        everything = LinearisationPoint(
-            self.model, self.instrument, self.vector(x), with_candidates=True, only=tested
-        )
-        return [estimate_noise(everything, o) for o in self.observations]
+        return estimate_noises(self.model, self.instrument, self.observations, self.vector(x))
 
     def size(self, noise: Sequence[NoiseModel]) -> float:
         """Root of the mean power of what no column explains, V, lines included."""
@@ -180,6 +176,15 @@ class _Task:
             sums={},
             rows=1,
         )
+
+
+def estimate_noises(
+    model: Model, instrument: Instrument, observations: Sequence[Observation], p: Array
+) -> list[NoiseModel]:
+    """The noise of every observation: what neither parameters nor candidates explain about a parameter vector, SI."""
+    tested = list_tested_columns(model, instrument, [o.record for o in observations])
+    everything = LinearisationPoint(model, instrument, p, with_candidates=True, only=tested)
+    return [estimate_noise(everything, o) for o in observations]
 
 
 class _Unweighted:

@@ -292,10 +292,8 @@ def _continued(f: Fitted, samples: int) -> dict[str, Array]:
     first = r.part(slice(0, min(len(r.time), samples)))
     found = {}
     for name, x in first.channels.items():
-        if is_disc_angle(name):
+        if is_disc_angle(name) or name in MASS:  # a body is where it was put up
             continue
-        if name in MASS:
-            continue  # the body is where it was put up
         if name.partition("_")[0] in ("a", "omega", "omegadot", "Gamma"):
             found[name] = np.full(samples, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
         else:

@@ -213,13 +213,18 @@ def find_least(cost: Callable[[float], float], grid: NDArray[np.floating[Any]], 
     return best
 
 
+def find_inliers(left: Array) -> NDArray[np.bool_]:
+    """Which of the moduli of some residuals, (..., rows), are no outliers."""
+    return np.asarray(left <= OUTLIER * float(np.quantile(left, QUARTILE)) / QUARTILE_OF_NORMAL)
+
+
 def fit_robustly(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_], float]:
     """Coefficients (n,) of columns X (n, rows), the rows that are no outliers of the fit, and the information about the coefficients."""
     kept = np.ones(len(y), dtype=np.bool_)
     theta, volume = fit_shrunken(X, y)
     for _ in range(10):
         left = np.abs(y - theta @ X)
-        now = left <= OUTLIER * float(np.quantile(left, QUARTILE)) / QUARTILE_OF_NORMAL
+        now = find_inliers(left)
         if np.array_equal(now, kept) or np.sum(now) < 2 * len(X):
             break
         kept = now

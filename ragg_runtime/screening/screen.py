@@ -20,14 +20,7 @@ from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import EVEN
 from ragg_runtime.model.recorded import find_recorded
 from ragg_runtime.screening import checks
-from ragg_runtime.screening.linear_fit import (
-    INDEPENDENT,
-    OUTLIER,
-    QUARTILE,
-    QUARTILE_OF_NORMAL,
-    LinearFit,
-    fit_rows,
-)
+from ragg_runtime.screening.linear_fit import INDEPENDENT, LinearFit, find_inliers, fit_rows
 from ragg_runtime.screening.mistakes import Finding, find_mistake
 from ragg_runtime.screening.motion_noise import smooth_noisy_motion
 from ragg_runtime.screening.repeated import leave_out_repeated
@@ -207,7 +200,7 @@ def _is_even(model: Model, s: Sampler, even: Sampler, p: Array) -> bool:
     by_stamps, by_count = (_residual(model, t, p) for t in (s, even))
     three = s.usable[2:] & s.usable[1:-1] & s.usable[:-2]
     d, e = (np.diff(y, 2)[:, three] for y in (by_count - by_stamps, by_count))
-    kept = np.abs(e) <= OUTLIER * np.quantile(np.abs(e), QUARTILE) / QUARTILE_OF_NORMAL  # spikes say nothing
+    kept = find_inliers(np.abs(e))  # spikes say nothing
     return bool(np.sum((d * e)[kept]) < 0.5 * np.sum((d * d)[kept]))
 
 
