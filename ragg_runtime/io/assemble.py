@@ -31,7 +31,7 @@ from ragg_runtime.io.sampling import Grid, make_grid
 from ragg_runtime.io.tables import DataTable
 from ragg_runtime.io.text_tables import TWO_ROWS
 from ragg_runtime.signals.angular_acceleration import NOTE, derive_accelerations
-from ragg_runtime.signals.derivative import bridge_gaps, runs
+from ragg_runtime.signals.derivative import bridge_gaps, fill_gaps, runs
 
 BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded."""
@@ -121,23 +121,23 @@ def make_flight(
     return flight
 
 
-def derive_acceleration(x: Flight, stuck: Mask | None = None) -> Flight:
-    """The flight with its angular acceleration derived anew, unless it was recorded; rates are ``stuck`` (N,) somewhere.
+def derive_acceleration(x: Flight, lost: Mask | None = None) -> Flight:
+    """The flight with its angular acceleration derived anew, unless it was recorded; some rates are ``lost`` (N,).
 
-    Over few samples without a rate it is derived as over spikes, which are no gap.
+    Over few samples without a rate, spikes among them, it is derived from rates that are filled in.
     """
     if not x.written or ANGULAR_ACCELERATION[0] in x.written or ANGULAR_RATE[0] not in x.channels:
         return x
     nowhere = np.zeros(len(x), dtype=np.bool_)
-    lacking = (nowhere if x.lacking is None else x.lacking) | (nowhere if stuck is None else stuck)
+    lacking = (nowhere if x.lacking is None else x.lacking) | (nowhere if lost is None else lost)
     gap = np.zeros_like(lacking)
     for run in runs(lacking):
         gap[run] = run.stop - run.start > WIDEST_SPIKE
-    bridged = (bridge_gaps(x.channels[n], ~lacking, smooth=True) for n in ANGULAR_RATE)
+    bridged = (fill_gaps(x.channels[n], ~lacking) for n in ANGULAR_RATE)
     rates = [np.where(gap, np.nan, v) for v in bridged]
     slopes, sure = derive_accelerations(rates, x.time)
     made = {n: bridge_gaps(v, np.isfinite(v)) for n, v in zip(ANGULAR_ACCELERATION, slopes, strict=True)}
-    return replace(x, channels={**x.channels, **made}, valid=x.valid & sure)
+    return replace(x, channels={**x.channels, **made}, valid=x.valid & sure, lacking=lacking)
 
 
 # --- columns and units ---------------------------------------------------------------------------------

@@ -7,12 +7,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import minimum_filter1d
 from scipy.signal import periodogram
 
 from ragg_runtime.base.errors import count
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import derive_acceleration
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, Flag, is_disc_angle
+from ragg_runtime.io.record import (
+    ANGULAR_ACCELERATION,
+    ANGULAR_RATE,
+    SPECIFIC_FORCE,
+    WIDEST_SPIKE,
+    Flag,
+    is_disc_angle,
+)
 from ragg_runtime.signals.derivative import bridge_gaps, runs
 from ragg_runtime.signals.resolution import find_step
 
@@ -47,6 +55,9 @@ SUDDEN = 5.0
 LOST = 2e-3
 """Relative error of a derivative from which what was recorded is not enough. The power in the highest quarter of the recorded band is
 that of the error, within 0.6 and 1.5 times its size on 400 spectra (90 %)."""
+
+LOCAL = 64
+"""Pairs of neighbours in whose median move the resolution of a column is seen: it stands still in parts."""
 
 RARE, RARE_ZEROS = 1e-3, 0.1
 """Number of such runs to be expected in the whole record below which one is no chance; of zeros, which recorders write."""
@@ -102,8 +113,8 @@ def leave_out_repeated(flight: Flight) -> Flight:
     changed = replace(flight, outputs=outputs, channels=channels, valid=valid)
     rates = [r for name, r in found if name in ANGULAR_RATE]
     if rates:
-        stuck = np.any([r.left_out for r in rates if r.how == "stuck"] or [~np.ones_like(valid)], axis=0)
-        changed = derive_acceleration(changed, stuck)
+        all_lost = [r.left_out for r in rates if r.how in ("stuck", "not renewed")]
+        changed = derive_acceleration(changed, np.any(all_lost or [np.zeros_like(valid)], axis=0))
     return changed.flagged(_flags(found, flight))
 
 
@@ -177,9 +188,10 @@ def _joined(x: Array, there: Mask) -> _Repeated | None:
 def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
     """(N,): samples in runs of equal values that are too long for how often the column repeats a value elsewhere.
 
-    The chance that two neighbours are equal is counted in the pairs before and after a run, as many as it has. Runs that a column
-    enters and leaves by a ``step`` or two of its resolution are where it turns; those at an end of its range are saturation, an effect
-    of its own, unless the column leaps there.
+    The chance that two neighbours are equal is counted in the pairs before and after a run, as many as it has; or it is the resolution
+    over the usual move thereabouts, whichever makes a run less likely, as few pairs cannot tell how small a chance is. Runs that a
+    column enters and leaves by a ``step`` or two of its resolution are where it turns; those at an end of its range are saturation, an
+    effect of its own, unless the column leaps there.
     """
     found = np.zeros(len(x), dtype=np.bool_)
     equals = np.array([(r.start, r.stop + 1) for r in runs(equal)], dtype=np.intp).reshape(-1, 2)
@@ -188,7 +200,9 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
     first, last = equals[:, 0], equals[:, 1] - 1
     inside = (x[first] != low) & (x[first] != high)
     sudden = np.minimum(moves[first], moves[last + 1]) > SUDDEN * np.median(moves[1:-1][~equal])
-    kept = (last - first >= 3) & (inside | sudden)
+    finest = max(step, float(np.spacing(np.max(np.abs(x[there])))))
+    by_step = np.minimum(finest / np.maximum(_find_usual_moves(np.abs(np.diff(x)), there), finest), 1.0)
+    kept = inside | sudden
     first, last = first[kept], last[kept]
     long = np.zeros(len(equal), dtype=np.bool_)
     for a, b in zip(first, last, strict=True):
@@ -198,11 +212,28 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
     left, right = np.maximum(first - reach, 0), np.minimum(last + reach, len(equal))
     same = before[first] - before[left] + before[right] - before[last]
     chance = (same + 1) / (first - left + right - last + 2)
-    expected = len(x) * chance ** (last - first)
+    chance = np.where(last - first < 3, 1.0, chance)  # too few to count by
+    expected = len(x) * np.minimum(chance, by_step[first]) ** (last - first)
     expected[np.maximum(moves[first], moves[last + 1]) <= 2.5 * step] = np.inf
     for k in np.flatnonzero(expected < np.where(x[first] == 0.0, RARE_ZEROS, RARE)):
-        found[first[k] : last[k] + 1] = True
+        reading = x[first[k]] != 0.0 and last[k] - first[k] < 3  # of which the others are copies
+        found[first[k] + reading : last[k] + 1] = True
+    # a column that hardly ever meets a value, and meets 0 several times: readings that did not arrive
+    zeros = [r for r in runs(there & (x == 0.0)) if r.stop - r.start <= WIDEST_SPIKE]
+    if len(zeros) > 1 and len(x) * float(np.median(by_step)) < RARE:
+        for r in zeros:
+            found[r] = True
     return found
+
+
+def _find_usual_moves(moves: Array, there: Mask) -> Array:
+    """(N,): the least median of moves from sample to sample, (N - 1,), in a sample's own block and the two beside it."""
+    size = min(LOCAL, len(moves))
+    pairs = there[1:] & there[:-1]
+    blocks = np.array_split(np.where(pairs, moves, np.nan), len(moves) // size)
+    usual = np.array([np.median(b[np.isfinite(b)]) if np.isfinite(b).any() else 0.0 for b in blocks])
+    usual = minimum_filter1d(usual, 3, mode="nearest")
+    return np.repeat(usual, [len(b) for b in blocks])[np.r_[0 : len(moves), len(moves) - 1]]
 
 
 def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
@@ -221,17 +252,17 @@ def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]
 
 def _describe(r: _Repeated, flight: Flight) -> str:
     at = np.flatnonzero(r.left_out)
-    if r.how == "stuck":
+    if r.how in ("stuck", "not renewed") and max(x.stop - x.start for x in runs(r.left_out)) <= WIDEST_SPIKE:
+        where = ", ".join(f"{t:.6g}" for t in flight.time[at[:3]]) + " ..." * (len(at) > 3)
+        lost = f"repeated, or zero, at {count(len(at), 'sample')} (t = {where} s)"
+        return f"{lost}: readings that did not arrive? not used"
+    if r.how in ("stuck", "not renewed"):
         places = runs(r.left_out)
         some = ", ".join(
             f"{x.stop - x.start} equal samples from {flight.time[x.start]:.5g} s" for x in places[:3]
         )
         more = f" and {len(places) - 3} times more" if len(places) > 3 else ""
         return f"the value is stuck: {some}{more}, unlike noise; {len(at)} samples not used"
-    if r.how == "not renewed":
-        where = ", ".join(f"{t:.6g}" for t in flight.time[at[:3]]) + " ..." * (len(at) > 3)
-        lost = f"all repeat their values, or are zero, at {count(len(at), 'sample')} (t = {where} s)"
-        return f"{lost}: readings that did not arrive? not used"
     return (
         f"recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
     )

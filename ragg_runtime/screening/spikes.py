@@ -106,6 +106,7 @@ def leave_out_glitches(flight: Flight) -> Flight:
     """The flight with spikes of its motion interpolated, their samples marked as not valid, and flags of them."""
     channels, valid = dict(flight.channels), np.array(flight.valid)
     flags: dict[str, Flag] = {}
+    off = np.zeros_like(valid)  # samples that lack a rate
     angles = [n for n in channels if is_disc_angle(n)]
     for name in (*angles, *SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION):
         if name not in channels:
@@ -114,6 +115,7 @@ def leave_out_glitches(flight: Flight) -> Flight:
         mask, channels[name] = find(flight.channels[name], flight.valid)
         if mask.any():
             valid &= ~mask
+            off |= mask & (name in ANGULAR_RATE)
             flags[name] = Flag((name,), describe_spikes(name, mask, flight.time))
     for name in [n for n in channels if n not in angles and (n in AUXILIARY or n not in SI_UNITS)]:
         mask, channels[name] = find_spikes_of_slow(channels[name])
@@ -123,7 +125,7 @@ def leave_out_glitches(flight: Flight) -> Flight:
         return flight
     changed = replace(flight, channels=channels, valid=valid)
     if ANGULAR_ACCELERATION[0] not in flight.written and any(n in ANGULAR_RATE for n in flags):
-        changed = derive_acceleration(changed)
+        changed = derive_acceleration(changed, off)
         flags = {n: f for n, f in flags.items() if n not in ANGULAR_ACCELERATION}
     return changed.flagged(list(flags.values()))
 
