@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -127,20 +126,15 @@ def test(
     squares, along = np.sum(small[:, :-1] ** 2, axis=0), small[:, -1] @ small[:, :-1]
     seen = squares > low**2
     alone = np.where(seen, along**2 / np.where(seen, squares, 1.0), 0.0).tolist()
-    best, charge = Test(0.0, 0, 0.0, ()), 0.0
-    for block, count in _list_ways(_kinds(columns)):
-        chi2, rank = (
-            (alone[block[0]], int(seen[block[0]]))
-            if len(block) == 1
-            else measure_explained(small, block, low)
-        )
-        log_p = min(0.0, log_sf(chi2, rank, freedom) + math.log(count) + penalty)
-        if rank and log_p < best.log_p:
-            best, charge = Test(chi2, rank, log_p, tuple(every[k] for k in block)), math.log(count)
-    if not best.which:
-        chi2, rank = measure_explained(small, range(len(every)), low)
-        best = Test(chi2, rank, min(0.0, log_sf(chi2, rank, freedom) + penalty), tuple(every))
-    return replace(best, log_b=float(log_bayes(best.chi2, best.rank)) - charge - penalty)
+    blocks, counts = zip(*_list_ways(_kinds(columns)), strict=True)
+    chi2, rank = np.array(
+        [(alone[b[0]], int(seen[b[0]])) if len(b) == 1 else measure_explained(small, b, low) for b in blocks]
+    ).T
+    charge = np.log(counts) + penalty
+    evidence = log_bayes(chi2, rank) - charge
+    k = int(np.argmax(np.where(rank > 0, evidence, -np.inf)))
+    log_p = min(0.0, log_sf(float(chi2[k]), int(rank[k]), freedom) + float(charge[k]))
+    return Test(float(chi2[k]), int(rank[k]), log_p, tuple(every[n] for n in blocks[k]), float(evidence[k]))
 
 
 DRAWS = 1000

@@ -15,8 +15,9 @@ from scipy.special import comb
 from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.calibration import QUIET, charge_wider_priors, restore_priors
 from ragg_runtime.estimation.fitted import Fitted, fit, prepare_evidence, release_held
+from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
-from ragg_runtime.identification import contenders, selection
+from ragg_runtime.identification import contenders, likelihood_ratio, selection
 from ragg_runtime.identification.contenders import ContenderFit, Extend
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.parameters import list_physical_columns
@@ -221,32 +222,50 @@ def _weigh_evidence(t: Test, columns: int) -> float:
 
 
 def _add_to_model(stage: Stage, effect: str, alternatives: tuple[str, ...], extend: Extend) -> AddedEffect:
-    """An effect of a stage derived into the model, with the coefficients that its test needs, and everything fitted anew."""
-    f = stage.fitted
-    held = list_unneeded(stage.field, effect, stage.choice.tests[effect].which)
+    """An effect of a stage derived into the model, with the coefficients that it needs, and everything fitted anew."""
+    f, field, test = stage.fitted, stage.field, stage.choice.tests[effect]
+    held = list_unneeded(field, effect, test.which)
     model, instrument = contenders.derive_with(
         f, [effect], stage.instants, extend, candidates=True, held=held
     )
+    after = fit(model, instrument, f.observations)
+    tests = _test_about_values(release_held(after))
+    held = frozenset().union(*(unneeded for unneeded, _ in tests.values()))
+    if held != after.instrument.held:
+        after = fit(model, replace(instrument, held=held), f.observations)
+    unneeded, about = tests.get(effect, (held, test))
+    if about.rank:
+        charge = about.charge + field.penalty.get(effect, 0.0)
+        log_b = float(log_bayes(test.chi2 / test.inflation, about.rank)) - charge
+        which = tuple(n for n, c in field.candidates[effect] if c.label not in unneeded)
+        test = replace(test, rank=about.rank, log_b=log_b, which=which)
     return AddedEffect(
         effect=effect,
-        test=stage.choice.tests[effect],
+        test=test,
         before=f,
-        after=_with_released(fit(model, instrument, f.observations)),
+        after=after,
         alternatives=alternatives,
         instant=stage.instants.get(effect),
     )
 
 
-def _with_released(f: Fitted) -> Fitted:
-    """The fit with all coefficients of its effects, if those that were held are plainly needed: beside the strongest a test sees few."""
-    if not f.instrument.held:
-        return f
-    free = release_held(f)
-    gain = float(np.sum(f.whole[f.n_base :, -1] ** 2) - np.sum(free.whole[free.n_base :, -1] ** 2))
-    if log_bayes(gain, free.n_base - f.n_base) < selection.DISTINGUISHABLE:
-        return f
-    released = replace(f.instrument, held=frozenset())
-    return fit(f.model, released, f.observations, start=f.calibration.p)
+def _test_about_values(f: Fitted) -> dict[str, tuple[frozenset[str], Test]]:
+    """Of every effect of a fit a linear test about the fitted values, where it is right, and labels of the coefficients that it does
+    not need.
+    """
+    c, found = f.calibration, {}
+    for effect in dict.fromkeys(q.effect for q in c.columns if q.effect is not None):
+        # what is not zero on the sheet shapes the effect, and is no coefficient of it
+        own = [n for n, q in enumerate(c.columns) if q.effect == effect and not f.sheet[c.index[n]]]
+        others = [n for n in range(f.n_base) if n not in own]
+        without = f.whole[:, -1] - f.whole[:, own] @ f.to_nominal[own]
+        P = compute_r_factor(np.vstack([f.whole[:, [*others, *own]].T, without]))[
+            len(others) :, len(others) :
+        ]
+        tested = [(k, c.columns[n]) for k, n in enumerate(own)]
+        test = likelihood_ratio.test(P, tested, np.full(P.shape[1], likelihood_ratio.TESTABLE))
+        found[effect] = frozenset(q.label for k, q in tested if k not in test.which), test
+    return found
 
 
 def _are_alike(a: Test, b: Test) -> bool:

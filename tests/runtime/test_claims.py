@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation import calibration, whitening
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, fit
 from ragg_runtime.estimation.observation import BLOCKS, observe_flights
-from ragg_runtime.estimation.regressors import list_base_columns
+from ragg_runtime.estimation.regressors import Column, list_base_columns
 from ragg_runtime.identification import claims, likelihood_ratio, omnibus
 from ragg_runtime.identification.claims import Regression, Robust
 from ragg_runtime.identification.likelihood_ratio import log_bayes
@@ -45,6 +45,15 @@ def test_effects_that_explain_the_same_are_alike_however_uneven_their_scores_see
     assert first.log_b > second.log_b + 10.0
     assert are_alike(first, second)
     assert not are_alike(first, replace(plain, chi2=60.0, log_b=float(log_bayes(60.0, 1))))
+
+
+def test_a_strong_effect_is_tested_with_all_coefficients_that_it_needs() -> None:
+    size = np.diag([10.0, 10.0, 1.0])
+    own = [(k, Column("e.x", k + 1, 1.0, "1", 1.0, "e")) for k in range(2)]
+    for second, needed in ((30.0, (0, 1)), (1.0, (0,))):  # beside a thousand sigma
+        size[:, -1] = 1000.0, second, 70.0
+        t = likelihood_ratio.test(size, own, np.zeros(3), freedom=1000.0)
+        assert (t.which, t.rank, t.chi2) == (needed, len(needed), pytest.approx(1e6 + (second > 1.0) * 900.0))
 
 
 def test_blocks_that_hardly_carry_an_effect_tell_nothing_of_its_scores() -> None:
