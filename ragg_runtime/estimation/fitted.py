@@ -19,7 +19,7 @@ from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, Observation
 from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import Error, Tally, pool_errors
-from ragg_runtime.estimation.thinning import leave_out_uncertain, measure_beyond
+from ragg_runtime.estimation.thinning import leave_out_extrapolated, leave_out_uncertain, measure_beyond
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, prepare_flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import make_vector, scale_factor
@@ -250,6 +250,24 @@ def calibrate(
     return (instrument, c) if c.excess <= QUIET else found
 
 
+def calibrate_certain(
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    *,
+    noise: Sequence[NoiseModel] | None = None,
+    start: Array | None = None,
+    unweighted: bool = False,
+) -> tuple[list[Observation], Instrument, Calibration]:
+    """The same on the samples that the model describes, and these."""
+    observations = leave_out_uncertain(model, instrument, observations)
+    found = calibrate(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
+    kept = leave_out_extrapolated(model, instrument, found[1].p, observations)
+    if all(a is b for a, b in zip(kept, observations, strict=True)):
+        return (observations, *found)
+    return (kept, *calibrate(model, instrument, kept, noise=noise, start=start, unweighted=unweighted))
+
+
 @one_thread
 def fit(
     model: Model,
@@ -265,8 +283,7 @@ def fit(
 
     ``noise`` is estimated unless given; ``unweighted``: all samples weigh the same. Without ``candidates`` no effect can be tested.
     """
-    observations = leave_out_uncertain(model, instrument, observations)
-    instrument, c = calibrate(
+    observations, instrument, c = calibrate_certain(
         model, instrument, observations, noise=noise, start=start, unweighted=unweighted
     )
     if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):

@@ -10,8 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from ragg_runtime.estimation.calibration import charge_wider_priors, measure_to_nominal, restore_priors
-from ragg_runtime.estimation.fitted import Fitted, calibrate
-from ragg_runtime.estimation.thinning import leave_out_uncertain
+from ragg_runtime.estimation.fitted import Fitted, calibrate_certain
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model.model import Model
@@ -64,8 +63,7 @@ def fit_contender(f: Fitted, model: Model, sheet: Instrument) -> ContenderFit:
 
     Every parameter that only the sheet knew before, and the record does now, costs 2 (AIC).
     """
-    observations = leave_out_uncertain(model, sheet, f.observations)
-    instrument, c = calibrate(model, sheet, observations, noise=f.calibration.noise)
+    _, instrument, c = calibrate_certain(model, sheet, f.observations, noise=f.calibration.noise)
     x = -measure_to_nominal(model, instrument, c)
     known = len(c.columns) - float(np.trace(c.covariance))
     left_out = f.calibration.rows - c.rows  # each would have its share of the noise

@@ -24,7 +24,7 @@ from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.selection import make_field
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
-from ragg_runtime.model import model
+from ragg_runtime.model import derive, model
 from ragg_runtime.model.evaluate import evaluate_output, make_vector
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.report import panels
@@ -217,6 +217,18 @@ G0 = 9.8
 def long_flight() -> tuple[Scenario, Flight]:
     s = scenario(61, duration=600.0)
     return s, s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
+
+
+def test_ends_whose_derivative_does_not_fit_are_not_fitted(
+    flown: tuple[Scenario, Flight], whole: Observation
+) -> None:
+    n, packaged = len(whole.record.time), model.load_packaged()
+    with_lag = derive.with_effects(flown[0].sheet, packaged, ["lag"])
+    p = make_vector(with_lag, flown[0].instrument)
+    off = replace(whole, series=tuple(y + 0.1 * (np.arange(n) == n - 2) for y in whole.series))
+    for m, o, left_out in ((packaged, off, []), (with_lag, whole, []), (with_lag, off, [0, 1, n - 2, n - 1])):
+        (kept,) = thinning.leave_out_extrapolated(m, flown[0].sheet, p, [o])
+        assert np.flatnonzero(~kept.record.valid).tolist() == left_out
 
 
 @pytest.mark.parametrize("samples", [24, 1000, 30000, 40000, 360_000, 8_640_000])
