@@ -53,11 +53,24 @@ class Conclusion:
         base = omnibus.search_residuals(found.first.fitted) if chosen.effects else []
         before = _Lead.of(found, chosen, count, base)
         lead = before if outcome is chosen else _Lead.of(found, outcome, count, base)
+        claimed = () if lead is None else _choose_claims(outcome, lead, base)
+        one = _find_common_kind(found, outcome.effects)
+        while not (claimed or one or outcome.remains) and len(outcome.effects) > 1:
+            # generic terms do as well as all of these, but perhaps not as well as those without the weakest
+            e = max(
+                outcome.effects,
+                key=lambda e: (_log_p(outcome, outcome.significance(e), found.log_p.get(e)), e),
+            )
+            less = found.without(outcome, e)
+            if less.remains:
+                break
+            outcome, weak = less, [*weak, e]
+            lead = _Lead.of(found, outcome, count, base)
+            claimed = () if lead is None else _choose_claims(outcome, lead, base)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         random = _list_random(outcome, count)
         doubted = apart or outcome.explained.complaint is not None
-        one = _find_common_kind(found, outcome.effects)
-        claimed = () if lead is None or doubted or one is not None else _choose_claims(outcome, lead, base)
+        claimed = () if doubted or one is not None else claimed
         # noise that follows the motion grows with the motion: a random effect models just that
         exceeds = outcome.exceeds_noise and not random
         remains = line is not None or left.significant or outcome.complaint is not None or exceeds
