@@ -35,24 +35,27 @@ def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
         little = [r for r, (_, f) in zip(noted, flags, strict=True) if f.kind == "still"]
         return replace(d, reasons=(*little, *d.reasons)) if little else d
     if any(f.kind == "motion-noise" for _, f in flags):
-        d = _drop_random(d)
+        kinds = {e.id: e.kind for e in d.target.model.candidates}
+        d = _claim_only(d, [e for e in d.found if kinds.get(e) != "random"])
     odd = [f for _, f in flags if f.open]
-    if not odd or (d.found and all(set(d.found) <= set(f.effects) for f in odd)):
+    described = [e for e in d.found if all(e in f.effects for f in odd)]
+    if not odd or (described and len(described) == len(d.found)):
         return replace(d, reasons=(*noted, *d.reasons))
+    others = [e for e in d.found if e not in described]
     would = (
-        (Reason(f"{', '.join(d.found)} would explain it, but such a record cannot confirm it"),)
-        if d.found
+        (Reason(f"{', '.join(others)} would explain it, but such a record cannot confirm it"),)
+        if others
         else ()
     )
     reasons = (*noted, *would, *(r for r in d.reasons if not r.is_verdict))
-    return replace(d, verdict="unexplained", found=(), groups=(), reasons=reasons)
+    verdict = name_verdict(claimed=bool(described), remains=True)
+    return replace(_claim_only(d, described), verdict=verdict, reasons=reasons)
 
 
-def _drop_random(d: Diagnosis) -> Diagnosis:
-    """The diagnosis without random effects."""
-    kinds = {e.id: e.kind for e in d.target.model.candidates}
-    kept = tuple(e for e in d.found if kinds.get(e) != "random")
-    if kept == d.found:
+def _claim_only(d: Diagnosis, kept: Sequence[str]) -> Diagnosis:
+    """The diagnosis without the other effects."""
+    if list(d.found) == list(kept):
         return d
     groups = tuple(g for g in d.groups if g.effects[0] in kept)
-    return replace(d, verdict=name_verdict(claimed=bool(kept), remains=d.remains), found=kept, groups=groups)
+    verdict = name_verdict(claimed=bool(kept), remains=d.remains)
+    return replace(d, verdict=verdict, found=tuple(kept), groups=groups)

@@ -15,7 +15,7 @@ from ragg_runtime.estimation.observation import observe
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.instrument.units import EOTVOS
-from ragg_runtime.io.record import GRADIENT
+from ragg_runtime.io.record import GRADIENT, Flag
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import checks, screen, timing
@@ -55,6 +55,11 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect(
     heeded = heed_flags(diagnose(model, s.sheet, [still]), [still])
     assert (heeded.verdict, heeded.found) == ("unexplained", ())
     assert "a_x does not change at all" in str(heeded.reason)
+    odd = x.flagged([Flag((), "a spin rate of its own", open=True, effects=("spin-rate-offset",))])
+    two = replace(d, verdict="missing-effect", found=("magnetic-scale", "spin-rate-offset"))
+    heeded = heed_flags(two, [odd])
+    assert (heeded.verdict, heeded.found) == ("partly-explained", ("spin-rate-offset",))
+    assert "magnetic-scale would explain it, but" in " ".join(r.text for r in heeded.reasons)
     at_rest = replace(x, channels={n: np.full(len(x), np.mean(v)) for n, v in x.channels.items()})
     little = heed_flags(replace(d, reasons=()), [x.flagged(checks.list_remarks(s.sheet, at_rest))])
     assert (little.verdict, little.reason) == ("adequate", checks.AT_REST)
