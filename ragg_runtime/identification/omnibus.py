@@ -19,7 +19,6 @@ from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise_estimate import compute_line_width
-from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.regressors import predict_observed
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, divide_flight
@@ -28,6 +27,7 @@ from ragg_runtime.identification.features import find_term_unit
 from ragg_runtime.identification.likelihood_ratio import Variance, pool_variances
 from ragg_runtime.identification.spectral_line import Periodogram
 from ragg_runtime.identification.time_varying import BlockScores
+from ragg_runtime.identification.uneven import Scatter
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -240,26 +240,19 @@ class Scores:
         A = self.sums.along[list(places)]
         return G[np.ix_(row, row)] - A @ A.T
 
-    def inflation(self, places: Sequence[int]) -> Array:
-        """How much more than they should the scores of some terms vary between blocks of time, at least 1."""
-        edges, order = self.prepared.edges, np.sort(places)
+    def measure_scatter(self, places: Sequence[int]) -> Scatter:
+        """How much more than they should the scores of some terms vary, each beside the term itself."""
+        order = np.sort(places)
         along = self.sums.along[order]
+        coefficient = (self.sums.dot / self.norms**2)[order]
 
-        def of_blocks(piece: Piece) -> Array:
+        def of(piece: Piece) -> Array:
             Q = self.projector.basis(piece)
-            y = self.projector.left(piece, Q)
-            X = self.whitened(piece, places) - along @ Q.T
-            block = np.searchsorted(edges, piece.sample, side="right") - 1
-            found = np.zeros((2, BLOCKS, len(order)))
-            for b in np.unique(block):
-                here = block == b
-                found[:, b] = X[:, here] @ y[here], np.sum(X[:, here] ** 2, axis=1)
-            return found
+            X = (self.whitened(piece, places) - along @ Q.T).T
+            return Scatter.of(X, self.projector.left(piece, Q)[:, None] - X * coefficient)
 
-        score, square = sum(self.prepared.each(of_blocks), np.zeros((2, BLOCKS, len(order))))
-        left = score - square * (np.sum(score, axis=0) / np.sum(square, axis=0))  # besides the term itself
-        by = np.maximum(np.sum(left**2, axis=0) / np.sum(square, axis=0), 1.0)
-        return np.asarray(by[np.argsort(np.argsort(places))])
+        sums = sum(self.prepared.each(of), np.zeros((3, len(order))))
+        return Scatter.from_sums(sums[:, np.argsort(np.argsort(places))])
 
 
 def make_dictionary(x: PreparedFlight) -> Dictionary:
@@ -338,16 +331,16 @@ def pursue(s: Scores, tried: int = 0) -> Omnibus:
     if first >= np.log(FAMILY):
         return nothing
     places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, int(np.sum(np.isfinite(norm))))]
-    sober = np.ones(len(places))
+    sober, known = np.ones(len(places)), np.full(len(places), freedom)
     if s.prepared.noise.uneven:
-        sober = np.sqrt(s.inflation([int(k) for k in places]))
-        freedom = min(freedom, BLOCKS - 1.0)
-        first = _log_p(z[places] / sober, tried, freedom)
+        scatter = s.measure_scatter([int(k) for k in places])
+        sober, known = np.sqrt(scatter.inflation), np.minimum(freedom, scatter.freedom)
+        first = _log_p(z[places] / sober, tried, known)
         if first >= np.log(FAMILY):
             return replace(nothing, log_p=first)
     G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
     order = np.array([s.dictionary.terms[k].order for k in places])
-    taken = list(_pursue(z[places], sober, G, order, lambda x: _log_p(x, tried, freedom)))
+    taken = list(_pursue(z[places], sober, G, order, lambda x: _log_p(x, tried, known)))
     if not taken:
         return replace(nothing, log_p=first)
     # together the terms take so much of each, in whitened units, and with it what of each the columns explain
@@ -422,10 +415,16 @@ def _as_term(s: Scores, place: int, norm: float, t: _Taken) -> ResidualTerm:
     )
 
 
-def _log_p(z: Array, tried: int, freedom: float = np.inf) -> float:
-    """p-value, as a logarithm, of the largest of so many standard deviates; ``freedom``: from which the noise is known."""
-    top = float(np.max(np.abs(z), initial=0.0))
-    return min(0.0, log_sf_t(top, freedom) + float(np.log(2 * max(tried, 1) / SHARES[0])))
+def _log_p(z: Array, tried: int, freedom: Array | float = np.inf) -> float:
+    """p-value, as a logarithm, of the most significant of so many standard deviates; ``freedom``: from which the variance of all, or of
+    each, is known.
+    """
+    size = np.abs(z)
+    if np.ndim(freedom) == 0:
+        least = log_sf_t(float(np.max(size, initial=0.0)), float(freedom))
+    else:
+        least = min(log_sf_t(float(x), float(f)) for x, f in zip(size, np.asarray(freedom), strict=True))
+    return min(0.0, least + float(np.log(2 * max(tried, 1) / SHARES[0])))
 
 
 @dataclass(frozen=True)
