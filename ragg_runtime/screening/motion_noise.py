@@ -20,12 +20,19 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS, Units
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import derive_acceleration
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT, SPECIFIC_FORCE, Flag
+from ragg_runtime.io.record import (
+    ANGULAR_ACCELERATION,
+    ANGULAR_RATE,
+    GRADIENT,
+    SPECIFIC_FORCE,
+    WIDEST_SPIKE,
+    Flag,
+)
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening.linear_fit import fit_rows
 from ragg_runtime.screening.sampler import Rows, make_sampler
-from ragg_runtime.signals.derivative import runs
+from ragg_runtime.signals.derivative import PREDICTED, fill_gaps, runs
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
@@ -79,18 +86,18 @@ class MotionNoise:
     weaker: float
 
 
-def measure_noise(x: Array) -> MotionNoise:
+def measure_noise(x: Array, there: Mask) -> MotionNoise:
     """What the steps of a converter make of a column (N,), or the floor of its spectrum, if it has a flat one, whichever is more.
 
     The floor is an upper bound, as motion may have one, too.
     """
-    step = find_step(x) or 0.0
+    step = find_step(x[there]) or 0.0
     lowest, next_one = sorted(
-        float(np.mean(b)) for b in np.array_split(_measure_spectrum(x).density[2:-1], BANDS) if len(b)
+        float(np.mean(b)) for b in np.array_split(_measure_spectrum(x, there).density[2:-1], BANDS) if len(b)
     )[:2]
     floor = float(np.sqrt(0.5 * lowest)) if next_one < FLAT * lowest else 0.0
     std = max(step / float(np.sqrt(12.0)), floor)
-    return MotionNoise(std, step, min(1.0, std**2 / max(float(np.var(x)), 1e-300)))
+    return MotionNoise(std, step, min(1.0, std**2 / max(float(np.var(x[there])), 1e-300)))
 
 
 @dataclass(frozen=True)
@@ -102,12 +109,21 @@ class _Spectrum:
     scatter: float
 
 
-def _measure_spectrum(x: Array) -> _Spectrum:
-    """Of a column (N,)."""
-    window = min(WINDOW, max(8, len(x) // 8))
-    f, density = signal.welch(x, nperseg=window, detrend=signal.detrend)
+def _measure_spectrum(x: Array, there: Mask) -> _Spectrum:
+    """Of a column (N,) of which some samples are ``there``: by all stretches in which a few at most are missing at a time."""
+    whole = np.array(there)
+    for r in runs(~there):
+        whole[r] = r.stop - r.start <= WIDEST_SPIKE
+    lengths = np.array([r.stop - r.start for r in runs(whole)])
+    window = WINDOW
+    while window > 8 and np.sum(lengths[lengths >= window]) < max(8 * window, 0.5 * np.sum(lengths)):
+        window //= 2
+    filled, parts = fill_gaps(x, there), runs(whole, window)
+    taken = [signal.welch(filled[r], nperseg=window, detrend=signal.detrend) for r in parts]
+    share = np.array([r.stop - r.start for r in parts], dtype=np.float64)
+    density = np.average([d for _, d in taken], axis=0, weights=share)
     smoothed = np.convolve(np.pad(density, 1, mode="edge"), TRIANGLE, mode="valid")
-    return _Spectrum(f, smoothed, SCATTER * float(np.sqrt(window / len(x))))
+    return _Spectrum(taken[0][0], smoothed, SCATTER * float(np.sqrt(window / np.sum(share))))
 
 
 def smooth_noisy_motion(model: Model, instrument: Instrument, flight: Flight, place: int) -> Flight:
@@ -115,8 +131,8 @@ def smooth_noisy_motion(model: Model, instrument: Instrument, flight: Flight, pl
 
     That a floor is noise is a hypothesis: with motion smoothed that is none, the model explains less of the output ``place``.
     """
-    some = _longest(flight.valid)
-    if some.stop - some.start < 8 * BANDS:
+    there = flight.valid
+    if not runs(there, PREDICTED + 1):
         return flight  # of motion that is held at a lower rate, for example, nothing can be told
 
     def take(x: Flight) -> Rows:
@@ -128,7 +144,7 @@ def smooth_noisy_motion(model: Model, instrument: Instrument, flight: Flight, pl
     for names in (SPECIFIC_FORCE, ANGULAR_RATE, ANGULAR_ACCELERATION, GRADIENT):
         if names is ANGULAR_ACCELERATION and names[0] not in flight.written:
             continue  # derived from the rates
-        noise = {n: measure_noise(flight.channels[n][some]) for n in names if n in flight.channels}
+        noise = {n: measure_noise(flight.channels[n], there) for n in names if n in flight.channels}
         stds = {n: q.std for n, q in noise.items() if q.std > 0.0}
         if not stds:
             continue
@@ -183,7 +199,7 @@ def predict_true(x: Array, there: Mask, std: float) -> Array:
     It is B C^-1 x, C the covariance of the measured column, B that of the true one with it: with the ends and gaps that the record has.
     """
     found = np.array(x)
-    spectrum = _measure_spectrum(x[_longest(there)])
+    spectrum = _measure_spectrum(x, there)
     for block in np.array_split(np.arange(len(x)), -(-len(x) // BLOCK)):
         rows = block[there[block]]
         if len(rows) > 2:
@@ -216,11 +232,6 @@ def _predict_block(x: Array, at: NDArray[np.intp], count: int, std: float, q: _S
         maxiter=MOST,
     )
     return np.asarray(trend(np.arange(count)) + std * filtered(S - 1.0, whitened)[:count])
-
-
-def _longest(there: Mask) -> slice:
-    """The longest segment without a gap."""
-    return max(runs(there), key=lambda r: r.stop - r.start, default=slice(0, 0))
 
 
 def _describe(x: Flight, known: Units, noise: Mapping[str, MotionNoise], before: float, after: float) -> Flag:

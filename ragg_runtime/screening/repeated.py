@@ -218,10 +218,12 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
     for k in np.flatnonzero(expected < np.where(x[first] == 0.0, RARE_ZEROS, RARE)):
         reading = x[first[k]] != 0.0 and last[k] - first[k] < 3  # of which the others are copies
         found[first[k] + reading : last[k] + 1] = True
-    # a column that hardly ever meets a value, and meets 0 several times: readings that did not arrive
-    zeros = [r for r in runs(there & (x == 0.0)) if r.stop - r.start <= WIDEST_SPIKE]
-    if len(zeros) > 1 and len(x) * float(np.median(by_step)) < RARE:
-        for r in zeros:
+    # a column that hardly ever meets a value again, and meets one several times: readings that did not arrive
+    values, counts = np.unique(x[there & ~found], return_counts=True)
+    again = values[(counts >= FEWEST / 2) & (counts >= 4 * np.median(counts))]
+    for value in {0.0, *again} if len(again) <= 3 and len(x) * float(np.median(by_step)) < RARE else ():
+        alike = [r for r in runs(there & (x == value)) if r.stop - r.start <= WIDEST_SPIKE]
+        for r in alike if len(alike) > 1 else ():
             found[r] = True
     return found
 

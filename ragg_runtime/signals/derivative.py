@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import interpolate, ndimage
+from scipy import interpolate, linalg, ndimage
 
 from ragg_runtime.base.errors import UserError
 
@@ -143,27 +143,32 @@ PREDICTED = 24
 
 
 def fill_gaps(x: Array, there: NDArray[np.bool_]) -> Array:
-    """A series (N,), and where samples are missing those that it predicts best: it is taken to be autoregressive, its coefficients
-    and the missing samples, one after the other, to be those that leave the least errors of prediction (A. Janssen, R. Veldhuis,
-    L. Vries, IEEE Trans. ASSP 34, 1986, 317). Where few stretches are whole, and at the ends, by a spline.
+    """A series (N,), and where up to ``PREDICTED`` samples are missing those that it predicts best: it is taken to be autoregressive,
+    its coefficients and the missing samples, one after the other, to be those that leave the least errors of prediction (A. Janssen,
+    R. Veldhuis, L. Vries, IEEE Trans. ASSP 34, 1986, 317). Elsewhere, and where few stretches are whole, by a spline.
     """
     found, size = bridge_gaps(x, there, smooth=True), PREDICTED + 1
     whole = np.convolve(there, np.ones(size), "valid")[: 1 << 15] > PREDICTED + 0.5
-    if there.all() or len(x) < size or np.sum(whole) < 4 * size:
+    missing = [np.arange(r.start, r.stop) for r in runs(~there) if r.stop - r.start <= PREDICTED]
+    at = np.concatenate([np.zeros(0, dtype=np.intp), *missing])
+    at = at[(at >= PREDICTED) & (at < len(x) - PREDICTED)]
+    if not len(at) or np.sum(whole) < 4 * size:
         return found
-    mean = float(np.mean(found))
-    known = np.lib.stride_tricks.sliding_window_view(found - mean, size)[: len(whole)][whole]
+    y = found - np.mean(found)
+    known = np.lib.stride_tricks.sliding_window_view(y, size)[: len(whole)][whole]
     error = np.r_[-np.linalg.lstsq(known[:, :-1], known[:, -1], rcond=1e-12)[0], 1.0]
-    for run in runs(np.convolve(~there, np.ones(2 * PREDICTED + 1), "same") > 0.5):
-        missing = np.flatnonzero(~there[run])
-        if missing[0] < PREDICTED or missing[-1] + size > run.stop - run.start:
-            continue
-        y = found[run] - mean
-        y[missing] = 0.0
-        left = np.convolve(y, error[::-1], "valid")
-        effect = error[np.clip(missing - np.arange(len(left))[:, None], 0, PREDICTED)]
-        inside = np.abs(missing - np.arange(len(left))[:, None] - PREDICTED / 2) <= PREDICTED / 2
-        found[run.start + missing] = mean - np.linalg.lstsq(effect * inside, left, rcond=None)[0]
+    weights = np.convolve(error, error[::-1])  # of the squared errors: symmetric, PREDICTED on either side
+    matrix = np.zeros((size, len(at)))
+    for k in range(min(size, len(at))):
+        lag = at[k:] - at[: len(at) - k]
+        matrix[k, : len(lag)] = np.where(
+            lag <= PREDICTED, weights[PREDICTED + np.minimum(lag, PREDICTED)], 0.0
+        )
+    off = np.convolve(y, weights, "same")[at]
+    try:
+        found[at] -= linalg.solveh_banded(matrix, off, lower=True)
+    except linalg.LinAlgError:  # as singular as a constant
+        return found
     return found
 
 

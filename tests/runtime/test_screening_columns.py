@@ -227,8 +227,11 @@ def test_readings_that_did_not_arrive_are_left_out() -> None:
     )  # two within as few samples as tell the usual
     x[held] = x[held - [1, 2, 1, 1]]
     x[[500, 3000, 3001]] = 0.0
+    x[1000:3000:400] = 0.7  # a code within the range
     found = leave_out_repeated(Flight(TIME, {"a_y": x}, {}))
-    assert np.flatnonzero(~found.valid).tolist() == [100, 101, 130, 500, 900, 3000, 3001]
+    assert np.flatnonzero(~found.valid).tolist() == [
+        *(100, 101, 130, 500, 900, 1000, 1400, 1800, 2200, 2600, 3000, 3001)
+    ]
     coarse = {n: np.round(rng.standard_normal(N)) for n in SPECIFIC_FORCE}
     assert leave_out_repeated(Flight(TIME, coarse, {})).valid.all()
 
