@@ -6,7 +6,6 @@ import contextlib
 import errno
 import hashlib
 import os
-import shutil
 import stat
 import sys
 import tempfile
@@ -87,15 +86,6 @@ def _find_mode(path: Path) -> int | None:
     if not stat.S_ISREG(mode) and not os.access(path, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
     return mode
-
-
-def require_space(path: Path, size: int) -> None:
-    """OSError where so many bytes do not fit on the disc of ``path``, for libraries that do not survive a full disc (HDF5)."""
-    if shutil.disk_usage(path.parent).free < size:
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
-    if hasattr(os, "posix_fallocate"):
-        with tempfile.TemporaryFile(dir=path.parent) as trial:
-            os.posix_fallocate(trial.fileno(), 0, max(size, 1))
 
 
 def write_text(path: Path, text: str) -> None:

@@ -158,22 +158,19 @@ def read_hdf5(path: Path) -> list[DataTable]:
 
 
 def _find_groups(file: h5py.File) -> Iterator[tuple[str, h5py.Group, dict[str, h5py.Dataset]]]:
-    """Every group once, with its datasets; groups may contain each other in a cycle."""
+    """Every group once, with its datasets: not MATLAB's own, nor links to elsewhere in this file or to another."""
     import h5py
 
-    waiting: list[tuple[str, h5py.Group]] = [("", file)]
-    seen = set()
-    while waiting:
-        place, group = waiting.pop(0)
-        address = h5py.h5o.get_info(group.id).addr
-        if address in seen:
-            continue
-        seen.add(address)
-        # not MATLAB's own groups, nor links to elsewhere in this file or to another
-        names = [n for n in group if n[0] != "#" and isinstance(group.get(n, getlink=True), h5py.HardLink)]
-        items = {n: group[n] for n in names}
-        waiting += [(f"{place}/{n}", x) for n, x in items.items() if isinstance(x, h5py.Group)]
-        yield place, group, {n: x for n, x in items.items() if isinstance(x, h5py.Dataset) and _is_column(x)}
+    found: list[tuple[str, h5py.Group]] = [("", file)]
+    file.visititems(lambda n, x: found.append((f"/{n}", x)) if isinstance(x, h5py.Group) else None)
+    for place, group in found:
+        if "/#" not in place:
+            own = {n: group[n] for n in group if isinstance(group.get(n, getlink=True), h5py.HardLink)}
+            yield (
+                place,
+                group,
+                {n: x for n, x in own.items() if isinstance(x, h5py.Dataset) and _is_column(x)},
+            )
 
 
 def _is_column(data: h5py.Dataset) -> bool:

@@ -6,13 +6,12 @@ A further format is one function ``path -> list of DataTable`` and a line of :da
 from __future__ import annotations
 
 import csv
-import gzip
 import io
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -20,7 +19,7 @@ import pyarrow.csv
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import file_digest, opened, replacing, require_space
+from ragg_runtime.base.files import file_digest, opened, replacing
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.io.array_files import (
@@ -48,41 +47,33 @@ def write_csv(path: Path, columns: Sequence[DataColumn]) -> None:
     csv.writer(header, lineterminator="\n").writerow(titles)
     arrays = [pa.array(c.values, from_pandas=True) for c in columns]
     table = pa.Table.from_arrays(arrays, names=[str(k) for k in range(len(arrays))])
-    with path.open("wb") as raw:
-        # Without a name and a time in the gzip header, equal flights give equal files.
-        compressed = path.name.lower().endswith(".gz")
-        stream: IO[bytes] = gzip.GzipFile("", "wb", 6, raw, mtime=0) if compressed else raw  # type: ignore[assignment]
+    compressed = path.name.lower().endswith(".gz")
+    with path.open("wb") as raw, pa.CompressedOutputStream(raw, "gzip") if compressed else raw as stream:
         stream.write(header.getvalue().encode())
         pyarrow.csv.write_csv(table, stream, pyarrow.csv.WriteOptions(include_header=False))
-        if compressed:
-            stream.close()
 
 
 def write_netcdf(path: Path, columns: Sequence[DataColumn]) -> None:
     """Write columns as float64 variables along ``time``; names of lines that are no numbers in ``flag_meanings`` (CF, 3.5)."""
-    import xarray  # slow to import, and only this format needs it
+    import h5netcdf  # slow to import, and only this format needs it
 
-    variables: dict[str, Any] = {}
-    for c in columns:
-        values: NDArray[Any] = c.values
-        attributes: dict[str, Any] = {"units": c.unit} if c.unit else {}
-        if c.is_text:
-            names, values = np.unique(np.asarray(values, dtype=str), return_inverse=True)
-            attributes = {
-                "flag_values": np.arange(len(names), dtype=np.int32),
-                "flag_meanings": " ".join("_".join(n.split()) for n in names),
-            }
-            values = values.astype(np.int32)
-        variables[c.name] = ("time", values, attributes)
-    require_space(
-        path, estimate_memory([len(c.values) for c in columns])
-    )  # HDF5 does not survive a full disc
-    xarray.Dataset(variables).to_netcdf(path, engine="h5netcdf")
-
-
-def estimate_memory(sizes: Sequence[int]) -> int:
-    """Bytes that columns of so many numbers take at most in a NetCDF file, with their headers."""
-    return (1 << 16) + sum(8 * n + 8192 for n in sizes)
+    whole = io.BytesIO()  # where a disc is full HDF5 crashes as the process ends
+    with h5netcdf.File(whole, "w") as file:
+        file.dimensions = {"time": len(columns[0].values)}
+        for c in columns:
+            values: NDArray[Any] = c.values
+            attributes: dict[str, Any] = {"units": c.unit} if c.unit else {}
+            if c.is_text:
+                names, values = np.unique(np.asarray(values, dtype=str), return_inverse=True)
+                attributes = {
+                    "flag_values": np.arange(len(names), dtype=np.int32),
+                    "flag_meanings": " ".join("_".join(n.split()) for n in names),
+                }
+                values = values.astype(np.int32)
+            missing = None if c.is_text or c.name == "time" else np.nan
+            variable = file.create_variable(c.name, ("time",), data=values, fillvalue=missing)
+            variable.attrs.update(attributes)
+    path.write_bytes(whole.getbuffer())
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ the last one. What a column holds is decided by all of its cells.
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import gzip
 import io
@@ -15,13 +16,14 @@ import zipfile
 import zlib
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import date, datetime, time, timedelta
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.csv
 from numpy.typing import NDArray
 
@@ -70,9 +72,8 @@ THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?\s*")
 POINTED = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:\.\d{3})+,\d*\s*")
 """Numbers with commas between thousands (1,234.5), and with points (1.234,5)."""
 
-_NO_NUMBER = re.compile(r"In CSV column #(\d+): .*CSV conversion error", re.DOTALL)
 _OTHER_WIDTH = re.compile(r"CSV parse error: (?:Row #(\d+): )?Expected (\d+) columns, got (\d+)")
-"""How Arrow says that a cell is no number, and that a line has too few cells or too many."""
+"""How Arrow says that a line has too few cells or too many."""
 
 
 # --- where a table begins ------------------------------------------------------------------------------
@@ -211,42 +212,21 @@ def _join_rows(above: Sequence[str], below: Sequence[str]) -> list[str]:
 # --- CSV -----------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class _Dialect:
-    """How a text is written: ``lines`` come before the first row (``headings``), ``texts`` are columns that hold text."""
-
-    delimiter: str
-    decimal: str
-    lines: int
-    headings: tuple[bytes, ...]
-    header: Header
-    texts: frozenset[int]
-
-
 def read_csv(path: Path) -> list[DataTable]:
     """The text as one table; UserError if it has no header or lines of different widths."""
     data, notes = _read_text(path)
-    dialect = _look(data, path)
-    if dialect.delimiter == _BLANKS and "" in dialect.header.names:  # a date and a time below one name
+    delimiter, headings, header = _look(data, path)
+    if delimiter == _BLANKS and "" in header.names:  # a date and a time below one name
         data = _DATE_CLOCK.sub(rb"\1T\2", data)
-        dialect = _look(data, path)
-    if dialect.delimiter == _BLANKS:
+        delimiter, headings, header = _look(data, path)
+    if delimiter == _BLANKS:
         data = re.sub(rb"(?m)^[ \t]+|[ \t]+(?=\r?$)", b"", data)
-        data, dialect = re.sub(rb"[ \t]+", b" ", data), replace(dialect, delimiter=" ")
-    data = _drop_headers(data, dialect, notes)
-    table, passed = None, list[str]()
-    while table is None:  # a column is of text as soon as one of its cells is no number
-        passed.clear()
-        try:
-            table = _parse(data, dialect, passed)
-        except pa.ArrowInvalid as error:
-            dialect = _changed(dialect, str(error), path)
-    if passed:
-        notes.append(f"{count(len(passed), 'line')} without data skipped: {', '.join(passed[:3])}")
+        data, delimiter = re.sub(rb"[ \t]+", b" ", data), " "
+    data = _drop_headers(data, delimiter, headings, notes)
+    table = _parse(data, delimiter, len(headings), len(header.names), path, notes)
     columns = []
-    for k, x in enumerate(map(convert_arrow, table.columns)):
-        name, unit = dialect.header.names[k], dialect.header.units[k]
-        assert x is not None
+    for k, (name, unit, texts) in enumerate(zip(header.names, header.units, table.columns, strict=True)):
+        x = _read_numbers(texts, name)
         if name:
             columns.append(DataColumn(name, unit, x))
         elif k == 0 and _holds_values(x):  # pandas writes an index without a name so
@@ -254,8 +234,20 @@ def read_csv(path: Path) -> list[DataTable]:
         elif _holds_values(x):
             notes.append(f"column {k + 1} has no name; it is skipped")
     index = INDEX if columns and columns[0].name == INDEX else None
-    notes += dialect.header.notes
-    return [DataTable(tuple(columns), notes=tuple(notes), index=index, counts=("line", dialect.lines + 1))]
+    counts = ("line", len(headings) + 1)
+    return [DataTable(tuple(columns), notes=(*notes, *header.notes), index=index, counts=counts)]
+
+
+def _read_numbers(texts: pa.ChunkedArray, name: str) -> NDArray[Any]:
+    """A column as numbers, or as its texts where one is no number, or digits would be lost; names of lines are words."""
+    there = pc.is_in(cells := pc.utf8_trim_whitespace(texts), pa.array(MISSING), skip_nulls=True)
+    cells = pc.if_else(there, None, cells)
+    if name.casefold() != "line" and not are_packed(cells.slice(0, _LOOKED_AT).drop_null().to_pylist()):
+        if not pc.any(pc.match_substring(cells, ".")).as_py():  # commas are decimal
+            cells = pc.replace_substring(cells, ",", ".")
+        with contextlib.suppress(pa.ArrowInvalid):
+            return np.asarray(convert_arrow(cells.cast(pa.float64())))
+    return np.asarray(convert_arrow(texts))
 
 
 def _holds_values(x: NDArray[Any]) -> bool:
@@ -290,8 +282,8 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
     return data.removeprefix(b"\xef\xbb\xbf").rstrip(b"\0"), []  # recorders reserve room ahead
 
 
-def _look(data: bytes, path: Path) -> _Dialect:
-    """Delimiter, header and kinds of the columns, from the first lines."""
+def _look(data: bytes, path: Path) -> tuple[str, list[bytes], Header]:
+    """Delimiter, lines before the first row, and header, from the first lines."""
     stream = io.TextIOWrapper(io.BytesIO(data), "utf-8", newline="")
     lines = list(itertools.islice(stream, _LOOKED_AT))
     best = None
@@ -303,22 +295,13 @@ def _look(data: bytes, path: Path) -> _Dialect:
         header = find_header(rows)
         score = (0.0, 0) if header is None else (header.share, len(header.names))
         if header is not None and (best is None or score > best[0]):
-            best = score, delimiter, header, rows, ends
+            best = score, delimiter, header, ends
     if best is None:
         raise UserError("the flight file has no header", where=path, expected="time [s],a_x [g],...")
-    _, delimiter, header, rows, ends = best
-    names, sample = header.names, rows[header.begins :]
+    _, delimiter, header, ends = best
+    require_memory(path, len(data) * len(lines) / (sum(map(len, lines)) or 1) * len(header.names) * 8)
     above = ends[header.begins - 1] if header.begins else 0
-    require_memory(path, len(data) * len(lines) / (sum(map(len, lines)) or 1) * len(names) * 8)
-    return _Dialect(
-        delimiter=delimiter,
-        decimal="," if any(map(is_comma, itertools.chain(*sample))) else ".",
-        lines=above,
-        headings=tuple(x.encode() for x in lines[:above]),
-        header=header,
-        # names of lines are words, even where they are numbers
-        texts=frozenset(k for k, n in enumerate(names) if n.casefold() == "line" or _holds_text(sample, k)),
-    )
+    return delimiter, [x.encode() for x in lines[:above]], header
 
 
 def _read_rows(lines: Sequence[str], delimiter: str) -> tuple[list[list[str]], list[int]]:
@@ -342,17 +325,11 @@ def _split_at_blanks(lines: Sequence[str]) -> list[list[str]]:
     return [[c.strip('"') for c in r] for r in found]
 
 
-def _holds_text(rows: Sequence[Sequence[str]], column: int) -> bool:
-    """Whether cells are no numbers, or instants whose digits a number would lose."""
-    cells = [t for r in rows if len(r) > column and (t := r[column].strip()) not in MISSING]
-    return not all(map(is_number, cells)) or are_packed(cells)
-
-
-def _drop_headers(data: bytes, d: _Dialect, notes: list[str]) -> bytes:
+def _drop_headers(data: bytes, delimiter: str, headings: Sequence[bytes], notes: list[str]) -> bytes:
     """The text without repeated headings, as in files that were joined."""
-    begins, repeated = sum(map(len, d.headings)), 0
-    for heading in d.headings:
-        if d.delimiter.encode() in heading and data.find(b"\n" + heading, begins - 1) >= 0:
+    begins, repeated = sum(map(len, headings)), 0
+    for heading in headings:
+        if delimiter.encode() in heading and data.find(b"\n" + heading, begins - 1) >= 0:
             body = data[begins - 1 :]
             repeated += body.count(b"\n" + heading)
             data = data[: begins - 1] + body.replace(b"\n" + heading, b"\n\n")
@@ -361,42 +338,36 @@ def _drop_headers(data: bytes, d: _Dialect, notes: list[str]) -> bytes:
     return data
 
 
-def _parse(data: bytes, d: _Dialect, passed: list[str]) -> pa.Table:
-    """The columns as Arrow reads them; ArrowInvalid where a cell is no number or a line with data has another width.
-
-    Lines of another width that hold no data, such as remarks, go into ``passed``.
-    """
+def _parse(data: bytes, delimiter: str, lines: int, width: int, path: Path, notes: list[str]) -> pa.Table:
+    """The columns as texts; UserError where a line with data has another width. Others, such as remarks, are skipped."""
+    passed: list[str] = []
 
     def judge(row: pyarrow.csv.InvalidRow) -> str:
-        if not _REMARK.match(row.text) and _is_data(row.text.split(d.delimiter)):
+        if not _REMARK.match(row.text) and _is_data(row.text.split(delimiter)):
             return "error"
         passed.append(f"line {row.number} ({row.text[:40]!r})")
         return "skip"
 
-    kinds = {str(k): pa.string() if k in d.texts else pa.float64() for k in range(len(d.header.names))}
+    kinds = {str(k): pa.string() for k in range(width)}
     # with several threads Arrow does not report the row of the error
     options = pyarrow.csv.ReadOptions(
-        skip_rows=d.lines, column_names=list(kinds), block_size=1 << 22, use_threads=False
+        skip_rows=lines, column_names=list(kinds), block_size=1 << 22, use_threads=False
     )
-    parse = pyarrow.csv.ParseOptions(delimiter=d.delimiter, invalid_row_handler=judge)
-    convert = pyarrow.csv.ConvertOptions(column_types=kinds, null_values=MISSING, decimal_point=d.decimal)
+    parse = pyarrow.csv.ParseOptions(delimiter=delimiter, invalid_row_handler=judge)
+    convert = pyarrow.csv.ConvertOptions(column_types=kinds)
     try:
-        return pyarrow.csv.read_csv(pa.BufferReader(data), options, parse, convert)
+        table = pyarrow.csv.read_csv(pa.BufferReader(data), options, parse, convert)
     except pa.ArrowInvalid as error:
-        if "Empty CSV" not in str(error):
-            raise
-        return pa.table({n: pa.array([], k) for n, k in kinds.items()})
-
-
-def _changed(d: _Dialect, error: str, path: Path) -> _Dialect:
-    """Read the file again as Arrow's error suggests; UserError where nothing helps."""
-    if (match := _NO_NUMBER.match(error)) and int(match[1]) not in d.texts:
-        return replace(d, texts=d.texts | {int(match[1])})
-    if match := _OTHER_WIDTH.match(error):
-        where, what = at(path, f"line {match[1]}"), "the line has the wrong number of values"
-        expected = f"{match[2]}, as the header has: the file may be damaged or cut off"
-        raise UserError(what, where=where, found=match[3], expected=expected) from None
-    raise UserError(_NOT_CSV, where=path, found=error.splitlines()[0][:200]) from None
+        if "Empty CSV" in str(error):
+            return pa.table({n: pa.array([], k) for n, k in kinds.items()})
+        if match := _OTHER_WIDTH.match(str(error)):
+            where, what = at(path, f"line {match[1]}"), "the line has the wrong number of values"
+            expected = f"{match[2]}, as the header has: the file may be damaged or cut off"
+            raise UserError(what, where=where, found=match[3], expected=expected) from None
+        raise UserError(_NOT_CSV, where=path, found=str(error).splitlines()[0][:200]) from None
+    if passed:
+        notes.append(f"{count(len(passed), 'line')} without data skipped: {', '.join(passed[:3])}")
+    return table
 
 
 # --- Excel ---------------------------------------------------------------------------------------------

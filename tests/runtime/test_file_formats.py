@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import errno
 import itertools
-import os
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -20,7 +18,7 @@ from scipy.io import netcdf_file, savemat
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight, files, read_flight, write_flight
-from ragg_runtime.io.files import convert, estimate_memory, read_recordings, write_tables
+from ragg_runtime.io.files import convert, read_recordings, write_tables
 from ragg_runtime.io.tables import DataColumn, DataTable
 from tests.runtime.foreign_files import ENDINGS, write
 
@@ -135,20 +133,6 @@ def test_a_failed_writer_leaves_the_old_file(
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
     with pytest.raises(UserError, match="does not exist"):
         write_flight(flight(), tmp_path / "none" / f"x{suffix}")
-
-
-def test_a_disc_without_room_is_asked_beforehand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """HDF5 does not survive a write that fails: it ended in a crash as the process ended."""
-    path, tables = tmp_path / "x.nc", made(500, ())
-    size = estimate_memory([500] * 5)
-    disc = shutil.disk_usage(tmp_path)._replace(free=size - 1)
-    with monkeypatch.context() as patch:
-        patch.setattr(shutil, "disk_usage", lambda place: disc)
-        with pytest.raises(UserError, match=os.strerror(errno.ENOSPC)):
-            write_tables(path, tables)
-    assert list(tmp_path.iterdir()) == []
-    write_tables(path, tables)
-    assert path.stat().st_size <= size
 
 
 def test_parquet_of_other_tools(tmp_path: Path) -> None:
