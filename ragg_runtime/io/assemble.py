@@ -81,8 +81,9 @@ def make_flight(
         _require_output(made, made.names, accelerometers)
     made = _leave_aside(made, leave)
     si, si_units = _convert(made, g0, accelerometers)
+    doubled = _leave_out_doubled(si)
     grid = make_grid(si.pop("time"), made.place)
-    notes = [*made.notes, *_leave_out_impossible(si, si_units), *grid.notes]
+    notes = [*made.notes, *doubled, *_leave_out_impossible(si, si_units), *grid.notes]
     placed = {c: _place(v, grid) for c, v in si.items()}
     _drop_empty(placed, notes, made.place)
     if need_output:  # once more: of the columns that hold anything
@@ -181,6 +182,24 @@ def _convert(
         with np.errstate(invalid="ignore"):
             found[c.name] = np.where(np.abs(values) < ENDLESS, values, np.nan)
     return found, si_units
+
+
+def _leave_out_doubled(si: dict[str, Array]) -> list[str]:
+    """Leave out rows that are in the file once more, to the last digit, with a note: one was appended to another with an overlap.
+
+    Only where time increases without them; else the message about it says more.
+    """
+    time = si["time"]
+    if np.all(np.diff(time) > 0):
+        return []
+    rows = np.ascontiguousarray(np.stack([*si.values()], axis=1)).view(np.dtype((np.void, 8 * len(si))))[:, 0]
+    kept = np.sort(np.unique(rows, return_index=True)[1])
+    lost = len(time) - len(kept)
+    if not lost or not np.all(np.diff(time[kept]) > 0):
+        return []
+    first = time[np.setdiff1d(np.arange(len(time)), kept)[0]]
+    si |= {n: x[kept] for n, x in si.items()}
+    return [f"{count(lost, 'row')} that the file has twice left out (the first at t = {first:.10g} s)"]
 
 
 def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> list[str]:

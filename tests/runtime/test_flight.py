@@ -140,6 +140,18 @@ def test_a_gradient_that_violates_laplace_is_noted(load: Load) -> None:
     assert "1e+03 Eo" in load(table | {n: np.full(N, v) for n, v in gradient.items()}, eo).notes[0]
 
 
+def test_rows_that_a_file_has_twice_count_once(load: Load) -> None:
+    """One file was appended to another, with an overlap; where the rows differ in a digit nobody knows which are right."""
+    rows = np.r_[0:120, 80:N]
+    doubled, whole = {n: v[rows] for n, v in columns().items()}, load(columns())
+    found = load(doubled)
+    assert "40 rows that the file has twice left out (the first at t = 5 s)" in found.notes
+    assert all(np.array_equal(found.channels[n], v, equal_nan=True) for n, v in whole.channels.items())
+    doubled["G_out"][150] += 1.0
+    with pytest.raises(UserError, match=r"jump back by 2\.5 s"):
+        load(doubled)
+
+
 def test_gaps_are_filled_in_and_marked(load: Load) -> None:
     table = columns()
     keep = np.ones(N, dtype=bool)
