@@ -37,7 +37,7 @@ def step(amount: float) -> None:
 
 
 def remark(text: str) -> None:
-    """Say on stderr why nothing happens."""
+    """Say on stderr what is being done, or why nothing happens."""
     click.echo(f"... {text}", err=True)
 
 

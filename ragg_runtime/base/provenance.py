@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import platform
-import shlex
-import sys
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import metadata
@@ -28,11 +26,6 @@ def _installed(name: str) -> str:
         return metadata.version(name)
     except metadata.PackageNotFoundError:
         return MISSING
-
-
-def command() -> str:
-    """The command line of this process, as a shell would read it again."""
-    return shlex.join(["ragg", *sys.argv[1:]])
 
 
 def provenance(

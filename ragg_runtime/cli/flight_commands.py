@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.base.files import write_bytes, write_text
 from ragg_runtime.cli.shared import (
@@ -28,7 +29,6 @@ from ragg_runtime.cli.shared import (
     read,
     series_option,
     source_of,
-    under_way,
     working,
 )
 from ragg_runtime.report.page import Origin
@@ -280,7 +280,7 @@ def compensate(
     m = load(model_dir)
     kept = calibration == "frozen" or (calibration == "online" and m.directory.calibration is not None)
     odd = _calibration_notes(m) if kept else []
-    under_way(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
+    progress.remark(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
     records = api.read_for_compensation(m, flights, mapping)
     with working("compensating", "compare", records):
         c = api.compensate(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.base.files import write_text
 from ragg_runtime.cli.shared import (
@@ -25,7 +26,6 @@ from ragg_runtime.cli.shared import (
     model_argument,
     series_option,
     source_of,
-    under_way,
 )
 from ragg_runtime.report.page import Origin
 from ragg_runtime.wording import describe, describe_other
@@ -174,7 +174,7 @@ def simulate(
     from ragg_runtime.simulate import simulate_flight
 
     m = load(model_dir)
-    under_way("simulating")
+    progress.remark("simulating")
     flight = simulate_flight(
         m.instrument, hidden, mapping=api.mapping_of(m, mapping), no_gradient=not gradient, **options
     )

@@ -162,11 +162,6 @@ def find_wanted() -> Wanted:
     return found
 
 
-def under_way(text: str) -> None:
-    """What is being done, on stderr."""
-    click.echo(f"... {text}", err=True)
-
-
 def load(model_dir: Path) -> Loaded:
     """The model directory; its notes go to stderr."""
     m = api.load(model_dir)
@@ -177,14 +172,14 @@ def load(model_dir: Path) -> Loaded:
 
 def read(m: Loaded, flights: Sequence[Path], mapping: Path | None) -> list[Flight]:
     """The flights, read and examined."""
-    under_way(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
+    progress.remark(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
     return api.read_flights(m, flights, mapping)
 
 
 @contextlib.contextmanager
 def working(text: str, command: str, flights: Sequence[Flight]) -> Iterator[None]:
     """Report on stderr what is being done, and how far it is."""
-    under_way(text)
+    progress.remark(text)
     with progress.shown(command, sum(map(len, flights))):
         yield
 
@@ -216,7 +211,7 @@ def conclude(
     """
     wanted = find_wanted()
     if wanted.report_file is not None and page is not None:
-        under_way("writing the report")
+        progress.remark("writing the report")
         origin = Origin(title or "", command_line(), ()) if source is None else Origin.of(source, title)
         if wanted.report_file in STDOUT:
             click.echo(page(origin), nl=False)

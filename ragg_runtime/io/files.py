@@ -180,11 +180,9 @@ def read_tables(source: Any) -> list[DataTable]:
 # --- reading -------------------------------------------------------------------------------------------
 
 
-def read_recordings(source: Any, mapping: Mapped | None = None) -> list[DataTable]:
-    """The records in a file or in memory, one for each line; see :func:`.recording.make_recordings`."""
-    source = Path(source) if isinstance(source, str) else source
-    place = source if isinstance(source, Path) else "flight"
-    return make_recordings(read_tables(source), place, mapping)
+def read_recordings(source: Path | str, mapping: Mapped | None = None) -> list[DataTable]:
+    """The records in a file, one for each line; see :func:`.recording.make_recordings`."""
+    return make_recordings(read_tables(Path(source)), Path(source), mapping)
 
 
 def read_flights(

@@ -20,7 +20,7 @@ from ragg_runtime.io.instants import WAYS, Stamps, are_packed, count_seconds_sin
 from ragg_runtime.io.mapping import Entry, Mapped, Null, TimeEntry
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.tables import DataColumn, DataTable, choose_tables, is_unit, name_line, split_lines
-from ragg_runtime.io.text_tables import MISSING, POINTED, QUANTITY, THOUSANDS, is_comma, write_plain
+from ragg_runtime.io.text_tables import MISSING, QUANTITY, write_plain
 
 Array = NDArray[np.float64]
 
@@ -40,6 +40,9 @@ counters stand still nearly always."""
 
 _VECTOR = re.compile(r"(a|omega|omegadot|B)_([xyz])")
 _TENSOR = re.compile(r"Gamma_([xyz])([xyz])")
+_THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?\s*")
+_POINTED = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:\.\d{3})+,\d*\s*")
+"""Numbers with commas between thousands (1,234.5), and with points (1.234,5)."""
 _NINES = re.compile(r"-?9{3,}(?:\.(?:0|25|9+))?")
 
 
@@ -252,17 +255,13 @@ def parse_numbers(texts: NDArray[np.object_]) -> Array:
             return np.nan
 
     plain = [write_plain(str(t)) for t in texts]
-    if any(map(POINTED.fullmatch, plain)):
+    if any(map(_POINTED.fullmatch, plain)):
         return np.array([parse(t.replace(".", "").replace(",", ".")) for t in plain])
-    points = any("." in t for t in plain)
-    decimal = not points and not all(map(THOUSANDS.fullmatch, filter(is_comma, plain)))
-    found = np.array([parse(t) for t in plain], dtype=np.float64)
-    for k in np.flatnonzero(np.isnan(found)):
-        if points and THOUSANDS.fullmatch(plain[k]):
-            found[k] = parse(plain[k].replace(",", ""))
-        elif decimal and is_comma(plain[k]):
-            found[k] = parse(plain[k].replace(",", "."))
-    return found
+    if any("." in t for t in plain):
+        return np.array([parse(t.replace(",", "") if _THOUSANDS.fullmatch(t) else t) for t in plain])
+    if all(map(_THOUSANDS.fullmatch, (t for t in plain if "," in t))):
+        return np.array([parse(t) for t in plain])
+    return np.array([parse(t.replace(",", ".")) for t in plain])
 
 
 def find_spoiled(texts: NDArray[np.object_], numbers: Array) -> NDArray[np.bool_]:

@@ -66,12 +66,7 @@ _REMARK = re.compile(r"^\s*(?:#|%|//|!)+\s*")
 _DATE_CLOCK = re.compile(rb"(\d[/.-]\d\d?[/.-]\d+)[ \t]+(\d\d?:\d\d:)")
 _EXPONENT = re.compile(r"([\d.])[dD]([+-]?\d)")
 _GROUPED = re.compile(r"(?<=\d)['\u2019 \u00a0\u202f](?=\d{3}(?:\D|$))")
-_COMMA = re.compile(r"\s*[+-]?\d+,\d+(?:[eE][+-]?\d+)?\s*")
-
-THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?\s*")
-POINTED = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:\.\d{3})+,\d*\s*")
-"""Numbers with commas between thousands (1,234.5), and with points (1.234,5)."""
-
+_NUMBER = re.compile(r"\s*[+-]?[.,]?\d[\d.,]*(?:[eE][+-]?\d+)?\s*")
 _OTHER_WIDTH = re.compile(r"CSV parse error: (?:Row #(\d+): )?Expected (\d+) columns, got (\d+)")
 """How Arrow says that a line has too few cells or too many."""
 
@@ -164,27 +159,12 @@ def _is_data(row: Sequence[Any]) -> bool:
 
 def is_number(text: str) -> bool:
     """Whether a cell is a number, however its thousands and decimals are divided."""
-    found = _is_float(text) or _is_float(write_plain(text))
-    found = found or any(x.fullmatch(text) for x in (_COMMA, THOUSANDS, POINTED))
-    return found and text.strip() not in MISSING
-
-
-def _is_float(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    return _NUMBER.fullmatch(write_plain(text)) is not None
 
 
 def write_plain(text: str) -> str:
     """A number with the minus of print, the D of Fortran or blanks between thousands as programs read it."""
     return _GROUPED.sub("", _EXPONENT.sub(r"\1e\2", text.replace("\u2212", "-")))
-
-
-def is_comma(text: str) -> bool:
-    """Whether a cell is a number with a decimal comma."""
-    return _COMMA.fullmatch(text) is not None
 
 
 def _needs_a_row_above(names: Sequence[str]) -> bool:

@@ -33,26 +33,16 @@ class Warming:
         return REFERENCE_TEMPERATURE + self.change * settled + self.swing.value(time)
 
 
-def plausible(
-    rng: np.random.Generator,
-    *,
-    warming: float = 2.0,
-    swing: float = 0.1,
-    roll: float = 0.02,
-    pitch: float = 0.02,
-) -> Mapping[str, Auxiliary]:
+def plausible(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
     """Temperature, roll, pitch, pressure and magnetic field of a survey line.
 
-    ``warming``, K, has a time constant of 20 minutes; ``swing``: amplitude of the slow swings, K; ``roll``, ``pitch``:
-    standard deviations, rad.
+    It warms by 2 K with a time constant of 20 minutes, and swings slowly by 0.1 K.
     """
-    swings = Sinusoids(
-        0.0, swing * np.array([0.7, 0.3]), 1 / rng.uniform(200, 900, 2), rng.uniform(0, 6.28, 2)
-    )
+    swings = Sinusoids(0.0, 0.1 * np.array([0.7, 0.3]), 1 / rng.uniform(200, 900, 2), rng.uniform(0, 6.28, 2))
     return {
-        "temperature": Warming(warming, 1200.0, swings),
-        "roll": _attitude(rng, roll).value,
-        "pitch": _attitude(rng, pitch).value,
+        "temperature": Warming(2.0, 1200.0, swings),
+        "roll": _attitude(rng, 0.02).value,
+        "pitch": _attitude(rng, 0.02).value,
         "pressure": _slow(rng, REFERENCE_PRESSURE - 3000.0, 300.0).value,
         **{f"B_{k}": _slow(rng, mean, 2e-6).value for k, mean in zip("xyz", _EARTH_FIELD, strict=True)},
     }

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ragg_runtime.base.errors import count
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.identification import series
@@ -152,7 +153,7 @@ def write_addition(
 
 def write_history(steps: Sequence[Json], origin: Origin) -> str:
     """The report of ``history``."""
-    first = Section(sentences=(f"{describe.count_nouns(len(steps), 'step')}.",))
+    first = Section(sentences=(f"{count(len(steps), 'step')}.",))
     table = Section(title="Steps", table=describe.tabulate_history(steps))
     drawn = panels.plot_history(steps, float("nan"))
     return render_page("History", [_with_plots(first, drawn), table], origin)

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
+from ragg_runtime.base.errors import count
 from ragg_runtime.wording import numbers
 from ragg_runtime.wording.numbers import join_names, number
 from ragg_runtime.wording.sections import Section, Table, tabulate
@@ -80,10 +81,6 @@ def group_notes(notes: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
     for flight, note in notes:
         about.setdefault(note, []).append(flight)
     return about
-
-
-def count_nouns(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def tabulate_errors(rows: Sequence[tuple[str, Json | None]]) -> Section:
@@ -335,7 +332,7 @@ def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sect
     note = "" if explained else " ".join(explain_patterns([p for _, p in clear]))
     found = [Section("Values", table=tabulate(clear, columns, words=3, note=note))] if clear else []
     if hidden := len(every) - len(clear):
-        summary = f"{count_nouns(hidden, 'value')} of little significance"
+        summary = f"{count(hidden, 'value')} of little significance"
         table = tabulate(every, columns, words=3)
         found.append(Section("All values", table=table, detail=True, summary=summary))
     return tuple(found)
@@ -484,9 +481,9 @@ def _untestable(d: Json) -> Sections:
         sizes.setdefault(s["effect"], []).append(_write_size(str(s["three_sigma"])))
     found = []
     if silent:
-        count = f"{count_nouns(len(silent), 'effect')} of the catalogue cannot be tested on this record"
+        summary = f"{count(len(silent), 'effect')} of the catalogue cannot be tested on this record"
         table = Table(("effect", "why"), silent, words=2)
-        found.append(Section("Not testable", table=table, detail=True, summary=count))
+        found.append(Section("Not testable", table=table, detail=True, summary=summary))
     if sizes:
         rows = tuple((str(e), ", ".join(v)) for e, v in sizes.items())
         note = "Size that would be significant at three standard deviations, in the accelerometer that shows it best."

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from ragg_runtime.base.errors import count
 from ragg_runtime.wording import numbers
 from ragg_runtime.wording.describe import (
     CLEAR,
     Columns,
     Json,
     Sections,
-    count_nouns,
     explain_patterns,
     format_error,
     format_value,
@@ -309,7 +309,7 @@ def _survey_notes(done: Sequence[Json]) -> list[Section]:
         return []
     noted = tuple((note, write_flights(names)) for note, names in about.items())
     table = Table(("note", "flights"), noted, words=2)
-    summary = f"{count_nouns(len(noted), 'note')} on the flights"
+    summary = f"{count(len(noted), 'note')} on the flights"
     return [Section(title="Notes", table=table, detail=True, summary=summary)]
 
 
@@ -360,7 +360,7 @@ def describe_next_motion(r: Json, output: str) -> Sections:
 
 def describe_flight_file(f: Json) -> Sections:
     """What a flight file holds, and what is assumed: the result of ``info``."""
-    head = f"{f['path']!s}: {f['format']}, {numbers.fixed(f['bytes'] / 1e6, 2)} MB, {count_nouns(len(f['records']), 'record')}."
+    head = f"{f['path']!s}: {f['format']}, {numbers.fixed(f['bytes'] / 1e6, 2)} MB, {count(len(f['records']), 'record')}."
     found = [Section(sentences=(head,), state="bad" if any(r["refused"] for r in f["records"]) else "good")]
     for r in f["records"]:
         found += _record_sections(r)
@@ -379,7 +379,7 @@ def _record_sections(r: Json) -> list[Section]:
     if r["gap_count"]:
         longest = max(r["gaps"], key=lambda g: g["samples"])
         text.append(
-            f"{count_nouns(r['gap_count'], 'gap')}, {count_nouns(r['missing'], 'sample')} missing; the longest from"
+            f"{count(r['gap_count'], 'gap')}, {count(r['missing'], 'sample')} missing; the longest from"
             f" {number(longest['from_s'], 5)} to {number(longest['to_s'], 5)} s."
         )
     text += [f"note: {n!s}" for n in r["notes"]]
