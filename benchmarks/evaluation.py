@@ -62,7 +62,7 @@ def contenders(p: Any) -> tuple[dict[str, Call], dict[str, str]]:
     from benchmarks import rivals
     from ragg_runtime.model.model import load_packaged
 
-    compiled, blocks = load_packaged().compiled("c"), load_packaged().compiled("numpy")
+    compiled, blocks = load_packaged().compiled(), load_packaged().compiled(native=False)
     ours: dict[str, Call] = {
         # which allocate what they return, as for users
         OURS: lambda t, x, out: compiled.output(t, x, p),
@@ -117,16 +117,16 @@ def layouts(p: Any) -> Iterator[tuple[str, Any, Any, float]]:
     from tests.layouts import sheets
 
     exact = Form(kinematics="full", **dict(PRESETS["exact"]))  # type: ignore[arg-type]
-    yield PAPER, load_packaged().compiled("c"), p, 1.0
-    yield "full kinematics", load_packaged("full").compiled("c"), p, 1.3
-    yield "full kinematics and exact order", derive.derived((), (), exact)[0].compiled("c"), p, 2.0
+    yield PAPER, load_packaged().compiled(), p, 1.0
+    yield "full kinematics", load_packaged("full").compiled(), p, 1.3
+    yield "full kinematics and exact order", derive.derived((), (), exact)[0].compiled(), p, 2.0
     for name, discs, count in (
         ("two complements on a disc, an output", sheets.complements(), 8),
         ("an umbrella of three discs, an output", sheets.umbrella(), 12),
     ):
         i = parse_instrument(sheets.sheet(discs, count))
         model = derive.derived((), (), i.form, i.layout)[0]
-        yield name, model.compiled("c"), make_vector(model, i), 1.3
+        yield name, model.compiled(), make_vector(model, i), 1.3
 
 
 def layout_rows(t: Any, x: Any, p: Any) -> list[Row]:

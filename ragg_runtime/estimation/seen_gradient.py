@@ -57,7 +57,7 @@ class ModelledOutput:
 
     @cached_property
     def evaluator(self) -> Evaluator:
-        return self.model.compiled("auto" if len(self.observation.record.time) >= MANY else "numpy")
+        return self.model.compiled(len(self.observation.record.time) >= MANY)
 
     def find_scale_factor(self, p: Array) -> float:
         """V/Eo, by parameters p (size,), SI."""

@@ -8,13 +8,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
-from typing import Literal, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from generated.folded import disc_angle
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.compile import BuildError, build, load
@@ -49,8 +48,6 @@ def find_places(chain: ChainModule) -> dict[str, slice]:
 
 Inputs = Sequence[ArrayLike] | NDArray[np.floating]
 """One series of N samples each, in the order of the model."""
-Backend = Literal["auto", "c", "numpy"]
-
 BLOCK = 4096
 """Samples that NumPy evaluates at a time, in cache."""
 
@@ -129,10 +126,6 @@ class Evaluator:
         self, j: int, t: ArrayLike, inputs: Inputs, p: ArrayLike, angle: ArrayLike | None = None
     ) -> Array:
         """Derivatives of V_j, j counted from 0, (rows, N), in the order of the chain's ROWS."""
-        if j not in range(self.layout.size):
-            raise UserError(
-                "there is no such accelerometer", found=j, expected=f"0 ... {self.layout.size - 1}"
-            )
         case = self._case(t, inputs, p, angle)
         D = np.empty((len(self.chain.ROWS), len(case[0])))
         if self.library is not None:
@@ -158,16 +151,10 @@ class Evaluator:
         """The arguments as the generated code takes them: contiguous float64 is used where it lies, the rest converted."""
         time, values, *rows = (np.ascontiguousarray(x, dtype=np.float64) for x in (t, p, *inputs))
         phi = None if angle is None else np.ascontiguousarray(angle, dtype=np.float64)
-        series = {"t": time, **dict(zip(self.chain.INPUTS, rows, strict=False))}
-        series |= {} if phi is None else {"angle": phi}
-        if len(rows) != len(self.chain.INPUTS):
-            expected = f"{len(self.chain.INPUTS)}: {' '.join(self.chain.INPUTS)}"
-            raise UserError("wrong number of input series", found=len(rows), expected=expected)
-        if values.shape != (self.chain.SIZE,):
-            raise UserError("wrong number of parameters", found=values.shape, expected=(self.chain.SIZE,))
-        for name, x in series.items():
-            if x.shape != (time.size,):
-                raise UserError(f"{name} is not a series of {time.size} samples", found=f"shape {x.shape}")
+        series = (*rows, *([] if phi is None else [phi]))
+        # the generated code reads beyond the end of what is shorter
+        assert (len(rows), values.shape) == (len(self.chain.INPUTS), (self.chain.SIZE,))
+        assert all(x.shape == (time.size,) for x in series)
         return time, rows, values, phi
 
 
@@ -194,22 +181,18 @@ def make_evaluator(
     sources: Mapping[str, str],
     name: str = "chain",
     *,
-    backend: Backend = "auto",
+    native: bool = True,
     folded: ModuleType | None = None,
     quick: bool = False,
     quiet: bool = False,
 ) -> Evaluator:
-    """The evaluator of a module by its C ``sources``, name -> text; where that cannot be made in NumPy, with a note unless ``quiet``
-    (backend ``c``: UserError). ``quick``: compiled for one fit.
+    """The evaluator of a module by its C ``sources``, name -> text, unless not ``native``; where that cannot be made in NumPy, with a
+    note unless ``quiet``. ``quick``: compiled for one fit.
     """
-    if backend not in ("auto", "c", "numpy"):
-        raise UserError("unknown backend", found=repr(backend), expected="auto, c or numpy")
-    if backend != "numpy" and sources:
+    if native and sources:
         try:
             return Evaluator(chain, layout, load(build(sources, quick=quick)), name=name)
         except BuildError as error:
-            if backend == "c":
-                raise UserError("the model cannot be compiled", found=str(error)) from None
             if not quiet:
                 _warn_once(str(error))
     return Evaluator(chain, layout, folded=folded, name=name)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.layout import PAPER, Layout
-from ragg_runtime.model.evaluator import Backend, ChainModule, Evaluator, make_evaluator
+from ragg_runtime.model.evaluator import ChainModule, Evaluator, make_evaluator
 
 Array = NDArray[np.float64]
 
@@ -149,9 +149,9 @@ class Model:
 
         return compiled
 
-    def compiled(self, backend: Backend = "auto") -> Evaluator:
-        """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
-        return make_evaluator(self.chain, self.layout, self.sources, backend=backend, folded=self.folded)
+    def compiled(self, native: bool = True) -> Evaluator:
+        """The model as machine code, compiled on first use; in NumPy where it is not to be, or, with a note, cannot be."""
+        return make_evaluator(self.chain, self.layout, self.sources, native=native, folded=self.folded)
 
     def effect(self, identifier: str) -> DerivedEffect | None:
         """The effect of this id, in the model or not; ``None`` if unknown."""

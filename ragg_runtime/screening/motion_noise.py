@@ -166,7 +166,7 @@ def smooth_noisy_motion(model: Model, instrument: Instrument, flight: Flight, pl
 
 def _compare(model: Model, p: Array, one: Rows, other: Rows, place: int) -> float:
     """Eo rms: how far apart the outputs of a model with parameters ``p`` are at the rows of two flights."""
-    evaluate = model.compiled("numpy").output
+    evaluate = model.compiled(native=False).output
     first, second = (evaluate(r.time, r.inputs(model.chain), p, r.phi, which=place) for r in (one, other))
     return float(np.std(second - first)) / abs(scale_factor(model, p, place))
 

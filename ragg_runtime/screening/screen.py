@@ -252,7 +252,7 @@ def _without_output_spikes(model: Model, instrument: Instrument, s: Sampler, fli
 def _residual(model: Model, s: Sampler, fitted: Array) -> Array:
     """(columns, N) Eo: what a model with these parameters leaves of the output."""
     size = len(s.flight)
-    evaluator = model.compiled("auto" if size >= MANY else "numpy")
+    evaluator = model.compiled(size >= MANY)
     left = np.empty((len(s.columns), size))
     for rows in split_range(size, CHUNK):
         some = s.take(np.arange(rows.start, rows.stop))

@@ -108,27 +108,10 @@ def demodulate(
         Sum of k_VI K1 R, V per s^-2 (in SI; 4.54e-4 V/Eo is 4.54e5).
     attenuation
         Of the low-pass's stop band, dB.
-
-    Raises
-    ------
-    UserError
-        If the record is shorter than the filter, or the arrays differ in length.
     """
     G = np.asarray(G_out, dtype=np.float64)
     angle = np.asarray(phi, dtype=np.float64)
-    if G.ndim != 1 or G.shape != angle.shape:
-        raise UserError(
-            "the output and the disc angle must be series of one length",
-            found=f"shapes {G.shape} and {angle.shape}",
-        )
     taps = low_pass(rate, attenuation=attenuation)
-    if G.size < taps.size:
-        raise UserError(
-            "the record is shorter than the demodulator's low-pass",
-            found=f"{G.size / rate:.3g} s",
-            expected=f"at least {taps.size / rate:.3g} s",
-            remedy="record longer",
-        )
     half = taps.size // 2
     inline = convolve(4 * G * np.sin(2 * angle), taps) / k_ggi
     cross = -convolve(2 * G * np.cos(2 * angle), taps) / k_ggi

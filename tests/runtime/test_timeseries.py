@@ -146,11 +146,7 @@ def test_filter_is_symmetric_with_half_amplitude_at_the_cutoff() -> None:
     assert np.sum(taps**2) * RATE / 2 == pytest.approx(0.2, rel=0.1)
 
 
-def test_bad_records_are_refused() -> None:
-    with pytest.raises(UserError, match="shorter"):
-        demodulate(np.zeros(100), np.zeros(100), RATE, 1.0)
-    with pytest.raises(UserError, match="one length"):
-        demodulate(np.zeros(100), np.zeros(99), RATE, 1.0)
+def test_a_low_pass_above_half_the_rate_is_refused() -> None:
     with pytest.raises(UserError, match="sampling rate"):
         demodulate(np.zeros(100), np.zeros(100), 0.4, 1.0)
 

@@ -188,7 +188,7 @@ class Contents:
             if name not in wide and rate in wide:
                 wide[name] = differentiate_rate(wide[rate], RATE)[0]
         model = self.model if "folded.c" in self.sources else replace(self.model, folded=None)
-        evaluator, found = model.compiled("numpy"), {}
+        evaluator, found = model.compiled(native=False), {}
         for k, o in enumerate(self.outputs()):
             record = Record(
                 time=t,
