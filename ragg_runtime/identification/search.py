@@ -131,7 +131,8 @@ class Evidence:
         first = self.first
         known = [e for e in o.effects if e in first.field.candidates]
         linear, _ = first.field.joint([self._block(e) for e in known]) if known else (0.0, 0)
-        rank = sum(self.test(e).rank for e in o.effects)
+        blocks, field = self.last.choice.blocks, self.last.field
+        rank = sum(field.joint([blocks[e]])[1] if e in blocks else self.test(e).rank for e in o.effects)
         own = () if o.given else [e for e in o.target.model.effects if e.id in o.effects]
         remembers = any(e.memory is not None for e in own)
         if o.given or (linear < strong.STRONG and len(known) == len(o.effects) and not remembers):

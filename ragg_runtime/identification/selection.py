@@ -190,6 +190,7 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
             break
         chosen = list(blocks)
         remaining = f.tests(chosen)
+    blocks = _settle_blocks(f, blocks)
     chi2 = f.joint([blocks[e] for e in chosen])[0] if chosen else 0.0
     return Choice(chosen=tuple(chosen), blocks=blocks, tests=first, conditional=remaining, chi2=chi2)
 
@@ -208,6 +209,18 @@ def _swap(f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]]) -> di
         if best is not None and conditional[best].log_b > conditional[old].log_b + SWAPPED:
             chosen = [*others, best]
             blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
+    return blocks
+
+
+def _settle_blocks(f: Field, blocks: dict[str, tuple[int, ...]]) -> dict[str, tuple[int, ...]]:
+    """The columns of the chosen effects, each the best beside those of the others: their tests were beside all columns of these."""
+    seen: set[tuple[tuple[int, ...], ...]] = set()
+    while len(blocks) > 1 and (now := tuple(blocks.values())) not in seen:
+        seen.add(now)
+        for e in blocks:
+            P, floor = f.onto([n for other in blocks if other != e for n in blocks[other]])
+            beside = likelihood_ratio.test(P, f.candidates[e], floor, f.penalty.get(e, 0.0), f.freedom)
+            blocks = blocks | {e: beside.which} if beside.rank else blocks
     return blocks
 
 
