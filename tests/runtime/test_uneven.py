@@ -122,6 +122,19 @@ def test_records_of_noise_keep_to_the_level_of_the_catalogue() -> None:
     assert stats.binom.sf(alarms - 1, runs, false_alarms.CATALOGUE) > 0.01, alarms
 
 
+def test_of_two_effects_those_accelerometers_are_chosen_that_have_both() -> None:
+    rng = np.random.default_rng(0)
+    u, r, w, z = np.linalg.qr(rng.normal(size=(400, 4)))[0].T
+    v = 0.9 * u + 0.44 * r
+    X = np.column_stack([u, u + 0.3 * w, v, v + 0.3 * z])
+    T = np.linalg.qr(np.column_stack([X, X @ [0.0, 60.0, 0.0, -60.0] + rng.normal(size=400)]), mode="r")
+    columns = {
+        e: tuple((2 * k + a, Column(f"{e}.x", a + 1, 1.0, "1", 1.0, e)) for a in range(2))
+        for k, e in enumerate("ef")
+    }
+    assert selection.choose(Field(T, 0, columns, 400)).blocks == {"e": (1,), "f": (3,)}
+
+
 def test_the_largest_of_many_scores_keeps_to_the_level_of_the_remainder() -> None:
     rng = np.random.default_rng(6)
     level, tried, runs = 0.2, 2000, 2000  # a level at which 2,000 records tell; the p-value knows none
