@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
@@ -25,6 +24,7 @@ from ragg_runtime.model.directory import (
     MAPPING,
     HistoryStep,
     ModelDir,
+    compute_digest,
     create_model_dir,
     identity,
     load_model_dir,
@@ -271,7 +271,7 @@ class Source:
     @property
     def inputs(self) -> list[tuple[str, str]]:
         """(name, SHA-256) of everything that the result depends on."""
-        text = hashlib.sha256(self.m.directory.text.encode()).hexdigest()
+        text = compute_digest(self.m.directory.text)
         read = [(x.name, x.digest) for x in self.flights]
         elsewhere = [(name, digest) for name, _, digest in self.files if digest]
         return [(f"{self.m.name}/model.toml", text), *read, *elsewhere]

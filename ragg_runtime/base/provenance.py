@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
 import platform
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import metadata
+from pathlib import Path
 
 LIBRARIES = ("numpy", "scipy", "sympy", "pint", "pandas", "pyarrow", "xarray", "h5netcdf", "h5py")
 """What the numbers of a result depend on, beside this package."""
@@ -34,3 +36,14 @@ def provenance(
     """The object ``provenance`` of a JSON result: command line, identity of the model, (path, SHA-256) of the flights."""
     flights = [{"path": path, "digest": digest} for path, digest in files]
     return {**versions(), **(model or {}), "flights": flights, "command": made_by}
+
+
+@cache
+def digest_sources(*packages: str, suffixes: tuple[str, ...] = (".py",), first: str = "") -> str:
+    """SHA-256 of the text of the program's own packages, wherever they are, and of what comes ``first``."""
+    total, root = hashlib.sha256(first.encode()), Path(__file__).parents[2]
+    files = {p.relative_to(root).as_posix(): p for name in packages for p in (root / name).rglob("*")}
+    for name in sorted(n for n in files if n.endswith(suffixes)):
+        text = files[name].read_bytes()
+        total.update(f"{name} {len(text)}\n".encode() + text)
+    return total.hexdigest()

@@ -6,7 +6,6 @@ model directory: they are code.
 
 from __future__ import annotations
 
-import hashlib
 import inspect
 import json
 import os
@@ -15,20 +14,20 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import metadata, resources
 from importlib.metadata import entry_points
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.base.files import read_text, write_text
+from ragg_runtime.base.provenance import digest_sources
 from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.compile import private_folder
-from ragg_runtime.model.directory import DIGEST, read_digest
+from ragg_runtime.model.directory import DIGEST, compute_digest, read_digest
 from ragg_runtime.model.model import Model, load_files, load_packaged
 
 if TYPE_CHECKING:
@@ -262,9 +261,9 @@ def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candida
     }
     chosen = [s.id for s in instrument.effects] if ids is None else ids
     asked: list[object] = [
-        _derivation(),
+        digest_sources("derive", suffixes=(".py", ".j2"), first=metadata.version("sympy")),
         [[i, expressions.get(i)] for i in chosen],
-        sorted(map(_sha256, list_own_sources().values())),
+        sorted(map(compute_digest, list_own_sources().values())),
         instrument.form.as_json(),
         candidates and expressions,
     ]
@@ -275,7 +274,7 @@ def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candida
             dict(layouts.constants(layout)),
             [[o.name, o.members, o.signs] for o in layout.outputs],
         ]
-    return _sha256(json.dumps(asked, sort_keys=True))
+    return compute_digest(json.dumps(asked, sort_keys=True))
 
 
 def kept(asked: str) -> Mapping[str, str] | None:
@@ -310,27 +309,6 @@ def _expression_key(e: Mapping[str, object]) -> object:
         for name, q in parameters.items()
     }
     return [str(e["stage"]), str(e["add"]), kept]
-
-
-@cache
-def _derivation() -> str:
-    """Digest of the derivation itself: its sources, and the SymPy that it uses."""
-    total = hashlib.sha256(metadata.version("sympy").encode())
-    pending: list[tuple[str, Traversable]] = [("derive", resources.files("derive"))]
-    sources: dict[str, bytes] = {}
-    while pending:
-        name, place = pending.pop()
-        if place.is_dir():
-            pending += [(f"{name}/{p.name}", p) for p in place.iterdir() if p.name != "__pycache__"]
-        elif name.endswith((".py", ".j2")):
-            sources[name] = place.read_bytes()
-    for name in sorted(sources):
-        total.update(f"{name} {len(sources[name])}\n".encode() + sources[name])
-    return total.hexdigest()
-
-
-def _sha256(text: str) -> str:
-    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
 GROUP = "ragg.effects"

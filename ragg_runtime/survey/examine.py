@@ -5,13 +5,12 @@ A job is text and numbers only, so that it can be sent to any process; the recor
 
 from __future__ import annotations
 
-import hashlib
 import platform
 import socket
 import traceback
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, lru_cache, partial
+from functools import lru_cache, partial
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -19,8 +18,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-import ragg_runtime
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.provenance import digest_sources
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe_flights
@@ -80,18 +79,12 @@ def make_job(
     return Job(str(text), str(path.resolve()), mapping, fingerprint(), cluster)
 
 
-@cache
 def fingerprint() -> tuple[tuple[str, str], ...]:
     """(name, version) of everything that figures depend on, with a digest of the program's own text."""
-    total = hashlib.sha256()
-    root = Path(str(ragg_runtime.__file__)).parents[1]
-    for package in ("derive", "generated", "ragg_runtime"):
-        for path in sorted((root / package).rglob("*.py")):
-            text = path.read_bytes()
-            total.update(f"{path.relative_to(root).as_posix()} {len(text)}\n".encode() + text)
     python = ".".join(platform.python_version_tuple()[:2])
     versions = [(n, metadata.version(n)) for n in ("numpy", "scipy", "sympy")]
-    return (("python", python), ("ragg", total.hexdigest()[:16]), *versions)
+    text = digest_sources("derive", "generated", "ragg_runtime")
+    return (("python", python), ("ragg", text[:16]), *versions)
 
 
 def expand_lines(job: Job, files: Sequence[str]) -> list[str]:
