@@ -47,7 +47,7 @@ class UserError(Exception):
 
 
 EXTRAS = {
-    **dict.fromkeys(("h5netcdf", "h5py", "openpyxl", "xarray"), "files"),
+    **dict.fromkeys(("h5netcdf", "h5py", "openpyxl"), "files"),
     **dict.fromkeys(("latex2mathml", "starlette", "uvicorn"), "studio"),
     "distributed": "cluster",
     "matplotlib": "plots",

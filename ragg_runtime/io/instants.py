@@ -19,6 +19,7 @@ from dateutil import parser  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.io.tables import MISSING
 
 Array = NDArray[np.float64]
 Nanoseconds = NDArray[np.int64]
@@ -44,7 +45,6 @@ _LOOKED_AT = 64  # stamps that show how all are written
 _DAY, _HOUR = 86400 * _SECOND, 3600 * _SECOND
 _NO_HOUR = "000000"
 _NONE = np.iinfo(np.int64).min
-_NOTHING = ("NaT", "nan", "NaN", "None", "null", "-", "--")
 _STAMP = re.compile(
     r"(?:(?P<days>-?\d+) +days?,?(?: +|$))?"
     r"(?:(?P<date>\d[\w/.-]*\d|(?=.*[A-Za-z]{3})[\w.,/ -]*?\w),?(?:[T ] *(?=\d+:)|$))?"
@@ -88,7 +88,7 @@ def _match(text: str) -> re.Match[str] | None:
 
 def are_packed(values: Iterable[Any]) -> bool:
     """Whether numbers or texts are instants without marks between their parts, such as 20260301132850.4."""
-    texts = [t for v in itertools.islice(values, _LOOKED_AT) if (t := _write_clock(v)) not in ("", *_NOTHING)]
+    texts = [t for v in itertools.islice(values, _LOOKED_AT) if (t := _write_clock(v)) not in MISSING]
     return bool(texts) and all(map(_PACKED.fullmatch, texts))
 
 
@@ -200,7 +200,7 @@ def _read_iso(values: Sequence[str]) -> Nanoseconds | None:
 
 def _read_texts(values: Sequence[str], order: str | None, where: str, row: Callable[[int], str]) -> Stamps:
     """Dates and times as people write them."""
-    matches = {k: _match(t) for k, t in enumerate(values) if t and t not in _NOTHING}
+    matches = {k: _match(t) for k, t in enumerate(values) if t not in MISSING}
     known = {k: m for k, m in matches.items() if m is not None}
     dates = dict.fromkeys(d for m in known.values() if (d := _date_in(m)))
     dated, days = bool(dates), dict[str, int | None]({"": 0})

@@ -19,8 +19,16 @@ from ragg_runtime.instrument.units import units
 from ragg_runtime.io.instants import WAYS, Stamps, are_packed, count_seconds_since, read_stamps
 from ragg_runtime.io.mapping import Entry, Mapped, Null, TimeEntry
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
-from ragg_runtime.io.tables import DataColumn, DataTable, choose_tables, is_unit, name_line, split_lines
-from ragg_runtime.io.text_tables import MISSING, QUANTITY, write_plain
+from ragg_runtime.io.tables import (
+    MISSING,
+    DataColumn,
+    DataTable,
+    choose_tables,
+    is_unit,
+    name_line,
+    split_lines,
+)
+from ragg_runtime.io.text_tables import QUANTITY, write_plain
 
 Array = NDArray[np.float64]
 

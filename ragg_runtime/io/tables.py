@@ -35,6 +35,14 @@ INDEX = "index"
 SHARE = 0.5
 """Of the free memory that a table may take: reading and fitting it take as much again."""
 
+_WORDS = "nan NaN NAN NaT NA N/A n/a n.a. <NA> null NULL None -nan nan(ind) -nan(ind)"
+_OF_C = tuple(f"{sign}1.#{word}" for sign in ("", "-") for word in ("IND", "QNAN", "INF"))
+_OF_EXCEL = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
+MISSING = frozenset(
+    ("", "?", *(c * k for c in "-*" for k in range(1, 25)), *_WORDS.split(), *_OF_C, *_OF_EXCEL)
+)
+"""Cells that hold nothing; Fortran writes asterisks for what has no room."""
+
 _HEADING = re.compile(
     r"(?P<name>[^\[\]]*?)\s*\[(?P<inside>[^\[\]]*)\]"
     r"|(?P<other>.*?\S)(?:\s*[({<](?P<round>[^(){}<>]+)[)}>]|\s*[,:]\s*(?P<behind>\S+)| / (?P<over>\S+))"

@@ -33,6 +33,7 @@ from ragg_runtime.io.instants import are_packed, find_parts
 from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.io.tables import (
     INDEX,
+    MISSING,
     DataColumn,
     DataTable,
     is_unit,
@@ -42,12 +43,6 @@ from ragg_runtime.io.tables import (
     require_memory,
     write_cell,
 )
-
-_WORDS = "nan NaN NAN NaT NA N/A n/a n.a. <NA> null NULL None -nan nan(ind) -nan(ind)"
-_OF_C = tuple(f"{sign}1.#{word}" for sign in ("", "-") for word in ("IND", "QNAN", "INF"))
-_OF_EXCEL = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
-MISSING = ("", "?", *(c * k for c in "-*" for k in range(1, 25)), *_WORDS.split(), *_OF_C, *_OF_EXCEL)
-"""Cells that hold nothing; Fortran writes asterisks for what has no room."""
 
 QUANTITY = re.compile(
     r"\s*([+\-\u2212]?[.,]?\d[\d.,]*(?:[eE][+-]?\d+)?)\s*([A-Za-z\u00b5\u03bc\u00b0%\u2103].*?)\s*"
@@ -220,7 +215,7 @@ def read_csv(path: Path) -> list[DataTable]:
 
 def _read_numbers(texts: pa.ChunkedArray, name: str) -> NDArray[Any]:
     """A column as numbers, or as its texts where one is no number, or digits would be lost; names of lines are words."""
-    there = pc.is_in(cells := pc.utf8_trim_whitespace(texts), pa.array(MISSING), skip_nulls=True)
+    there = pc.is_in(cells := pc.utf8_trim_whitespace(texts), pa.array(sorted(MISSING)), skip_nulls=True)
     cells = pc.if_else(there, None, cells)
     if name.casefold() != "line" and not are_packed(cells.slice(0, _LOOKED_AT).drop_null().to_pylist()):
         if not pc.any(pc.match_substring(cells, ".")).as_py():  # commas are decimal

@@ -28,6 +28,9 @@ SHAPES: Mapping[str, Callable[[Array], Array]] = {
 }
 """Power spectral density over frequency (Hz) below the cutoff, up to a factor."""
 
+CUTOFF = 1.2
+"""Half-power frequency of the platform's low-pass (48 dB an octave), Hz."""
+
 _NODES_PER_CYCLE = 13
 _PAD = 10.0
 _BURST_FREQUENCY = 0.015
@@ -52,15 +55,13 @@ def turbulence(
     *,
     mean: float = 0.0,
     shape: str = "dryden",
-    cutoff: float = 1.2,
     bursts: float = 0.0,
-    start: float = 0.0,
 ) -> RecordedSignal:
     """One component of a random motion, smooth in time.
 
-    ``duration``, ``start``: of the flight, s; the signal goes on for ten seconds at both ends. ``rms``, ``mean``: SI,
-    met exactly. ``shape``: one of ``SHAPES``. ``cutoff``: half-power frequency of the platform's low-pass (48 dB an
-    octave), Hz. ``bursts``: standard deviation of the logarithm of a slowly varying intensity; 0 is stationary.
+    ``duration``: of the flight, s; the signal goes on for ten seconds at both ends. ``rms``, ``mean``: SI, met exactly.
+    ``shape``: one of ``SHAPES``. ``bursts``: standard deviation of the logarithm of a slowly varying intensity; 0 is
+    stationary.
     """
     if shape not in SHAPES:
         raise UserError(
@@ -68,12 +69,12 @@ def turbulence(
             expected=", ".join(SHAPES),
             remedy=did_you_mean(shape, SHAPES),
         )
-    rate = _NODES_PER_CYCLE * cutoff
-    nodes = start - _PAD + np.arange(int((duration + 2 * _PAD) * rate) + 2) / rate
-    record = _gaussian(rng, nodes.size, rate, lambda f: SHAPES[shape](f) / (1 + (f / cutoff) ** 16))
+    rate = _NODES_PER_CYCLE * CUTOFF
+    nodes = -_PAD + np.arange(int((duration + 2 * _PAD) * rate) + 2) / rate
+    record = _gaussian(rng, nodes.size, rate, lambda f: SHAPES[shape](f) / (1 + (f / CUTOFF) ** 16))
     if bursts > 0:
         slow = _gaussian(rng, nodes.size, rate, lambda f: 1 / (1 + (f / _BURST_FREQUENCY) ** 16))
         record = record * np.exp(bursts * slow)
-    flight = (nodes >= start) & (nodes <= start + duration)
+    flight = (nodes >= 0.0) & (nodes <= duration)
     record = (record - record[flight].mean()) / record[flight].std()
     return RecordedSignal(nodes, mean + rms * record)
