@@ -25,6 +25,7 @@ from benchmarks.diagnosis import plan, score
 from benchmarks.diagnosis.fly import fly
 from benchmarks.diagnosis.plan import Spec
 from benchmarks.diagnosis.score import Row
+from ragg_runtime.identification.uneven import Scatter
 
 Array = NDArray[np.float64]
 RUNTIME = Path(__file__).resolve().parents[2] / "ragg_runtime"
@@ -203,10 +204,11 @@ RULES: tuple[Rule, ...] = (
          ("estimation/noise_level.py", "estimation/noise_estimate.py:_level"),
          (Patch("estimation.noise_estimate:_level", _level, acts=lambda r: bool(r.parts)),)),
     Rule("uneven", "where the level changes, tests are tempered by the variance of their scores",
-         (*quiet("ramp", "along-axes", "with-ax", "with-size"), ("ten", "along-axes"), ("five", "with-size")),
-         ("identification/uneven.py", "identification/omnibus.py:inflation"),
+         (*quiet("red-along-axes", "size-and-temperature", "heavy-with-size", "amplifier"), ("ten", "along-axes"), ("five", "with-size")),
+         ("identification/uneven.py", "identification/omnibus.py:measure_scatter"),
          (Patch("identification.selection:uneven.temper_test", _first, acts=lambda r: r.inflation > 1.0),
-          Patch("identification.omnibus:Scores.inflation", lambda self, places: np.ones(len(places))),)),
+          Patch("identification.omnibus:Scores.measure_scatter",
+                lambda self, places: Scatter(np.ones(len(places)), np.full(len(places), np.inf))),)),
     Rule("off-sheet", "priors are widened where the record requires it",
          (*OFF, ("ten", "elsewhere")), ("estimation/calibration.py:widen_priors", "estimation/calibration.py:_estimate_widths"),
          (Patch("estimation.fitted:widen_priors", _nothing),)),
@@ -227,11 +229,10 @@ RULES: tuple[Rule, ...] = (
          (Patch("identification.strong:find_impossible", lambda *a: ()),)),
     Rule("swap", "after each addition a chosen effect may be swapped for a better one",
          (("pair", "white"), ("pair", "red"), ("pair", "elsewhere"), ("outside", "white")), ("identification/selection.py:_swap",),
-         (Patch("identification.selection:_swap", lambda f, chosen, blocks: (chosen, blocks)),)),
+         (Patch("identification.selection:_swap", lambda f, chosen, blocks: blocks),)),
     Rule("switching", "samples at which a switch's side is open, and the ends of late motion, are left out",
          (("strong", "white"), ("ten", "white"), ("pair", "elsewhere")), ("estimation/thinning.py",),
-         (Patch("estimation.fitted:leave_out_uncertain", lambda m, i, o: o),
-          Patch("identification.contenders:leave_out_uncertain", lambda m, i, o: o))),
+         (Patch("estimation.fitted:leave_out_uncertain", lambda m, i, o: list(o)),)),
     Rule("step-instant", "the instant of a step is refined to the sample, through the filter",
          (("ten", "white"), ("strong", "red"), *quiet("jump")),
          ("identification/steps.py:_refine", "identification/steps.py:_sharpen"),
@@ -287,9 +288,16 @@ RULES: tuple[Rule, ...] = (
     Rule("sheet-as-said", "effects beside a sheet as sure as it says compete with a sheet that is less sure",
          (*WEAK, *OFF, *quiet("white", "red")), ("identification/strong.py:_with_priors_of_sheet",),
          (Patch("identification.strong:_with_priors_of_sheet", _nothing, acts=lambda r: r is not None),)),
-    Rule("released", "coefficients of a strong effect that its test did not need are fitted where they are plainly needed",
-         (*STRONG,), ("identification/strong.py:_with_released",),
-         (Patch("identification.strong:_with_released", _first),)),
+    Rule("needed", "which coefficients a strong effect needs is seen about the values of a fit",
+         (*STRONG,), ("identification/strong.py:_test_about_values",),
+         (Patch("identification.strong:_test_about_values", lambda f: {}),)),
+    Rule("settled", "columns of effects that are chosen together are each the best beside those of the others",
+         (("pair", "white"), ("pair", "red"), ("pair", "bump")), ("identification/selection.py:_settle_blocks",),
+         (Patch("identification.selection:_settle_blocks", lambda f, blocks: blocks),)),
+    Rule("extrapolated", "ends that a model with derivatives does not fit are left out",
+         (("strong", "4-Hz"), ("ten", "4-Hz")),
+         ("estimation/thinning.py:leave_out_extrapolated", "estimation/thinning.py:_leave_out_misfit"),
+         (Patch("estimation.fitted:leave_out_extrapolated", lambda model, instrument, p, observations: list(observations)),)),
     Rule("one-kind", "special cases of one effect are not claimed together",
          (*OUTSIDE, ("ten", "white"), ("pair", "white")), ("identification/verdict.py:_find_common_kind",),
          (Patch("identification.verdict:_find_common_kind", _nothing, acts=lambda r: r is not None),)),

@@ -231,7 +231,7 @@ def _add_to_model(stage: Stage, effect: str, alternatives: tuple[str, ...], exte
     after = fit(model, instrument, f.observations)
     tests = _test_about_values(release_held(after))
     held = frozenset().union(*(unneeded for unneeded, _ in tests.values()))
-    if held != after.instrument.held:
+    if tests and held != after.instrument.held:
         after = fit(model, replace(instrument, held=held), f.observations)
     unneeded, about = tests.get(effect, (held, test))
     if about.rank:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from benchmarks.diagnosis import __main__ as command
-from benchmarks.diagnosis import ceiling, fly, outside, plan, records, score, strength
+from benchmarks.diagnosis import ablation, ceiling, fly, outside, plan, records, score, strength
 from benchmarks.diagnosis.plan import Spec
 
 
@@ -20,6 +20,10 @@ def prepared(record: str) -> tuple[plan.World, Any, strength.Oracle, records.Lou
     x = fly._table(plain, plain.voltages_noise_free)
     noise_rms = records.KINDS[record].noise(x, np.random.default_rng(1))
     return w, plain, strength.Oracle(w, plain.flight(), noise_rms), noise_rms
+
+
+def test_every_rule_of_the_ablation_is_still_in_the_code() -> None:
+    assert [p.name for r in ablation.RULES for p in r.patches if not p.there] == []
 
 
 def test_the_oracle_makes_the_noise_white() -> None:
