@@ -207,9 +207,11 @@ def _make_symbolic_layout(layout: Layout) -> SymbolicLayout:
     )
 
 
-def with_effects(instrument: Instrument, model: Model, further: Sequence[str]) -> Model:
-    """``model`` with further effects derived into it, without the signatures of others."""
-    files = _derive_files(instrument, [*(e.id for e in model.effects), *further], candidates=False)
+def with_effects(
+    instrument: Instrument, model: Model, further: Sequence[str], *, candidates: bool = False
+) -> Model:
+    """``model`` with further effects derived into it; with the signatures of the others only if ``candidates``."""
+    files = _derive_files(instrument, [*(e.id for e in model.effects), *further], candidates=candidates)
     return _execute_files(tuple(files.items()), instrument.layout)
 
 
