@@ -70,7 +70,7 @@ def write_netcdf(path: Path, columns: Sequence[DataColumn]) -> None:
                     "flag_meanings": " ".join("_".join(n.split()) for n in names),
                 }
                 values = values.astype(np.int32)
-            missing = None if c.is_text or c.name == "time" else np.nan
+            missing = np.nan if values.dtype.kind == "f" and c.name != "time" else None
             variable = file.create_variable(c.name, ("time",), data=values, fillvalue=missing)
             variable.attrs.update(attributes)
     path.write_bytes(whole.getbuffer())

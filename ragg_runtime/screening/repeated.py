@@ -220,7 +220,8 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
         found[first[k] + reading : last[k] + 1] = True
     # a column that hardly ever meets a value again, and meets one several times: readings that did not arrive
     values, counts = np.unique(x[there & ~found], return_counts=True)
-    again = values[(counts >= FEWEST / 2) & (counts >= 4 * np.median(counts))]
+    often = (counts >= FEWEST / 2) & (counts >= 4 * np.median(counts))
+    again = values[often & (values != low) & (values != high)]
     for value in {0.0, *again} if len(again) <= 3 and len(x) * float(np.median(by_step)) < RARE else ():
         alike = [r for r in runs(there & (x == value)) if r.stop - r.start <= WIDEST_SPIKE]
         for r in alike if len(alike) > 1 else ():
