@@ -31,7 +31,7 @@ from ragg_runtime.io.sampling import Grid, make_grid
 from ragg_runtime.io.tables import DataTable
 from ragg_runtime.io.text_tables import TWO_ROWS
 from ragg_runtime.signals.angular_acceleration import NOTE, derive_accelerations
-from ragg_runtime.signals.derivative import bridge_gaps, fill_gaps, runs
+from ragg_runtime.signals.derivative import bridge_gaps, predict_missing, runs
 
 BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded."""
@@ -134,7 +134,7 @@ def derive_acceleration(x: Flight, lost: Mask | None = None) -> Flight:
     gap = np.zeros_like(lacking)
     for run in runs(lacking):
         gap[run] = run.stop - run.start > WIDEST_SPIKE
-    bridged = (fill_gaps(x.channels[n], ~lacking) for n in ANGULAR_RATE)
+    bridged = (predict_missing(x.channels[n], ~lacking) for n in ANGULAR_RATE)
     rates = [np.where(gap, np.nan, v) for v in bridged]
     slopes, sure = derive_accelerations(rates, x.time)
     made = {n: bridge_gaps(v, np.isfinite(v)) for n, v in zip(ANGULAR_ACCELERATION, slopes, strict=True)}

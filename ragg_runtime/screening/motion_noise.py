@@ -32,7 +32,7 @@ from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.screening.linear_fit import fit_rows
 from ragg_runtime.screening.sampler import Rows, make_sampler
-from ragg_runtime.signals.derivative import PREDICTED, fill_gaps, runs
+from ragg_runtime.signals.derivative import PREDICTED, predict_missing, runs
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
@@ -118,7 +118,7 @@ def _measure_spectrum(x: Array, there: Mask) -> _Spectrum:
     window = WINDOW
     while window > 8 and np.sum(lengths[lengths >= window]) < max(8 * window, 0.5 * np.sum(lengths)):
         window //= 2
-    filled, parts = fill_gaps(x, there), runs(whole, window)
+    filled, parts = predict_missing(x, there), runs(whole, window)
     taken = [signal.welch(filled[r], nperseg=window, detrend=signal.detrend) for r in parts]
     share = np.array([r.stop - r.start for r in parts], dtype=np.float64)
     density = np.average([d for _, d in taken], axis=0, weights=share)

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import interpolate, linalg, ndimage
 
+from ragg_runtime.signals.fir import fill_gaps
+
 Array = NDArray[np.float64]
 
 WINDOW = 25
@@ -133,34 +135,26 @@ PREDICTED = 24
 """Samples from which an autoregressive series predicts the next: as many as enter a derivative."""
 
 
-def fill_gaps(x: Array, there: NDArray[np.bool_]) -> Array:
+def predict_missing(x: Array, there: NDArray[np.bool_]) -> Array:
     """A series (N,), and where up to ``PREDICTED`` samples are missing those that it predicts best: it is taken to be autoregressive,
-    its coefficients and the missing samples, one after the other, to be those that leave the least errors of prediction (A. Janssen,
-    R. Veldhuis, L. Vries, IEEE Trans. ASSP 34, 1986, 317). Elsewhere, and where few stretches are whole, by a spline.
+    and the missing samples to be those that leave the least errors of prediction (A. Janssen, R. Veldhuis, L. Vries, IEEE Trans. ASSP
+    34, 1986, 317). Elsewhere, and where few stretches are whole, by a spline.
     """
     found, size = bridge_gaps(x, there, smooth=True), PREDICTED + 1
     whole = np.convolve(there, np.ones(size), "valid")[: 1 << 15] > PREDICTED + 0.5
-    missing = [np.arange(r.start, r.stop) for r in runs(~there) if r.stop - r.start <= PREDICTED]
-    at = np.concatenate([np.zeros(0, dtype=np.intp), *missing])
-    at = at[(at >= PREDICTED) & (at < len(x) - PREDICTED)]
-    if not len(at) or np.sum(whole) < 4 * size:
+    known = np.ones(len(x), dtype=np.bool_)
+    for r in runs(~there):
+        known[r] = r.stop - r.start > PREDICTED
+    known[:PREDICTED] = known[len(x) - PREDICTED :] = True
+    if known.all() or np.sum(whole) < 4 * size:
         return found
-    y = found - np.mean(found)
-    known = np.lib.stride_tricks.sliding_window_view(y, size)[: len(whole)][whole]
-    error = np.r_[-np.linalg.lstsq(known[:, :-1], known[:, -1], rcond=1e-12)[0], 1.0]
-    weights = np.convolve(error, error[::-1])  # of the squared errors: symmetric, PREDICTED on either side
-    matrix = np.zeros((size, len(at)))
-    for k in range(min(size, len(at))):
-        lag = at[k:] - at[: len(at) - k]
-        matrix[k, : len(lag)] = np.where(
-            lag <= PREDICTED, weights[PREDICTED + np.minimum(lag, PREDICTED)], 0.0
-        )
-    off = np.convolve(y, weights, "same")[at]
+    mean = np.mean(found)
+    learnt = np.lib.stride_tricks.sliding_window_view(found - mean, size)[: len(whole)][whole]
+    taps = np.r_[1.0, -np.linalg.lstsq(learnt[:, :-1], learnt[:, -1], rcond=1e-12)[0][::-1]]
     try:
-        found[at] -= linalg.solveh_banded(matrix, off, lower=True)
+        return np.asarray(fill_gaps((found - mean)[None], known, taps, rounding=0.0)[0] + mean)
     except linalg.LinAlgError:  # as singular as a constant
         return found
-    return found
 
 
 SPLINE = 9

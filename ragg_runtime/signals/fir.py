@@ -59,8 +59,9 @@ ROUNDING = 1e-9
 """Relative white noise that is added to what is interpolated: the density of a noise may span more than single numbers do."""
 
 
-def fill_gaps(columns: Array, there: NDArray[np.bool_], taps: Array) -> Array:
-    """Columns (n, N), zero where they are not ``there`` (N,), with missing samples such that the filter's output is least.
+def fill_gaps(columns: Array, there: NDArray[np.bool_], taps: Array, rounding: float = ROUNDING) -> Array:
+    """Columns (n, N), with samples that are not ``there`` (N,) such that the filter's output is least; before, these are zero, or near
+    what they will be.
 
     Where the filter whitens a noise, these are the best linear interpolation of it, and the whitened rest is what all samples that are
     there tell (missing values as further parameters: M. Bartlett, J. R. Stat. Soc. Suppl. 4, 1937). Zeros in their place are as
@@ -72,7 +73,7 @@ def fill_gaps(columns: Array, there: NDArray[np.bool_], taps: Array) -> Array:
     w = np.append(taps[: REACH - 1], np.sum(taps[REACH - 1 :]))
     # inner products of the filter's response and itself, later: the noise's inverse covariance
     inverse = np.correlate(w, w, "full")[len(w) - 1 :]
-    inverse[0] *= 1.0 + ROUNDING
+    inverse[0] *= 1.0 + rounding
     apart = np.searchsorted(missing, missing + len(w)) - np.arange(len(missing))
     G = np.zeros((int(np.max(apart)), len(missing)))
     for k in range(len(G)):
@@ -81,7 +82,7 @@ def fill_gaps(columns: Array, there: NDArray[np.bool_], taps: Array) -> Array:
         G[k, : len(lag)][near] = inverse[lag[near]]
     b = convolve(columns, np.concatenate([inverse[:0:-1], inverse]), "same")[:, missing]
     filled = columns.copy()
-    filled[:, missing] = -linalg.solveh_banded(G, b.T, lower=True).T
+    filled[:, missing] -= linalg.solveh_banded(G, b.T, lower=True).T
     return filled
 
 

@@ -15,7 +15,7 @@ from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import screen
 from ragg_runtime.signals.angular_acceleration import REACH, derive_accelerations, differentiate_rate
-from ragg_runtime.signals.derivative import bridge_gaps, differentiate, fill_gaps
+from ragg_runtime.signals.derivative import bridge_gaps, differentiate, predict_missing
 
 pytestmark = pytest.mark.usefixtures("no_next_motion")
 
@@ -45,9 +45,13 @@ def test_lost_rates_are_predicted_from_those_beside_them() -> None:
     x = np.convolve(rng.standard_normal(4900), np.convolve(np.hanning(9), np.hanning(9)), "same")[:4800]
     for k in range(100, 4700, 150):
         there[k : k + 3] = False
-    off = np.std([(f - x)[~there] for f in (fill_gaps(x, there), bridge_gaps(x, there, smooth=True))], axis=1)
+    off = np.std(
+        [(f - x)[~there] for f in (predict_missing(x, there), bridge_gaps(x, there, smooth=True))], axis=1
+    )
     assert off[0] < off[1] / 50
-    assert np.array_equal(fill_gaps(x, ~there), bridge_gaps(x, ~there, smooth=True))  # nothing to learn from
+    assert np.array_equal(
+        predict_missing(x, ~there), bridge_gaps(x, ~there, smooth=True)
+    )  # nothing to learn from
 
 
 def test_gaps_cost_little_of_short_runs() -> None:
