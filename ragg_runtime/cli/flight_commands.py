@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from ragg_runtime.base import progress
-from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.base.errors import UserError, count, printable
 from ragg_runtime.base.files import write_bytes, write_text
 from ragg_runtime.cli.shared import (
     PLACE,
@@ -280,7 +280,7 @@ def compensate(
     m = load(model_dir)
     kept = calibration == "frozen" or (calibration == "online" and m.directory.calibration is not None)
     odd = _calibration_notes(m) if kept else []
-    progress.remark(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
+    progress.remark(f"reading {count(len(flights), 'flight')}")
     records = api.read_for_compensation(m, flights, mapping)
     with working("compensating", "compare", records):
         c = api.compensate(

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ragg_runtime.base import progress
-from ragg_runtime.base.errors import UserError, one_line
+from ragg_runtime.base.errors import UserError, count, one_line
 from ragg_runtime.base.files import check_writable, write_text
 from ragg_runtime.base.provenance import provenance
 from ragg_runtime.report.page import Origin
@@ -172,7 +172,7 @@ def load(model_dir: Path) -> Loaded:
 
 def read(m: Loaded, flights: Sequence[Path], mapping: Path | None) -> list[Flight]:
     """The flights, read and examined."""
-    progress.remark(f"reading {len(flights)} flight{'' if len(flights) == 1 else 's'}")
+    progress.remark(f"reading {count(len(flights), 'flight')}")
     return api.read_flights(m, flights, mapping)
 
 

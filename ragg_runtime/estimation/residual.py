@@ -28,6 +28,9 @@ JUMP_OF_MEANS = 12.0
 """Robust standard deviations of the difference of the means of two neighbouring windows from which it is a jump: noise,
 red or white, stays below 6 in a day."""
 
+STD_OF_MEDIAN = 1.4826
+"""Standard deviation of normal noise over the median of its absolute value."""
+
 WINDOW = 10.0
 """Length of those windows, s."""
 
@@ -97,8 +100,8 @@ def _find_jumps(rest: Array, valid: NDArray[np.bool_], rate: float) -> list[Dist
         before, 1
     )
     step = np.where(enough, means, 0.0)
-    spread = 1.4826 * float(np.median(np.abs(step[enough]))) if enough.any() else 0.0
-    noise = float(np.median(np.abs(rest[valid]))) * 1.4826
+    spread = STD_OF_MEDIAN * float(np.median(np.abs(step[enough]))) if enough.any() else 0.0
+    noise = float(np.median(np.abs(rest[valid]))) * STD_OF_MEDIAN
     found: list[Disturbance] = []
     left = np.abs(step)
     while spread > 0.0 and len(found) < MOST_DISTURBANCES and left.max() > JUMP_OF_MEANS * spread:

@@ -24,7 +24,7 @@ from ragg_runtime.estimation.observation import (
     spread,
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual, linearise
-from ragg_runtime.estimation.residual import find_disturbances
+from ragg_runtime.estimation.residual import STD_OF_MEDIAN, find_disturbances
 from ragg_runtime.estimation.whitening import find_segments, is_long
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.record import is_disc_angle
@@ -46,9 +46,6 @@ LATEST = 3.0
 
 EXTRAPOLATED = 2
 """Samples at either end of a flight whose derivative has 6 and 30 times the error of one inside (``differentiate``)."""
-
-MEDIAN_OF_NORMAL = 0.6745
-"""Median of the absolute value of a normal deviate of unit variance."""
 
 MISFIT = 5.0
 """Standard deviations of the residual beyond which one of them is left out with its like: four samples of 4 Hz left 8,289 of a chi-square
@@ -87,7 +84,7 @@ def leave_out_extrapolated(
 def _leave_out_misfit(at: LinearisationPoint, o: Observation) -> Observation:
     valid, ends = o.record.valid, [*range(EXTRAPOLATED), *range(-EXTRAPOLATED, 0)]
     left = np.max(np.abs(compute_residual(at, o)), axis=0)
-    std = float(np.median(left[valid])) / MEDIAN_OF_NORMAL
+    std = STD_OF_MEDIAN * float(np.median(left[valid]))
     if not np.any(left[ends][valid[ends]] > MISFIT * std):
         return o
     kept = valid.copy()

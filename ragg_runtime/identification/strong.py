@@ -259,9 +259,8 @@ def _test_about_values(f: Fitted) -> dict[str, tuple[frozenset[str], Test]]:
         own = [n for n, q in enumerate(c.columns) if q.effect == effect and not f.sheet[c.index[n]]]
         others = [n for n in range(f.n_base) if n not in own]
         without = f.whole[:, -1] - f.whole[:, own] @ f.to_nominal[own]
-        P = compute_r_factor(np.vstack([f.whole[:, [*others, *own]].T, without]))[
-            len(others) :, len(others) :
-        ]
+        T = compute_r_factor(np.vstack([f.whole[:, [*others, *own]].T, without]))
+        P = likelihood_ratio.project(T, len(others))
         tested = [(k, c.columns[n]) for k, n in enumerate(own)]
         test = likelihood_ratio.test(P, tested, np.full(P.shape[1], likelihood_ratio.TESTABLE))
         found[effect] = frozenset(q.label for k, q in tested if k not in test.which), test

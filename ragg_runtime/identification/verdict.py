@@ -52,21 +52,19 @@ class Conclusion:
         count = found.first.field.count + len(chosen.random)
         base = omnibus.search_residuals(found.first.fitted) if chosen.effects else []
         before = _Lead.of(found, chosen, count, base)
-        lead = before if outcome is chosen else _Lead.of(found, outcome, count, base)
-        claimed = () if lead is None else _choose_claims(outcome, lead, base)
         one = _find_common_kind(found, outcome.effects)
-        while not (claimed or one or outcome.remains) and len(outcome.effects) > 1:
+        while True:
+            lead = before if outcome is chosen else _Lead.of(found, outcome, count, base)
+            claimed = () if lead is None else _choose_claims(outcome, lead, base)
+            if claimed or one or outcome.remains or len(outcome.effects) < 2:
+                break
             # generic terms do as well as all of these, but perhaps not as well as those without the weakest
-            e = max(
-                outcome.effects,
-                key=lambda e: (_log_p(outcome, outcome.significance(e), found.log_p.get(e)), e),
-            )
-            less = found.without(outcome, e)
+            p = {e: _log_p(outcome, outcome.significance(e), found.log_p.get(e)) for e in outcome.effects}
+            weakest = max(p, key=lambda e: (p[e], e))
+            less = found.without(outcome, weakest)
             if less.remains:
                 break
-            outcome, weak = less, [*weak, e]
-            lead = _Lead.of(found, outcome, count, base)
-            claimed = () if lead is None else _choose_claims(outcome, lead, base)
+            outcome, weak = less, [*weak, weakest]
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         random = _list_random(outcome, count)
         doubted = apart or outcome.explained.complaint is not None

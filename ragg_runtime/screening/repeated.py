@@ -218,11 +218,18 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
     for k in np.flatnonzero(expected < np.where(x[first] == 0.0, RARE_ZEROS, RARE)):
         reading = x[first[k]] != 0.0 and last[k] - first[k] < 3  # of which the others are copies
         found[first[k] + reading : last[k] + 1] = True
-    # a column that hardly ever meets a value again, and meets one several times: readings that did not arrive
-    values, counts = np.unique(x[there & ~found], return_counts=True)
+    if len(x) * float(np.median(by_step)) < RARE:  # a column that hardly ever meets a value again
+        found |= _find_lost(x, there, found)
+    return found
+
+
+def _find_lost(x: Array, there: Mask, stuck: Mask) -> Mask:
+    """(N,): single samples of values that come again and again, zero among them: readings that did not arrive."""
+    found = np.zeros(len(x), dtype=np.bool_)
+    values, counts = np.unique(x[there & ~stuck], return_counts=True)
     often = (counts >= FEWEST / 2) & (counts >= 4 * np.median(counts))
-    again = values[often & (values != low) & (values != high)]
-    for value in {0.0, *again} if len(again) <= 3 and len(x) * float(np.median(by_step)) < RARE else ():
+    again = values[often & (values != np.min(x[there])) & (values != np.max(x[there]))]
+    for value in {0.0, *again} if len(again) <= 3 else ():
         alike = [r for r in runs(there & (x == value)) if r.stop - r.start <= WIDEST_SPIKE]
         for r in alike if len(alike) > 1 else ():
             found[r] = True

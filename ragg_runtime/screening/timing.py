@@ -228,9 +228,8 @@ def _propose_jump(t: _Trial) -> list[Hypothesis]:
         near = jump + np.deg2rad(np.arange(-24.0, 25.0, 8.0))
         jump = find_least(partial(misfit, at), near, np.deg2rad(0.1))
         at = find_least(partial(misfit, jump=jump), everywhere, spacing / 512)
-    if (
-        abs(_wrapped(jump)) < LEAST_STEP or min(at, n - at) < n / 100
-    ):  # next to an end it is a phase, or nothing
+    at_end = min(at, n - at) < n / 100  # there it is a phase, or nothing
+    if at_end or abs(_wrapped(jump)) < LEAST_STEP:
         return []
     beside = s.rows(max(0, int(at - n / 100)), int(at + n / 100) + 1, 64)
     rows = np.union1d(rows, beside)

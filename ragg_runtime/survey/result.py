@@ -15,6 +15,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from scipy import special
 
+from ragg_runtime.base import errors
 from ragg_runtime.base.false_alarms import PROMISED, SURVEY
 from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.survey.examine import Record
@@ -89,7 +90,7 @@ def count_verdicts(counts: Mapping[str, int]) -> str:
     """The verdicts in one line: ``12 flights: 8 adequate, 4 missing an effect``."""
     total = sum(counts.values())
     said = ", ".join(f"{counts[k]} {text}" for k, text in VERDICTS.items() if counts[k])
-    return f"{total} flight{'' if total == 1 else 's'}: {said}"
+    return f"{errors.count(total, 'flight')}: {said}"
 
 
 def _recommend(done: Sequence[Record], s: Mapping[str, Any], model_dir: Path | str) -> list[str]:
