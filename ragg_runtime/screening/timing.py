@@ -233,7 +233,8 @@ def _propose_jump(t: _Trial) -> list[Hypothesis]:
         return []
     beside = s.rows(max(0, int(at - n / 100)), int(at + n / 100) + 1, 64)
     rows = np.union1d(rows, beside)
-    at = min(beside, key=lambda k: misfit(k, jump))
+    # in a gap any instant is as good
+    at = min(beside, key=lambda k: misfit(k, jump), default=int(at))
     rows = s.rows()
     what, remedy = _describe_jump(s, int(at), jump)
     return [t.propose(what, remedy, COST, rows, phase=np.where(rows >= at, jump, 0.0), calming=False)]

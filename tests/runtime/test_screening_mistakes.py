@@ -149,11 +149,16 @@ def counted(x: Flight, rows: np.ndarray) -> Flight:
     )
 
 
-def test_a_lost_row_is_said_before_the_disc_is_blamed() -> None:
+@pytest.mark.parametrize("gap", [0, 100])
+def test_a_lost_row_is_said_before_the_disc_is_blamed(gap: int) -> None:
+    """With samples left out on both sides of it, too."""
     x = flown(12)
     lost = counted(x, np.r_[0:1088, 1089 : len(x)])
-    with pytest.raises(UserError, match=r"rows are missing at t = 6[78](\.\d+)? s: 1 row is") as caught:
+    lost = replace(lost, valid=lost.valid & (np.abs(np.arange(len(lost)) - 1087.5) > gap))
+    with pytest.raises(UserError, match=r"rows are missing at t = (\d+)(\.\d+)? s: 1 row is") as caught:
         screen(MODEL, drawn(12).sheet, lost)
+    at = float(str(caught.value).partition("at t = ")[2].split()[0])
+    assert abs(at - 68.0) < 1.0 + gap / x.rate
     assert "write spin_frequency" not in str(caught.value)
 
 
