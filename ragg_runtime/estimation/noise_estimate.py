@@ -251,6 +251,8 @@ def _estimate_spectra(
             model = estimate([x for x, _ in filled], rate, band, kept, slow, spin)
         models.append(model)
         taps = TAPS if o.thin is None else TAPS // THINNER
+        if o.smoothed:  # what little there is above the band of the motion is motion below its sensors' noise, and not stationary
+            model = model.raise_floor()
         filters.append(model.whitening_filter(int(min(taps, len(o.record.time)))))
     return NoiseModel(spectra=tuple(models), filters=tuple(filters), level=level)
 
@@ -305,7 +307,8 @@ def _fit_segments(
             rows=piece.segment.rows,
             valid=valid,
             outputs=tuple(
-                kept(fit_columns(x, valid, rate, band, t), loud) for x, t in zip(each, known, strict=True)
+                kept(fit_columns(x, valid, rate, band, t, raised=o.smoothed), loud)
+                for x, t in zip(each, known, strict=True)
             ),
             taken=sum(w.white.shape[1] for w in piece.windows) / len(o.series),
             random={
@@ -378,10 +381,13 @@ def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
                 quantities[n].append(r.quantity(n)[p.valid])
             for e, variance in p.random.items():
                 alternatives.setdefault(e, []).append(variance[m])
+    z = np.concatenate(white)
+    # neighbours are alike where a part of the band has hardly any noise
+    every = max(1, round(1.0 / float(np.mean(z**2))))
     return noise_level.estimate_level(
-        np.concatenate(white),
-        {n: np.concatenate(x) for n, x in quantities.items()},
-        {e: np.concatenate(x) for e, x in alternatives.items()},
+        z[::every],
+        {n: np.concatenate(x)[::every] for n, x in quantities.items()},
+        {e: np.concatenate(x)[::every] for e, x in alternatives.items()},
     )
 
 

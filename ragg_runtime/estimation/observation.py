@@ -128,6 +128,7 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
         output=o,
         place=place,
         gains=slopes / np.mean(slopes) if form.separate else np.ones(len(series)),
+        smoothed=any(f.kind == "motion-noise" for f in flight.flags),
     )
 
 
@@ -151,7 +152,7 @@ class Observation:
     """What of a flight, or of a part of one, is fitted: m output series over N samples, V, in the form ``recorded``.
 
     ``place`` counts the observations (one of each output of each flight), ``flight`` the flights; ``gains`` (m,) are the sheet's
-    scale factors over their mean; ``thin``: of what record this is a thinned one.
+    scale factors over their mean; ``thin``: of what record this is a thinned one; ``smoothed``: whether motion has been smoothed.
     """
 
     recorded: RecordedSeries
@@ -163,6 +164,7 @@ class Observation:
     flight: int = 0
     gains: Array = field(default_factory=lambda: np.ones(1))
     thin: Thin | None = None
+    smoothed: bool = False
 
     @cached_property
     def data(self) -> Array:

@@ -186,11 +186,13 @@ def fit_columns(
     rate: float | None,
     band: tuple[float, float] | None,
     through: Callable[[Array], Array] = lambda columns: columns,
+    *,
+    raised: bool = False,
 ) -> ProjectedResidual:
     """Project the first n of flat (n + 1, rows), and lines and jumps, out of the last.
 
     No line is looked for in ``band``; ``through`` does to columns (k, rows) what was done to ``flat``. Without ``rate`` neither
-    lines nor ``kept`` are looked for.
+    lines nor ``kept`` are looked for. ``raised``: jumps are judged by the noise's raised spectrum (:meth:`Spectrum.raise_floor`).
     """
     flat = flat[[*find_nonzero(flat[:-1]), True]]
     left = _fitted(flat, flat, valid, rate, [])
@@ -207,7 +209,11 @@ def fit_columns(
         lines = [d for d in seen if d.kind == "line"]
         jump = None if lines else _find_best_jump(left, valid, rate)
         with_it = None if jump is None else _and(left, through(jump.columns(time))[0], valid)
-        if jump is not None and with_it is not None and _is_significant(left, with_it, valid, rate, band):
+        if (
+            jump is not None
+            and with_it is not None
+            and _is_significant(left, with_it, valid, rate, band, raised)
+        ):
             left = beside([*left.found, jump])  # to the sample; those that a mean shows are of no further use
             continue
         if not seen:
@@ -290,10 +296,11 @@ def _is_significant(
     valid: NDArray[np.bool_],
     rate: float,
     band: tuple[float, float] | None,
+    raised: bool,
 ) -> bool:
     """Whether what was fitted last is significant against the noise without it: red noise looks like jumps, too."""
     model = estimate([place_valid(after.rest, valid)], rate, band, [after.kept])
-    taps = model.whitening_filter(len(valid))
+    taps = (model.raise_floor() if raised else model).whitening_filter(len(valid))
     gone = filter_columns(place_valid(before.rest - after.rest, valid)[None], taps)[0][valid]
     return float(gone @ gone) > JUMP
 

@@ -78,6 +78,11 @@ class Spectrum:
         lowest, middle = self.psd(at)
         return float(lowest / middle)
 
+    def raise_floor(self) -> Spectrum:
+        """The same, nowhere less than in the middle (of the logarithm) of its frequencies."""
+        middle = (self.log_f[0] + BELOW + self.log_f[-1]) / 2
+        return replace(self, log_psd=np.maximum(self.log_psd, np.log(self.psd(np.exp(middle)))))
+
     def whitening_filter(self, length: int) -> Array:
         """Causal minimum-phase FIR (length,) that turns this noise into white noise of unit variance.
 

@@ -33,7 +33,7 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(timing, "propose_times", lambda *_: [])  # test_screening_mistakes.py has these
-    s, model = scenario(3, duration=150.0, rate=RATE, trim="table-v"), load_packaged()
+    s, model = scenario(4, duration=150.0, rate=RATE, trim="table-v"), load_packaged()
     x = s.simulate().flight()
     rng = np.random.default_rng(1)
     changed = {
@@ -52,6 +52,7 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect(
     coarse, still = flown["in steps of"], flown["a_x does not change at all"]
     d = diagnose(model, s.sheet, [coarse])
     assert (d.verdict, d.found) == ("adequate", ())
+    assert d.noise_floor == pytest.approx(d.before.rms_Eo, rel=0.1)  # in both what the steps leave
     heeded = heed_flags(diagnose(model, s.sheet, [still]), [still])
     assert (heeded.verdict, heeded.found) == ("unexplained", ())
     assert "a_x does not change at all" in str(heeded.reason)
