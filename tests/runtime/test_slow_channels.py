@@ -47,6 +47,22 @@ def test_a_thermometer_read_every_ten_seconds_is_interpolated(
     assert np.max(np.abs(read.channels["temperature"] - known)[:3121]) < 0.01 * np.ptp(known)
 
 
+@pytest.mark.parametrize("noise", [0.0, 0.05])
+def test_a_thermometer_of_coarse_steps_is_interpolated_between_them(
+    noise: float, hot: Flight, tmp_path: Path
+) -> None:
+    """thermal-scale of 54 sigma was gain-drift and gain-step where temperatures had steps of 0.1 K."""
+    known, rng = hot.channels["temperature"], np.random.default_rng(2)
+    read = 0.0625 * np.round((known + 0.0625 * noise * rng.standard_normal(len(hot))) / 0.0625)
+    switch = np.where(hot.time > 200.0, 1.0, 0.0)
+    channels = {**hot.channels, "temperature": read, "pressure": switch}
+    write_flight(dataclasses.replace(hot, channels=channels), tmp_path / "coarse.csv")
+    found = read_flight(tmp_path / "coarse.csv", G0)
+    assert "temperature: recorded in steps of 0.0625 K; interpolated between them" in found.notes
+    assert np.std(found.channels["temperature"] - known) < 0.55 * np.std(read - known)
+    assert np.array_equal(found.channels["pressure"], switch)
+
+
 def test_what_changes_faster_than_it_was_recorded_is_left_out(hot: Flight, tmp_path: Path) -> None:
     fast = {**hot.channels, "B_x": np.random.default_rng(1).normal(size=len(hot)), "pressure": hot.time * 0.0}
     flight = dataclasses.replace(hot, channels=fast)
