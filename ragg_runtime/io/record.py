@@ -83,7 +83,7 @@ class Flag:
     effects
         Ids of effects that describe the same, and may be claimed with it.
     kind
-        ``motion-noise`` of sensors whose noise shows in the output, ``still`` where no motion was recorded; else empty.
+        ``motion-noise`` of sensors whose noise shows in the output, ``still`` where one of their columns holds one value; else empty.
     """
 
     columns: tuple[str, ...]

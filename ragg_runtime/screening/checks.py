@@ -129,7 +129,7 @@ def _still(flight: Flight) -> list[Flag]:
     text = AT_REST
     if len(still) < len(names):
         text = f"{', '.join(still)} {'does' if len(still) == 1 else 'do'} not change at all: a stuck sensor?"
-    return [Flag(tuple(still), text, open=True, kind="still" if len(still) == len(names) else "")]
+    return [Flag(tuple(still), text, open=True, kind="still")]
 
 
 def _overflown(flight: Flight) -> list[Flag]:

@@ -14,6 +14,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.quality import heed_flags
+from ragg_runtime.identification.result import Reason
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT, Flag
 from ragg_runtime.model.model import load_packaged
@@ -68,6 +69,11 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect(
     at_rest = replace(x, channels={n: np.full(len(x), np.mean(v)) for n, v in x.channels.items()})
     little = heed_flags(replace(d, reasons=()), [x.flagged(checks.list_remarks(s.sheet, at_rest))])
     assert (little.verdict, little.reason) == ("adequate", checks.AT_REST)
+    stuck = replace(x, channels={**x.channels, "a_z": np.full(len(x), 9.8)})
+    stuck = stuck.flagged(checks.list_remarks(s.sheet, stuck))
+    unsteady = heed_flags(replace(d, reasons=(Reason("the noise level changes over the record"),)), [stuck])
+    assert unsteady.verdict == "unexplained"
+    assert str(unsteady.reason).startswith("a_z does not change at all")
 
 
 def test_noise_is_smoothed_to_the_best_prediction_at_the_ends_and_beside_gaps_too() -> None:
