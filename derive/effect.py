@@ -1,6 +1,6 @@
-"""What a physical effect is: a change at one or more stages of the instrument, said in one place.
+"""What a physical effect is: a change at one or more stages of the instrument, in one file.
 
-A file in ``derive/effects/`` defines ``EFFECT = Effect(...)``, or several; nothing else has to
+A file ``derive/effects/<id with underscores>.py`` defines ``EFFECT = Effect(...)``; nothing else has to
 be touched. From it follow the extended model, the effect's signature, the calibration of its parameters,
 its page in the documentation and its conformance tests.
 
@@ -78,13 +78,6 @@ class EffectParameter:
     shape: bool = False
 
 
-def shared(
-    name: str, latex: str, unit: str, meaning: str, plausible: float, **further: Any
-) -> EffectParameter:
-    """A parameter that has one value for the instrument."""
-    return EffectParameter(name, latex, unit, meaning, plausible, shared=True, **further)
-
-
 def shared_components(
     letter: str, components: Iterable[str], unit: str, meaning: str, plausible: float, **further: Any
 ) -> tuple[EffectParameter, ...]:
@@ -102,12 +95,13 @@ def shared_components(
         Of all parameters alike, as :class:`EffectParameter` has them.
     """
     return tuple(
-        shared(
+        EffectParameter(
             f"{letter}_{k}",
             f"{letter}_{k}" if len(k) == 1 else f"{letter}_{{{k}}}",
             unit,
             meaning.format(*k, k=k),
             plausible,
+            shared=True,
             **further,
         )
         for k in components
@@ -174,7 +168,7 @@ class Effect:
     memory
         What it takes from the record through something with a memory, which its parameters of ``shape`` describe: the motion of
         a ``mount``, the force on an ``accelerometer``, both through a resonance, the torquer's ``heat``, a bias that ``slip``s and
-        a mount with ``play``, a bias of ``creep`` and a mount that ``flow``s, a ``cycle`` of temperature (:mod:`derive.effects.memory`).
+        a mount with ``play``, a bias of ``creep`` and a mount that ``flow``s, a ``cycle`` of temperature (:mod:`derive.memory`).
     searched
         Whether a diagnosis looks for it; one that can look like many others is only added by name.
     contains

@@ -1,7 +1,7 @@
-"""The catalogue of physical effects.
+"""The catalogue of physical effects: one file each, found by its name.
 
-A module of this package defines one effect, or a family of effects that share a shape: every :class:`derive.effect.Effect` in it is
-one of the catalogue. Modules of a user's own are read by :func:`of_module` and :func:`of_text`.
+``derive/effects/<id with underscores>.py`` must define ``EFFECT``, an :class:`derive.effect.Effect`
+whose id matches the file. A user's own modules of that kind are read by :func:`of_module` and :func:`of_text`.
 """
 
 from __future__ import annotations
@@ -21,20 +21,19 @@ from derive.recogniser import numbers_only
 @cache
 def catalogue() -> tuple[Effect, ...]:
     """Every packaged effect, by id."""
-    modules = [importlib.import_module(f"{__name__}.{m.name}") for m in pkgutil.iter_modules(__path__)]
-    return tuple(sorted((e for m in modules for e in of_module(m, inspect.getsource(m))), key=lambda e: e.id))
+    names = sorted(m.name for m in pkgutil.iter_modules(__path__))
+    modules = [importlib.import_module(f"{__name__}.{n}") for n in names]
+    found = [_effect_of(m, n, inspect.getsource(m)) for m, n in zip(modules, names, strict=True)]
+    return tuple(sorted(found, key=_id))
 
 
-def of_module(module: ModuleType, text: str) -> tuple[Effect, ...]:
-    """The effects of a module, whose source is ``text``; ValueError if it defines none."""
-    effects = [e for e in vars(module).values() if isinstance(e, Effect)]
-    if not effects:
-        raise ValueError(f"{module.__file__}: defines no EFFECT = Effect(...)")
-    return tuple(_recognised(e, module, text) if e.kind == "output" else e for e in effects)
+def of_module(module: ModuleType, text: str) -> Effect:
+    """The effect of a user's own module, whose source is ``text``; ValueError if it defines none."""
+    return _effect_of(module, None, text)
 
 
-def of_text(path: Path, text: str) -> tuple[Effect, ...]:
-    """The effects of a user's own Python file. The text is executed as given; neither the file nor its byte code is read again."""
+def of_text(path: Path, text: str) -> Effect:
+    """The effect of a user's own Python file. The text is executed as given; neither the file nor its byte code is read again."""
     module = ModuleType(f"user_effect_{path.stem}")
     module.__file__ = str(path)
     try:
@@ -44,8 +43,18 @@ def of_text(path: Path, text: str) -> tuple[Effect, ...]:
     return of_module(module, text)
 
 
-def _recognised(effect: Effect, module: ModuleType, text: str) -> Effect:
-    """An effect of the output with what recognises it, alone in its module."""
+def _effect_of(module: ModuleType, stem: str | None, text: str) -> Effect:
+    effect = getattr(module, "EFFECT", None)
+    if not isinstance(effect, Effect):
+        raise ValueError(f"{module.__file__}: defines no EFFECT = Effect(...)")
+    if stem is not None and effect.id.replace("-", "_") != stem:
+        raise ValueError(f"{module.__file__}: its effect is named {effect.id!r}, expected the file's name")
+    if effect.kind != "output":
+        return effect
     if not callable(getattr(module, "present", None)):
         raise ValueError(f"{module.__file__}: an effect of the output needs present(values, valid, noise)")
     return replace(effect, recogniser=numbers_only(text))
+
+
+def _id(effect: Effect) -> str:
+    return effect.id

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from derive.effect import Effect, shared
+from derive.effect import Effect, EffectParameter
 from derive.effects import saturation
 
 Array = NDArray[np.float64]
@@ -49,18 +49,28 @@ EFFECT = Effect(
     source="range of the motion sensor's converters",
     equation=r"\bm a_{rec} = \min(\max(\bm a, -a_{max}), a_{max}),\; \bm\omega_{rec} \text{ likewise}",
     limits=(
-        "Symmetric, axis by axis, before any filter: what has been smoothed after it clipped shows no edge. Samples at the end of the "
-        "range are not used."
+        "Symmetric, axis by axis, before any filter: what has been smoothed after it clipped shows no edge. Samples at the "
+        "end of the range are not used."
     ),
     kind="output",
     parameters=(
-        shared("a_max", "a_{max}", "g", "largest recorded force", 2.0, neutral=float("inf"), fitted=False),
-        shared(
+        EffectParameter(
+            "a_max",
+            "a_{max}",
+            "g",
+            "largest recorded force",
+            2.0,
+            shared=True,
+            neutral=float("inf"),
+            fitted=False,
+        ),
+        EffectParameter(
             "omega_max",
             r"\omega_{max}",
             "deg/s",
             "largest recorded rate",
             100.0,
+            shared=True,
             neutral=float("inf"),
             fitted=False,
         ),

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from derive.effect import Effect, shared
+from derive.effect import Effect, EffectParameter
 
 Array = NDArray[np.float64]
 
@@ -58,12 +58,13 @@ EFFECT = Effect(
     limits="Symmetric, of G_out only; single accelerometers do not saturate.",
     kind="output",
     parameters=(
-        shared(
+        EffectParameter(
             "V_max",
             "V_{max}",
             "V",
             "largest output that is recorded",
             10.0,
+            shared=True,
             neutral=float("inf"),
             fitted=False,
         ),

@@ -332,11 +332,11 @@ def load_own_effects() -> tuple[SymbolicEffect, ...]:
         return ()
     from derive.effects import of_module, of_text
 
-    found: list[SymbolicEffect] = []
+    found = []
     for name, text in sources.items():
         try:
             module = _installed().get(name)
-            found += of_text(Path(name), text) if module is None else of_module(module, text)
+            found.append(of_text(Path(name), text) if module is None else of_module(module, text))
         except ValueError as error:
             raise _unread(name, error) from error
     return tuple(sorted(found, key=lambda e: e.id))

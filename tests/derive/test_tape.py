@@ -14,8 +14,8 @@ from derive import ir
 from derive.chain import recorded_motion
 from derive.context import Context
 from derive.effects import catalogue
-from derive.effects.rotation import small_rotation
 from derive.propagation import MOTION_NUMBERS, collect, ideal
+from derive.rotation import small_rotation
 from derive.stages import EXACT
 from derive.symbols import ACCELEROMETER, MOTION, SPIN_ACCELERATION, SPIN_RATE
 from derive.tape import About, Tape, partials

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import derive.effects as derive_effects
 from derive import pipeline
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
@@ -14,28 +15,11 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model import derive
 from ragg_runtime.model.catalogue import effects
 
-OWN = """
-from derive.effect import Effect, EffectParameter
-
-
-def transducer(i, f, p, c):
-    return i + p.K * f.i**3
-
-
-EFFECT = Effect(
-    id={identifier!r},
-    title="An effect of one's own",
-    physics="",
-    source="",
-    equation="",
-    parameters=(EffectParameter("K", "K", "ug/g^3", "third-order coefficient", 5.0),),
-    transducer=transducer,
-)
-"""
+CUBIC = (Path(derive_effects.__file__).parent / "cubic_input.py").read_text("utf-8")
 
 
 def mine(identifier: str) -> str:
-    return OWN.format(identifier=identifier)
+    return CUBIC.replace('id="cubic-input"', f'id="{identifier}"')
 
 
 @pytest.fixture(autouse=True)
@@ -68,7 +52,7 @@ def test_effects_of_the_folder_that_the_user_names(tmp_path: Path, monkeypatch: 
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path / "own"))
     m = api.load(tmp_path / "model")
     assert "mine" in {e.id for e in m.model.candidates}
-    assert effects()["mine"]["title"] == "An effect of one's own"
+    assert effects()["mine"]["title"] == effects()["cubic-input"]["title"]
     m = api.add(m, "mine").loaded
     assert [e.id for e in api.load(tmp_path / "model").model.effects] == ["mine"]
     monkeypatch.delenv("RAGG_EFFECTS")

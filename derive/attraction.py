@@ -7,8 +7,7 @@ from itertools import product
 import sympy as sp
 
 from derive.context import Context
-from derive.effect import Effect, Values, shared
-from derive.stages import Motion
+from derive.effect import EffectParameter, Values
 from derive.symbols import symbol
 
 G = sp.Float("6.6743e-11")
@@ -17,9 +16,12 @@ G = sp.Float("6.6743e-11")
 CHANNELS = ("mass_x", "mass_y", "mass_z")
 """How far the body has moved, m, along the measurement axes."""
 
-MASS = shared("M", "M", "kg", "mass of the body", 100.0)
+MASS = EffectParameter("M", "M", "kg", "mass of the body", 100.0, shared=True)
 PLACE = tuple(
-    shared(k, k, "m", f"{k} of its centre where mass_{k} is 0", 0.05, neutral=1.0, shape=True) for k in "xyz"
+    EffectParameter(
+        k, k, "m", f"{k} of its centre where mass_{k} is 0", 0.05, shared=True, neutral=1.0, shape=True
+    )
+    for k in "xyz"
 )
 
 _AT = sp.Matrix([symbol(f"body_{k}") for k in "xyz"])
@@ -90,70 +92,3 @@ _AROUND = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 
 def _ends(by_axis: dict[int, int]) -> tuple[int, ...]:
     return tuple(by_axis[n] for n in range(3))
-
-
-def near_sphere(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:
-    # Attraction is a specific force of the other sign.
-    return c.in_disc_frame(-of_point(p, c, c.in_measurement_frame(r)))
-
-
-NEAR_SPHERE = Effect(
-    id="near-sphere",
-    title="Moving mass: a sphere",
-    physics=(
-        "A body beside the instrument attracts it: a counterweight, a vehicle, a test mass on a rail. Where it moves, as recorded, the "
-        "gradient changes with it, and across the disc."
-    ),
-    source="Newton's law; calibration by moving masses: Sensors 21, 1925 (2021); Sensors 18, 4386 (2018)",
-    equation=(
-        r"\bm f_j \mathrel{-}= G M (\nabla |\bm s - \bm r_j|^{-1} - \nabla |\bm s|^{-1}),\;"
-        r" \bm s = (x, y, z) + \bm s_{recorded}"
-    ),
-    limits=(
-        "Added by name, not searched for: its place has to be known within half a metre. Record its movement along the measurement axes "
-        "as mass_x, mass_y, mass_z, m (what is not recorded counts as 0). List it in effects of model.toml with the place at which these "
-        'are 0, { id = "near-sphere", x = { value = 1.2, unit = "m", fixed = true }, y = ..., z = ... }: then `ragg add MODEL '
-        "near-sphere FLIGHT` weighs it. Without fixed its place is fitted, too; a mass M that is known is listed likewise (`ragg "
-        "calibrate`). A body that rests is a gradient-offset and a near-mass, one fixed to a turning carrier carrier-gradient."
-    ),
-    channels=CHANNELS,
-    either=True,
-    parameters=(MASS, *PLACE),
-    field=near_sphere,
-    searched=False,
-)
-
-
-def near_cuboid(m: Motion, p: Values, c: Context) -> Motion:
-    return m._replace(Gamma=m.Gamma + gradient_of_cuboid(p, c) - gradient_of_point(p, c))
-
-
-NEAR_CUBOID = Effect(
-    id="near-cuboid",
-    title="Moving mass: a cuboid",
-    physics=(
-        "As near-sphere, of a homogeneous block: a stack of lead bricks, a battery, a tank. Nearer than a few of its edges it does not "
-        "attract like a point."
-    ),
-    source="Newton's law; gradient tensor of a rectangular prism in closed form: Sensors 18, 4386 (2018); Sensors 21, 1925 (2021)",
-    equation=(
-        r"\text{as near-sphere, and } \bm\Gamma \mathrel{+}= G M\, \nabla\nabla (\int s^{-1}\, \mathrm d V/(l_x l_y l_z) - s^{-1})"
-    ),
-    limits=(
-        "As near-sphere, with the edges l_x, l_y, l_z in model.toml, which are along the measurement axes and not fitted. What the shape "
-        "adds to the gradient of a point counts as uniform across the disc: its error is the share (l R/s^2)^2."
-    ),
-    channels=CHANNELS,
-    either=True,
-    parameters=(
-        MASS,
-        *PLACE,
-        *(
-            shared(f"l_{k}", f"l_{k}", "m", f"its edge along {k}", 0.1, neutral=0.5, fitted=False, shape=True)
-            for k in "xyz"
-        ),
-    ),
-    field=near_sphere,
-    sensing=near_cuboid,
-    searched=False,
-)

@@ -1,0 +1,41 @@
+"""The accelerometers ride on the disc, which turns against the platform."""
+
+import sympy as sp
+
+from derive.context import Context
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import spin_gradient
+
+
+def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:
+    added = spin_gradient(c.motion, c.spin)
+    named = sp.Matrix(3, 3, lambda i, k: c.tape.let(f"spin_{'xyz'[i]}{'xyz'[k]}", added[i, k]))
+    return p.share * named * r
+
+
+EFFECT = Effect(
+    id="disc-spin",
+    title="Spin of the disc",
+    physics=(
+        "The accelerometers turn with the disc, whose angular rate is the platform's and the spin's together. "
+        "Eq. 9 has the platform's rate only: it lacks the Coriolis force of the platform's rate and the spin, the "
+        "centripetal force of the spin, and the Euler force of a spin that varies."
+    ),
+    source="rigid-body kinematics: paper, Eq. 9 and 49, with the rate of the disc instead of the platform's",
+    equation=(
+        r"\bm f_j \mathrel{+}= share\,[2\,\bm\omega_{im} \times (\dot\phi\,\bm e_z \times \bm r_j)"
+        r" + \dot\phi^2\,\bm e_z \times (\bm e_z \times \bm r_j) + \ddot\phi\,\bm e_z \times \bm r_j]"
+    ),
+    limits=(
+        "share is 0 (Eq. 9) or 1 (physical); nothing in between is physical. The centripetal force of a steady "
+        "spin is constant, and absorbed by K0, K1, vartheta_y and vartheta_z. The rate is that of spin_angle, or "
+        '2 pi spin_frequency where it is not recorded. A model with kinematics = "full" has all of it.'
+    ),
+    parameters=(
+        EffectParameter(
+            "share", "share", "1", "share of the spin in the kinematics", 1.0, shared=True, physical=1.0
+        ),
+    ),
+    field=field,
+    moot=lambda order, kinematics: kinematics == "full",
+)

@@ -1,0 +1,42 @@
+"""Axes of the gyroscopes that are not at right angles."""
+
+import sympy as sp
+
+from derive.context import Context
+from derive.effect import Effect, Values, shared_components
+from derive.effects.imu_acceleration_misalignment import PAIRS
+from derive.stages import Motion
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    skewed = sp.Matrix(3, 3, lambda i, k: 0 if i == k else p[f"m_{'xyz'[i]}{'xyz'[k]}"])
+
+    def straight(v: sp.Matrix) -> sp.Matrix:
+        return v - skewed * v + skewed * skewed * v
+
+    return m._replace(omega=straight(m.omega), omegadot=straight(m.omegadot))
+
+
+EFFECT = Effect(
+    id="gyro-misalignment",
+    title="Misalignment and cross-axis scale of the gyroscopes",
+    physics=(
+        "Each gyroscope is misaligned individually, or its electronics couple, so that it reports a little of the rate about the "
+        "other axes."
+    ),
+    source="IEEE Std 528, misalignment and cross-axis sensitivity: 0.1 mrad (navigation grade) to 2 % (MEMS data sheets)",
+    equation=r"\bm\omega_{rec} = (\bm 1 + \bm m)\,\bm\omega_{im},\; m_{kk} = 0",
+    limits=(
+        "To second order in m. A common rotation of gyroscopes and accelerometers is imu-misalignment, of the accelerometers only "
+        "imu-acceleration-misalignment; the force distinguishes them."
+    ),
+    parameters=shared_components(
+        "m",
+        PAIRS,
+        "rad",
+        "share of the rate about {1} in what is reported about {0}",
+        1e-4,
+        like="vartheta_z",
+    ),
+    sensing=sensing,
+)

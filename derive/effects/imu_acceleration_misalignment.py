@@ -1,0 +1,39 @@
+"""Axes of the motion sensor's accelerometers that are not at right angles."""
+
+import sympy as sp
+
+from derive.context import Context
+from derive.effect import Effect, Values, shared_components
+from derive.stages import Motion
+
+PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    skewed = sp.Matrix(3, 3, lambda i, k: 0 if i == k else p[f"m_{'xyz'[i]}{'xyz'[k]}"])
+    return m._replace(a=m.a - skewed * m.a + skewed * skewed * m.a)
+
+
+EFFECT = Effect(
+    id="imu-acceleration-misalignment",
+    title="Misalignment of the motion sensor's accelerometers",
+    physics=(
+        "Each accelerometer of the motion sensor is misaligned individually, so that it reports a little of the force along the "
+        "other axes; the gyroscopes' axes are those of the measurement frame."
+    ),
+    source="IEEE Std 1293, input-axis misalignment: 10 to 1000 microradians",
+    equation=r"\bm a_{rec} = (\bm 1 + \bm m)\,\bm a,\; m_{kk} = 0",
+    limits=(
+        "To second order in m. A common rotation of the three accelerometers is imu-misalignment without the gyroscopes; only the "
+        "angular rate distinguishes the two."
+    ),
+    parameters=shared_components(
+        "m",
+        PAIRS,
+        "rad",
+        "share of the force along {1} in what is reported along {0}",
+        1e-4,
+        like="vartheta_z",
+    ),
+    sensing=sensing,
+)
