@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -92,9 +92,6 @@ class _Fall(Linear):
         return replace(self, R=fall.R, y=fall.y, rest=rest, data=self.data / size)
 
 
-_Windows = Sequence[Sequence[Window] | None]
-
-
 @dataclass(frozen=True)
 class _Task:
     """What is fitted: chi-square as a function of the parameters' distance x (n,) from the sheet, in scales."""
@@ -126,15 +123,17 @@ class _Task:
         p[self.index] += x * self.scale
         return p
 
-    def windows(self, noise: Sequence[NoiseModel]) -> _Windows:
-        """What an unknown gradient spans of each flight of one segment, which is the same at every point of a fit."""
+    def linearisation(self, noise: Sequence[NoiseModel]) -> Callable[[Array], _Fall]:
+        """The fit with a noise as a function of the point about which it is linearised."""
         found = [find_segments(o) for o in self.observations]
-        return [
+        # what an unknown gradient spans of a flight of one segment is the same at every point
+        windows = [
             unknown_gradient.make_windows(o, s[0].rows, n) if len(s) == 1 else None
             for o, n, s in zip(self.observations, noise, found, strict=True)
         ]
+        return lambda x: self.at(x, noise, windows)
 
-    def at(self, x: Array, noise: Sequence[NoiseModel], windows: _Windows) -> _Fall:
+    def at(self, x: Array, noise: Sequence[NoiseModel], windows: Sequence[Sequence[Window] | None]) -> _Fall:
         """Linearised about x."""
         p = self.vector(x)
         places = {o.place for o in self.observations}
@@ -153,10 +152,6 @@ class _Task:
             return self._nowhere(x)
         fall = _make_linear(data, -x)
         return _Fall(R=fall.R, y=fall.y, rest=fall.rest, data=data, to_nominal=-x, sums=sums, rows=rows)
-
-    def noise(self, x: Array) -> list[NoiseModel]:
-        """NoiseModel of every flight from what nothing explains about x."""
-        return estimate_noises(self.model, self.instrument, self.observations, self.vector(x))
 
     def size(self, noise: Sequence[NoiseModel]) -> float:
         """Root of the mean power of what no column explains, V, lines included."""
@@ -187,37 +182,6 @@ def estimate_noises(
     return [estimate_noise(everything, o) for o in observations]
 
 
-class _Unweighted:
-    """Fits in which every sample weighs the same: the points that were tried serve for any size of the noise."""
-
-    def __init__(self, task: _Task) -> None:
-        self.task = task
-        self._unit = [NoiseModel.white(o.record.rate, len(o.series)) for o in task.observations]
-        self._tried = lru_cache(maxsize=2)(lambda x: task.at(np.frombuffer(x), self._unit, self._windows))
-
-    @cached_property
-    def _windows(self) -> _Windows:
-        return self.task.windows(self._unit)
-
-    def volts(self, x: Array) -> _Fall:
-        """Linearised about x, a noise of 1 V."""
-        return self._tried(x.tobytes())
-
-    def fit(self, x: Array, size: float) -> Minimum[_Fall]:
-        """From x with noise of this size, V."""
-        return minimise(lambda at: self.volts(at).over(size), x)
-
-    def left(self, x: Array) -> float:
-        """rms of the outputs' residual at x, V."""
-        at = self.volts(x)
-        return float(np.sqrt(at.excess))
-
-    def promised(self, x: Array) -> float:
-        """rms that a linear fit from x would leave, V."""
-        at = self.volts(x)
-        return float(abs(at.data[-1, -1])) / float(np.sqrt(at.rows))
-
-
 def fit(
     model: Model,
     instrument: Instrument,
@@ -234,14 +198,16 @@ def fit(
     """
     task = _Task(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
-    whole = _Unweighted(task)
     if noise is None:
-        x = whole.fit(x, whole.promised(x)).x
-        noise = task.noise(x)
+        volts = task.linearisation([NoiseModel.white(o.record.rate, len(o.series)) for o in observations])
+        size = float(np.sqrt(volts(x).unheld))
+        x = minimise(lambda at: volts(at).over(size), x).x
+        noise = estimate_noises(model, instrument, observations, task.vector(x))
     if unweighted:
-        return _make_calibration(task, whole.fit(x, max(task.size(noise), whole.left(x) / LEAN)), noise)
-    windows = task.windows(noise)
-    return _make_calibration(task, minimise(lambda at: task.at(at, noise, windows), x), noise)
+        volts = task.linearisation([NoiseModel.white(o.record.rate, len(o.series)) for o in observations])
+        size = max(task.size(noise), float(np.sqrt(volts(x).excess)) / LEAN)
+        return _make_calibration(task, minimise(lambda at: volts(at).over(size), x), noise)
+    return _make_calibration(task, minimise(task.linearisation(noise), x), noise)
 
 
 def _make_calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[NoiseModel]) -> Calibration:

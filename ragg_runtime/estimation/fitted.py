@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -166,12 +166,9 @@ class Fitted:
         """(size,): coefficients of all regressors by a fit to the blocks of time :data:`FITTED_BLOCKS`."""
         return self.vector(self.coefficients(extra, held_out=True)[0], extra)
 
-    def residuals(self, coefficients: Array) -> list[Array]:
-        """Residual of G_out, (N,) V, of every flight once these coefficients of the base are in."""
-        return self.residuals_of(self.vector(coefficients))
-
-    def residuals_of(self, v: Array) -> list[Array]:
-        """The same with the coefficients of all regressors, (size,)."""
+    def residuals(self, v: Array | None = None) -> list[Array]:
+        """Residual of G_out, (N,) V, of every flight, also once regressors have coefficients (size,)."""
+        v = np.zeros(self.size) if v is None else v
         flights = [x.for_residuals(v[None]) for x in self.prepared]
         return [
             np.concatenate([*lean.each(lambda piece, w=w: piece.left(w)[0], whitened=False)])  # type: ignore[misc]
@@ -227,29 +224,6 @@ class Fitted:
         return pool_errors(errors, [float(t.samples[group]) for t in tallies])
 
 
-def calibrate(
-    model: Model,
-    instrument: Instrument,
-    observations: Sequence[Observation],
-    *,
-    noise: Sequence[NoiseModel] | None = None,
-    start: Array | None = None,
-    unweighted: bool = False,
-) -> tuple[Instrument, Calibration]:
-    """The parameters, and the instrument with priors as wide as the record requires (``off_sheet.widened``), if that brings what
-    is left down to noise.
-    """
-    c = calibration.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
-    found = instrument, c
-    for _ in range(WIDENED):
-        wider = widen_priors(model, instrument, c)
-        if wider is None:
-            break
-        instrument = wider
-        c = calibration.fit(model, instrument, observations, noise=noise, start=c.p, unweighted=unweighted)
-    return (instrument, c) if c.excess <= QUIET else found
-
-
 def calibrate_certain(
     model: Model,
     instrument: Instrument,
@@ -259,13 +233,34 @@ def calibrate_certain(
     start: Array | None = None,
     unweighted: bool = False,
 ) -> tuple[list[Observation], Instrument, Calibration]:
-    """The same on the samples that the model describes, and these."""
+    """The parameters, the samples that the model describes, which are fitted, and the instrument with priors as wide as these require."""
+    fit = partial(calibrate, model, instrument, noise=noise, start=start, unweighted=unweighted)
     observations = leave_out_uncertain(model, instrument, observations)
-    found = calibrate(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
+    found = fit(observations)
     kept = leave_out_extrapolated(model, instrument, found[1].p, observations)
     if all(a is b for a, b in zip(kept, observations, strict=True)):
         return (observations, *found)
-    return (kept, *calibrate(model, instrument, kept, noise=noise, start=start, unweighted=unweighted))
+    return (kept, *fit(kept))
+
+
+def calibrate(
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    *,
+    noise: Sequence[NoiseModel] | None = None,
+    start: Array | None = None,
+    unweighted: bool = False,
+) -> tuple[Instrument, Calibration]:
+    """The parameters, and the instrument with wider priors where these bring the residual down to noise."""
+    fit = partial(calibration.fit, model, observations=observations, noise=noise, unweighted=unweighted)
+    found = instrument, (c := fit(instrument, start=start))
+    for _ in range(WIDENED):
+        wider = widen_priors(model, instrument, c)
+        if wider is None:
+            break
+        instrument, c = wider, fit(wider, start=c.p)
+    return (instrument, c) if c.excess <= QUIET else found
 
 
 @one_thread

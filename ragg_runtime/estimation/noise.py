@@ -205,7 +205,7 @@ class NoiseModel:
         """(k, m, n): what the lines span at some times, s, each in its own of the m ``series``."""
         shown = np.eye(series) if self.combinations is None else self.combinations
         found = [
-            Disturbance("line", x.frequency, 1.0).columns(time)[:, None] * shown[x.output][:, None]
+            Disturbance("line", x.frequency).columns(time)[:, None] * shown[x.output][:, None]
             for x in self.lines
         ]
         return np.concatenate(found) if found else np.empty((0, series, len(time)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -32,10 +32,9 @@ take as much less memory."""
 
 @dataclass(frozen=True)
 class Segment:
-    """Samples ``rows`` of a flight, in runs of the blocks of time: (block, its rows in the flight)."""
+    """Samples ``rows`` of a flight that are in memory together."""
 
     rows: slice
-    blocks: tuple[tuple[int, slice], ...]
 
 
 def make_block_edges(samples: int) -> NDArray[np.intp]:
@@ -44,17 +43,16 @@ def make_block_edges(samples: int) -> NDArray[np.intp]:
 
 
 def divide_into_segments(samples: int, most: int = ROWS) -> list[Segment]:
-    """The segments of a flight, in order."""
-    edges = [int(e) for e in make_block_edges(samples)]
-    found: list[Segment] = []
-    waiting: list[tuple[int, slice]] = []
-    for b in range(BLOCKS):
-        for part in _divide(edges[b], edges[b + 1], most):
-            if waiting and part.stop - waiting[0][1].start > most:
-                found.append(_joined(waiting))
-                waiting = []
-            waiting.append((b, part))
-    return [*found, _joined(waiting)]
+    """The segments of a flight, in order, of nearly the same length."""
+    edges = np.linspace(0, samples, max(1, -(-samples // most)) + 1).astype(int).tolist()
+    return [Segment(slice(a, b)) for a, b in pairwise(edges)]
+
+
+def split_at_blocks(rows: slice, samples: int) -> list[tuple[int, slice]]:
+    """Some of the ``samples`` of a flight by the blocks of time that they lie in: (block, its rows in the flight)."""
+    edges = make_block_edges(samples).tolist()
+    parts = [(b, slice(max(x, rows.start), min(y, rows.stop))) for b, (x, y) in enumerate(pairwise(edges))]
+    return [(b, part) for b, part in parts if part.start < part.stop]
 
 
 def spread(found: Sequence[Segment], most: int) -> list[Segment]:
@@ -65,20 +63,9 @@ def spread(found: Sequence[Segment], most: int) -> list[Segment]:
 
 
 def take_beginnings(found: Sequence[Segment], samples: int) -> list[Segment]:
-    """As much of the beginnings of segments as makes at most so many samples together, without their blocks."""
+    """As much of the beginnings of segments as makes at most so many samples together."""
     each = samples // max(1, len(found))
-    return [Segment(slice(s.rows.start, min(s.rows.stop, s.rows.start + each)), ()) for s in found]
-
-
-def _divide(start: int, stop: int, most: int) -> Iterator[slice]:
-    count = max(1, -(-(stop - start) // most))
-    edges = np.linspace(start, stop, count + 1).astype(np.intp)
-    for a, b in pairwise(edges):
-        yield slice(int(a), int(b))
-
-
-def _joined(parts: list[tuple[int, slice]]) -> Segment:
-    return Segment(slice(parts[0][1].start, parts[-1][1].stop), tuple(parts))
+    return [Segment(slice(s.rows.start, min(s.rows.stop, s.rows.start + each))) for s in found]
 
 
 Array = NDArray[np.float64]
@@ -139,10 +126,10 @@ def _find_usable(
     usable = np.array(valid)
     for x in series:
         usable &= np.isfinite(x)
-    if o.name in flight.outputs and _reaches_top(flight.outputs[o.name], usable):
+    if o.name in flight.outputs:
         usable &= ~saturation.clipped(flight.outputs[o.name], usable)
     for name in imu_saturation.CHANNELS:
-        if name in flight.channels and _reaches_top(flight.channels[name], usable):
+        if name in flight.channels:
             usable &= ~imu_saturation.clipped(flight.channels[name], usable)
     return usable
 
@@ -231,24 +218,6 @@ class Thin:
     def kept(self, x: Array) -> Array:
         """Series (..., N) over the :attr:`span`, thinned: (..., n)."""
         return convolve(x, self.taps)[..., :: self.every]
-
-
-def _reaches_top(values: Array, valid: NDArray[np.bool_]) -> bool:
-    """Whether so many samples are at one extreme value that a range may have been reached."""
-    parts = [slice(k, k + ROWS) for k in range(0, len(values), ROWS)]
-    tops = [float(np.nanmax(_sizes(values[some], valid[some]), initial=0.0)) for some in parts]
-    near = max(tops, default=0.0) * (1 - 1e-9)
-    there = [
-        np.sum(_sizes(values[some], valid[some]) >= near)
-        for some, top in zip(parts, tops, strict=True)
-        if top >= near
-    ]
-    return bool(sum(there) >= saturation.CLIPPED)
-
-
-def _sizes(values: Array, valid: NDArray[np.bool_]) -> Array:
-    """Absolute values of the valid samples."""
-    return np.abs(values if valid.all() else values[valid])
 
 
 def _spacing(there: NDArray[np.bool_]) -> int:

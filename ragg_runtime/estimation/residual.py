@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft, linalg
+from scipy import fft, linalg, signal
 
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation.least_squares import compute_r_factor
@@ -18,34 +18,24 @@ from ragg_runtime.estimation.spectrum import (
     compute_periodogram,
     cut_lines,
     estimate,
-    make_hann_window,
 )
 from ragg_runtime.signals.fir import GROUP, fill_gaps, filter_columns, find_nonzero
 
 Array = NDArray[np.float64]
 
-JUMP_OF_MEANS = 12.0
-"""Robust standard deviations of the difference of the means of two neighbouring windows from which it is a jump: noise,
-red or white, stays below 6 in a day."""
-
 STD_OF_MEDIAN = 1.4826
 """Standard deviation of normal noise over the median of its absolute value."""
 
-WINDOW = 10.0
-"""Length of those windows, s."""
-
-
-MOST_DISTURBANCES = 8
-"""Most lines, and most jumps, of a segment."""
+MOST_LINES = 8
+"""Most lines of a segment that are found at a time."""
 
 
 @dataclass(frozen=True)
 class Disturbance:
-    """A line, Hz, or a jump, s since the first sample of the segment; ``size``: its amplitude over the noise's rms."""
+    """A line, Hz, or a jump, s since the first sample of the segment."""
 
     kind: str
     at: float
-    size: float
 
     def columns(self, time: Array) -> Array:
         """(k, N): what it spans; a line may be off its frequency a little."""
@@ -56,58 +46,24 @@ class Disturbance:
         return np.stack([np.cos(phase), np.sin(phase), slow * np.cos(phase), slow * np.sin(phase)])
 
 
-def find_disturbances(
-    rest: Array, valid: NDArray[np.bool_], rate: float, without: tuple[float, float] | None = None
-) -> list[Disturbance]:
-    """Those in a residual (N,), zero where it is not valid; no lines in a band (from, to, Hz) that has lost its noise."""
-    return [*_find_lines(rest, rate, without), *_find_jumps(rest, valid, rate)]
-
-
-def _find_lines(rest: Array, rate: float, without: tuple[float, float] | None) -> list[Disturbance]:
+def find_lines(rest: Array, rate: float, without: tuple[float, float] | None) -> list[Disturbance]:
+    """Those in a residual (N,), zero where it is not valid; none in a band (from, to, Hz) that has lost its noise."""
     f, p = (x[LOWEST:-1] for x in compute_periodogram(rest, rate))
     if without is not None:
         kept = (f < without[0]) | (f > without[1])
         f, p = f[kept], p[kept]
     quiet = cut_lines(p)
     high = np.flatnonzero(p > quiet)
-    noise = float(np.sqrt(np.sum(quiet) * (f[1] - f[0])))
     found: list[Disturbance] = []
     for k in sorted(high, key=lambda k: -p[k]):
-        if len(found) == MOST_DISTURBANCES:
+        if len(found) == MOST_LINES:
             break
         if k in (0, len(p) - 1) or p[k] < max(p[k - 1], p[k + 1]):
             continue
         # the logarithm of a Hann window's peak is nearly a parabola
         a, b, c = np.log(p[k - 1 : k + 2])
         shift = 0.5 * (a - c) / (a - 2 * b + c) if a + c < 2 * b else 0.0
-        power = float(np.sum(p[max(0, k - 2) : k + 3])) * (f[1] - f[0])
-        found.append(
-            Disturbance("line", float(f[k] + shift * (f[1] - f[0])), float(np.sqrt(2 * power)) / noise)
-        )
-    return found
-
-
-def _find_jumps(rest: Array, valid: NDArray[np.bool_], rate: float) -> list[Disturbance]:
-    w = max(8, round(WINDOW * rate))
-    n = len(rest)
-    if n < 8 * w:
-        return []
-    total, count = (np.concatenate([[0.0], np.cumsum(x)]) for x in (rest, valid.astype(np.float64)))
-    k = np.arange(w, n - w + 1)
-    before, after = count[k] - count[k - w], count[k + w] - count[k]
-    enough = (before > w / 2) & (after > w / 2)
-    means = (total[k + w] - total[k]) / np.maximum(after, 1) - (total[k] - total[k - w]) / np.maximum(
-        before, 1
-    )
-    step = np.where(enough, means, 0.0)
-    spread = STD_OF_MEDIAN * float(np.median(np.abs(step[enough]))) if enough.any() else 0.0
-    noise = float(np.median(np.abs(rest[valid]))) * STD_OF_MEDIAN
-    found: list[Disturbance] = []
-    left = np.abs(step)
-    while spread > 0.0 and len(found) < MOST_DISTURBANCES and left.max() > JUMP_OF_MEANS * spread:
-        at = int(np.argmax(left))
-        found.append(Disturbance("jump", float(k[at] / rate), float(left[at]) / max(noise, 1e-300)))
-        left[max(0, at - w) : at + w] = 0.0
+        found.append(Disturbance("line", float(f[k] + shift * (f[1] - f[0]))))
     return found
 
 
@@ -117,9 +73,9 @@ def describe_disturbances(found: Sequence[Disturbance]) -> str | None:
     jumps = sorted({round(d.at) for d in found if d.kind == "jump"})
     said = []
     if lines:
-        said.append("lines at " + ", ".join(f"{x:.4g} Hz" for x in lines[:MOST_DISTURBANCES]))
+        said.append("lines at " + ", ".join(f"{x:.4g} Hz" for x in lines[:MOST_LINES]))
     if jumps:
-        said.append("jumps at " + ", ".join(f"{x} s" for x in jumps[:MOST_DISTURBANCES]))
+        said.append("jumps at " + ", ".join(f"{x} s" for x in jumps))
     return "the output has " + " and ".join(said) if said else None
 
 
@@ -156,7 +112,7 @@ class ProjectedResidual:
         windowed wave it is v'Cv - 2 Re v'CQ Q'v + v'Q (Q'CQ) Q'v.
         """
         n, valid = len(self.valid), self.valid
-        size, window = fft.next_fast_len(2 * n, real=True), make_hann_window(n)
+        size, window = fft.next_fast_len(2 * n, real=True), signal.windows.hann(n, sym=False)
         if noise is None:
             return self.kept + float(np.sum(window[~valid] ** 2) / np.sum(window**2))
         density = noise.psd(fft.rfftfreq(size, 1.0 / noise.rate)) * noise.rate / 2
@@ -205,20 +161,16 @@ def fit_columns(
         return _fitted(wide, flat, valid, rate, found)
 
     for _ in range(ROUNDS):
-        seen = find_disturbances(place_valid(left.rest, valid), valid, rate, band)
-        lines = [d for d in seen if d.kind == "line"]
-        jump = None if lines else _find_best_jump(left, valid, rate)
-        with_it = None if jump is None else _and(left, through(jump.columns(time))[0], valid)
-        if (
-            jump is not None
-            and with_it is not None
-            and _is_significant(left, with_it, valid, rate, band, raised)
-        ):
-            left = beside([*left.found, jump])  # to the sample; those that a mean shows are of no further use
-            continue
-        if not seen:
-            break
-        left = beside([*left.found, *(lines or seen)])
+        more = find_lines(place_valid(left.rest, valid), rate, band)
+        if not more:
+            jump = _find_best_jump(left, valid, rate)
+            if jump is None:
+                break
+            with_it = _and(left, through(jump.columns(time))[0], valid)
+            if not _is_significant(left, with_it, valid, rate, band, raised):
+                break
+            more = [jump]
+        left = beside([*left.found, *more])
     return left
 
 
@@ -286,8 +238,7 @@ def _find_best_jump(left: ProjectedResidual, valid: NDArray[np.bool_], rate: flo
     variance = float(left.rest @ left.rest) / max(1.0, n - left.rank)
     if not float(after[best] ** 2 / own[best]) > JUMP * variance:
         return None
-    size = abs(float(after[best] / own[best])) / float(np.sqrt(variance))
-    return Disturbance("jump", float(np.flatnonzero(valid)[edges[best]] / rate), size)
+    return Disturbance("jump", float(np.flatnonzero(valid)[edges[best]] / rate))
 
 
 def _is_significant(
@@ -314,7 +265,7 @@ def _share_kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> 
     counted as lost; columns times ``directions`` (n, k) are Q.
     """
     n = len(valid)
-    window = make_hann_window(n)
+    window = signal.windows.hann(n, sym=False)
     size = fft.next_fast_len(n, real=True)  # a little finer than the periodogram's own frequencies
     bins = size // 2 + 1
     some = np.unique(np.r_[0 : min(bins, EVERY // 2), np.geomspace(1, bins, EVERY).astype(np.intp) - 1])

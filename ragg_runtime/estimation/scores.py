@@ -96,11 +96,10 @@ def measure_error(residual: Array, r: Record, k_ggi: float) -> Error:
     k_ggi
         V/Eo.
     """
-    rms = float(np.sqrt(np.mean(residual[r.valid] ** 2))) if np.any(r.valid) else float("nan")
-    g = demodulate_residual(residual, r, k_ggi)
-    g = g[np.isfinite(g)]
-    i, c = (float(np.std(x)) if len(x) > 1 else float("nan") for x in (g.real, g.imag))
-    return Error(rms, rms / k_ggi, i, c)
+    tally = Tally(1, 1, r.rate, turning=r.turning)
+    everything = np.ones_like(r.valid)[None]
+    tally.add(np.where(r.valid, residual, 0.0)[None], r.demodulation_angle, everything, r.valid)
+    return tally.error(0, k_ggi)
 
 
 def pool_errors(errors: list[Error], weights: list[float]) -> Error:

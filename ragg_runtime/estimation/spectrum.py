@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft, interpolate, linalg, optimize
+from scipy import interpolate, linalg, optimize, signal
 
 Array = NDArray[np.float64]
 
@@ -387,16 +387,7 @@ def _fit_red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Ar
     return density
 
 
-def make_hann_window(n: int) -> Array:
-    """(n,): the periodic Hann window."""
-    return np.asarray(0.5 + 0.5 * np.cos(np.linspace(-np.pi, np.pi, n + 1))[:-1])
-
-
 def compute_periodogram(x: Array, rate: float) -> tuple[Array, Array]:
     """Frequencies, Hz, and one-sided density of x (..., N) less its mean, seen through a Hann window."""
-    n = x.shape[-1]
-    window = make_hann_window(n)
-    wave = fft.rfft((x - np.mean(x, axis=-1, keepdims=True)) * window)
-    power = (wave.real**2 + wave.imag**2) * (1.0 / (rate * np.sum(window**2)))
-    power[..., 1 : n // 2 + 1 - (n % 2 == 0)] *= 2.0
-    return fft.rfftfreq(n, 1.0 / rate), power
+    f, density = signal.periodogram(x, rate, "hann")
+    return f, density

@@ -24,7 +24,7 @@ from ragg_runtime.estimation.observation import (
     spread,
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual, linearise
-from ragg_runtime.estimation.residual import STD_OF_MEDIAN, find_disturbances
+from ragg_runtime.estimation.residual import STD_OF_MEDIAN, find_lines
 from ragg_runtime.estimation.whitening import find_segments, is_long
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.record import is_disc_angle
@@ -269,9 +269,8 @@ def _has_line(at: LinearisationPoint, thin: Thin) -> bool:
     """Whether the part of a piece's residual that the low-pass removes has a line, which must be reported."""
     r, half, e = thin.whole.record, len(thin.taps) // 2, compute_residual(at, thin.whole)
     fast = e[:, half:-half] - convolve(e, thin.taps)
-    told = (0.0, STOPPED * r.rate / (2 * thin.every))
-    found = (d for x in fast for d in find_disturbances(x, r.valid[half:-half], r.rate, told))
-    return any(d.kind == "line" for d in found)
+    kept = (0.0, STOPPED * r.rate / (2 * thin.every))
+    return any(find_lines(x, r.rate, kept) for x in fast)
 
 
 def _find_supported(valid: NDArray[np.bool_], thin: Thin) -> NDArray[np.bool_]:

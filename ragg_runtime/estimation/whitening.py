@@ -23,6 +23,7 @@ from ragg_runtime.estimation.observation import (
     combine_output,
     divide_into_segments,
     make_block_edges,
+    split_at_blocks,
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise, thin_residual
 from ragg_runtime.estimation.unknown_gradient import Window
@@ -128,10 +129,14 @@ def pass_over(
         if whitened:
             level = noise.level.of(part.record.quantity)
             series = noise.interpolate(columns[nonzero], part.record.valid, level)
-            tail = _recall_past(tail, s.rows.start - before, memory)
+            if tail is not None:
+                tail = np.pad(tail, ((0, 0), (0, 0), (0, min(memory, s.rows.start - before))))[:, :, -memory:]
             white = noise.filter(series, part.record.valid, level, tail=tail)
             flat = _project_segment(white, series, len(columns), nonzero, taken)
-            tail, before = _carry_tail(tail, series, memory), s.rows.stop
+            if memory:
+                whole = tail is None or series.shape[2] >= memory
+                past = series if whole else np.concatenate([tail, series], axis=2)
+                tail, before = past[:, :, -memory:], s.rows.stop
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, noise.outputs)
         piece = Piece(
             segment=s,
@@ -161,24 +166,6 @@ def _project_segment(
     flat = np.zeros((count, some.shape[1]))
     flat[nonzero] = some
     return flat
-
-
-def _recall_past(tail: Array | None, gap: int, memory: int) -> Array | None:
-    """What a filter still remembers after so many zeros."""
-    if tail is None or gap >= memory:
-        return None
-    return np.pad(tail, ((0, 0), (0, 0), (0, gap)))[:, :, -memory:] if gap else tail
-
-
-def _carry_tail(tail: Array | None, columns: Array, memory: int) -> Array | None:
-    """What a filter remembers once it has seen ``columns``."""
-    if memory == 0:
-        return None
-    n = columns.shape[2]
-    if n >= memory:
-        return columns[:, :, n - memory :]
-    kept = columns if tail is None else np.concatenate([tail, columns], axis=2)
-    return kept[:, :, -memory:]
 
 
 @dataclass(frozen=True)
@@ -267,32 +254,22 @@ def factor_blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
     """Of the columns [base | candidates | residual]: R factors (n + 1, n + 1) of the whitened ones, one a block of
     time, and (BLOCKS, n + 1), V: sums of the plain ones of G_out.
     """
-    size = 1
+    samples = len(prepared.observation.record.time)
 
     def own(piece: Piece) -> list[tuple[int, Array, Array]]:
-        first = piece.segment.rows.start
+        first, parts = piece.segment.rows.start, split_at_blocks(piece.segment.rows, samples)
         return [
-            (
-                b,
-                piece.r_factor(rows.start, rows.stop),
-                piece.sums(slice(rows.start - first, rows.stop - first)),
-            )
-            for b, rows in piece.segment.blocks
+            (b, piece.r_factor(x.start, x.stop), piece.sums(slice(x.start - first, x.stop - first)))
+            for b, x in parts
         ]
 
-    r_factors: list[Array | None] = [None] * BLOCKS
-    totals: list[Array | float] = [0.0] * BLOCKS
-    for parts in prepared.each(own):
-        for b, T, sums in parts:
-            size = len(T)
-            before = r_factors[b]
-            r_factors[b] = T if before is None else join([before, T])
-            totals[b] = totals[b] + sums
-    empty = np.zeros((size, size))
-    return (
-        tuple(empty if t is None else t for t in r_factors),
-        np.stack([np.broadcast_to(x, size) for x in totals]),
-    )
+    parts = [part for several in prepared.each(own) for part in several]
+    size = len(parts[0][1])
+    r_factors, totals = [np.zeros((size, size))] * BLOCKS, np.zeros((BLOCKS, size))
+    for b, T, sums in parts:
+        r_factors[b] = join([r_factors[b], T]) if r_factors[b].any() else T
+        totals[b] += sums
+    return tuple(r_factors), totals
 
 
 DEPENDENT = 1e-6

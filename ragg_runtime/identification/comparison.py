@@ -69,7 +69,7 @@ class Comparison:
     @cached_property
     def residual(self) -> list[Array]:
         """(N,) V of every flight, calibrated."""
-        return self.fitted.residuals(np.zeros(self.fitted.n_base))
+        return self.fitted.residuals()
 
     def with_nominal(self, instrument: Instrument) -> Comparison:
         """The same, ``nominal`` being these values."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import HELD_OUT_BLOCKS, Fitted
 from ragg_runtime.estimation.least_squares import compute_r_factor, join
-from ragg_runtime.estimation.observation import BLOCKS, ROWS, combine_output
+from ragg_runtime.estimation.observation import BLOCKS, ROWS, combine_output, split_at_blocks
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, divide_flight
 from ragg_runtime.identification import omnibus
 from ragg_runtime.identification.dictionary import Term, list_harmonics
@@ -51,22 +52,22 @@ def pass_unwhitened(f: Fitted) -> Unwhitened:
     found: list[list[Array]] = [[] for _ in range(BLOCKS)]
     samples = np.zeros(BLOCKS)
 
-    def own(piece: Piece) -> list[tuple[int, Array, int]]:
-        r = piece.observation.record
+    def own(piece: Piece, count: int) -> list[tuple[int, Array, int]]:
+        r, whole = piece.observation.record, piece.segment.rows
         e = combine_output(
             piece.observation, unknown_gradient.take_out(piece.columns, piece.windows, r.valid)
         )
         parts = []
-        for b, rows in piece.segment.blocks:
-            here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
+        for b, rows in split_at_blocks(whole, count):
+            here = slice(rows.start - whole.start, rows.stop - whole.start)
             parts.append((b, compute_r_factor(e[:, here]), int(np.sum(r.valid[here]))))
         return parts
 
     for x in f.prepared:
-        for parts in x.each(own, whitened=False):
-            for b, T, count in parts:
+        for parts in x.each(partial(own, count=len(x.observation.record.time)), whitened=False):
+            for b, T, valid in parts:
                 found[b].append(T)
-                samples[b] += count
+                samples[b] += valid
     nothing = np.zeros((f.size + 1, f.size + 1))
     return Unwhitened(tuple(join(t) if t else nothing for t in found), samples)
 

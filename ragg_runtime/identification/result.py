@@ -110,12 +110,12 @@ class Diagnosis:
     @cached_property
     def residual(self) -> list[Array]:
         """(N,) V of every flight, calibrated, as the model is."""
-        return self.fitted.residuals(np.zeros(self.fitted.n_base))
+        return self.fitted.residuals()
 
     @cached_property
     def residual_after(self) -> list[Array]:
         """(N,) V of every flight, with the effects chosen (claimed or not) in the model."""
-        return self.target.residuals_of(self.coefficients)
+        return self.target.residuals(self.coefficients)
 
     def terms(self) -> list[dict[str, object]]:
         """Generic terms in what remains (see :func:`ragg_runtime.identification.omnibus.list_terms`)."""

@@ -164,7 +164,7 @@ def write_history(steps: Sequence[Json], origin: Origin) -> str:
 
 def write_calibration(said: Sequence[Section], f: Fitted, origin: Origin) -> str:
     """The report of ``calibrate``: ``said`` and the parameters of the fit ``f``."""
-    lines = panels.pair_lines(f.residuals(np.zeros(f.n_base)), None)
+    lines = panels.pair_lines(f.residuals(), None)
     drawn = panels.plot_blocks(f, lines, envelope=True), panels.plot_spectrum(f, lines)
     sections = [*said, *_figure("The residual", *drawn), *describe_parameters(f, values=False)]
     return _render("Calibration", sections, origin, f)

@@ -229,7 +229,7 @@ class View:
             raise UserError("no model is drawn for a validation flight")
         root = invert_root(information(self.f))
         z = np.random.default_rng(0).standard_normal((MODELS, self.f.n_base))
-        return [self.f.residuals(root @ x)[self.n] for x in z]
+        return [self.f.residuals(self.f.vector(root @ x))[self.n] for x in z]
 
     def _find_previous(self) -> Array:
         """The residual (N,), V, of the model before the last step."""

@@ -13,7 +13,7 @@ from scipy.linalg import toeplitz
 
 from ragg_runtime.estimation import calibration, observation
 from ragg_runtime.estimation.noise_level import describe_level, estimate_level
-from ragg_runtime.estimation.residual import describe_disturbances, find_disturbances, fit_columns
+from ragg_runtime.estimation.residual import describe_disturbances, find_lines, fit_columns
 from ragg_runtime.estimation.scores import log_sf, log_sf_f, log_sf_t
 from ragg_runtime.estimation.spectrum import LOWEST, cut_lines, estimate
 from ragg_runtime.estimation.unknown_gradient import make_splines
@@ -259,23 +259,24 @@ def test_noise_is_left_as_it_is(slope: float) -> None:
         x = noise(seed, slope)
         _, p = signal.periodogram(x, RATE, window="hann", detrend="constant")
         assert np.array_equal(cut_lines(p[LOWEST:-1]), p[LOWEST:-1])
-        assert find_disturbances(x, np.ones(LONG, dtype=bool), RATE) == []
+        assert find_lines(x, RATE, None) == []
 
 
 @pytest.mark.parametrize("size", [1.0, 30.0, 1000.0])
 def test_a_line_is_found_and_does_not_raise_the_noise(size: float) -> None:
     x = noise(3) + size * np.sin(2 * np.pi * 0.3712 * LONG_TIME + 0.4)
-    (found,) = find_disturbances(x, np.ones(LONG, dtype=bool), RATE)[:1]
+    found = find_lines(x, RATE, None)[0]
     assert found.kind == "line"
     assert found.at == pytest.approx(0.3712, abs=0.1 * RATE / LONG)
-    assert found.size == pytest.approx(size, rel=0.1)
+    shapes = fit_columns(np.stack([np.ones(LONG), x]), np.ones(LONG, dtype=bool), RATE, None).shapes
+    assert np.std(np.sum(shapes, axis=0)) == pytest.approx(size / np.sqrt(2.0), rel=0.1)
     assert estimate([x], RATE).rms == pytest.approx(estimate([noise(3)], RATE).rms, rel=0.06)
 
 
 @pytest.mark.parametrize("size", [3.0, 100.0])
 def test_a_jump_is_found_at_its_instant(size: float) -> None:
     x = noise(5, 1.0) + size * (LONG_TIME >= 400.0)
-    (found,) = find_disturbances(x, np.ones(LONG, dtype=bool), RATE)
+    (found,) = fit_columns(np.stack([np.ones(LONG), x]), np.ones(LONG, dtype=bool), RATE, None).found
     assert (found.kind, round(found.at)) == ("jump", 400)
     assert "jumps at 400 s" in str(describe_disturbances([found]))
 

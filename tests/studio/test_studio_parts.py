@@ -67,7 +67,7 @@ def test_a_signature_is_the_residual_that_goes(diagnosis: Diagnosis) -> None:
     v = predict.fit_effects(f, make_field(f, ["thermal-scale"]), ["thermal-scale"])
     rows, taken = predict.compute_signature(f, 0, v)
     assert rows == slice(0, 1920)
-    before, after = (f.residuals_of(x)[0] for x in (np.zeros(f.size), v))
+    before, after = (f.residuals(x)[0] for x in (np.zeros(f.size), v))
     assert np.allclose(taken, before - after, atol=1e-12 * np.max(np.abs(before)))
 
 
