@@ -148,7 +148,7 @@ def _repeated(x: Array, there: Mask, turning: bool = False) -> _Repeated | None:
     joined = None if turning else _joined(x, there)  # the angle of a disc is a line
     if joined is not None:
         return joined
-    stuck = _stuck(x, there, equal, 0.0 if step is None else step)
+    stuck = _stuck(x, there, equal, 0.0 if step is None else step, turning)
     return _Repeated("stuck", stuck, 0.0) if stuck.any() else None
 
 
@@ -185,7 +185,7 @@ def _joined(x: Array, there: Mask) -> _Repeated | None:
     return _Repeated("joined by straight lines", there & ~kept, float(every))
 
 
-def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
+def _stuck(x: Array, there: Mask, equal: Mask, step: float, turning: bool) -> Mask:
     """(N,): samples in runs of equal values that are too long for how often the column repeats a value elsewhere.
 
     The chance that two neighbours are equal is counted in the pairs before and after a run, as many as it has; or it is the resolution
@@ -219,8 +219,17 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float) -> Mask:
         reading = x[first[k]] != 0.0 and last[k] - first[k] < 3  # of which the others are copies
         found[first[k] + reading : last[k] + 1] = True
     if len(x) * float(np.median(by_step)) < RARE:  # a column that hardly ever meets a value again
-        found |= _find_lost(x, there, found)
+        lost = _find_lost(x, there, found)
+        found |= lost & ~_on_its_way(x) if turning else lost
     return found
+
+
+def _on_its_way(angle: Array) -> Mask:
+    """(N,): samples of a disc's angle, rad, that it enters or leaves by its usual move: it passes the same angles in every turn."""
+    moves = np.angle(np.exp(1j * np.diff(angle)))
+    usual = np.median(moves)
+    even = np.abs(moves - usual) < abs(usual) / 2
+    return np.asarray(np.r_[False, even] | np.r_[even, False])
 
 
 def _find_lost(x: Array, there: Mask, stuck: Mask) -> Mask:
