@@ -48,23 +48,21 @@ class Conclusion:
     def of(found: Evidence, output: Sequence[str], *, apart: bool) -> Conclusion:
         """Judge what the search has found; ``output``: what the recorder did."""
         chosen, line, steady = _without_lines(found)
-        outcome, weak = (chosen, []) if apart else _drop_unfounded(found, chosen)
         count = found.first.field.count + len(chosen.random)
         base = omnibus.search_residuals(found.first.fitted) if chosen.effects else []
         before = _Lead.of(found, chosen, count, base)
+        outcome, weak = (chosen, []) if apart else _drop_unfounded(found, chosen)
         one = _find_common_kind(found, outcome.effects)
-        while True:
-            lead = before if outcome is chosen else _Lead.of(found, outcome, count, base)
-            claimed = () if lead is None else _choose_claims(outcome, lead, base)
-            if claimed or one or outcome.remains or len(outcome.effects) < 2:
-                break
+        lead = before if outcome is chosen else _Lead.of(found, outcome, count, base)
+        claimed = _choose_claims(outcome, lead, base)
+        while not (claimed or one or outcome.remains) and len(outcome.effects) > 1:
             # generic terms do as well as all of these, but perhaps not as well as those without the weakest
-            p = {e: _log_p(outcome, outcome.significance(e), found.log_p.get(e)) for e in outcome.effects}
-            weakest = max(p, key=lambda e: (p[e], e))
-            less = found.without(outcome, weakest)
+            weakest, less = _drop_weakest(found, outcome)
             if less.remains:
                 break
             outcome, weak = less, [*weak, weakest]
+            lead = _Lead.of(found, outcome, count, base)
+            claimed = _choose_claims(outcome, lead, base)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         random = _list_random(outcome, count)
         doubted = apart or outcome.explained.complaint is not None
@@ -208,6 +206,13 @@ def _find_weakest(found: Evidence, o: Outcome, needed: Sequence[str]) -> str | N
     return None if weakest is None or _is_significant(found, o, p[weakest]) else weakest
 
 
+def _drop_weakest(found: Evidence, o: Outcome) -> tuple[str, Outcome]:
+    """The least significant effect, and the outcome without it."""
+    p = {e: _log_p(o, o.significance(e), found.log_p.get(e)) for e in o.effects}
+    weakest = max(p, key=lambda e: (p[e], e))
+    return weakest, found.without(o, weakest)
+
+
 def _log_p(o: Outcome, s: Significance, log_p: float | None) -> float:
     """Of an effect; 0 if it does not explain plainly more than the best generic term does of what is left."""
     left = claims.find_strongest(o.remainder) if o.remainder.significant else None
@@ -265,11 +270,15 @@ class _Lead:
         return _Lead(chi2, rank, _compare_with_terms(found, o, chi2, rank, count, base))
 
 
-def _choose_claims(o: Outcome, lead: _Lead, base: Sequence[Remainder]) -> tuple[str, ...]:
+def _choose_claims(o: Outcome, lead: _Lead | None, base: Sequence[Remainder]) -> tuple[str, ...]:
     """What of an outcome's effects may be claimed (``claims``)."""
+    if lead is None:
+        return ()
     if o.remains:
-        more = lead.chi2 - lead.rank > claims.MORE * claims.find_best_single(base)
-        return o.effects if more and lead.ahead > claims.PLAINLY else ()
+        single, all_of_it = claims.find_best_single(base), sum(s.square for s in base[0].searches)
+        more = lead.chi2 - lead.rank > claims.MORE * single
+        less = claims.MORE * (all_of_it - lead.chi2) < all_of_it - single
+        return o.effects if (more or less) and lead.ahead > claims.PLAINLY else ()
     # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
     least = -claims.PLAINLY if len(o.effects) == 1 else 0.0
     return o.effects if lead.ahead > least else ()
