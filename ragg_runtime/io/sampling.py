@@ -386,7 +386,8 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
     found += f" (and {len(wrong) - 1} more such places)" if len(wrong) > 1 else ""
     what, remedy = (
         "the time runs backwards",
-        "remove duplicate rows or sort the rows by time; two records need two files",
+        "remove duplicate rows or sort the rows by time; two records need two files; of a clock that was set (to winter time?) give"
+        " the times by the sample count",
     )
     single = _find_single(time)
     single = None if single is None or single < 1e-3 else single

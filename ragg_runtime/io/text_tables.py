@@ -242,6 +242,8 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
             data = gzip.decompress(data)
         if data.startswith((b"\xff\xfe", b"\xfe\xff")):
             return data.decode("utf-16").encode(), []
+        if data[1:4:2] == b"\0\0":  # every second byte of plain text, without the mark
+            return data.decode("utf-16-le").encode(), []
         try:
             data.decode()
         except UnicodeDecodeError:

@@ -80,6 +80,7 @@ CSV = {
     "another alphabet late": text(PLAIN + ",remark", [[*r, "böig" if k == N - 1 else "ruhig"] for k, r in enumerate(rows())])
     .encode("cp1252"),
     "UTF-16": text(PLAIN, rows()).encode("utf-16"),
+    "UTF-16 without its mark": text(PLAIN, rows()).encode("utf-16-le"),
     "a remark in one row": text(PLAIN + ",remark", [[*r, "1" if k < 50 else "x"] for k, r in enumerate(rows())]),
     "an index that is time": text("," + PLAIN.partition(",")[2], rows([f"0 days 00:00:{t:09.6f}" for t in VALUES["time"]])),
     "remarks among the rows and at the end": text(PLAIN, [*rows()[:9], ["# marker 5"], *rows()[9:], ["end", "of", "record"]]),
