@@ -146,10 +146,8 @@ def estimate_level(
             break
         parts.append(part)
         u = u / part.of(quantities[best])
-    level = np.ones(len(white))
-    for p in parts:
-        level *= p.of(quantities[p.name])
-    return Level(tuple(parts), 1.0 / float(np.sqrt(np.mean(level**2)))) if parts else Level()
+    level = Level(tuple(parts)).of(quantities.__getitem__)
+    return Level(tuple(parts), 1.0 / float(np.sqrt(np.mean(np.square(level)))))
 
 
 def _is_alternative(u: Array, variance: Array, quantities: Mapping[str, Array], asked: int) -> bool:

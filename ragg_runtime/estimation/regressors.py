@@ -150,15 +150,15 @@ def find_nonzero(columns: Sequence[Column], instrument: Instrument, place: int) 
     return np.array([*list_own_columns(columns, instrument, place), len(columns)], dtype=np.intp)
 
 
-def observe_voltages(o: Observation, v: Array, accelerometer: int | None) -> Array:
-    """What an observation sees of its output's voltages: (members, N), or (N,) of one accelerometer -> (m, N)."""
-    return o.recorded.through(o.recorded.of_voltages(o.output, v, accelerometer), o.record)
+def observe_voltages(o: Observation, v: Array) -> Array:
+    """What an observation sees of its output's voltages: (members, N) -> (m, N)."""
+    return o.recorded.through(o.recorded.of_voltages(o.output, v), o.record)
 
 
 def predict_observed(model: Model, o: Observation, p: Array) -> Array:
     """(m, N), V: what a model with parameters p (size,), SI, predicts of what is observed; no unknown gradient."""
     record, rest = move_record(model, o.record, p)
-    return observe_voltages(o, evaluate_voltages(model.chain, record, rest, o.output), None)
+    return observe_voltages(o, evaluate_voltages(model.chain, record, rest, o.output))
 
 
 def find_null_biases(columns: Sequence[Column]) -> list[int]:
@@ -253,7 +253,7 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
     for column in columns[:-1] if o.recorded.demodulated else ():
         column[:] = o.recorded.through(column, r)
     if o.thin is None:
-        columns[-1] = o.data - observe_voltages(o, V, None)
+        columns[-1] = o.data - observe_voltages(o, V)
     else:
         columns[-1] = thin_residual(at, o.thin) if residual is None else residual
     for k, c in enumerate((*at.base, *at.candidates)):
@@ -309,5 +309,5 @@ def thin_residual(at: LinearisationPoint, thin: Thin) -> Array:
 def compute_residual(at: LinearisationPoint, o: Observation) -> Array:
     """Residual (m, N), V, at a point; between its neighbours where a sample is not valid."""
     r, p = move_record(at.model, o.record, at.p)
-    left = o.data - observe_voltages(o, _evaluate_voltages(at, o, r, p), None)
+    left = o.data - observe_voltages(o, _evaluate_voltages(at, o, r, p))
     return np.stack([bridge_gaps(x, r.valid) for x in left])

@@ -104,9 +104,7 @@ def measure_analytical(instrument: Instrument) -> Array:
     return np.array(average_turns(find_error("analytical", run), run))
 
 
-def run_regular(
-    instrument: Instrument | None = None, *, rate: float = RATE, turns: int = 1, **how: Any
-) -> Simulation:
+def run_regular(instrument: Instrument | None = None, *, turns: int = 1, **how: Any) -> Simulation:
     """The numerical model in the motion of Table VI; means over one turn are exact at 16 Hz. ``how``: as of :func:`simulate`."""
     known = instrument or table_v()
     a_x, a_y, a_z, w_x, w_y, w_z = (
@@ -116,4 +114,4 @@ def run_regular(
     )
     duration = float(np.rint(turns / known.spin_frequency))
     how = {"rotations": "first-order", "auxiliaries": {}, **how}
-    return simulate(known, MotionSignals((a_x, a_y, a_z), (w_x, w_y, w_z)), duration, rate, **how)
+    return simulate(known, MotionSignals((a_x, a_y, a_z), (w_x, w_y, w_z)), duration, RATE, **how)

@@ -58,12 +58,8 @@ class RecordedSeries:
         """(m,): how each series counts in the output."""
         return np.array(o.signs, dtype=np.float64) if self.separate else np.ones(1)
 
-    def of_voltages(self, o: Output, v: Array, accelerometer: int | None) -> Array:
-        """(m, N), V, before demodulation: of the members' voltages (members, N), or of one accelerometer's (N,)."""
-        if accelerometer is not None:
-            full = np.zeros((len(o.members), v.shape[-1]))
-            full[o.members.index(accelerometer - 1)] = v
-            v = full
+    def of_voltages(self, o: Output, v: Array) -> Array:
+        """(m, N), V, before demodulation: of the members' voltages (members, N)."""
         return v if self.separate else np.asarray(np.array(o.signs, dtype=np.float64) @ v)[None]
 
     def through(self, G: Array, r: Record) -> Array:

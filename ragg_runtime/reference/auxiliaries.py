@@ -41,8 +41,8 @@ def plausible(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
     swings = Sinusoids(0.0, 0.1 * np.array([0.7, 0.3]), 1 / rng.uniform(200, 900, 2), rng.uniform(0, 6.28, 2))
     return {
         "temperature": Warming(2.0, 1200.0, swings),
-        "roll": _attitude(rng, 0.02).value,
-        "pitch": _attitude(rng, 0.02).value,
+        "roll": _attitude(rng).value,
+        "pitch": _attitude(rng).value,
         "pressure": _slow(rng, REFERENCE_PRESSURE - 3000.0, 300.0).value,
         **{f"B_{k}": _slow(rng, mean, 2e-6).value for k, mean in zip("xyz", _EARTH_FIELD, strict=True)},
     }
@@ -66,8 +66,9 @@ def _slow(rng: np.random.Generator, mean: float, amplitude: float) -> Sinusoids:
     return Sinusoids(mean, amplitude * np.ones(3), 1 / rng.uniform(100, 900, 3), rng.uniform(0, 6.28, 3))
 
 
-def _attitude(rng: np.random.Generator, spread: float, terms: int = 12) -> Sinusoids:
-    frequency = np.sort(np.exp(rng.uniform(np.log(1 / 900), np.log(0.2), terms)))
+def _attitude(rng: np.random.Generator) -> Sinusoids:
+    """Twelve sinusoids of 0.02 rad rms, slow ones larger."""
+    frequency = np.sort(np.exp(rng.uniform(np.log(1 / 900), np.log(0.2), 12)))
     amplitude = frequency**-0.5
-    amplitude *= spread / np.sqrt(np.sum(amplitude**2) / 2)
-    return Sinusoids(0.0, amplitude, frequency, rng.uniform(0, 2 * np.pi, terms))
+    amplitude *= 0.02 / np.sqrt(np.sum(amplitude**2) / 2)
+    return Sinusoids(0.0, amplitude, frequency, rng.uniform(0, 2 * np.pi, 12))

@@ -171,11 +171,10 @@ class MotionSignals:
         )
 
 
-def still(a: Sequence[float] = (0.0, 0.0, 0.0), omega: Sequence[float] = (0.0, 0.0, 0.0)) -> MotionSignals:
-    """Constant specific force (m/s^2) and angular rate (rad/s)."""
+def still(a: Sequence[float] = (0.0, 0.0, 0.0)) -> MotionSignals:
+    """Constant specific force, m/s^2, without rotation."""
     ax, ay, az = (Sinusoids(float(v)) for v in a)
-    wx, wy, wz = (Sinusoids(float(v)) for v in omega)
-    return MotionSignals((ax, ay, az), (wx, wy, wz))
+    return MotionSignals((ax, ay, az), (Sinusoids(), Sinusoids(), Sinusoids()))
 
 
 def recorded_motion(time: ArrayLike, a: ArrayLike, omega: ArrayLike) -> MotionSignals:

@@ -106,17 +106,17 @@ def draw_motion(
     return MotionSignals((a_x, a_y, a_z), (omega_x, omega_y, omega_z))
 
 
-def draw_gradient(rng: np.random.Generator, rms: float = 0.0, terms: int = 6) -> Gradient:
+def draw_gradient(rng: np.random.Generator, rms: float = 0.0) -> Gradient:
     """The constant background, and geology passing by with periods of one to ten minutes.
 
-    ``rms``: of each of the five independent components' variation, s^-2, as ``terms`` sinusoids.
+    ``rms``: of each of the five independent components' variation, s^-2, as six sinusoids.
     """
     drawn = [
         Sinusoids(
             mean * _EO,
-            np.full(terms, rms * np.sqrt(2 / terms)),
-            1 / rng.uniform(60, 600, terms),
-            rng.uniform(0, 2 * np.pi, terms),
+            np.full(6, rms * np.sqrt(2 / 6)),
+            1 / rng.uniform(60, 600, 6),
+            rng.uniform(0, 2 * np.pi, 6),
         )
         for mean in BACKGROUND[:5]
     ]

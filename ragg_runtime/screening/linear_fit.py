@@ -180,7 +180,7 @@ def linearise(model: Model, instrument: Instrument, rows: Rows) -> LinearModel:
     own = [base[k] for k in list_own_columns([c for c, _ in base], instrument, place)]
     at = (rows.time, rows.inputs(model.chain), rows.phi)
     volts = evaluator.voltages(rows.time, at[1], p, rows.phi, o.members)
-    nominal = rows.before_demodulation(volts, None)
+    nominal = rows.recorded.of_voltages(o, volts)
     columns = np.zeros((len(own), *nominal.shape))
     put_derivatives(columns, evaluator, [c for c, _ in own], at, p, rows.recorded, o)
     gradient = () if rows.gradient_recorded else (_make_gradient(rows),)
@@ -199,7 +199,7 @@ def _make_gradient(rows: Rows) -> Array:
     o = rows.output
     share = np.array(o.carriers) * np.array(o.radii) / max((*o.radii, 1e-300)) / len(o.members)
     wave = GRADIENT_SCALE * share[:, None] * np.exp(2j * rows.phi)
-    return np.stack([rows.before_demodulation(x, None) for x in (wave.imag, wave.real)])
+    return np.stack([rows.recorded.of_voltages(o, x) for x in (wave.imag, wave.real)])
 
 
 def find_least(cost: Callable[[float], float], grid: NDArray[np.floating[Any]], finest: float) -> float:

@@ -81,12 +81,8 @@ class Rows:
                 x[n] = self.channels[name]
         return x
 
-    def before_demodulation(self, volts: Array, accelerometer: int | None) -> Array:
-        """(members, n) or (1, n): the output's voltages, or itself, of these, or of one accelerometer's (n,)."""
-        return self.recorded.of_voltages(self.output, volts, accelerometer)
-
     def seen(self, raw: Array) -> Array:
-        """(..., m, n): what the recorded output sees of :meth:`before_demodulation`."""
+        """(..., m, n): what the recorded output sees of what it is before demodulation."""
         if not self.recorded.demodulated:
             return raw
         carriers = 2 * np.stack([np.sin(2 * self.phi), np.cos(2 * self.phi)])

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from ragg_runtime.estimation.residual import STD_OF_MEDIAN
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import (
@@ -42,9 +43,6 @@ STEP = 0.3
 
 USUAL = 0.95
 """Quantile of the distances that tells the usual scatter: spikes are fewer than the rest."""
-
-MEDIAN_OF_NORMAL = 0.67
-"""Median of the modulus of a normal variable, in standard deviations."""
 
 SLOW = 0.1
 """Step from sample to sample, over the standard deviation, up to which a channel is slow: what varies faster may well have peaks."""
@@ -182,10 +180,10 @@ def _glitches(x: Array) -> tuple[Mask, Array]:
     y = bridge_gaps(x, ~off, smooth=True)
     for _ in range(12):
         size = np.abs(np.diff(np.pad(y, 3, mode="reflect"), 6)) / 20.0  # off the prediction
-        limit = GLITCH / MEDIAN_OF_NORMAL * float(np.median(size))
+        limit = GLITCH * STD_OF_MEDIAN * float(np.median(size))
         at = np.flatnonzero(size > limit)
         if len(at):
-            at = at[size[at] > GLITCH / MEDIAN_OF_NORMAL * _in_blocks(size, 0.5)[at]]
+            at = at[size[at] > GLITCH * STD_OF_MEDIAN * _in_blocks(size, 0.5)[at]]
             at = at[(size[at] > 2 * _spread(y, at)) & (size[at] >= np.max(_about(size, at, 3), axis=1))]
         if not len(at):
             break
