@@ -94,7 +94,10 @@ def test_noise_is_smoothed_to_the_best_prediction_at_the_ends_and_beside_gaps_to
 
 
 @pytest.mark.parametrize(("size", "used"), [(5.0, True), (50.0, False)])
-def test_a_noisy_gradient_is_smoothed_or_not_used(size: float, used: bool) -> None:
+def test_a_noisy_gradient_is_smoothed_or_not_used(
+    size: float, used: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(timing, "propose_times", lambda *_: [])
     s, model = scenario(3, duration=150.0, rate=RATE, trim="table-v"), load_packaged()
     x = s.simulate().flight()
     rng = np.random.default_rng(1)

@@ -155,6 +155,7 @@ def counted(x: Flight, rows: np.ndarray) -> Flight:
     )
 
 
+@pytest.mark.usefixtures("timing_alone")
 @pytest.mark.parametrize("gap", [0, 100])
 def test_a_lost_row_is_said_before_the_disc_is_blamed(gap: int) -> None:
     """With samples left out on both sides of it, too."""
@@ -168,6 +169,7 @@ def test_a_lost_row_is_said_before_the_disc_is_blamed(gap: int) -> None:
     assert "write spin_frequency" not in str(caught.value)
 
 
+@pytest.mark.usefixtures("timing_alone")
 def test_rows_that_lack_or_are_doubled_all_along_are_said() -> None:
     x, rng = flown(12), np.random.default_rng(1)
     few = rng.random(len(x)) < 0.02
