@@ -151,10 +151,10 @@ def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None
 def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     """Through the commands, and in half the time that an even multisine of the same size takes."""
     m = api.new(tmp_path / "m")
-    write_flight(simulate_flight(m.instrument, [], seed=3, duration=150.0), tmp_path / "x.parquet")
+    write_flight(simulate_flight(m.instrument, [], seed=3, duration=150.0, rate=RATE), tmp_path / "x.parquet")
     names = ("m", "x.parquet", "motion.csv", "y.parquet", "sheet.md", "plan.json", "c.json")
     files = {n: str(tmp_path / n) for n in names}
-    words = ["--for", "calibration", "--criterion", "D"]
+    words = ["--for", "calibration", "--criterion", "D", "--duration", 300]
     told = ["--run-sheet", files["sheet.md"], "--json", files["plan.json"]]
     ragg("next-motion", files["m"], files["x.parquet"], "-o", files["motion.csv"], *words, *told)
     plan = json.loads((tmp_path / "plan.json").read_text())
