@@ -1,4 +1,4 @@
-"""How long evaluating the analytical model takes, a sample, on one core: ours, other ways, and the machine's bounds.
+"""How long evaluating the analytical model takes, a sample, on one core: ours, other ways, and the memory's bound.
 
 A million samples, all fifteen channels as series ("streaming": everything comes from memory), and some thousand again and again
 ("in cache"). Processor time of a process held to one core, calls from Python included; all get series that begin at multiples
@@ -148,10 +148,10 @@ def layout_rows(t: Any, x: Any, p: Any) -> list[Row]:
 
 
 def run() -> list[Row]:
-    """Accuracy, times streaming and in cache, ratios, bounds, other instruments."""
+    """Accuracy, times streaming and in cache, ratios, the memory's bound, other instruments."""
     import numpy as np
 
-    from benchmarks import bounds
+    from benchmarks import rivals
 
     cores = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
     if cores:
@@ -159,7 +159,6 @@ def run() -> list[Row]:
     t, x, p = instrument_and_motion(SIZES["streaming"][0])
     functions, missing = contenders(p)
     wrong = errors(p, functions)
-    limits = bounds.Bounds()
     rows: list[Row] = []
     fast = {name: f for name, f in functions.items() if name not in SLOW}
     few = {name: f for name, f in functions.items() if name in (*SLOW, OURS)}
@@ -172,7 +171,7 @@ def run() -> list[Row]:
             calls = {name: partial(f, s, y, out) for name, f in among.items()}
             return interleaved(calls, rounds, inner, time.process_time, prime=inner > 1)
 
-        times = timed({**fast, "bound": limits.traffic}, 25, inner)
+        times = timed({**fast, "bound": rivals.memory_traffic()}, 25, inner)
         slow = timed(few, 5, min(inner, 2))
         floor = times.pop("bound")
         rows += rows_of(times, label, wrong)
@@ -182,7 +181,6 @@ def run() -> list[Row]:
         rows.append(Row(name, 1e9 * floor.median / n, "ns", note, low=low, high=high))
         near = "at most 1.3" if inner == 1 else None
         rows.append(ratio(f"{OURS} / memory bound, {label}", times[OURS], floor, near))
-    rows += limits.rows(1e9 * times[OURS].median / n)
     rows += layout_rows(t, x, p)
     for name, reason in missing.items():
         print(f"missing: {name}: {reason}", file=sys.stderr)

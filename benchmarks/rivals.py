@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ctypes
 import importlib
+import platform
 import subprocess
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
@@ -142,6 +143,29 @@ def compile_c(name: str, text: str, flags: Sequence[str]) -> ctypes.CDLL:
     source.write_text(text, "utf-8")
     subprocess.run(["gcc", *flags, str(source), "-lm", "-o", str(made)], check=True, capture_output=True)
     return ctypes.CDLL(str(made))
+
+
+TRAFFIC = """
+#include <stddef.h>
+/* As many streams as the model reads and writes, and as little arithmetic as keeps the reads alive. */
+void traffic(size_t n, const double *restrict t, const double *restrict x, double *restrict out) {
+    for (size_t i = 0; i < n; ++i) {
+        out[i] = t[i] %s;
+    }
+}
+"""
+
+
+def memory_traffic() -> Rival:
+    """Reads t and the 15 rows of x and writes out, by a small C loop: the memory bound."""
+    streams = " ".join(f"+ x[{k} * n + i]" for k in range(len(INPUTS)))
+    wide = ("-mprefer-vector-width=512",) if platform.machine() in ("x86_64", "AMD64") else ()
+    library = compile_c("traffic", TRAFFIC % streams, ("-O3", "-march=native", *wide, "-fPIC", "-shared"))
+
+    def run(t: Array, x: Array, out: Array) -> None:
+        library.traffic(ctypes.c_size_t(len(t)), *(ctypes.c_void_p(a.ctypes.data) for a in (t, x, out)))
+
+    return run
 
 
 RIVALS: Mapping[str, Callable[[Program, float], Rival]] = {

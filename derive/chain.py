@@ -6,7 +6,7 @@ place (cos_j, sin_j); the four of them and G_out follow from it (Eq. 15).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -20,6 +20,7 @@ from derive.names import id_in_code
 from derive.stages import PAPER, Force, Geometry, Kinematics, Motion, Order, SensedForce, Spin
 from derive.symbols import (
     ACCELEROMETER,
+    COMPONENTS,
     COS_J,
     COS_PHI,
     MOTION,
@@ -64,19 +65,21 @@ def accelerometer(
     the stage ``sensing`` on, everything is resolved along the axes of the disc at rest.
     """
     tape = Tape() if tape is None else tape
-    let = tape.let
     hooked = [(e, e.values) for e in effects]
     c = Context(tape, recorded_motion(), Omega=OMEGA if kinematics == "platform" else SPIN_RATE)
     c.small = frozenset(s for e in candidates for s in _fitted(e) if e.at_zero)
     c.enter(frozenset())
     _sensing(hooked, c, layout)
-    _turn_disc(hooked, c, let)
+    _turn_disc(hooked, c)
     M = stages.gradient(c.motion if kinematics == "platform" else c.case).applyfunc(sp.sympify)
-    M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
-    cos_psi = let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J)
-    sin_psi = let("sin_psi", c.sin_phi * COS_J + c.cos_phi * SIN_J)
     at = _Place(
-        hooked=hooked, c=c, let=let, order=order, layout=layout, M=M, cos_psi=cos_psi, sin_psi=sin_psi
+        hooked=hooked,
+        c=c,
+        order=order,
+        layout=layout,
+        M=tape.let_each("M", M),
+        cos_psi=tape.let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J),
+        sin_psi=tape.let("sin_psi", c.sin_phi * COS_J + c.cos_phi * SIN_J),
     )
     k: dict[str, sp.Expr] = {q.name: q.symbol for q in ACCELEROMETER}
     c.parameters = dict(k)
@@ -85,15 +88,14 @@ def accelerometer(
         for e, p in _one_by_one(hooked, c):
             if e.instrument:
                 changed = e.instrument(k, p, c)
-                k |= {n: let(f"{n}_{id_in_code(e.id)}", v) for n, v in changed.items()}
+                k |= {n: tape.let(f"{n}_{id_in_code(e.id)}", v) for n, v in changed.items()}
     c.geometry, f, c.force = at.forces(k, "f")
     c.sensed, c.parameters = f, dict(k)
     q = f if order.second_order_angles else at.forces(k, "q")[1]
-    i = _transducer(hooked, c, let, f, q, k)
-    return Accelerometer(tape, let("V", k["k_VI"] * k["K1"] * i), f)
+    i = _transducer(hooked, c, f, q, k)
+    return Accelerometer(tape, tape.let("V", k["k_VI"] * k["K1"] * i), f)
 
 
-Let = Callable[[str, sp.Expr], sp.Expr]
 Hooked = Sequence[tuple[Effect, Values]]
 
 
@@ -111,19 +113,19 @@ def _one_by_one(hooked: Hooked, c: Context) -> Iterator[tuple[Effect, Values]]:
 
 def _sensing(hooked: Hooked, c: Context, layout: SymbolicLayout) -> None:
     """Stage 1: the motion at the disc centre, by the axes of the disc at rest."""
-    let = c.tape.let
     c.standing = AXES if layout.has(AXES[0, 0]) else None
     c.turn_of_triad = TURN if layout.has(TURN[0, 0]) else None
     for e, p in _one_by_one(hooked, c):
         if e.sensing:
-            c.motion = _named_motion(let, id_in_code(e.id), e.sensing(c.motion, p, c))
+            c.motion = _named_motion(c.tape, id_in_code(e.id), e.sensing(c.motion, p, c))
     if c.standing is not None:
         c.axes = AXES
-        c.motion = _named_motion(let, "disc", stages.in_frame(c.motion, AXES))
+        c.motion = _named_motion(c.tape, "disc", stages.in_frame(c.motion, AXES))
 
 
-def _turn_disc(hooked: Hooked, c: Context, let: Let) -> None:
+def _turn_disc(hooked: Hooked, c: Context) -> None:
     """The true disc angle and its rates, where effects change them."""
+    let = c.tape.let
     increment = sp.Add(*(e.disc_angle(p, c) for e, p in _one_by_one(hooked, c) if e.disc_angle))
     if increment == 0:
         return
@@ -152,7 +154,6 @@ class _Place:
 
     hooked: Hooked
     c: Context
-    let: Let
     order: Order
     layout: SymbolicLayout
     M: sp.Matrix
@@ -161,7 +162,7 @@ class _Place:
 
     def forces(self, k: Mapping[str, sp.Expr], label: str) -> tuple[Geometry, SensedForce, Force]:
         """Geometry, sensed force and force along the nominal triad, with parameters k; names begin with ``label``."""
-        let = self.let
+        let = self.c.tape.let
         g = self._geometry(k, label)
         f = self._force(g, k, label)
         resolved = Force(*(let(f"{label}_f_{'xyz'[n]}j", g.tau[n, :].dot(f)) for n in range(3)))
@@ -180,11 +181,11 @@ class _Place:
         g = stages.mounting(
             arm, order=self.order, height=self._height, turn_of_triad=self.c.turn_of_triad, **angles
         )
-        g = _named_geometry(self.let, f"{label}_disc", g)
-        g = _named_geometry(self.let, label, stages.to_measurement_frame(g, self.cos_psi, self.sin_psi))
+        g = _named_geometry(self.c.tape, f"{label}_disc", g)
+        g = _named_geometry(self.c.tape, label, stages.to_measurement_frame(g, self.cos_psi, self.sin_psi))
         for e, p in _one_by_one(self.hooked, self.c):
             if e.geometry:
-                g = _named_geometry(self.let, f"{label}_{id_in_code(e.id)}", e.geometry(g, p, self.c))
+                g = _named_geometry(self.c.tape, f"{label}_{id_in_code(e.id)}", e.geometry(g, p, self.c))
         return g
 
     @property
@@ -198,19 +199,16 @@ class _Place:
             if e.field:
                 f = f + e.field(g.r, p, self.c)
         if k["dR"] != symbol("dR"):  # an arm that changes its length
-            lifted, length = (0, 0, self._height), symbol("radius") + k["dR"]
-            arm = sp.Matrix(
-                [self.let(f"{label}_arm_{'xyz'[n]}", (g.r[n] - lifted[n]) / length) for n in range(3)]
-            )
+            lifted, length = sp.Matrix([0, 0, self._height]), symbol("radius") + k["dR"]
+            arm = self.c.tape.let_each(f"{label}_arm", (g.r - lifted) / length)
             growth = self.c.rate(k["dR"])
             f = f + stages.of_growing_arm(self.c.case, arm, growth, self.c.rate(growth))
-        return sp.Matrix([self.let(f"{label}_f_{'xyz'[n]}", f[n]) for n in range(3)])
+        return self.c.tape.let_each(f"{label}_f", f)
 
 
-def _transducer(
-    hooked: Hooked, c: Context, let: Let, f: SensedForce, q: SensedForce, k: dict[str, sp.Expr]
-) -> sp.Expr:
+def _transducer(hooked: Hooked, c: Context, f: SensedForce, q: SensedForce, k: dict[str, sp.Expr]) -> sp.Expr:
     """Stage 4: I_j/K_j1; the second-order terms see q."""
+    let = c.tape.let
     for e, p in _one_by_one(hooked, c):
         if e.second_order:
             changed = zip("iop", e.second_order(q, f, p, c), strict=True)
@@ -222,28 +220,15 @@ def _transducer(
     return i
 
 
-def _named_motion(let: Let, label: str, m: Motion) -> Motion:
-    def vector(name: str, v: sp.Matrix) -> sp.Matrix:
-        return sp.Matrix([let(f"{label}_{name}_{'xyz'[n]}", v[n]) for n in range(3)])
-
-    G = {
-        (i, j): let(f"{label}_Gamma_{'xyz'[i]}{'xyz'[j]}", m.Gamma[i, j])
-        for i in range(3)
-        for j in range(i, 3)
-    }
-    return Motion(
-        vector("a", m.a),
-        vector("omega", m.omega),
-        vector("omegadot", m.omegadot),
-        sp.Matrix(3, 3, lambda i, j: G[min(i, j), max(i, j)]),
-    )
+def _named_motion(tape: Tape, label: str, m: Motion) -> Motion:
+    at = [("xyz".index(k[0]), "xyz".index(k[1])) for k in COMPONENTS]
+    G = {f"G_{k}": tape.let(f"{label}_Gamma_{k}", m.Gamma[i]) for k, i in zip(COMPONENTS, at, strict=True)}
+    a, omega, omegadot = (tape.let_each(f"{label}_{n}", getattr(m, n)) for n in ("a", "omega", "omegadot"))
+    return Motion(a, omega, omegadot, symmetric(G, "G"))
 
 
-def _named_geometry(let: Let, label: str, g: Geometry) -> Geometry:
-    return Geometry(
-        sp.Matrix([let(f"{label}_r_{'xyz'[n]}", g.r[n]) for n in range(3)]),
-        sp.Matrix(3, 3, lambda i, k: let(f"{label}_tau_{'xyz'[i]}{'xyz'[k]}", g.tau[i, k])),
-    )
+def _named_geometry(tape: Tape, label: str, g: Geometry) -> Geometry:
+    return Geometry(tape.let_each(f"{label}_r", g.r), tape.let_each(f"{label}_tau", g.tau))
 
 
 def auxiliary_channel(name: str) -> Channel:

@@ -11,16 +11,7 @@ import sympy as sp
 
 from derive import stages
 from derive.stages import Force, Geometry, Motion, SensedForce, Spin
-from derive.symbols import (
-    COS_PHI,
-    MOTION,
-    SIN_PHI,
-    SPIN_ACCELERATION,
-    SPIN_RATE,
-    TIME,
-    local,
-    symbol,
-)
+from derive.symbols import COS_PHI, MOTION, SIN_PHI, SPIN_ACCELERATION, SPIN_RATE, TIME, local, symbol
 from derive.tape import EVERYTHING, About, Tape
 
 OMEGA = 2 * sp.pi * symbol("spin_frequency")
@@ -48,9 +39,9 @@ class Context:
     motion: Motion
     cos_phi: sp.Expr = COS_PHI
     sin_phi: sp.Expr = SIN_PHI
-    geometry: Geometry | None = None
-    force: Force | None = None
-    sensed: SensedForce | None = None
+    geometry: Geometry = field(init=False)
+    force: Force = field(init=False)
+    sensed: SensedForce = field(init=False)
     parameters: Mapping[str, sp.Expr] = field(default_factory=dict)
     time: sp.Symbol = TIME
     Omega: sp.Expr = OMEGA
@@ -83,10 +74,7 @@ class Context:
 
     def _turned(self, by: sp.Matrix, v: sp.Matrix, name: str) -> sp.Matrix:
         """A turned vector or tensor, each component with a name of its own: what follows may differentiate it often."""
-        turned = by * v if v.shape[1] == 1 else by * v * by.T
-        at = ["x", "y", "z"] if v.shape[1] == 1 else [f"{i}{k}" for i in "xyz" for k in "xyz"]
-        named = [self.tape.let(f"{name}_{a}", e) for a, e in zip(at, turned, strict=True)]
-        return sp.Matrix(*turned.shape, named)
+        return self.tape.let_each(name, by * v if v.shape[1] == 1 else by * v * by.T)
 
     @property
     def case(self) -> Motion:

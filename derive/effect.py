@@ -207,12 +207,11 @@ class Effect:
         if not is_name(self.id):
             raise ValueError(f"effect id {_shown(self.id)}: expected {EXPECTED}")
         names = [q.name for q in self.parameters]
-        for name in names:
-            if not is_name(name):
-                raise ValueError(f"{self.id}: parameter name {_shown(name)}: expected {EXPECTED}")
-        for name in (*self.channels, *(q.channel for q in self.parameters if q.channel is not None)):
-            if not is_name(name):
-                raise ValueError(f"{self.id}: channel name {_shown(name)}: expected {EXPECTED}")
+        channels = (*self.channels, *(q.channel for q in self.parameters if q.channel is not None))
+        for kind, of_kind in (("parameter", names), ("channel", channels)):
+            for name in of_kind:
+                if not is_name(name):
+                    raise ValueError(f"{self.id}: {kind} name {_shown(name)}: expected {EXPECTED}")
         if len(set(names)) != len(names):
             raise ValueError(f"{self.id}: parameter names must differ, found {names}")
         if not names:

@@ -23,19 +23,17 @@ from sympy.polys.rings import PolyElement, PolyRing
 from derive import stages
 from derive.chain import accelerometer, auxiliary_channel, recorded_motion
 from derive.context import RECORDED_SPIN
-from derive.harmonics import NotHarmonic, Series, constant, rotating, series, split
+from derive.harmonics import NotHarmonic, split
 from derive.layout import AXES, SymbolicLayout, instrument_parameters
 from derive.layout import PAPER as FOUR
-from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS, part, readable
+from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS, part, readable, voltage_of_one
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import (
-    COS_J,
     COS_PHI,
     INSTRUMENT,
     MOTION,
     QUARTER_TURNS,
     SIGNS,
-    SIN_J,
     SIN_PHI,
     SPIN_ACCELERATION,
     SPIN_RATE,
@@ -163,24 +161,12 @@ def _in_parts(name: str, title: str, kinematics: Kinematics, inputs: tuple[Chann
 def _standing(order: Order) -> Mapping[tuple[int, ...], PolyElement]:
     """V_j of an accelerometer by the numbers along its own directions: powers of TURNED -> coefficient."""
     ring = PolyRing([symbol(n) for n in (*COEFFICIENT_PARAMETERS, *TURNED)], QQ_I, lex)
-    known: dict[sp.Symbol, Series] = {}
-    known[COS_PHI], known[SIN_PHI] = rotating(ring)
-    known[COS_J], known[SIN_J] = constant(ring, ring.one), constant(ring, ring.zero)
     spin = _spin()
     a = spin * sp.Matrix([symbol(n) for n in TURNED[:3]])
     M = spin * sp.Matrix(3, 3, [symbol(n) for n in TURNED[3:]]) * spin.T
-    for i, x in enumerate("xyz"):
-        known[symbol(f"a_{x}")] = series((), a[i], ring, known)
-        for k, y in enumerate("xyz"):
-            known[symbol(f"M_{x}{y}")] = series((), M[i, k], ring, known)
-    generator = {s.name: constant(ring, g) for s, g in zip(ring.symbols, ring.gens, strict=True)}
-    known[symbol("a_z")] = generator["a_z"]
-    known[symbol("k_VI")] = constant(ring, ring.one)  # k1 = k_VI K1 and R = radius + dR (Eq. 6a)
-    known[symbol("K1")] = generator["k1"]
-    known[symbol("radius")] = constant(ring, ring.zero)
-    known[symbol("dR")] = generator["R"]
-    chain = accelerometer((), order)
-    voltage = series(chain.tape.assignments, chain.voltage, ring, known)
+    motion = {f"a_{x}": a[i] for i, x in enumerate("xyz")}
+    motion |= {f"M_{x}{y}": M[i, k] for i, x in enumerate("xyz") for k, y in enumerate("xyz")}
+    voltage = voltage_of_one(ring, motion, order)
     if voltage.highest:
         raise ValueError(
             "in the disc's frame the output still depends on the angle: the model is not symmetric about its axis"
@@ -232,16 +218,14 @@ def _numbers(
     """The turned numbers by the inputs and cos_phi, sin_phi, shared subexpressions apart."""
     tape = Tape()
     motion = recorded_motion()
-    gradient = stages.gradient(motion)
-    M = sp.Matrix(3, 3, lambda i, k: tape.let(f"M_{'xyz'[i]}{'xyz'[k]}", gradient[i, k]))
+    M = tape.let_each("M", stages.gradient(motion))
     spin = _spin()
     if layout.has(AXES[0, 0]):
         spin = (AXES * spin).xreplace(dict(layout.common))
         spin = sp.Matrix(3, 3, lambda i, k: tape.let(f"e_{DIRECTIONS[k]}{'xyz'[i]}", spin[i, k]))
-    half = M * spin  # along x, y, z of what a step along r, t, z changes
     label = "M" if kinematics == "platform" else "of_platform"  # M_zr is in full kinematics more than that
     along = DIRECTIONS[:2] + _names(layout)[-1][-1]
-    half = sp.Matrix(3, 3, lambda i, k: tape.let(f"{label}_{'xyz'[i]}{along[k]}", half[i, k]))
+    half = tape.let_each(label, M * spin, columns=along)  # along x, y, z of what a step along r, t, z changes
     turned = spin.T * half
     if (
         kinematics == "full"

@@ -8,7 +8,7 @@ at a time, with exact derivatives: it holds for any list of effects.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -18,9 +18,10 @@ from derive.effect import Effect, EffectParameter
 from derive.folded import Folded
 from derive.layout import PAPER as FOUR
 from derive.layout import SymbolicLayout, instrument_parameters
+from derive.names import channel_of
 from derive.propagation import COEFFICIENT_PARAMETERS, Collected, monomial, motion_numbers, part, readable
 from derive.stages import PAPER, Kinematics, Order
-from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of
+from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter
 from derive.tape import Program, settled
 
 
@@ -187,7 +188,7 @@ def chain(
         value=value,
         derivatives=derivatives,
         rows=tuple(DerivativeRow(n, shared) for _, n, shared in named),
-        inputs=(*MOTION, *(auxiliary_channel(column_of(n)) for n in extra)),
+        inputs=(*MOTION, *(auxiliary_channel(channel_of(n)) for n in extra)),
         parameters=parameters,
         effects=tuple(candidates) or tuple(effects),
         layout=layout.without_common(),
@@ -201,38 +202,8 @@ def _neutral(e: Effect, q: EffectParameter) -> sp.Expr:
     return sp.Float(q.neutral) if q.neutral else sp.Integer(0)
 
 
-def operations(m: Harmonic | ChainProgram | Folded) -> Mapping[str, int]:
-    """Arithmetic operations as SymPy counts them, by what they serve.
-
-    Of a chain: ``value`` and ``derivatives`` of one accelerometer at one instant. Of a harmonic model:
-    ``coefficients`` once for an instrument, ``amplitudes`` (motion numbers included) at one instant;
-    of a folded one likewise, with ``value`` that of G_out but for the cosine and sine of the disc angle.
-    """
-    if isinstance(m, ChainProgram):
-        programs = {"value": m.value, "derivatives": m.derivatives}
-        return {name: _operations(e for _, e in (*p.assignments, *p.outputs)) for name, p in programs.items()}
-    if isinstance(m, Folded):
-        folding = 4 * _operations(m.expressions) + sum(len(parts) - 1 for parts in m.coefficients)
-        own = _operations(e for _, e in (*m.own.assignments, *m.own.outputs))
-        folding += m.layout.size * (own + len(m.own.outputs))
-        numbers = _operations(e for _, e in (*m.numbers.assignments, *m.numbers.outputs))
-        return {"coefficients": folding, "value": numbers + _operations([m.value])}
-    terms = [t for _, row in m.amplitudes for t in row]
-    coefficients = [c for t in terms for c in t.coefficients]
-    folding = _operations({c.expression: None for c in coefficients})  # each once, for four accelerometers
-    combining = sum(1 if c.combination in ("D12", "D34") else 3 for c in coefficients)
-    joining = sum(len(t.coefficients) - 1 + (t.motion != 1) for t in terms)
-    joining += sum(len(row) - 1 for _, row in m.amplitudes)
-    each_instant = _operations([*(e for _, e in m.numbers), *(t.motion for t in terms)])
-    return {"coefficients": 4 * folding + combining, "amplitudes": joining + each_instant}
-
-
-def _operations(expressions: Iterable[sp.Expr]) -> int:
-    return sum(int(sp.count_ops(e)) for e in expressions)
-
-
-def manifest_of_model(m: Harmonic | ChainProgram | Folded, *, counted: bool) -> Mapping[str, object]:
-    """The manifest of the generated code: inputs, parameters, outputs; ``counted``: with its cost, which takes a tenth of a derivation."""
+def manifest_of_model(m: Harmonic | ChainProgram | Folded) -> Mapping[str, object]:
+    """The manifest of the generated code: inputs, parameters, outputs."""
     outputs: dict[str, list[str]] = {}
     if isinstance(m, Harmonic):
         outputs = {"amplitudes": [name for name, _ in m.amplitudes]}
@@ -245,8 +216,12 @@ def manifest_of_model(m: Harmonic | ChainProgram | Folded, *, counted: bool) -> 
             {"name": q.name, "unit": q.unit, "size": q.size, "meaning": q.meaning} for q in m.parameters
         ],
         **outputs,
-        **({"operations": operations(m)} if counted else {}),
     }
+
+
+def _given(**values: object) -> Mapping[str, object]:
+    """Those that are not left out."""
+    return {n: v for n, v in values.items() if v}
 
 
 def manifest_of_effect(e: Effect) -> Mapping[str, object]:
@@ -259,11 +234,9 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
         "equation": e.equation,
         "limits": e.limits,
         "channels": list(e.channels),
-        **({"either": True} if e.either else {}),
-        **({"switches": True} if e.switches else {}),
-        **({} if e.memory is None else {"memory": e.memory}),
+        **_given(either=e.either, switches=e.switches, memory=e.memory),
         **({} if e.searched else {"searched": False}),
-        **({"contains": list(e.contains)} if e.contains else {}),
+        **_given(contains=list(e.contains)),
         "kind": e.kind,
         "parameters": [
             {
@@ -277,11 +250,9 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
                 "neutral": q.neutral if math.isfinite(q.neutral) else None,
                 "channel": q.channel,
                 "fitted": q.fitted,
-                **({} if q.physical is None else {"physical": q.physical}),
-                **({} if q.like is None else {"like": q.like}),
-                **({"late": list(q.late)} if q.late else {}),
-                **({"growing": True} if q.growing else {}),
-                **({"shape": True} if q.shape else {}),
+                **_given(
+                    physical=q.physical, like=q.like, late=list(q.late), growing=q.growing, shape=q.shape
+                ),
             }
             for q in e.parameters
         ],

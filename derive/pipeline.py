@@ -23,7 +23,7 @@ from derive.effect import Effect
 from derive.effects import catalogue
 from derive.emit import c as _c
 from derive.emit import numpy as _numpy
-from derive.emit.target import joined, targets
+from derive.emit.target import Files, write_form
 from derive.folded import Folded, folded
 from derive.layout import PAPER as FOUR
 from derive.layout import SymbolicLayout
@@ -33,8 +33,6 @@ from derive.symbols import SECOND_ORDER, symbol
 
 FORMAT = 1
 """Version of the generated interface, in every manifest."""
-
-Files = Mapping[str, str]
 
 FITS = "fits"
 """Folder of what serves fits alone, and is no part of a model directory: the signatures in C."""
@@ -61,7 +59,7 @@ def derive_base() -> Files:
     In the folder ``full`` the model that includes the disc's own rotation, at the paper's order: chain, folded form,
     signatures. In ``output_effects`` what recognises the effects of the recorder.
     """
-    from derive.simplify import simplified
+    from derive.simplify.terms import simplified
 
     analytical = ir.harmonic(collect(), "analytical", "The analytical model of the RAGG (paper, Eq. 16-19).")
     simple = ir.harmonic(
@@ -109,15 +107,15 @@ def _derive(
     candidates = offered(candidates, form)
     forms = [] if _active(effects) else [_folded(form)]
     chains = _chains(form, effects, candidates)
-    equations = (starred(), ideal(collect())) if harmonics else None
-    parts: list[Files] = []
-    for t in targets():
-        parts += [t.harmonic(m) for m in harmonics]
-        parts += [t.folded(f) for f in forms]
-        parts += [t.chain(x, packaged=packaged) for x in chains]
-        if equations is not None:
-            parts.append(t.paper(*equations))
-    files = joined(parts)
+    files: dict[str, str] = {}
+    for m in harmonics:
+        write_form(files, "harmonic", m)
+    for f in forms:
+        write_form(files, "folded", f)
+    for x in chains:
+        write_form(files, "chain", x, packaged=packaged)
+    if harmonics:
+        write_form(files, "paper", starred(), ideal(collect()))
     every = [*candidates, *(e for e in effects if e not in candidates)]
     models: list[ir.Harmonic | ir.ChainProgram | Folded] = [*harmonics, *forms, *chains]
     whole = _complete(form, files, effects, every, models, below, packaged=packaged)
@@ -180,7 +178,7 @@ def _complete(
         **({} if form == PAPERS else {"form": _told(form)}),
         "effects": [e.id for e in effects],
         "files": sorted([*files, *below, "manifest.json"]),
-        "models": {m.name: ir.manifest_of_model(m, counted=packaged) for m in models},
+        "models": {m.name: ir.manifest_of_model(m) for m in models},
         "catalogue": [ir.manifest_of_effect(e) for e in candidates],
     }
     files["manifest.json"] = manifest_text(manifest)

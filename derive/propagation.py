@@ -146,19 +146,22 @@ def collect(order: Order = PAPER) -> Collected:
 
     They hold for either kinematics: the spin is in the motion numbers alone.
     """
+    return from_generic(_generic(voltage_of_one(_ALL, gradient_in_motion_numbers(), order)))
+
+
+def voltage_of_one(ring: PolyRing, motion: Mapping[str, sp.Expr], order: Order) -> Series:
+    """V_j at the disc angle of A1, in k1 = k_VI K1 and R = radius + dR (Eq. 6a).
+
+    ``motion`` are a and M, as far as they are no generators of the ring, by generators and the cosine and sine of the angle.
+    """
+    generator = {s.name: constant(ring, g) for s, g in zip(ring.symbols, ring.gens, strict=True)}
+    one, zero = constant(ring, ring.one), constant(ring, ring.zero)
+    turning = dict(zip((COS_PHI, SIN_PHI), rotating(ring), strict=True))
+    known = turning | {symbol(n): series((), e, ring, turning) for n, e in motion.items()}
+    known |= {COS_J: one, SIN_J: zero, symbol("k_VI"): one, symbol("radius"): zero}
+    known |= {symbol("K1"): generator["k1"], symbol("dR"): generator["R"]}
     a = accelerometer((), order)
-    known: dict[sp.Symbol, Series] = {}
-    known[COS_PHI], known[SIN_PHI] = rotating(_ALL)
-    known[COS_J], known[SIN_J] = constant(_ALL, _ALL.one), constant(_ALL, _ALL.zero)
-    for name, value in gradient_in_motion_numbers().items():
-        known[symbol(name)] = series((), value, _ALL, {})
-    generator = {s.name: constant(_ALL, g) for s, g in zip(_ALL.symbols, _ALL.gens, strict=True)}
-    # k1 = k_VI K1 and R = radius + dR (Eq. 6a) are what coefficients are written in.
-    known[symbol("k_VI")] = constant(_ALL, _ALL.one)
-    known[symbol("K1")] = generator["k1"]
-    known[symbol("radius")] = constant(_ALL, _ALL.zero)
-    known[symbol("dR")] = generator["R"]
-    return from_generic(_generic(series(a.tape.assignments, a.voltage, _ALL, known)))
+    return series(a.tape.assignments, a.voltage, ring, known)
 
 
 def ideal(c: Collected) -> dict[str, tuple[MonomialTerm, ...]]:

@@ -14,10 +14,9 @@ if TYPE_CHECKING:
 
 def rectified(P: sp.Matrix, c: Context) -> sp.Expr:
     """Mean of the second-order terms of Eq. 1 over a force of covariance P (3 x 3, measurement frame), m/s^2."""
-    assert c.geometry is not None
     k = c.parameters
     axes = misalignment_matrix(k["vartheta_x"], k["vartheta_y"], k["vartheta_z"]) * c.geometry.tau
-    axes = sp.Matrix(3, 3, lambda m, n: c.tape.let(f"vibration_axis_{'iop'[m]}{'xyz'[n]}", axes[m, n]))
+    axes = c.tape.let_each("vibration_axis", axes, rows="iop")
     seen = axes * c.in_disc_frame(P) * axes.T
     # Mean of Eq. 1 over force with the covariance ``seen`` along i, o, p: only second powers survive.
     return (

@@ -21,7 +21,7 @@ def small_rotation(vector: sp.Matrix, name: str, c: Context) -> sp.Matrix:
     """
     k = skew(vector)
     turn = sp.eye(3) + k + k * k / 2
-    return sp.Matrix(3, 3, lambda i, j: c.tape.let(f"{name}_{'xyz'[i]}{'xyz'[j]}", turn[i, j]))
+    return c.tape.let_each(name, turn)
 
 
 def lean(g: Geometry, vector: sp.Matrix, name: str, c: Context) -> Geometry:

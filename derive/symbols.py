@@ -12,7 +12,7 @@ from functools import cache
 
 import sympy as sp
 
-from derive.names import channel_in_code, channel_of
+from derive.names import channel_in_code
 
 
 @dataclass(frozen=True)
@@ -163,11 +163,6 @@ def local(column: str) -> str:
     :mod:`derive.names`), and nothing else has two underscores but second names of intermediate values, ``V2__<name>``.
     """
     return column if column in _OWN else channel_in_code(column)
-
-
-def column_of(name: str) -> str:
-    """The recorded channel that has this :func:`local` name."""
-    return channel_of(name)
 
 
 def is_taken(name: str) -> bool:

@@ -150,6 +150,12 @@ class Tape:
         self._values[s] = value
         return s
 
+    def let_each(self, name: str, values: sp.Matrix, rows: str = "xyz", columns: str = "xyz") -> sp.Matrix:
+        """Name the components of a vector (3), ``name_x`` ..., or the entries of a matrix (3 x 3), ``name_xx`` ..."""
+        ends = rows if values.shape[1] == 1 else [f"{i}{k}" for i in rows for k in columns]
+        named = [self.let(f"{name}_{end}", e) for end, e in zip(ends, values, strict=True)]
+        return sp.Matrix(*values.shape, named)
+
     def rate(self, e: sp.Expr, base: Callable[[sp.Symbol], sp.Expr], about: About = EVERYTHING) -> sp.Expr:
         """Total time derivative of ``e``; ``base`` gives that of a symbol that is not on the tape."""
         terms = []

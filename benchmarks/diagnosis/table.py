@@ -14,7 +14,6 @@ EDGES = (0.001, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0001)
 RULE = {
     "rule": "rule",
     "sentence": "what it does",
-    "lines": "lines",
     "kinds": "written for",
     "acts": "acts on",
 }

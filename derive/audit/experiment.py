@@ -17,44 +17,16 @@ from sympy.polys.rings import PolyElement
 
 from derive.audit.compare import derived_motion
 from derive.audit.proof import amplitude_value, value
+from derive.simplify.envelope import ARCSECOND, G0, PER_HOUR, RADIUS, SPIN_FREQUENCY, TABLE_V, TABLE_VI
 from derive.symbols import COMPONENTS
 
 Array = NDArray[np.float64]
 
-G0 = 9.8
-"""m/s^2 per g: the value with which the paper's k_ggi = 4.54e-4 V/Eo comes out."""
-RADIUS = 0.1
-SPIN_FREQUENCY = 0.25
 EOTVOS = 1e-9
 SAMPLES = 32
 """Per revolution. The motion repeats with the disc, no product goes beyond the 8th harmonic: exact means."""
 ANGLES = 2 * np.pi * np.arange(SAMPLES) / SAMPLES
-
-ARCSEC = math.pi / 648000
-TABLE_V: Mapping[str, tuple[float, ...]] = {
-    "dR": (0, 30, 35, 25),  # um
-    "beta_x": (21, 14, 17, 19),  # arcsec
-    "beta_z": (18, 8, 10, 20),
-    "vartheta_y": (21, 10, 7, 19),
-    "vartheta_z": (30, 19, 20, 9),
-    "K0": (10, 2, 5, 8),  # ug
-    "K1": (10, 11, 11.5, 12),  # mA/g
-    "K2": (5, 1, 8, 7),  # ug/g^2
-    "K4": (6, 12, 5, 16),
-    "K5": (4, 11, 9, 13),
-    "K6": (3, 12, 8, 10),
-    "K7": (5, 15, 7, 17),
-    "K8": (0, 7, 11, 20),
-}
 GAIN = 1e9  # ohm, all four
-TABLE_VI: Mapping[str, tuple[float, float]] = {
-    "a_x": (0.08, 0.005),  # g: constant, and amplitude of sin Omega t
-    "a_y": (0.06, 0.006),
-    "a_z": (0.1, 0.05),
-    "omega_x": (1000, 700),  # deg/h
-    "omega_y": (1500, 900),
-    "omega_z": (2000, 800),
-}
 
 
 @dataclass(frozen=True)
@@ -75,7 +47,7 @@ def accelerometers() -> Mapping[str, tuple[float, ...]]:
     """Four values of every parameter by the names of :data:`MODEL_RING`: Table V, in the paper's units, angles in radians."""
     values = {"R": tuple((RADIUS + 1e-6 * d) / G0 for d in TABLE_V["dR"]), "vartheta_x": (0.0,) * 4}
     values["k1"] = tuple(1e-3 * GAIN * k for k in TABLE_V["K1"])
-    scale = {"b": ARCSEC, "v": ARCSEC, "K": 1e-6}
+    scale = {"b": ARCSECOND, "v": ARCSECOND, "K": 1e-6}
     values |= {n: tuple(scale[n[0]] * x for x in v) for n, v in TABLE_V.items() if n not in ("dR", "K1")}
     return values
 
@@ -91,7 +63,7 @@ def motion() -> Mapping[str, Array]:
     """Table VI over one revolution, by the names of :data:`MODEL_RING` (g, s^-2); no gravity gradient."""
     sine, cosine = np.sin(ANGLES), np.cos(ANGLES)
     spin = 2 * math.pi * SPIN_FREQUENCY
-    unit = {"a": 1.0, "o": math.pi / 648000}
+    unit = {"a": 1.0, "o": PER_HOUR}
     numbers = {n: unit[n[0]] * (m + v * sine) for n, (m, v) in TABLE_VI.items()}
     numbers |= {f"omegadot_{k}": unit["o"] * TABLE_VI[f"omega_{k}"][1] * spin * cosine for k in "xyz"}
     numbers |= {f"Gamma_{k}": np.zeros(SAMPLES) for k in COMPONENTS}

@@ -8,7 +8,6 @@ from derive.stages import SensedForce
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
-    assert c.geometry is not None
     rate = c.case.omega
     return i + p.K_ip * rate.dot(c.geometry.tau[0, :]) * rate.dot(c.geometry.tau[2, :])
 

@@ -9,7 +9,6 @@ from derive.effect import Effect, EffectParameter, Values
 
 
 def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    assert c.force is not None
     return {"dR": k["dR"] + p.c_r * c.force.y}
 
 

@@ -11,16 +11,12 @@ HARMONICS = (1, 2)
 
 def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:
     waves = {1: (c.cos_phi, c.sin_phi), 2: (c.cos_phi**2 - c.sin_phi**2, 2 * c.cos_phi * c.sin_phi)}
-
-    def named(name: str, v: sp.Matrix) -> sp.Matrix:
-        return sp.Matrix([c.tape.let(f"{name}_{'xyz'[n]}", v[n]) for n in range(3)])
-
     away = sp.zeros(3, 1)
     for n in HARMONICS:
         cosine, sine = waves[n]
         away += sp.Matrix([p[f"c_{k}{n}"] * cosine + p[f"s_{k}{n}"] * sine for k in "xyz"])
-    d = named("run_out", away)
-    velocity = named("run_out_velocity", d.applyfunc(c.rate))
+    d = c.tape.let_each("run_out", away)
+    velocity = c.tape.let_each("run_out_velocity", d.applyfunc(c.rate))
     m = c.motion
     return stages.gradient(m) * d + 2 * m.omega.cross(velocity) + velocity.applyfunc(c.rate)
 

@@ -12,8 +12,7 @@ def sensing(m: Motion, p: Values, c: Context) -> Motion:
     attitude = sp.eye(3)
     for n, angle in zip((2, 1, 0), ("yaw", "pitch", "roll"), strict=True):
         attitude = attitude * turn(sp.eye(3)[:, n], c.channel(angle), None)
-    R = sp.Matrix(3, 3, lambda i, k: c.tape.let(f"attitude_{'xyz'[i]}{'xyz'[k]}", attitude[i, k]))
-
+    R = c.tape.let_each("attitude", attitude)
     level, fuel = traceless(p, "G_{}"), traceless(p, "F_{}") * c.channel("fuel_mass")
     return m._replace(Gamma=m.Gamma + R * (level + fuel) * R.T - level)
 

@@ -8,9 +8,7 @@ from derive.stages import spin_gradient
 
 
 def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:
-    added = spin_gradient(c.motion, c.spin)
-    named = sp.Matrix(3, 3, lambda i, k: c.tape.let(f"spin_{'xyz'[i]}{'xyz'[k]}", added[i, k]))
-    return p.share * named * r
+    return p.share * c.tape.let_each("spin", spin_gradient(c.motion, c.spin)) * r
 
 
 EFFECT = Effect(

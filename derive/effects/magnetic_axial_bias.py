@@ -9,7 +9,6 @@ from derive.stages import SensedForce
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
-    assert c.geometry is not None
     field = c.in_disc_frame(sp.Matrix([c.channel(name) for name in FIELD]))
     return i + p.dK0_dBz * c.geometry.tau[2, :].dot(field)
 

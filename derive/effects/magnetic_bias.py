@@ -10,7 +10,6 @@ FIELD = ("B_x", "B_y", "B_z")
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
-    assert c.geometry is not None
     k = c.parameters
     field = sp.Matrix([c.channel(name) for name in FIELD])
     input_axis = misalignment_matrix(k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])[0, :] * c.geometry.tau

@@ -8,7 +8,6 @@ from derive.stages import SensedForce
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
-    assert c.geometry is not None
     field = c.in_disc_frame(sp.Matrix([c.channel("B_x"), c.channel("B_y"), 0]))
     return i * (1 + p.dK1_dB * c.geometry.tau[0, :].dot(field))
 

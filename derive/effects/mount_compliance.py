@@ -9,7 +9,6 @@ from derive.effect import Effect, EffectParameter, Values
 
 
 def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
-    assert c.force is not None
     f = c.force
     return {
         f"vartheta_{a}": k[f"vartheta_{a}"] + p[f"c_{a}x"] * f.x + p[f"c_{a}y"] * f.y + p[f"c_{a}z"] * f.z

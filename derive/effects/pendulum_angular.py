@@ -8,7 +8,6 @@ from derive.stages import SensedForce
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
-    assert c.geometry is not None
     return i + p.K_pa * c.case.omegadot.dot(c.geometry.tau[1, :])
 
 

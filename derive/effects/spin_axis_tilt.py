@@ -14,8 +14,7 @@ def sensing(m: Motion, p: Values, c: Context) -> Motion:
     if (
         c.standing is not None
     ):  # about the disc's own axes: about the measurement frame's, one may be the spin's
-        own = c.standing * back * c.standing.T
-        back = sp.Matrix(3, 3, lambda i, k: c.tape.let(f"tilt_on_disc_{'xyz'[i]}{'xyz'[k]}", own[i, k]))
+        back = c.tape.let_each("tilt_on_disc", c.standing * back * c.standing.T)
     return Motion(back * m.a, back * m.omega, back * m.omegadot, back * m.Gamma * back.T)
 
 

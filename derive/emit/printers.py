@@ -68,9 +68,6 @@ class _NumPy(_Code, NumPyPrinter):
     def _print_Abs(self, e: sp.Expr) -> str:
         return f"np.abs({self._print(e.args[0])})"
 
-    def _print_sign(self, e: sp.Expr) -> str:
-        return f"np.sign({self._print(e.args[0])})"
-
     def _module_format(self, fqn: str, register: bool = True) -> str:
         return fqn.replace("numpy.", "np.")
 

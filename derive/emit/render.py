@@ -42,13 +42,7 @@ def environment(package: str) -> jinja2.Environment:
 
 def render_page(package: str, template: str, values: Mapping[str, object]) -> str:
     """A page of Markdown from a template in the folder ``templates`` of a package."""
-    env = jinja2.Environment(
-        loader=jinja2.PackageLoader(package, "templates"),
-        undefined=jinja2.StrictUndefined,
-        autoescape=False,
-        keep_trailing_newline=True,
-    )
-    return env.get_template(template).render(values).rstrip() + "\n"
+    return environment(package).get_template(template).render(values).rstrip() + "\n"
 
 
 def number(x: float | Fraction, digits: int = 3) -> str:

@@ -13,9 +13,9 @@ import sympy as sp
 
 from derive.propagation import MOTION_NUMBERS, motion_numbers
 from derive.stages import Kinematics
-from derive.symbols import MOTION, SPIN_ACCELERATION, SPIN_RATE, symbol
+from derive.symbols import ANGLES, MOTION, SECOND_ORDER, SPIN_ACCELERATION, SPIN_RATE, symbol
 
-Vector = tuple[float, float, float]
+Vector = tuple[float, ...]
 
 EOTVOS = Fraction(1, 10**9)
 """1 Eo in s^-2."""
@@ -200,65 +200,78 @@ def product(bounds: Sequence[Fraction], powers: Sequence[int]) -> Fraction:
 
 
 G0 = 9.8
-"""m/s^2, the paper's g."""
-_ARCSECOND, _PER_HOUR = math.radians(1 / 3600), math.radians(1) / 3600
-_SPIN = 0.25
-_OMEGA = 2 * math.pi * _SPIN
+"""m/s^2 per g: the value with which the paper's k_ggi = 4.54e-4 V/Eo comes out."""
+RADIUS, SPIN_FREQUENCY = 0.1, 0.25
+"""m, Hz."""
+ARCSECOND = PER_HOUR = math.pi / 648000
+"""rad, and rad/s of a degree per hour."""
+
+TABLE_V: Mapping[str, tuple[float, ...]] = {
+    "dR": (0, 30, 35, 25),  # um
+    "beta_x": (21, 14, 17, 19),  # arcsec
+    "beta_z": (18, 8, 10, 20),
+    "vartheta_y": (21, 10, 7, 19),
+    "vartheta_z": (30, 19, 20, 9),
+    "K0": (10, 2, 5, 8),  # ug
+    "K1": (10, 11, 11.5, 12),  # mA/g
+    "K2": (5, 1, 8, 7),  # ug/g^2
+    "K4": (6, 12, 5, 16),
+    "K5": (4, 11, 9, 13),
+    "K6": (3, 12, 8, 10),
+    "K7": (5, 15, 7, 17),
+    "K8": (0, 7, 11, 20),
+}
+"""Of the dynamic experiment: the four accelerometers."""
+
+TABLE_VI: Mapping[str, tuple[float, float]] = {
+    "a_x": (0.08, 0.005),  # g: constant, and amplitude of sin Omega t
+    "a_y": (0.06, 0.006),
+    "a_z": (0.1, 0.05),
+    "omega_x": (1000, 700),  # deg/h
+    "omega_y": (1500, 900),
+    "omega_z": (2000, 800),
+}
+"""Its motion."""
+
+_ANGLES: Mapping[str, Any] = dict.fromkeys(ANGLES, 1e-4)
+_COEFFICIENTS: Mapping[str, Any] = dict.fromkeys(SECOND_ORDER, 1e-6 / G0)
 
 PAPER_ENVELOPE = Envelope(
     # "In gravity gradiometry the RAGG acceleration is usually in the order of 0.1 g" (below Eq. 41).
     a=(0.1 * G0,) * 3,
     # The greatest rate of the dynamic experiment: 2000 + 800 deg/h (Table VI).
-    omega=(2800 * _PER_HOUR,) * 3,
+    omega=(2800 * PER_HOUR,) * 3,
     # "the angular acceleration is in the order of 1e-3 ~ 1e-2 rad/s^2" (Section IV): the lower end.
     # Only there does the paper drop nothing that its own rule would keep (the page on the simplified model).
     omegadot=(1e-3,) * 3,
     # "The maximum gravitational gradient is of the order of 10^3 Eo" (below Eq. 32).
     Gamma=1e3 * 1e-9,
-    radius=0.1,
+    radius=RADIUS,
     # The largest of Table V; Section II.B.1 gives none.
     dR=35e-6,
     # Section II.B.1, first paragraph.
-    beta_x=1e-4,
-    beta_z=1e-4,
-    vartheta_x=1e-4,
-    vartheta_y=1e-4,
-    vartheta_z=1e-4,
+    **_ANGLES,
     # The largest of Table V; Section II.B.1 gives none.
     K0=10e-6 * G0,
     # Section II.B.1: 1e-6 g/g^2.
-    K2=1e-6 / G0,
-    K4=1e-6 / G0,
-    K5=1e-6 / G0,
-    K6=1e-6 / G0,
-    K7=1e-6 / G0,
-    K8=1e-6 / G0,
+    **_COEFFICIENTS,
     imbalance=1e-4,
-    spin_frequency=_SPIN,
+    spin_frequency=SPIN_FREQUENCY,
 )
 """Section II.B.1, each number as the paper gives it. It states no angular motion there: see ``omega``."""
 
-DYNAMIC_EXPERIMENT = Envelope(
-    a=(0.085 * G0, 0.066 * G0, 0.15 * G0),
-    omega=(1700 * _PER_HOUR, 2400 * _PER_HOUR, 2800 * _PER_HOUR),
-    omegadot=(700 * _PER_HOUR * _OMEGA, 900 * _PER_HOUR * _OMEGA, 800 * _PER_HOUR * _OMEGA),
-    Gamma=1e3 * 1e-9,
-    radius=0.1,
-    dR=35e-6,
-    beta_x=21 * _ARCSECOND,
-    beta_z=20 * _ARCSECOND,
-    vartheta_x=0.0,
-    vartheta_y=21 * _ARCSECOND,
-    vartheta_z=30 * _ARCSECOND,
-    K0=10e-6 * G0,
-    K2=8e-6 / G0,
-    K4=16e-6 / G0,
-    K5=13e-6 / G0,
-    K6=12e-6 / G0,
-    K7=17e-6 / G0,
-    K8=20e-6 / G0,
-    # 10, 11, 11.5 and 12 mA/g against their mean: a thousand times the 1e-4 of Section II.B.1.
-    imbalance=1 - 10 / 11.125,
-    spin_frequency=_SPIN,
+_LARGEST: dict[str, Any] = {n: max(TABLE_V.get(n, (0.0,))) * ARCSECOND for n in ANGLES}
+_LARGEST |= {n: max(TABLE_V[n]) * 1e-6 / G0 for n in SECOND_ORDER}
+_SIX = {n: [TABLE_VI[f"{n}_{k}"] for k in "xyz"] for n in ("a", "omega")}
+_TURN = 2 * math.pi * SPIN_FREQUENCY * PER_HOUR
+
+DYNAMIC_EXPERIMENT = replace(
+    PAPER_ENVELOPE,
+    a=tuple((mean + swing) * G0 for mean, swing in _SIX["a"]),
+    omega=tuple((mean + swing) * PER_HOUR for mean, swing in _SIX["omega"]),
+    omegadot=tuple(swing * _TURN for _, swing in _SIX["omega"]),
+    **_LARGEST,
+    # Against their mean: a thousand times the 1e-4 of Section II.B.1.
+    imbalance=1 - min(TABLE_V["K1"]) / (sum(TABLE_V["K1"]) / 4),
 )
 """The smallest envelope that holds the dynamic experiment (Tables V and VI), Gamma as in Section II.B.1."""

@@ -55,38 +55,34 @@ def balanced(harmonic: int, parameters: Powers) -> bool:
     return is_nominal(parameters) and harmonic % 4 != 2
 
 
-def sizes(envelope: Envelope, full: Collected | None = None) -> tuple[Size, ...]:
-    """The size of every term of the analytical model (or of ``full``) in an envelope, in its order."""
+def sizes(envelope: Envelope) -> tuple[Size, ...]:
+    """The size of every term of the analytical model in an envelope, in its order."""
     bounds = envelope.motion()
     motions = [bounds[n] for n in MOTION_NUMBERS]
     nominal = [envelope.nominal(n) for n in COEFFICIENT_PARAMETERS]
     scale = 1 / (4 * Fraction(envelope.radius) * EOTVOS)
     found = []
-    for (n, motion, parameters), c in (full or collect()).largest.items():
+    for (n, motion, parameters), c in collect().largest.items():
         left = envelope.departure(parameters) if balanced(n, parameters) else 1
         size = c * product(motions, motion) * product(nominal, parameters) * scale * left
         found.append(Size(n, motion, parameters, size))
     return tuple(found)
 
 
-def simplified(envelope: Envelope = PAPER_ENVELOPE, full: Collected | None = None) -> Collected:
+def simplified(envelope: Envelope = PAPER_ENVELOPE) -> Collected:
     """The simplified model for an envelope (Eq. 42-47 for the paper's).
 
-    Of the analytical model (or of ``full``) it keeps every term that may exceed ``envelope.allotted``, and
+    Of the analytical model it keeps every term that may exceed ``envelope.allotted``, and
     always the signal itself (Eq. 30). What it drops is bounded by :func:`derive.simplify.certified_bound`.
     """
-    full = full or collect()
-    large = {
-        (s.harmonic, s.motion, s.parameters) for s in sizes(envelope, full) if s.eotvos > envelope.allotted
-    }
-    return from_generic(_select(full.generic, large))
+    large = {(s.harmonic, s.motion, s.parameters) for s in sizes(envelope) if s.eotvos > envelope.allotted}
+    return from_generic(_select(collect().generic, large))
 
 
-def dropped(model: Collected, full: Collected | None = None) -> Generic:
-    """Series of one accelerometer that the analytical (or ``full``) model has and ``model`` has not."""
-    full = full or collect()
+def dropped(model: Collected) -> Generic:
+    """Series of one accelerometer that the analytical model has and ``model`` has not."""
     difference: dict[tuple[int, str], dict[Powers, PolyElement]] = {}
-    for key, terms in full.generic.items():
+    for key, terms in collect().generic.items():
         there = model.generic.get(key, {})
         left = {m: c - there.get(m, COEFFICIENTS.zero) for m, c in terms.items()}
         difference[key] = {m: c for m, c in left.items() if c}
@@ -133,10 +129,10 @@ class Certificate:
         return round_up(self.exact)
 
 
-def certified_bound(envelope: Envelope, model: Collected, full: Collected | None = None) -> Certificate:
-    """What ``model`` may miss of the analytical model (or of ``full``) anywhere in an envelope."""
+def certified_bound(envelope: Envelope, model: Collected) -> Certificate:
+    """What ``model`` may miss of the analytical model anywhere in an envelope."""
     amplitudes: dict[tuple[int, Powers, Powers], Fraction] = {}
-    for (n, _), terms in dropped(model, full).items():
+    for (n, _), terms in dropped(model).items():
         for motion, coefficient in terms.items():
             for p, c in coefficient.terms():
                 square = Fraction(int(c.numerator), int(c.denominator)) ** 2

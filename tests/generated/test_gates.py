@@ -34,7 +34,7 @@ from ragg_runtime.instrument.units import units
 from tests.generated.draws import Array
 from itertools import product
 from derive.propagation import Collected
-from derive.simplify import simplified as simplified_model
+from derive.simplify.terms import simplified as simplified_model
 from generated import analytical, folded, simplified
 
 COMMITTED = Path(str(generated.__file__)).parent
@@ -171,7 +171,6 @@ def test_manifest_describes_what_the_modules_hold() -> None:
             module.PARAMETERS
         )
         assert all(q["unit"] for q in entry["parameters"])
-        assert all(count > 0 for count in entry["operations"].values())
         if name in ("analytical", "simplified"):
             assert entry["amplitudes"] == list(module.AMPLITUDES)
         elif name != "folded":

@@ -6,16 +6,16 @@ import math
 
 import numpy as np
 
-from benchmarks import Row, bounds, evaluation, timing
+from benchmarks import Row, evaluation, timing
 from benchmarks.__main__ import main, modules, page
 from benchmarks.evaluation import instrument_and_motion
-from benchmarks.rivals import lambdify, numpy_blocks, program
+from benchmarks.rivals import lambdify, memory_traffic, numpy_blocks, program
 from generated import folded
 
 
 def test_benchmarks_are_found_by_their_run() -> None:
     assert {"derivation", "evaluation"} <= set(modules())
-    assert not {"timing", "rivals", "bounds"} & set(modules())
+    assert not {"timing", "rivals"} & set(modules())
     assert main(["no-such"]) == 2
 
 
@@ -53,8 +53,11 @@ def test_rivals_evaluate_the_same_model() -> None:
         np.testing.assert_allclose(out, true, rtol=0, atol=1e-9 * np.max(np.abs(true)))
 
 
-def test_operations_of_the_generated_c_are_counted() -> None:
-    assert 120 < bounds.instructions() < 200  # 49 coefficients, twelve turned numbers, one sine and cosine
+def test_the_memory_bound_reads_all_series() -> None:
+    t, x, _ = instrument_and_motion(100)
+    out = np.empty(len(t))
+    memory_traffic()(t, x, out)
+    np.testing.assert_allclose(out, t + x.sum(axis=0), rtol=1e-12)
 
 
 def test_what_is_timed_is_what_fifty_digits_say() -> None:

@@ -18,6 +18,7 @@ from scipy import signal
 
 import derive.effects
 from derive import pipeline
+from derive.emit import target
 from derive.symbols import MOTION
 from generated import folded
 from ragg_runtime.base.errors import UserError
@@ -234,9 +235,9 @@ def test_a_file_format_is_a_function_and_a_line(tmp_path: Path, monkeypatch: pyt
         files.read_flight(tmp_path / "flight.rec", 9.8)
 
 
-def test_a_target_is_a_package_with_four_functions(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_target_is_a_package_with_a_function_for_each_form(monkeypatch: pytest.MonkeyPatch) -> None:
     names = module_of("derive/emit/names/__init__.py")
-    monkeypatch.setattr(pipeline, "targets", lambda: (names,))
+    monkeypatch.setattr(target, "targets", lambda: (names,))
     table = pipeline.derive_model((), ())["names/chain.csv"].splitlines()
     assert table[0] == "kind,name,values"
     assert {"input,a_x,1", "parameter,K1,4", "parameter,radius,1"} <= set(table)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
@@ -12,7 +12,6 @@ from derive.emit.printers import to_c
 from derive.emit.render import environment
 from derive.folded import Folded
 from derive.ir import ChainProgram, Harmonic
-from derive.propagation import MonomialTerm
 from derive.tape import Program
 
 
@@ -67,10 +66,6 @@ def chain(m: ChainProgram, *, packaged: bool) -> dict[str, str]:
     inputs = [c.local for c in m.inputs]
     m = replace(m, value=Turned.of(m.value, inputs), derivatives=Turned.of(m.derivatives, inputs))
     return _both("chain", m.name, m=m, whole=m.name == "signatures")
-
-
-def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[MonomialTerm, ...]]) -> dict[str, str]:
-    return {}
 
 
 def plain(m: ChainProgram) -> dict[str, str]:

@@ -8,22 +8,13 @@ import sympy as sp
 
 from derive.emit.printers import to_latex
 from derive.emit.render import environment
-from derive.folded import Folded
-from derive.ir import AmplitudeTerm, ChainProgram, Coefficient, Harmonic
+from derive.ir import AmplitudeTerm, Coefficient, Harmonic
 from derive.propagation import MonomialTerm, monomial
 from derive.symbols import symbol
 
 
 def harmonic(m: Harmonic) -> dict[str, str]:
     return {f"latex/{m.name}.tex": _render("harmonic.tex.j2", m=m, term=_term)}
-
-
-def folded(m: Folded) -> dict[str, str]:
-    return {}
-
-
-def chain(m: ChainProgram, *, packaged: bool) -> dict[str, str]:
-    return {}
 
 
 def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[MonomialTerm, ...]]) -> dict[str, str]:

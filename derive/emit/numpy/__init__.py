@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-
-import sympy as sp
+from collections.abc import Sequence
 
 from derive.emit.printers import to_numpy
 from derive.emit.render import environment
 from derive.folded import Folded
 from derive.ir import AmplitudeTerm, ChainProgram, Harmonic
-from derive.propagation import MonomialTerm
 
 BLOCK = 4096
 """Samples that are evaluated together: large enough to make NumPy's calls cheap, small enough for the second cache."""
@@ -26,10 +23,6 @@ def folded(m: Folded) -> dict[str, str]:
 
 def chain(m: ChainProgram, *, packaged: bool) -> dict[str, str]:
     return {f"{m.name}.py": _render("chain.py.j2", m=m)}
-
-
-def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[MonomialTerm, ...]]) -> dict[str, str]:
-    return {}
 
 
 def package_file(modules: Sequence[str]) -> str:
