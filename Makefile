@@ -78,7 +78,7 @@ lock:  ## put the hashes of all files of each release into the lock (after addin
 	$(PYTHON) -m venv .venv-tools
 	.venv-tools/bin/python -m pip install --quiet --disable-pip-version-check uv==0.13.9
 	$(PINS) > .venv-tools/pins.in
-	.venv-tools/bin/uv pip compile --quiet --no-config --no-deps --universal --python-version 3.11.5 --generate-hashes \
+	.venv-tools/bin/uv pip compile --quiet --no-config --no-deps --universal --python-version 3.11 --generate-hashes \
 	  --no-header --no-annotate --no-emit-index-url .venv-tools/pins.in -o .venv-tools/pins.lock > /dev/null
 	cp .venv-tools/pins.lock requirements.lock
 
