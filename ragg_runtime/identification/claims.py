@@ -37,9 +37,8 @@ PLAINLY = INDISTINGUISHABLE / 2
 
 MORE = 1.5
 """Times the chi-square that claims beside a remainder must explain: all of them, of the best single generic term, as the difference of
-two explanations grows with their strength and their ratio does not, or they leave so many times less; each of them, of the best generic
-term of the remainder. The first ratio was 1.5 to 16 on a real array, 0.1 to 1.4 on flights with physics outside the catalogue, of what is
-left 0.7 to 1.1 on those.
+two explanations grows with their strength and their ratio does not; each of them, of the best generic term of the remainder. The first
+ratio was 1.5 to 16 on a real array, 0.1 to 1.4 on flights with physics outside the catalogue.
 """
 
 SEEN = 1.0 / (1.0 + TESTABLE**2)

@@ -275,10 +275,8 @@ def _choose_claims(o: Outcome, lead: _Lead | None, base: Sequence[Remainder]) ->
     if lead is None:
         return ()
     if o.remains:
-        single, all_of_it = claims.find_best_single(base), sum(s.square for s in base[0].searches)
-        more = lead.chi2 - lead.rank > claims.MORE * single
-        less = claims.MORE * (all_of_it - lead.chi2) < all_of_it - single
-        return o.effects if (more or less) and lead.ahead > claims.PLAINLY else ()
+        more = lead.chi2 - lead.rank > claims.MORE * claims.find_best_single(base)
+        return o.effects if more and lead.ahead > claims.PLAINLY else ()
     # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
     least = -claims.PLAINLY if len(o.effects) == 1 else 0.0
     return o.effects if lead.ahead > least else ()
