@@ -198,13 +198,14 @@ def fit(
     """
     task = _Task(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
+    white = [NoiseModel.white(o.record.rate, len(o.series)) for o in observations]
     if noise is None:
-        volts = task.linearisation([NoiseModel.white(o.record.rate, len(o.series)) for o in observations])
+        volts = task.linearisation(white)
         size = float(np.sqrt(volts(x).unheld))
         x = minimise(lambda at: volts(at).over(size), x).x
         noise = estimate_noises(model, instrument, observations, task.vector(x))
     if unweighted:
-        volts = task.linearisation([NoiseModel.white(o.record.rate, len(o.series)) for o in observations])
+        volts = task.linearisation(white)
         size = max(task.size(noise), float(np.sqrt(volts(x).excess)) / LEAN)
         return _make_calibration(task, minimise(lambda at: volts(at).over(size), x), noise)
     return _make_calibration(task, minimise(task.linearisation(noise), x), noise)

@@ -263,13 +263,15 @@ def factor_blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
             for b, x in parts
         ]
 
-    parts = [part for several in prepared.each(own) for part in several]
-    size = len(parts[0][1])
-    r_factors, totals = [np.zeros((size, size))] * BLOCKS, np.zeros((BLOCKS, size))
-    for b, T, sums in parts:
-        r_factors[b] = join([r_factors[b], T]) if r_factors[b].any() else T
-        totals[b] += sums
-    return tuple(r_factors), totals
+    r_factors: dict[int, Array] = {}
+    totals: dict[int, Array] = {}
+    for parts in prepared.each(own):  # a day has hundreds: those of a block are joined as they come
+        for b, T, sums in parts:
+            r_factors[b] = join([r_factors[b], T]) if b in r_factors else T
+            totals[b] = totals[b] + sums if b in totals else sums
+    nothing = np.zeros_like(next(iter(r_factors.values())))
+    each = range(BLOCKS)
+    return tuple(r_factors.get(b, nothing) for b in each), np.stack([totals.get(b, nothing[0]) for b in each])
 
 
 DEPENDENT = 1e-6
