@@ -19,7 +19,7 @@ from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.model.model import DerivedEffect, load_packaged
 from ragg_runtime.model.record import find_start
-from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
+from ragg_runtime.reference.accelerometer_noise import eotvos_noise
 from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues, channels_needed, resolve
@@ -111,7 +111,7 @@ def simulate_flight(
             start=start,
             gravity=draw_gradient(np.random.default_rng([seed, 13]), GEOLOGY),
             record_gradient=not no_gradient,
-            noise=_noise(noise, instrument.radius),
+            noise=eotvos_noise(noise * 1e-9, instrument.radius, 0.05),
             rotations=_ROTATIONS[form.mounting],
             misalignment="exact" if form.misalignment == "exact" else "first-order",
             kinematics=form.kinematics,
@@ -156,12 +156,6 @@ def _auxiliaries(
         time = record.time - record.time[0] + start
         found |= {n: RecordedSignal(time, x).value for n, x in record.channels.items() if n in asked}
     return found
-
-
-def _noise(density: float, radius: float) -> Noise | None:
-    """Of each accelerometer, for so much (Eo/sqrt(Hz)) of the cross channel, red below 0.05 Hz."""
-    white = eotvos_noise(density * 1e-9, radius)
-    return Noise(alpha=0.05 * white.omega_T, b=1.0, omega_T=white.omega_T) if density else None
 
 
 def _recorded(x: Flight, start: float) -> tuple[reference.MotionSignals, float, float]:

@@ -62,10 +62,11 @@ class Noise:
         return record
 
 
-def eotvos_noise(density: float, radius: float) -> Noise:
+def eotvos_noise(density: float, radius: float, red_corner: float = 0.0) -> Noise:
     """White accelerometer noise that gives the demodulated cross channel a ``density`` in s^-2/sqrt(Hz), ``radius`` in
-    m.
+    m, and below ``red_corner``, Hz, stronger 1/f noise.
 
     n = sqrt(2) R density, m/s^2/sqrt(Hz). The inline channel, a difference, has twice the cross channel's.
     """
-    return Noise(omega_T=2 * (radius * density) ** 2)
+    white = 2 * (radius * density) ** 2
+    return Noise(alpha=red_corner * white, b=1.0, omega_T=white)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 
@@ -44,14 +44,6 @@ def contract(tensor: Array, r: Array) -> Array:
     xx, xy, xz, yy, yz, zz = tensor
     x, y, z = r
     return np.stack([xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z])
-
-
-def components(matrix: ArrayLike) -> Array:
-    """The six components of a symmetric (3, 3) tensor."""
-    m = np.asarray(matrix, dtype=np.float64)
-    if m.shape != (3, 3) or not np.allclose(m, m.T, rtol=1e-12, atol=0):
-        raise UserError("a gravity gradient tensor is a symmetric 3 x 3 matrix", found=m.tolist())
-    return m[np.triu_indices(3)]
 
 
 @dataclass(frozen=True)

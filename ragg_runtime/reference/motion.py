@@ -37,13 +37,12 @@ class Signal(Protocol):
 
 @dataclass(frozen=True)
 class Sinusoids:
-    """mean + envelope(t) * sum of amplitude * sin(2 pi frequency t + phase); (K,) each: SI unit, Hz, rad."""
+    """mean + sum of amplitude * sin(2 pi frequency t + phase); (K,) each: SI unit, Hz, rad."""
 
     mean: float = 0.0
     amplitude: Sequence[float] | Array = ()
     frequency: Sequence[float] | Array = ()
     phase: Sequence[float] | Array = ()
-    envelope: Signal | None = None
 
     def __post_init__(self) -> None:
         sizes = {len(self.amplitude), len(self.frequency), len(self.phase)}
@@ -70,19 +69,11 @@ class Sinusoids:
 
     def value(self, time: Array, shift: float = 0.0) -> Array:
         """Value at ``time - shift``, (N,)."""
-        total = self._sum(time, shift, derivative=False)
-        if self.envelope is not None:
-            total = total * self.envelope.value(time, shift)
-        return self.mean + total
+        return self.mean + self._sum(time, shift, derivative=False)
 
     def rate(self, time: Array, shift: float = 0.0) -> Array:
         """Time derivative at ``time - shift``, (N,)."""
-        total = self._sum(time, shift, derivative=True)
-        if self.envelope is None:
-            return total
-        return self.envelope.value(time, shift) * total + self.envelope.rate(time, shift) * self._sum(
-            time, shift, derivative=False
-        )
+        return self._sum(time, shift, derivative=True)
 
 
 @dataclass(frozen=True)

@@ -48,13 +48,6 @@ def least_rotation(start: Array, end: Array, spare: Array) -> Array:
     return about(axis / sine, float(np.arctan2(sine, start @ end)))
 
 
-def spin(vector: ArrayLike, angle: ArrayLike) -> Array:
-    """Turn one disc-fixed vector (3,), or a series (3, N), about z by each angle (N,) rad: (3, N)."""
-    v = np.asarray(vector, dtype=np.float64)
-    c, s = np.cos(angle), np.sin(angle)
-    return np.stack([c * v[0] - s * v[1], s * v[0] + c * v[1], np.broadcast_to(v[2], c.shape)])
-
-
 def frame_rotation(
     x: ArrayLike, y: ArrayLike, z: ArrayLike, rotations: Literal["first-order", "exact"] = "exact"
 ) -> Array:

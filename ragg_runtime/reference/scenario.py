@@ -139,7 +139,7 @@ def scenario(
     turbulence_scale: float = 1.0,
     perturbation: float = 1.0,
     noise_density: float = 2e-9,
-    red_corner: float | None = None,
+    red_corner: float = 0.0,
     gradient_rms: float = 0.0,
     rotations: Rotations = "first-order",
 ) -> Scenario:
@@ -148,7 +148,7 @@ def scenario(
     ``trim``: scale factors ``matched`` (10, 10.001, 10.0015, 10.002 mA/g) or ``table-v`` (10, 11, 11.5, 12 mA/g).
     ``duration`` s, ``rate`` Hz; ``shape``, ``bursts``, ``turbulence_scale`` as in ``draw_motion``. ``perturbation``: of
     the true parameters, in a test sheet's usual errors. ``noise_density``: white, of the demodulated cross channel,
-    s^-2/sqrt(Hz). ``red_corner``: Hz, below which 1/f noise exceeds the white; ``None``: none. ``gradient_rms``: s^-2.
+    s^-2/sqrt(Hz). ``red_corner``: Hz, below which 1/f noise exceeds the white. ``gradient_rms``: s^-2.
     """
     if trim not in ("matched", "table-v"):
         raise UserError("unknown trim", found=trim, expected="matched or table-v")
@@ -164,17 +164,10 @@ def scenario(
             turbulence_scale=turbulence_scale,
         ),
         gravity=draw_gradient(np.random.default_rng([seed, _GEOLOGY]), gradient_rms),
-        noise=_noise(noise_density, red_corner, sheet.radius),
+        noise=eotvos_noise(noise_density, sheet.radius, red_corner),
         auxiliaries=plausible(np.random.default_rng([seed, _AUXILIARY])),
         duration=duration,
         rate=rate,
         rotations=rotations,
         seed=seed,
     )
-
-
-def _noise(density: float, red_corner: float | None, radius: float) -> Noise | None:
-    """Of each accelerometer; ``None`` where the density is zero."""
-    white = eotvos_noise(density, radius)
-    red = 0.0 if red_corner is None else white.omega_T * red_corner
-    return None if density == 0 else Noise(alpha=red, b=1.0, omega_T=white.omega_T)

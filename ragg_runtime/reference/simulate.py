@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.layout import PAPER, Layout, Output
+from ragg_runtime.base.errors import UserError, check_choice, check_keys
+from ragg_runtime.instrument.layout import PAPER, Output
 from ragg_runtime.reference.accelerometer_noise import Noise
 from ragg_runtime.reference.auxiliaries import plausible
 from ragg_runtime.reference.chain import Auxiliary, Chain
@@ -72,15 +72,7 @@ class Simulation:
         if voltages:
             layout = self.instrument.layout
             outputs |= {layout.voltage_columns(j)[0]: v for j, v in enumerate(self.voltages)}
-        return Flight(
-            time=self.time,
-            channels=dict(self.channels),
-            outputs=outputs,
-            name=name,
-            path=None,
-            digest="",
-            notes=(),
-        )
+        return Flight(time=self.time, channels=dict(self.channels), outputs=outputs, name=name)
 
 
 def combine(voltages: Array, output: Output = PAPER.outputs[0]) -> Array:
@@ -132,21 +124,40 @@ def simulate(
     recorded by an encoder; others turn steadily.
     """
     time, injected = instants(duration, rate, start), resolve(effects, instrument.layout.size)
-    given = _turning(turning or {}, instrument.layout)
+    given, discs = turning or {}, instrument.layout.discs
+    check_keys(given, [d.name for d in discs], "turning")
+    check_choice(rotations, get_args(Rotations), "rotations")
+    world = (
+        plausible(np.random.default_rng([seed, _AUXILIARY_STREAM])) if auxiliaries is None else auxiliaries
+    )
+    _require_channels(injected, world)
     chain = Chain(
         instrument=instrument,
         motion=motion,
         gravity=gravity,
         rotations=rotations,
         effects=injected,
-        auxiliaries=_world(auxiliaries, injected, seed),
-        turning=tuple(given.get(d.name, Turning(d.spin_frequency)) for d in instrument.layout.discs),
+        auxiliaries=world,
+        turning=tuple(given.get(d.name, Turning(d.spin_frequency)) for d in discs),
         spin=spin_share(kinematics, injected),
-        misalignment=misalignment or _of_misalignment(rotations),
+        misalignment=misalignment or ("exact" if rotations == "exact" else "first-order"),
     )
     true = _remembering(chain, time)
-    clean, added = _clean(true, time, rate, seed), _drawn(noise, true, time, rate, seed)
-    return _recorded(chain, time, clean, added, _channels(chain, time, record_gradient, given))
+    clean, added = _clean(true, time, rate, seed), _draw_noise(noise, true, time, rate, seed)
+
+    def record_outputs(v: Array) -> dict[str, Array]:
+        return {o.name: record_output(combine(v, o), injected) for o in instrument.layout.outputs}
+
+    return Simulation(
+        time=time,
+        channels=_channels(chain, time, record_gradient, given),
+        voltages=clean + added,
+        outputs=record_outputs(clean + added),
+        voltages_noise_free=clean,
+        outputs_noise_free=record_outputs(clean),
+        instrument=instrument,
+        effects=injected,
+    )
 
 
 def _remembering(chain: Chain, time: Array) -> Chain:
@@ -165,22 +176,6 @@ def _remembering(chain: Chain, time: Array) -> Chain:
     )
 
 
-def _world(given: Mapping[str, Auxiliary] | None, injected: Injected, seed: int) -> Mapping[str, Auxiliary]:
-    """The auxiliary channels, plausible ones where none are given; UserError if one that an effect needs is missing."""
-    found = plausible(np.random.default_rng([seed, _AUXILIARY_STREAM])) if given is None else given
-    _require_channels(injected, found)
-    return found
-
-
-def _of_misalignment(rotations: Rotations) -> Literal["first-order", "exact"]:
-    """How misalignment angles rotate by default."""
-    if rotations not in get_args(Rotations):
-        raise UserError(
-            "unknown kind of rotations", found=rotations, expected="first-order, second-order or exact"
-        )
-    return "exact" if rotations == "exact" else "first-order"
-
-
 def _clean(chain: Chain, time: Array, rate: float, seed: int) -> Array:
     """(accelerometers, N) V without noise."""
     error = random_angle(np.random.default_rng([seed, _ANGLE_STREAM]), time.size, rate, chain.effects)
@@ -193,29 +188,7 @@ def _clean(chain: Chain, time: Array, rate: float, seed: int) -> Array:
     return clean
 
 
-def _recorded(
-    chain: Chain, time: Array, clean: Array, noise: Array, channels: Mapping[str, Array]
-) -> Simulation:
-    """What the recorder makes of voltages (accelerometers, N), without and with noise."""
-    voltages = clean + noise
-
-    def outputs(v: Array) -> dict[str, Array]:
-        layout = chain.instrument.layout
-        return {o.name: record_output(combine(v, o), chain.effects) for o in layout.outputs}
-
-    return Simulation(
-        time=time,
-        channels=channels,
-        voltages=voltages,
-        outputs=outputs(voltages),
-        voltages_noise_free=clean,
-        outputs_noise_free=outputs(clean),
-        instrument=chain.instrument,
-        effects=chain.effects,
-    )
-
-
-def _drawn(noise: Noise | None, chain: Chain, time: Array, rate: float, seed: int) -> Array:
+def _draw_noise(noise: Noise | None, chain: Chain, time: Array, rate: float, seed: int) -> Array:
     """(accelerometers, N), V: the noise of each, of a stream of its own."""
     if noise is None:
         return np.zeros((chain.size, len(time)))
@@ -223,29 +196,15 @@ def _drawn(noise: Noise | None, chain: Chain, time: Array, rate: float, seed: in
     return chain.scale(time) * np.stack([noise.sample(stream, len(time), rate) for stream in streams])
 
 
-def _turning(given: Mapping[str, Turning], layout: Layout) -> Mapping[str, Turning]:
-    for name in given:
-        if name not in {d.name for d in layout.discs}:
-            raise UserError(
-                f"the instrument has no disc {name!r}", expected=", ".join(repr(d.name) for d in layout.discs)
-            )
-    return given
-
-
 def _channels(
     chain: Chain, time: Array, record_gradient: bool, turning: Mapping[str, Turning]
 ) -> dict[str, Array]:
-    warmth = (
-        chain.auxiliaries["temperature"](time) if "imu-thermal" in chain.effects else REFERENCE_TEMPERATURE
-    )
+    warm = "imu-thermal" in chain.effects
+    warmth = chain.auxiliaries["temperature"](time) if warm else REFERENCE_TEMPERATURE
     recorded = record_motion(chain.motion, time, chain.effects, warmth)
     channels = {
-        f"{quantity}_{axis}": values[k]
-        for quantity, values in (
-            ("a", recorded.a),
-            ("omega", recorded.omega),
-            ("omegadot", recorded.omegadot),
-        )
+        f"{quantity}_{axis}": getattr(recorded, quantity)[k]
+        for quantity in ("a", "omega", "omegadot")
         for k, axis in enumerate("xyz")
     }
     if record_gradient:

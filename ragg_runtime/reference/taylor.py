@@ -41,9 +41,6 @@ class Taylor:
     __radd__ = __add__
     __rmul__ = __mul__
 
-    def __neg__(self) -> Taylor:
-        return self * -1.0
-
     def cosine(self) -> Taylor:
         """Its cosine."""
         c, s = np.cos(self.value), np.sin(self.value)

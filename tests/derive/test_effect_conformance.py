@@ -28,7 +28,7 @@ from ragg_runtime.reference import CATALOGUE, MotionSignals, Sinusoids, disc_ang
 from ragg_runtime.reference.geometry import mount
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import table_v
-from ragg_runtime.reference.rotation import Rotations, frame_rotation, spin
+from ragg_runtime.reference.rotation import Rotations, frame_rotation
 
 Array = NDArray[np.float64]
 Record = tuple[Mapping[str, Array], Array]
@@ -199,12 +199,13 @@ def _bias_of(extra: Callable[[Mapping[str, Array]], Array]) -> Record:
 def _magnetic(value: Mapping[str, float]) -> Record:
     def bias(c: Mapping[str, Array]) -> Array:
         B = np.stack([c["B_x"], c["B_y"], c["B_z"]])
-        phi = np.arctan2(c["sin_phi"], c["cos_phi"])
         k = INSTRUMENT.accelerometers
         mounts = [mount(FOUR.places[j], k["beta_x"][j], k["beta_z"][j], "first-order") for j in range(4)]
         axes = [frame_rotation(*(k[f"vartheta_{a}"][j] for a in "xyz"), "first-order")[0] for j in range(4)]
         inputs = [axis @ m.triad for axis, m in zip(axes, mounts, strict=True)]
-        return value["dK0_dB"] * np.stack([np.sum(B * spin(axis, phi), axis=0) for axis in inputs])
+        cos, sin = c["cos_phi"], c["sin_phi"]
+        along = [(cos * x - sin * y) * B[0] + (sin * x + cos * y) * B[1] + z * B[2] for x, y, z in inputs]
+        return value["dK0_dB"] * np.stack(along)
 
     return _bias_of(bias)
 

@@ -9,7 +9,7 @@ import numpy as np
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.reference import EffectValues, simulate
-from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
+from ragg_runtime.reference.accelerometer_noise import eotvos_noise
 from ragg_runtime.reference.instruments import perturbed
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from tests.rate import RATE
@@ -17,14 +17,13 @@ from tests.rate import RATE
 
 def flown_by(sheet: Instrument, duration: float, effects: EffectValues = MappingProxyType({})) -> Flight:
     """``duration`` s of an instrument that the sheet knows to a third of its errors, with white noise of 2 Eo/sqrt(Hz)."""
-    white = eotvos_noise(2e-9, 0.1)
     s = simulate(
         perturbed(sheet, np.random.default_rng(5), 0.3),
         draw_motion(np.random.default_rng(3), duration),
         duration,
         RATE,
         gravity=draw_gradient(np.random.default_rng(4)),
-        noise=Noise(alpha=0.0, b=1.0, omega_T=white.omega_T),
+        noise=eotvos_noise(2e-9, 0.1),
         kinematics="full",
         effects={"second-order-misalignment": {"kappa": 0.0}, **effects},
     )

@@ -94,7 +94,6 @@ def test_noise_is_the_one_asked_for() -> None:
     slow = (red.G_out - red.G_out_noise_free) / s.instrument.scale_factor
     f, density = welch(slow, 16, nperseg=4096)
     assert np.mean(density[(f > 0.008) & (f < 0.012)]) > 5 * np.mean(density[f > 2])
-    assert scenario(7, noise_density=0).noise is None
 
 
 def test_geology_is_traceless_and_slow() -> None:
@@ -149,10 +148,8 @@ def test_nanosecond_shift_survives_a_long_time() -> None:
     assert late[0] == pytest.approx(moved[0], abs=2e-16)
 
 
-ENVELOPE = Sinusoids(1.0, [0.5], [0.02], [0.3])
 SIGNALS: dict[str, Signal] = {
     "sinusoids": Sinusoids(0.7, [1.0, 0.4, 0.2], [0.11, 0.63, 1.2], [0.1, 2.0, 4.0]),
-    "bursts": Sinusoids(-0.2, [1.0, 0.3], [0.31, 0.9], [0.1, 1.0], ENVELOPE),
     "recorded": RecordedSignal(
         np.arange(400) / 8, np.random.default_rng(3).standard_normal(400) * np.hanning(400)
     ),

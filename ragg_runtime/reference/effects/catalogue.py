@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ragg_runtime.base.errors import UserError, did_you_mean
+from ragg_runtime.base.errors import UserError, check_keys
 
 Values = Mapping[str, NDArray[np.float64]]
 """Parameters of one effect: (4,) per accelerometer, or () shared, SI."""
@@ -154,20 +154,9 @@ def resolve(effects: EffectValues | None, count: int = 4) -> Injected:
     """
     resolved: dict[str, Values] = {}
     for effect, given in (effects or {}).items():
-        if effect not in CATALOGUE:
-            raise UserError(
-                f"the simulator has no effect {effect!r}",
-                expected=", ".join(CATALOGUE),
-                remedy=did_you_mean(effect, CATALOGUE),
-            )
+        check_keys([effect], CATALOGUE, "effects of the simulator")
         known = CATALOGUE[effect]
-        for name in given:
-            if name not in known:
-                raise UserError(
-                    f"the effect {effect!r} has no parameter {name!r}",
-                    expected=", ".join(known),
-                    remedy=did_you_mean(name, known),
-                )
+        check_keys(given, known, f"effect {effect}")
         resolved[effect] = {
             name: _values(effect, name, parameter, given.get(name, parameter.neutral), count)
             for name, parameter in known.items()
@@ -186,42 +175,36 @@ def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
     if effect == "balancing-loop":
         currents = {"dK1_di": "balance_current", "dK2_di": "second_order_current"}
         return tuple(channel for name, channel in currents.items() if np.any(parameters[name]))
-    return {
-        "thermal-bias": ("temperature",),
-        "thermal-scale": ("temperature",),
-        "thermal-lag": ("temperature",),
-        "thermal-hysteresis": ("temperature",),
-        "thermal-misalignment": ("temperature",),
-        "thermal-second-order": ("temperature",),
-        "imu-thermal": ("temperature",),
-        "magnetic-scale": ("B_x", "B_y"),
-        "magnetic-axial-bias": ("B_x", "B_y", "B_z"),
-        "pressure-bias": ("pressure",),
-        "magnetic-bias": ("B_x", "B_y", "B_z"),
-        "vibration-level": ("vibration_rms",),
-        "angular-jitter": ("angular_vibration_rms",),
-        "fuel-gradient": ("fuel_mass",),
-        "self-gradient-yaw": ("yaw",),
-        "near-sphere": ("mass_x", "mass_y", "mass_z"),
-        "near-cuboid": ("mass_x", "mass_y", "mass_z"),
-    }.get(effect, ())
+    return _CHANNELS.get(effect, ())
+
+
+_CHANNELS: Mapping[str, tuple[str, ...]] = {
+    **dict.fromkeys(("thermal-bias", "thermal-scale", "thermal-lag", "thermal-hysteresis"), ("temperature",)),
+    **dict.fromkeys(("thermal-misalignment", "thermal-second-order", "imu-thermal"), ("temperature",)),
+    "magnetic-scale": ("B_x", "B_y"),
+    **dict.fromkeys(("magnetic-bias", "magnetic-axial-bias"), ("B_x", "B_y", "B_z")),
+    "pressure-bias": ("pressure",),
+    "vibration-level": ("vibration_rms",),
+    "angular-jitter": ("angular_vibration_rms",),
+    "fuel-gradient": ("fuel_mass",),
+    "self-gradient-yaw": ("yaw",),
+    **dict.fromkeys(("near-sphere", "near-cuboid"), ("mass_x", "mass_y", "mass_z")),
+}
 
 
 def _values(
     effect: str, name: str, parameter: InjectedParameter, given: ArrayLike, count: int
 ) -> NDArray[np.float64]:
-    expected = (
-        f"{'four' if count == 4 else count} numbers, or one for all, in {parameter.unit}"
-        if parameter.per_accelerometer
-        else (f"one number in {parameter.unit}")
-    )
     try:
         value = np.asarray(given, dtype=np.float64)
         value = np.broadcast_to(value, (count,)) if parameter.per_accelerometer else value.reshape(())
     except (TypeError, ValueError):
-        raise UserError(
-            f"wrong value for {name} of the effect {effect!r}", found=given, expected=expected
-        ) from None
+        value = np.array(np.nan)
     if np.any(np.isnan(value)):
-        raise UserError(f"wrong value for {name} of the effect {effect!r}", found=given, expected=expected)
+        each = f"{'four' if count == 4 else count} numbers, or one for all,"
+        raise UserError(
+            f"wrong value for {name} of the effect {effect!r}",
+            found=given,
+            expected=f"{each if parameter.per_accelerometer else 'one number'} in {parameter.unit}",
+        )
     return value
