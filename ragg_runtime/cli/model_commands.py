@@ -125,7 +125,9 @@ def history(model_dir: Path) -> None:
     steps = [s.as_json() for s in d.history]
     result = {"steps": steps, "provenance": provenance(command_line(), identity(d))}
     page = lambda origin: pages.write_history(steps, origin)  # noqa: E731
-    conclude(result, describe.describe_history(steps), page=page, title=f"{d.path.name}: history")
+    conclude(
+        result, (Section(table=describe.tabulate_history(steps)),), page=page, title=f"{d.path.name}: history"
+    )
 
 
 @click.command(cls=Command)

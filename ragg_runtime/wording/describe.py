@@ -37,7 +37,7 @@ CLEAR, CLEAR_ALONE = 1.0, 3.0
 
 def format_error(e: Json | None) -> str:
     """The error before demodulation of an error object."""
-    return number(None if e is None else e.get("rms_Eo"))
+    return number((e or {}).get("rms_Eo"))
 
 
 def format_value(p: Json) -> str:
@@ -87,22 +87,18 @@ def tabulate_errors(rows: Sequence[tuple[str, Json | None]]) -> Section:
     """The table of errors, before demodulation and of both channels; a dash where there is none."""
     given = [e for _, e in rows if e is not None]
     shown = [k for k in ERROR_HEADS if k == "rms_Eo" or any(e.get(k) is not None for e in given)]
-    heads = ("error", *(ERROR_HEADS[k] for k in shown))
-    cells = [(label, *(number(None if e is None else e.get(k)) for k in shown)) for label, e in rows]
+    cells = tuple((label, *(number((e or {}).get(k)) for k in shown)) for label, e in rows)
     why = "the disc does not spin, or no part of the record is as long as the demodulator's low-pass."
     missing = bool(given) and all(e.get("inline_Eo") is None for e in given)
     note = f"No demodulated channels: {why}" if missing else ""
-    table = Table(heads=heads, rows=tuple(cells), note=note)
-    return Section(title="Errors", table=table)
+    return Section("Errors", table=Table(("error", *(ERROR_HEADS[k] for k in shown)), cells, note=note))
 
 
 def make_floor_row(c: Json) -> tuple[str, Json]:
     """The noise floor as a row of the table of errors; its densities are those of the demodulator's band."""
     floor = dict(c["noise_floor"])
-    for channel in ("inline", "cross"):
-        value = floor.get(f"{channel}_Eo")
-        floor[f"{channel}_Eo_per_rtHz"] = None if value is None else value / math.sqrt(0.2)
-    return "noise floor", floor
+    channels = {k: floor.get(f"{k}_Eo") for k in ("inline", "cross")}
+    return "noise floor", floor | {f"{k}_Eo_per_rtHz": v and v / math.sqrt(0.2) for k, v in channels.items()}
 
 
 def suggest_next(command: str) -> Sections:
@@ -132,7 +128,7 @@ def tabulate_terms(terms: Sequence[Json]) -> Table:
     return tabulate(terms, columns, brief=5)
 
 
-def _off_sheet(found: Sequence[Json]) -> Section:
+def _off_sheet(found: Sequence[Json]) -> Sections:
     """Parameters that the record puts far from their test sheet."""
     lines = [
         f"{label_parameter(x)} is {number(abs(x['sigmas']))} σ off its test sheet: {numbers.plain(x['value'])} instead of"
@@ -140,7 +136,8 @@ def _off_sheet(found: Sequence[Json]) -> Section:
         for x in found
     ]
     summary = f"{len(lines)} parameters are far from their test sheet"
-    return Section("Far from the test sheet", tuple(lines), detail=len(lines) > 3, summary=summary)
+    title, long = "Far from the test sheet", len(lines) > 3
+    return (Section(title, tuple(lines), detail=long, summary=summary),) if lines else ()
 
 
 def excess(error: float, noise: float) -> float:
@@ -157,51 +154,38 @@ def describe_comparison(
     judged: bool = True,
 ) -> Sections:
     """The result of ``compare``; ``rows`` replace the usual errors, not ``judged``: the parameters are others now."""
-    e = c["error"]
+    e, where = c["error"], c["where"]
     usual = [("nominal", e["nominal"]), ("calibrated", e["calibrated"]), ("held out", e["holdout"])]
     sentences = [
-        f"{write_flights(flights)}: {numbers.fixed(c['samples'], 0)} samples at {number(c['rate_Hz'])} Hz; {write_effects(c['effects'])}."
+        *([write_comparison_headline(c)] if judged else []),
+        f"{write_flights(flights)}: {numbers.fixed(c['samples'], 0)} samples at {number(c['rate_Hz'])} Hz; {write_effects(c['effects'])}.",
+        *([f"Note: {c['reason']!s}."] if c["converged"] and c["reason"] else []),
     ]
-    if c["converged"] and c["reason"]:
-        sentences.append(f"Note: {c['reason']!s}.")
-    head = write_comparison_headline(c) if judged else ()
     found = [
-        Section(sentences=(*head, *sentences), state="good" if c["adequate"] else "bad"),
+        Section(sentences=tuple(sentences), state="good" if c["adequate"] else "bad"),
         tabulate_errors([*(rows or usual), make_floor_row(c)]),
     ]
-    where = c["where"]
     if where["motion"]:
-        found.append(Section("Where it fails", tuple(_worst(where)), tabulate_terms(where["motion"])))
-    if c["off_sheet"]:
-        found.append(_off_sheet(c["off_sheet"]))
+        worst = [
+            f"The worst block of time: {number(b['from_s'], 4)} to {number(b['to_s'], 4)} s of {b['flight']!s},"
+            f" {number(b['rms_Eo'])} Eo."
+            for b in where["time"][:1]
+            if b["over_noise"] > 1.15
+        ]
+        found.append(Section("Where it fails", tuple(worst), tabulate_terms(where["motion"])))
+    found += _off_sheet(c["off_sheet"])
     return (*found, *(suggest_next(then) if judged and not c["adequate"] else ()))
 
 
-def write_comparison_headline(c: Json) -> tuple[str, ...]:
+def write_comparison_headline(c: Json) -> str:
     """Whether the model is adequate, with the error, the noise and the tests."""
-    error, noise = c["error"]["calibrated"]["rms_Eo"], c["noise_floor"]["rms_Eo"]
     if not c["converged"]:
-        return (f"The calibration has not converged: {c['reason']!s}.",)
-    if c["adequate"]:
-        return (
-            f"The model is adequate: after calibration the error is {number(error)} Eo, the noise floor {number(noise)} Eo.",
-        )
-    why = "; ".join(map(str, c.get("grounds", ())))
+        return f"The calibration has not converged: {c['reason']!s}."
+    why = "" if c["adequate"] else "; ".join(map(str, c.get("grounds", ())))
     return (
-        f"The model is NOT adequate: after calibration the error is {number(error)} Eo, the noise floor {number(noise)} Eo"
-        f"{f' ({why})' if why else ''}.",
+        f"The model is {'adequate' if c['adequate'] else 'NOT adequate'}: after calibration the error is"
+        f" {format_error(c['error']['calibrated'])} Eo, the noise floor {format_error(c['noise_floor'])} Eo{f' ({why})' if why else ''}."
     )
-
-
-def _worst(where: Json) -> list[str]:
-    """The worst block of time, where it is more than the others."""
-    if not where["time"] or not where["time"][0]["over_noise"] > 1.15:
-        return []
-    b = where["time"][0]
-    return [
-        f"The worst block of time: {number(b['from_s'], 4)} to {number(b['to_s'], 4)} s of {b['flight']!s},"
-        f" {number(b['rms_Eo'])} Eo."
-    ]
 
 
 def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = "") -> Sections:
@@ -233,36 +217,28 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
 def write_verdict(d: Json) -> str:
     """What a diagnosis concludes, with its numbers, in one sentence or two."""
     before, after, noise = d["error"]["before"], d["error"]["after"], d["noise_floor"]
+    terms, floor = d["unexplained"]["terms"], f"the noise floor is {format_error(noise)} Eo"
     found = join_names([_name_alternatives(e, d["groups"]) for e in d["found"]])
-    it = "it" if len(d["found"]) == 1 else "them"
-    terms = d["unexplained"]["terms"]
     mostly = f", mostly at {label_term(terms[0])}" if terms else ""
-    left = excess(after["rms_Eo"], noise["rms_Eo"])
-    if not d["converged"] and d["verdict"] != "partly-explained":
-        return f"No verdict: {d['remark']!s}."
-    if d["verdict"] == "adequate":
-        return (
-            f"Adequate: this record shows no missing effect. After calibration the error is {format_error(before)} Eo,"
-            f" the noise floor {format_error(noise)} Eo."
-        )
+    remain, left = (excess(e["rms_Eo"], noise["rms_Eo"]) for e in (before, after))
+    clearly = 0.05 * noise["rms_Eo"]
+    rest = f"{number(left, 2)} Eo" if left > clearly else "less than the noise"
+    other = f"the other {number(remain, 2)} Eo" if remain > clearly else "the systematic part of it"
+    it = "it" if len(d["found"]) == 1 else "them"
     falls = f"With {it} the error falls from {format_error(before)} to {format_error(after)} Eo"
     if not after["rms_Eo"] < before["rms_Eo"] * (1.0 - 1e-6):
         falls = f"The error stays {format_error(before)} Eo"
-    if d["verdict"] == "missing-effect":
-        return f"Missing: {found}. {falls}; the noise floor is {format_error(noise)} Eo."
-    if d["verdict"] == "partly-explained":
-        rest = f"{number(left, 2)} Eo" if left > 0.05 * noise["rms_Eo"] else "less than the noise"
-        return f"Partly explained: {found}. {falls}. Not yet explained: {rest}{mostly}."
-    remain = excess(before["rms_Eo"], noise["rms_Eo"])
-    size = (
-        f"the other {number(remain, 2)} Eo"
-        if remain > 0.05 * noise["rms_Eo"]
-        else "the systematic part of it"
-    )
-    return (
-        f"Unexplained: {format_error(before)} Eo remain where the noise floor is {format_error(noise)} Eo, and no effect of the catalogue"
-        f" accounts for {size}{mostly}."
-    )
+    if not d["converged"] and d["verdict"] != "partly-explained":
+        return f"No verdict: {d['remark']!s}."
+    said = {
+        "adequate": f"Adequate: this record shows no missing effect. After calibration the error is {format_error(before)} Eo,"
+        f" the noise floor {format_error(noise)} Eo.",
+        "missing-effect": f"Missing: {found}. {falls}; {floor}.",
+        "partly-explained": f"Partly explained: {found}. {falls}. Not yet explained: {rest}{mostly}.",
+        "unexplained": f"Unexplained: {format_error(before)} Eo remain where {floor}, and no effect of the catalogue accounts for"
+        f" {other}{mostly}.",
+    }
+    return said[d["verdict"]]
 
 
 def _name_alternatives(effect: str, groups: Sequence[Json]) -> str:
@@ -274,7 +250,7 @@ def _name_alternatives(effect: str, groups: Sequence[Json]) -> str:
 def choose_values(r: Json) -> list[Json]:
     """One value of every parameter of an effect: of its combinations, or single values, the most significant one."""
     every: dict[str, list[Json]] = {}
-    for q in (*r["combinations"], *r["parameters"]):
+    for q in _list_values(r):
         every.setdefault(str(q["name"]).rpartition(" ")[2], []).append(q)
     chosen = [max([q for q in same if q.get("weights")] or same, key=significance) for same in every.values()]
     clear = [q for q in chosen if significance(q) > CLEAR]
@@ -293,12 +269,7 @@ def describe_finding(r: Json) -> str:
     return f"{r['effect']!s}: {values}{'; ' if values else ''}{errors}"
 
 
-def _clear_values(effects: Sequence[Json]) -> list[Json]:
-    """Values of effects that are larger than their uncertainty."""
-    return [p for e in effects for p in _values_of(e) if _is_clear(p, e)]
-
-
-def _values_of(effect: Json) -> list[Json]:
+def _list_values(effect: Json) -> list[Json]:
     return [*effect["combinations"], *effect["parameters"]]
 
 
@@ -319,10 +290,10 @@ def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sect
 
     ``explained``: their combinations have been explained.
     """
-    every = [(e, p) for e in effects for p in _values_of(e)]
+    every = [(e, p) for e in effects for p in _list_values(e)]
     if not every:
         return ()
-    ordered = [(e, p) for e in effects for p in sorted(_values_of(e), key=significance, reverse=True)]
+    ordered = [(e, p) for e in effects for p in sorted(_list_values(e), key=significance, reverse=True)]
     clear = [(e, p) for e, p in ordered if _is_clear(p, e)]
     columns: dict[str, Callable[[tuple[Json, Json]], str]] = {
         "effect": lambda x: str(x[0]["effect"]),
@@ -341,19 +312,10 @@ def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sect
 def describe_diagnosis(d: Json, then: str = "") -> Sections:
     """The result of ``diagnose``; ``then`` is the command that adds what was found."""
     claimed = [r for r in d["ranking"] if r["effect"] in d["found"]]
-    values = _clear_values(claimed)
-    state = {"adequate": "good", "missing-effect": "found", "partly-explained": "found"}.get(
-        d["verdict"], "bad"
-    )
-    first = Section(
-        sentences=(
-            write_verdict(d),
-            *map(describe_finding, claimed),
-            *_remarks(d),
-            *explain_patterns(values),
-        ),
-        state=state,
-    )
+    values = [p for e in claimed for p in _list_values(e) if _is_clear(p, e)]
+    said = (write_verdict(d), *map(describe_finding, claimed), *_remarks(d), *explain_patterns(values))
+    state = {"adequate": "good", "unexplained": "bad"}.get(d["verdict"], "found")
+    first = Section(sentences=said, state=state)
     rows = [("current model", d["error"]["before"])]
     if d["found"]:
         rows.append((f"with {join_names([str(e) for e in d['found']])}", d["error"]["after"]))
@@ -362,9 +324,11 @@ def describe_diagnosis(d: Json, then: str = "") -> Sections:
     if terms and d["verdict"] in ("unexplained", "partly-explained"):
         found.append(Section(title="Not explained", table=tabulate_terms(terms)))
         found += _own_effect(d["unexplained"])
-    found += [*_evidence(d), *_next_motions(d["next_motion"]), *_untestable(d)]
-    if d["off_sheet"]:
-        found.append(_off_sheet(d["off_sheet"]))
+    found += _evidence(d)
+    if d["next_motion"]:
+        found.append(Section("Next motion", tuple(map(motion_sentence, d["next_motion"]))))
+    found += _untestable(d)
+    found += _off_sheet(d["off_sheet"])
     return (*found, *(suggest_next(then) if d["found"] else ()))
 
 
@@ -389,14 +353,8 @@ def _remarks(d: Json) -> list[str]:
         said.append(
             f"The fit fails from {number(d['holds_until_s'], 4)} s of {d['holds_until_flight']!s} on."
         )
-    best = d["ranking"][0] if d["ranking"] else None
-    if (
-        d["verdict"] == "unexplained"
-        and d["converged"]
-        and best
-        and best["log10_p"] is not None
-        and best["log10_p"] < -4.0
-    ):
+    nearest = d["ranking"][:1] if d["verdict"] == "unexplained" and d["converged"] else ()
+    for best in (r for r in nearest if r["log10_p"] is not None and r["log10_p"] < -4.0):
         said.append(
             f"The nearest effect of the catalogue is {best['effect']!s} (error {format_error(best['error_after'])} Eo with it), which is"
             " not claimed: probabilities compare the effects of the catalogue only, and the cause may be another one."
@@ -431,11 +389,12 @@ def chance(p: float | None, log10_p: float | None = None) -> str:
 def _own_effect(u: Json) -> Sections:
     if not u["expression"]:
         return ()
-    needs = (
-        (f"The flight then needs further columns: {join_names(list(u['needs']))}.",) if u.get("needs") else ()
-    )
-    text = "To make the strongest term an effect of your own, put this line into `effects` in model.toml, then add it:"
-    return (Section(title="As an effect of your own", sentences=(text, *needs), code=(u["expression"],)),)
+    said = [
+        "To make the strongest term an effect of your own, put this line into `effects` in model.toml, then add it:"
+    ]
+    if u.get("needs"):
+        said.append(f"The flight then needs further columns: {join_names(list(u['needs']))}.")
+    return (Section("As an effect of your own", tuple(said), code=(u["expression"],)),)
 
 
 def motion_sentence(p: Json) -> str:
@@ -457,11 +416,6 @@ def motion_sentence(p: Json) -> str:
 def write_promise(then: float, spread: float) -> str:
     """A separation that a motion promises, with its spread where that shows."""
     return number(then) if spread < 0.05 * then else numbers.plus_minus(then, spread)
-
-
-def _next_motions(proposals: Sequence[Json]) -> Sections:
-    said = tuple(str(motion_sentence(p)) for p in proposals)
-    return (Section(title="Next motion", sentences=said),) if said else ()
 
 
 def _write_size(text: str) -> str:
@@ -499,11 +453,8 @@ def describe_step(
 
     ``values`` are the effects of the model afterwards with their parameters.
     """
-    done = [
-        f"{what} {join_names([str(e) for e in names])}"
-        for what, names in (("added", added), ("removed", removed))
-        if names
-    ]
+    did = (("added", added), ("removed", removed))
+    done = [f"{what} {join_names([str(e) for e in names])}" for what, names in did if names]
     old, new = (x.get("error", x) for x in (before, after))
     end = "the model is now adequate" if after["adequate"] else "the model is still NOT adequate"
     head = join_names(done) or "the test sheet changed"
@@ -513,14 +464,9 @@ def describe_step(
     ]
     if new["holdout"]["rms_Eo"] > old["holdout"]["rms_Eo"]:
         text.append("Held out, the error does not fall: this record does not confirm the step.")
-    rows = [
-        ("before", old["calibrated"]),
-        ("after", new["calibrated"]),
-        ("held out", new["holdout"]),
-        make_floor_row(after),
-    ]
+    rows = [("before", old["calibrated"]), ("after", new["calibrated"]), ("held out", new["holdout"])]
     first = Section(sentences=tuple(text), state="good" if after["adequate"] else "found")
-    return (first, tabulate_errors(rows), *describe_values(values))
+    return (first, tabulate_errors([*rows, make_floor_row(after)]), *describe_values(values))
 
 
 def describe_addition(a: Json, effects: Sequence[str], then: str = "", use: str = "") -> Sections:
@@ -532,19 +478,18 @@ def describe_addition(a: Json, effects: Sequence[str], then: str = "", use: str 
         return say_plainly(f"{a['effect']!s} was NOT added: {a['reason']!s}.")
     if a["before"] is None or a["after"] is None:
         return say_plainly(f"Added {a['effect']!s}; {write_effects(effects)}.")
-    found = [
+    return (
         *describe_step([a["effect"]], [], a["before"], a["after"], [a]),
         *say_plainly(f"{write_effects(effects)}."),
-    ]
-    if a["off_sheet"]:
-        found.append(_off_sheet(a["off_sheet"]))
-    return (*found, *suggest_next(use if a["after"]["adequate"] else then))
+        *_off_sheet(a["off_sheet"]),
+        *suggest_next(use if a["after"]["adequate"] else then),
+    )
 
 
 def find_rms(entry: Json | None, which: str = "calibrated") -> float | None:
     """rms_Eo of a step of a history; ``None`` if it has none."""
-    inner = entry.get(which, entry if which == "calibrated" else None) if entry else None
-    value = inner.get("rms_Eo") if inner else None
+    entry = entry or {}
+    value = (entry.get(which, entry if which == "calibrated" else None) or {}).get("rms_Eo")
     return None if value is None else float(value)
 
 
@@ -559,11 +504,6 @@ def tabulate_history(steps: Sequence[Json]) -> Table:
         "held out, Eo": lambda s: number(find_rms(s.get("after"), "holdout")),
     }
     return tabulate(steps, columns, words=3)
-
-
-def describe_history(steps: Sequence[Json]) -> Sections:
-    """The steps of a model directory."""
-    return (Section(table=tabulate_history(steps)),)
 
 
 def describe_model(name: str, effects: Sequence[str], steps: Sequence[Json]) -> Sections:
