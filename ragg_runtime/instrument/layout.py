@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Vector3 = tuple[float, float, float]
 
 X_AXIS: Vector3 = (1.0, 0.0, 0.0)
@@ -27,6 +26,8 @@ Y_AXIS: Vector3 = (0.0, 1.0, 0.0)
 Z_AXIS: Vector3 = (0.0, 0.0, 1.0)
 TANGENTIAL: Vector3 = (0.0, 1.0, 0.0)
 """Direction of an input axis along the turn, in (e_r, e_t, e_a)."""
+
+AXIAL: Vector3 = (0.0, 0.0, 1.0)
 
 QUARTER = math.pi / 2
 
@@ -146,17 +147,9 @@ class Layout:
         for k, name in enumerate(self.output_names):
             members = tuple(j for j, p in enumerate(self.places) if p.output == k)
             own = [self.places[j] for j in members]
-            found.append(
-                Output(
-                    name=name,
-                    disc=own[0].disc,
-                    members=members,
-                    signs=tuple(p.sign for p in own),
-                    carriers=tuple(p.carrier for p in own),
-                    radii=tuple(p.radius for p in own),
-                    angles=tuple(p.cosine_sine for p in own),
-                )
-            )
+            signs, carriers = tuple(p.sign for p in own), tuple(p.carrier for p in own)
+            radii, angles = tuple(p.radius for p in own), tuple(p.cosine_sine for p in own)
+            found.append(Output(name, own[0].disc, members, signs, carriers, radii, angles))
         return tuple(found)
 
     @property
@@ -248,28 +241,24 @@ def gain(o: Output, k1: Array, R: Array) -> complex:
 
     ``k1`` = k_VI K1 and radii ``R``, (n,), of all accelerometers of the layout.
     """
-    members = list(o.members)
-    return complex(np.sum(k1[members] * R[members] * _seen(o)))
+    return complex(np.sum(k1[list(o.members)] * R[list(o.members)] * np.multiply(o.signs, o.carriers)))
 
 
 def sees(o: Output, k1: Array, R: Array) -> bool:
     """Whether an output sees the gradient across the spin axis, or its accelerometers' shares of it cancel."""
-    members = list(o.members)
-    return abs(gain(o, k1, R)) > CANCELLED * float(np.sum(np.abs(k1[members] * R[members])))
+    return abs(gain(o, k1, R)) > CANCELLED * _sum_gains(o, k1, R)
 
 
 def scale(o: Output, k1: Array, R: Array) -> float:
     """k_ggi of an output, V s^2: volts per s^-2 of gradient (Eq. 30). Of an output that cancels it: of all members together."""
-    members, seen = list(o.members), _seen(o)
-    if not np.any(seen.imag):
-        total = float(np.sum(k1[members] * R[members] * seen.real))
-    else:
-        total = abs(gain(o, k1, R))
-    return total if sees(o, k1, R) else float(np.sum(np.abs(k1[members] * R[members])))
+    g = gain(o, k1, R)
+    if not sees(o, k1, R):
+        return _sum_gains(o, k1, R)
+    return abs(g) if any(c.imag for c in o.carriers) else g.real
 
 
-def _seen(o: Output) -> Complex:
-    return np.array([s * c for s, c in zip(o.signs, o.carriers, strict=True)])
+def _sum_gains(o: Output, k1: Array, R: Array) -> float:
+    return float(np.sum(np.abs(k1[list(o.members)] * R[list(o.members)])))
 
 
 def unit(v: Sequence[float]) -> Vector3:
@@ -284,27 +273,17 @@ def perpendicular(v: Sequence[float], axis: Vector3) -> Vector3:
     return unit([a - along * b for a, b in zip(v, axis, strict=True)])
 
 
-def turned_with(axis: Vector3, v: Vector3) -> Vector3:
-    """``v`` after the smallest rotation that takes z to ``axis`` (to -z: half a turn about x)."""
-    x, y, z = axis
-    if z <= -1.0 + 1e-15:
-        return (v[0], -v[1], -v[2])
-    lean = x * v[0] + y * v[1]
-    across = v[2] - lean / (1.0 + z)
-    return (v[0] + x * across, v[1] + y * across, z * v[2] - lean)
-
-
 def axes(disc: Disc) -> Array:
     """(3, 3): its columns are the axes of a disc at rest (angle 0, a quarter turn on, spin) in the measurement frame."""
     return np.column_stack([*disc.across, disc.axis])
 
 
-def turn(direction: Vector3) -> Array:
-    """(3, 3): the smallest rotation in (e_r, e_t, e_a) that takes e_t to a direction; half a turn about e_a to -e_t."""
-    c = float(np.dot(TANGENTIAL, direction))
+def least_rotation(start: Vector3, end: Vector3, spare: Vector3) -> Array:
+    """(3, 3): the smallest rotation that takes a unit vector to another; to the opposite one half a turn about ``spare``."""
+    c = float(np.dot(start, end))
     if c <= -1.0 + 1e-15:
-        return np.diag([-1.0, -1.0, 1.0])
-    x, y, z = np.cross(TANGENTIAL, direction)
+        return 2.0 * np.outer(spare, spare) - np.eye(3)
+    x, y, z = np.cross(start, end)
     K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.asarray(np.eye(3) + K + K @ K / (1.0 + c))
 
@@ -319,7 +298,7 @@ def constants(layout: Layout) -> Mapping[str, tuple[float, ...]]:
     if any(p.height != 0.0 for p in places):
         found["height_j"] = tuple(float(p.height) for p in places)
     if any(p.direction != TANGENTIAL for p in places):
-        found |= _entries("turn", [turn(p.direction) for p in places])
+        found |= _entries("turn", [least_rotation(TANGENTIAL, p.direction, AXIAL) for p in places])
     if not all(d.level for d in layout.discs):
         found |= _entries("axes", [axes(layout.discs[p.disc]) for p in places])
     return found
@@ -331,13 +310,9 @@ PARTS = 1_000_000
 
 def degrees(layout: Layout) -> tuple[Fraction | None, ...]:
     """The exact angle of each accelerometer, as it was written; ``None``: it was not written in millionths of a degree."""
-    found = []
-    for p in layout.places:
-        parts = math.degrees(p.angle) * PARTS
-        exact = Fraction(round(parts), PARTS)
-        # what turning degrees into radians rounds off
-        found.append(exact if abs(parts - round(parts)) < 1e-12 * PARTS else None)
-    return tuple(found)
+    parts = [math.degrees(p.angle) * PARTS for p in layout.places]
+    # a part in 1e12: what turning degrees into radians rounds off
+    return tuple(Fraction(round(x), PARTS) if abs(x - round(x)) < 1e-12 * PARTS else None for x in parts)
 
 
 def _entries(name: str, matrices: list[Array]) -> dict[str, tuple[float, ...]]:

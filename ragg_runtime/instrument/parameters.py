@@ -46,20 +46,11 @@ def _convert(value: float, unit: str, si_unit: str, g0: float) -> float:
 
 def _second_order(index: int, product: str) -> AccelerometerParameter:
     text = f"second-order coefficient of {product}"
-    return AccelerometerParameter(
-        name=f"K{index}",
-        symbol=f"K_{index}",
-        si_unit="1/(m/s^2)",
-        display_unit="ug/g^2",
-        description=text,
-        plausible=20.0,
-    )
+    return AccelerometerParameter(f"K{index}", f"K_{index}", "1/(m/s^2)", "ug/g^2", text, 20.0)
 
 
 def _angle(name: str, symbol: str, text: str) -> AccelerometerParameter:
-    return AccelerometerParameter(
-        name=name, symbol=symbol, si_unit="rad", display_unit="arcsec", description=text, plausible=100.0
-    )
+    return AccelerometerParameter(name, symbol, "rad", "arcsec", text, 100.0)
 
 
 PARAMETERS: tuple[AccelerometerParameter, ...] = (

@@ -26,9 +26,9 @@ from ragg_runtime.instrument.layout import (
     Disc,
     Layout,
     Vector3,
+    least_rotation,
     paper,
     perpendicular,
-    turned_with,
     unit,
 )
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, Vector
@@ -253,7 +253,9 @@ def read_layout(tables: Sequence[Any], path: Path | None) -> Layout:
 def _a_disc(table: Mapping[str, Any], where: str, *, single: bool) -> Disc:
     name = _text(table, "name", where, "A" if single else None)
     axis = _direction(table, "axis", where, Z_AXIS)
-    zero = perpendicular(turned_with(axis, X_AXIS), axis) if axis != Z_AXIS else X_AXIS
+    zero = (
+        X_AXIS if axis == Z_AXIS else perpendicular(least_rotation(Z_AXIS, axis, X_AXIS)[:, 0].tolist(), axis)
+    )
     if "zero" in table:
         given = _direction(table, "zero", where, X_AXIS)
         if abs(math.fsum(a * b for a, b in zip(axis, given, strict=True))) > 1 - 1e-9:

@@ -107,13 +107,35 @@ class Units:
 
     def to_si(self, value: Value, unit: str, si_unit: str, where: str | None = None) -> Value:
         """``value`` in ``unit``, converted to ``si_unit``; UserError if dimensions differ. rpm and rad/s become turns a second."""
+        source, target, turns = self._prepare(unit, si_unit, where)
+        try:
+            with np.errstate(over="ignore"):  # callers look whether what comes out is finite
+                result: Value = self._registry.convert(value, source, target)
+        except (OverflowError, ZeroDivisionError):
+            raise UserError("the unit is too large or too small", where=where, found=repr(unit)) from None
+        return result / (2 * math.pi) if turns else result
+
+    def from_si(self, value: Value, si_unit: str, unit: str, where: str | None = None) -> Value:
+        """``value`` in ``si_unit``, converted to ``unit``; the inverse of :meth:`to_si`."""
+        target, source, turns = self._prepare(unit, si_unit, where)
+        result: Value = self._registry.convert(value * (2 * math.pi) if turns else value, source, target)
+        return result
+
+    def _prepare(self, unit: str, si_unit: str, where: str | None) -> tuple[Any, Any, bool]:
+        """Both units, of one dimension, and whether angles of the first are turns of the other; else UserError."""
         unit = self._meant(unit, si_unit)
-        source, target = self.parse(unit, where), self.parse(si_unit)
-        self._same_dimension(source, unit, target, si_unit, where)
-        factor = 1.0
-        if self._counts(target, _CYCLES) and self._counts(source, _ANGLES):
-            factor = 1 / (2 * math.pi)
-        elif self._counts(source, _CYCLES) and self._counts(target, _ANGLES):
+        given, si = self.parse(unit, where), self.parse(si_unit)
+        if given.dimensionality != si.dimensionality:
+            raise UserError(
+                "the unit has the wrong dimension",
+                where=where,
+                found=f"{unit!r} ({_dimension(given)})",
+                expected=f"a unit of {_dimension(si)}, which {si_unit!r} has",
+                remedy=f"g is the specific force {self.g0:g} m/s^2 here, not the gram"
+                if "[mass]" in str(si.dimensionality) + str(given.dimensionality)
+                else None,
+            )
+        if self._counts(given, _CYCLES) and self._counts(si, _ANGLES):
             raise UserError(
                 "a frequency is given where an angular rate is needed",
                 where=where,
@@ -121,22 +143,7 @@ class Units:
                 expected=si_unit,
                 remedy="write rad/s, deg/s, deg/h or rpm",
             )
-        try:
-            with np.errstate(over="ignore"):  # callers look whether what comes out is finite
-                result: Value = self._registry.convert(value, source, target)
-        except (OverflowError, ZeroDivisionError):
-            raise UserError("the unit is too large or too small", where=where, found=repr(unit)) from None
-        return result * factor if factor != 1.0 else result
-
-    def from_si(self, value: Value, si_unit: str, unit: str, where: str | None = None) -> Value:
-        """``value`` in ``si_unit``, converted to ``unit``; the inverse of :meth:`to_si`."""
-        unit = self._meant(unit, si_unit)
-        source, target = self.parse(si_unit), self.parse(unit, where)
-        self._same_dimension(target, unit, source, si_unit, where)
-        if self._counts(source, _CYCLES) and self._counts(target, _ANGLES):
-            value = value * (2 * math.pi)
-        result: Value = self._registry.convert(value, source, target)
-        return result
+        return given, si, self._counts(si, _CYCLES) and self._counts(given, _ANGLES)
 
     def base_unit(self, unit: str, where: str | None = None) -> str:
         """The SI base unit for ``unit``, as text that :meth:`parse` reads (``K``, ``m/s**2``)."""
@@ -167,18 +174,6 @@ class Units:
         quantity = read_quantity(raw, where, count=count)
         self.parse(quantity.unit, where)
         return quantity
-
-    def _same_dimension(self, source: Any, unit: str, target: Any, si_unit: str, where: str | None) -> None:
-        if source.dimensionality != target.dimensionality:
-            raise UserError(
-                "the unit has the wrong dimension",
-                where=where,
-                found=f"{unit!r} ({_dimension(source)})",
-                expected=f"a unit of {_dimension(target)}, which {si_unit!r} has",
-                remedy=f"g is the specific force {self.g0:g} m/s^2 here, not the gram"
-                if "[mass]" in str(target.dimensionality) + str(source.dimensionality)
-                else None,
-            )
 
     def _counts(self, unit: Any, names: frozenset[str]) -> bool:
         return any(self._stem(name) in names for name in unit._units)
