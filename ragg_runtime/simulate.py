@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -102,42 +101,36 @@ def simulate_flight(
         record = read_flight(motion, instrument.g0, need_output=False, mapping=mapping)
         start = find_start(record, instrument)
         flown, duration, rate = _recorded(record, start)
-    with _bounded():
-        s = reference.simulate(
-            perturbed(instrument, np.random.default_rng([instrument_seed, 10]), sheet_error),
-            flown,
-            duration,
-            rate,
-            start=start,
-            gravity=draw_gradient(np.random.default_rng([seed, 13]), GEOLOGY),
-            record_gradient=not no_gradient,
-            noise=eotvos_noise(noise * 1e-9, instrument.radius, 0.05),
-            rotations=_ROTATIONS[form.mounting],
-            misalignment="exact" if form.misalignment == "exact" else "first-order",
-            kinematics=form.kinematics,
-            effects=effects,
-            seed=seed,
-            auxiliaries=_auxiliaries(seed, effects, instrument.layout.size, record, start),
-            turning=parse_turning(spin, instrument.layout, record, start),
-        )
-        found = s.flight("simulated", voltages=voltages)
-        there = np.isfinite(list(found.outputs.values()))
-        if not (there.all() if record is None else there.any()):  # a record that is flown may have gaps
-            raise OverflowError
-    return found
-
-
-@contextlib.contextmanager
-def _bounded() -> Iterator[None]:
-    """UserError where what is asked for goes beyond the numbers that there are."""
     try:
         with np.errstate(over="ignore", invalid="ignore"):
-            yield
+            s = reference.simulate(
+                perturbed(instrument, np.random.default_rng([instrument_seed, 10]), sheet_error),
+                flown,
+                duration,
+                rate,
+                start=start,
+                gravity=draw_gradient(np.random.default_rng([seed, 13]), GEOLOGY),
+                record_gradient=not no_gradient,
+                noise=eotvos_noise(noise * 1e-9, instrument.radius, 0.05),
+                rotations=_ROTATIONS[form.mounting],
+                misalignment="exact" if form.misalignment == "exact" else "first-order",
+                kinematics=form.kinematics,
+                effects=effects,
+                seed=seed,
+                auxiliaries=_auxiliaries(seed, effects, instrument.layout.size, record, start),
+                turning=parse_turning(spin, instrument.layout, record, start),
+            )
+        found = s.flight("simulated", voltages=voltages)
+        there = np.isfinite(list(found.outputs.values()))
+        finite = bool(there.all() if record is None else there.any())  # a record that is flown may have gaps
     except OverflowError:
+        finite = False
+    if not finite:
         raise UserError(
             "the simulated values are not finite",
             remedy="choose a smaller --noise, --sheet-error, --spin or value of an effect",
-        ) from None
+        )
+    return found
 
 
 _ROTATIONS: Mapping[int | str, Rotations] = {1: "first-order", 2: "second-order", "exact": "exact"}

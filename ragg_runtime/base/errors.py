@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+import functools
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +29,7 @@ class UserError(Exception):
         super().__init__(self.message)
 
     @property
-    def facts(self) -> dict[str, str | None]:
+    def facts(self) -> dict[str, Any]:
         """Its parts by name."""
         return {k: getattr(self, k) for k in ("what", "where", "found", "expected", "remedy")}
 
@@ -41,9 +42,9 @@ class UserError(Exception):
         lines = (f"  {name}: {text}".replace("\n", "\n    ") for name, text in facts if text is not None)
         return "\n".join([head, *lines])
 
-    def __reduce__(self) -> tuple[object, ...]:
+    def __reduce__(self) -> tuple[Callable[..., UserError], tuple[()]]:
         # Keyword arguments would be lost between processes otherwise.
-        return (_rebuild, (self.what, self.where, self.found, self.expected, self.remedy))
+        return functools.partial(UserError, **self.facts), ()
 
 
 EXTRAS = {
@@ -65,12 +66,6 @@ def missing_package(error: BaseException) -> UserError | None:
     return UserError(
         f"this needs {name}, which is not installed", remedy=f"pip install 'ragg[{EXTRAS[name]}]'"
     )
-
-
-def _rebuild(
-    what: str, where: str | None, found: str | None, expected: str | None, remedy: str | None
-) -> UserError:
-    return UserError(what, where=where, found=found, expected=expected, remedy=remedy)
 
 
 def at(*places: object) -> str:

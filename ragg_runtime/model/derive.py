@@ -259,7 +259,9 @@ MOST_KEPT = 200
 def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True) -> str:
     """Digest of all that a derivation depends on, for effects of these ids (else its own), and all ``candidates``."""
     expressions = {
-        s.id: _expression_key(s.expression) for s in instrument.effects if s.expression is not None
+        s.id: [str(s.expression["stage"]), str(s.expression["add"]), _list_kept(s.expression["params"])]
+        for s in instrument.effects
+        if s.expression is not None
     }
     chosen = [s.id for s in instrument.effects] if ids is None else ids
     asked: list[object] = [
@@ -303,14 +305,11 @@ def keep(asked: str, files: Mapping[str, str]) -> None:
         return
 
 
-def _expression_key(e: Mapping[str, object]) -> object:
-    parameters = e["params"]
-    assert isinstance(parameters, Mapping)
-    kept = {
-        name: {k: repr(q[k]) for k in ("unit", "plausible", "shared") if k in q}
-        for name, q in parameters.items()
+def _list_kept(parameters: Mapping[str, Mapping[str, object]]) -> Mapping[str, object]:
+    """What of the parameters of an effect in one line enters its derivation: not their values."""
+    return {
+        n: {k: repr(q[k]) for k in ("unit", "plausible", "shared") if k in q} for n, q in parameters.items()
     }
-    return [str(e["stage"]), str(e["add"]), kept]
 
 
 GROUP = "ragg.effects"

@@ -136,8 +136,11 @@ class Evaluator:
         return D
 
     def _call(self, function: str, leading: tuple[int, ...], case: _Case, result: Array) -> None:
+        """The generated C takes n, t, in, p and angle, and what it is to fill."""
+        t, x, p, angle = case
+        rows = (ctypes.c_void_p * len(x))(*(v.ctypes.data for v in x))
         call = getattr(self.library, f"ragg_{function}")
-        call(*map(_SIZE, leading), *_pointers(case), _at(result))
+        call(*map(_SIZE, (*leading, len(t))), _at(t), rows, _at(p), _at(angle), _at(result))
 
     def _blocks(self, j: int, case: _Case) -> Iterator[tuple[slice, tuple[Array, ...]]]:
         """Samples, and what the generated NumPy functions take of them for accelerometer j."""
@@ -166,13 +169,6 @@ _SIZE = ctypes.c_size_t
 
 def _at(x: Array | None) -> ctypes.c_void_p:
     return ctypes.c_void_p(None if x is None else x.ctypes.data)
-
-
-def _pointers(case: _Case) -> list[object]:
-    """A case as the generated C takes it: n, t, in, p, angle."""
-    t, x, p, angle = case
-    rows = (ctypes.c_void_p * len(x))(*(v.ctypes.data for v in x))
-    return [_SIZE(len(t)), _at(t), rows, _at(p), _at(angle)]
 
 
 def make_evaluator(

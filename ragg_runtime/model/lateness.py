@@ -24,10 +24,11 @@ def move_record(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
 
     What describes a memory is left at its neutral values, about which the chain has its series.
     """
-    memories = [*list_memories(model, p)]
+    rest, memories = p.copy(), [*list_memories(model, p)]
     if memories:
-        r, p = add_responses(r, memories, model.chain.INPUTS), _at_neutral(model, p)
-    rest = p.copy()
+        r, places = add_responses(r, memories, model.chain.INPUTS), find_places(model.chain)
+        for q in (q for e in model.effects if e.memory for q in e.parameters if q.shape):
+            rest[places[q.symbol]] = q.neutral
     moves: dict[str, tuple[float, float]] = {}
     for k, q in list_late(model):
         if not p[k]:
@@ -37,14 +38,6 @@ def move_record(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
             offset, drift = moves.get(quantity, (0.0, 0.0))
             moves[quantity] = (offset, drift + p[k]) if q.growing else (offset + p[k], drift)
     return (r.moved(moves) if moves else r), rest
-
-
-def _at_neutral(model: Model, p: Array) -> Array:
-    neutral = {q.symbol: q.neutral for e in model.effects if e.memory for q in e.parameters if q.shape}
-    rest, places = p.copy(), find_places(model.chain)
-    for name, value in neutral.items():
-        rest[places[name]] = value
-    return rest
 
 
 def list_late(model: Model) -> Iterator[tuple[int, DerivedParameter]]:

@@ -116,7 +116,10 @@ def _responses(r: Record, m: Memory, wanted: Container[str]) -> dict[str, Array]
     reach = min(int(np.ceil(m.lasts * r.rate)), len(whole.time))
     first, last = max(start - reach, 0), min(stop + reach, len(whole.time))
     near = whole.part(slice(first, last))
-    there = {n: _bridge_holes(x, near.valid) for n, x in _given(m.kind, near).items()}
+    # a part of a record has zeros for what is missing
+    there = {
+        n: bridge_gaps(x, near.valid | ((x != 0.0) & np.isfinite(x))) for n, x in _given(m.kind, near).items()
+    }
     slips = m.kind in SLIPPING
     found = _slip(there, m, wanted) if slips else _filter_record(there, m, near.rate, reach, wanted)
     if m.kind in RELAXING:
@@ -139,21 +142,11 @@ def _given(kind: str, r: Record) -> Mapping[str, Array]:
         pairs = ((i, k) for i in range(3) for k in range(i, 3))
         return {f"heat_{'rta'[i]}{'rta'[k]}": force[i] * force[k] for i, k in pairs}
     names = ("radial", "tangential", "axial")
-    if kind in SLIPPING and not _stands_at_quarter_turns(r):
+    # each accelerometer's axes must be those of the one at angle 0, up to their order and signs
+    if kind in SLIPPING and any(abs(cosine * sine) >= 1e-9 for cosine, sine, _ in r.input_axes):
         return {}
     own = f"{kind}_" if kind in RELAXING else ""
     return {f"{own}{n}": x for n, x in zip(names, force, strict=True)}
-
-
-def _stands_at_quarter_turns(r: Record) -> bool:
-    """Whether each accelerometer's axes are those of the one at angle 0, up to their order and signs."""
-    return all(abs(cosine * sine) < 1e-9 for cosine, sine, _ in r.input_axes)
-
-
-def _bridge_holes(x: Array, valid: NDArray[np.bool_]) -> Array:
-    """A series without holes: a part of a record has zeros for what is missing."""
-    there = valid | ((x != 0.0) & np.isfinite(x))
-    return bridge_gaps(x, there)
 
 
 def _slip(force: Mapping[str, Array], m: Memory, wanted: Container[str]) -> dict[str, Array]:

@@ -146,8 +146,10 @@ class Record:
 
     @property
     def _lateness(self) -> Array | None:
-        """Of all samples, those of the halo too."""
-        return measure_lateness(self.time if self.instants is None else self.instants, self.rate)
+        """By how many steps all samples, those of the halo too, are later than evenly spaced ones; ``None`` if they are even."""
+        time = self.time if self.instants is None else self.instants
+        late = (time - time[0]) * self.rate - np.arange(len(time)) if len(time) else time
+        return late if np.max(np.abs(late), initial=0.0) > EVEN else None
 
     def inputs(self, chain: ChainModule) -> Array:
         """(n_inputs, N) in the order of the module's INPUTS; channels that were not recorded are zero."""
@@ -281,12 +283,6 @@ class Record:
                 inner = self._wide(base)
                 return None if inner is None else differentiate(inner, self.rate)
         return None
-
-
-def measure_lateness(time: Array, rate: float) -> Array | None:
-    """By how many steps samples at these instants, (N,), s, are later than evenly spaced ones; ``None`` if they are even."""
-    late = (time - time[0]) * rate - np.arange(len(time)) if len(time) else time
-    return late if np.max(np.abs(late), initial=0.0) > EVEN else None
 
 
 def spin(
@@ -428,7 +424,7 @@ def make_kernel(d: Demodulation, rate: float) -> Demodulator:
 
 def _at(d: Demodulation, rate: float) -> Demodulator:
     if d.kind == "none":
-        return demodulators.make_none(rate)
+        return Demodulator("none", rate, np.ones(1), 0)  # every value is of its own instant
     if d.kind == "fir" or (d.cutoff is None and d.length is None):
         return demodulators.fir(rate, CUTOFF if d.cutoff is None else d.cutoff)
     if d.length is not None:

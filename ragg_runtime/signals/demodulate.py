@@ -9,7 +9,7 @@ T2 = -Gamma_xy + ...; so with a low-pass LP
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,17 +33,8 @@ REFERENCE = 16.0
 """Sampling rate (Hz) at which the length of the low-pass is rounded to samples: that of the paper's experiments here."""
 
 
-@dataclass(frozen=True)
-class Demodulated:
-    """The two channels where the filter saw a whole record.
-
-    Attributes
-    ----------
-    inline, cross
-        (M,) s^-2: Gamma_xx - Gamma_yy and Gamma_xy.
-    valid
-        Samples of the input to which they belong: ``time[valid]``.
-    """
+class Demodulated(NamedTuple):
+    """Gamma_xx - Gamma_yy and Gamma_xy, (M,) s^-2 each, where the filter saw a whole record: of the input samples ``valid``."""
 
     inline: Array
     cross: Array
@@ -87,27 +78,12 @@ def is_demodulable(rate: float) -> bool:
 
 
 def demodulate(
-    G_out: ArrayLike,
-    phi: ArrayLike,
-    rate: float,
-    k_ggi: float,
-    *,
-    attenuation: float = ATTENUATION,
+    G_out: ArrayLike, phi: ArrayLike, rate: float, k_ggi: float, *, attenuation: float = ATTENUATION
 ) -> Demodulated:
-    """Inline and cross channels of an output before demodulation, or of a residual of it.
+    """Inline and cross channels of an output before demodulation, or of a residual of it, (N,) V.
 
-    Parameters
-    ----------
-    G_out
-        (N,) V.
-    phi
-        (N,) rad: the disc angle at the same instants, evenly spaced in time.
-    rate
-        Sampling rate, Hz.
-    k_ggi
-        Sum of k_VI K1 R, V per s^-2 (in SI; 4.54e-4 V/Eo is 4.54e5).
-    attenuation
-        Of the low-pass's stop band, dB.
+    ``phi``: the disc angle at the same instants, (N,) rad, evenly spaced in time at ``rate``, Hz. ``k_ggi``: sum of k_VI K1 R, V per
+    s^-2 (in SI; 4.54e-4 V/Eo is 4.54e5). ``attenuation``: of the low-pass's stop band, dB.
     """
     G = np.asarray(G_out, dtype=np.float64)
     angle = np.asarray(phi, dtype=np.float64)

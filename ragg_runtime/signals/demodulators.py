@@ -174,11 +174,6 @@ def causal(rate: float, order: int = ORDER, cutoff: float = CUTOFF) -> Demodulat
     return Demodulator("causal", rate, _impulse(rate, order, cutoff), 0, words)
 
 
-def make_none(rate: float) -> Demodulator:
-    """Mixed alone: every value is of its own instant."""
-    return Demodulator("none", rate, np.ones(1), 0)
-
-
 def average(rate: float, seconds: float, *, centred: bool = True) -> Demodulator:
     """A moving average; samples at its ends count in part, so that its length may be any."""
     samples = max(seconds * rate, 1.0)

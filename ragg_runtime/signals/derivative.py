@@ -187,7 +187,8 @@ def smooth_slope(x: Array, half: int, order: int, degree: int = DEGREES[0]) -> A
     window, found = 2 * half + 1, np.empty(len(x))
     middle = polynomial_weights(half, 0, order, degree)
     if order == 2:
-        middle = _without_mean(middle)
+        middle = middle.copy()  # its sum must be zero, or a series far from zero would leave its rounding
+        middle[half] = -2.0 * np.cumsum(middle[:half])[-1]
     ndimage.correlate1d(x, middle, output=found, mode="nearest")
     for k in range(half):
         found[k] = np.cumsum(polynomial_weights(half, k - half, order, degree) * x[:window])[-1]
@@ -235,13 +236,6 @@ def best_degree(x: Iterable[Array], half: int) -> int:
     noise = np.maximum.accumulate((squares / gains)[::-1])[::-1]
     grows = 2 * noise[1:] * gains[:-1] - squares[:-1]
     return degrees[int(np.argmin(np.cumsum([0.0, *grows])))]
-
-
-def _without_mean(weights: Array) -> Array:
-    """The same even weights with a middle one that makes their sum zero, or a series far from zero would leave its rounding."""
-    found, half = weights.copy(), len(weights) // 2
-    found[half] = -2.0 * np.cumsum(found[:half])[-1]
-    return found
 
 
 @cache

@@ -54,10 +54,8 @@ def project_components(first: Array, second: Array) -> Array:
     """(2, 6): inline and cross of a disc with these axes (3,), by the six components."""
     inline = np.outer(first, first) - np.outer(second, second)
     cross = (np.outer(first, second) + np.outer(second, first)) / 2
-    rows = []
-    for m in (inline, cross):
-        rows.append([m[i, k] * (1.0 if i == k else 2.0) for i in range(3) for k in range(i, 3)])
-    return np.array(rows)
+    i, k = np.triu_indices(3)
+    return np.array([inline[i, k], cross[i, k]]) * np.where(i == k, 1.0, 2.0)
 
 
 def spread_across(axes: tuple[Axis, Axis], inline: Array, cross: Array) -> Array:
@@ -65,13 +63,11 @@ def spread_across(axes: tuple[Axis, Axis], inline: Array, cross: Array) -> Array
     first, second = (np.array(a, dtype=np.float64) for a in axes)
     one = (np.outer(first, first) - np.outer(second, second)) / 2
     other = np.outer(first, second) + np.outer(second, first)
-    return np.stack([one[i, k] * inline + other[i, k] * cross for i in range(3) for k in range(i, 3)])
+    upper = np.triu_indices(3)
+    return np.asarray(np.outer(one[upper], inline) + np.outer(other[upper], cross))
 
 
-_TRACELESS = np.array(
-    [[1, 0, 0, 0, 0], [0, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0, 0, 0, 1, 0], [0, 0, 0, 0, 1], [-1, 0, 0, -1, 0]],
-    dtype=np.float64,
-)
+_TRACELESS = np.insert(np.eye(5), 5, [-1.0, 0.0, 0.0, -1.0, 0.0], axis=0)
 """The six components by xx, xy, xz, yy, yz: zz = -(xx + yy)."""
 
 
@@ -90,11 +86,8 @@ def tensor(axes: Sequence[tuple[Axis, Axis]], channels: Array, std: Array) -> Te
     UserError
         If the discs do not determine it: fewer than three, or axes in one plane.
     """
-    A = (
-        np.concatenate([project_components(np.asarray(a, float), np.asarray(b, float)) for a, b in axes])
-        @ _TRACELESS
-    )
-    W = A / std[:, None]
+    pairs = (np.asarray(pair, dtype=np.float64) for pair in axes)
+    W = np.concatenate([project_components(*pair) for pair in pairs]) @ _TRACELESS / std[:, None]
     U, s, Vt = np.linalg.svd(W)
     if len(s) < 5 or s[4] < ILL * s[0]:
         raise UserError(
