@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -82,29 +83,25 @@ class RecordedSignal:
 
     time: Array
     samples: Array
-    _knots: Array = field(init=False, repr=False, compare=False)
-    _coefficients: Array = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        time = np.asarray(self.time, dtype=np.float64)
-        samples = np.asarray(self.samples, dtype=np.float64)
-        if time.ndim != 1 or time.shape != samples.shape or time.size < 6:
+        if self.time.ndim != 1 or self.time.shape != self.samples.shape or self.time.size < 6:
             raise UserError(
                 "a recorded signal needs at least six instants and as many samples",
-                found=f"shapes {time.shape} and {samples.shape}",
+                found=f"shapes {self.time.shape} and {self.samples.shape}",
             )
-        if not (np.all(np.isfinite(time)) and np.all(np.isfinite(samples)) and np.all(np.diff(time) > 0)):
+        if not (np.all(np.isfinite([self.time, self.samples])) and np.all(np.diff(self.time) > 0)):
             raise UserError("a recorded signal must be finite, at increasing times")
-        pieces = PPoly.from_spline(make_interp_spline(time, samples, k=5).tck)
-        # The spline repeats its end knots: those pieces are empty.
+
+    @cached_property
+    def _pieces(self) -> tuple[Array, Array]:
+        """Knots (n + 1,) and coefficients (6, n); the spline repeats its end knots, and those pieces are empty."""
+        pieces = PPoly.from_spline(make_interp_spline(self.time, self.samples, k=5).tck)
         kept = np.diff(pieces.x) > 0
-        object.__setattr__(self, "time", time)
-        object.__setattr__(self, "samples", samples)
-        object.__setattr__(self, "_knots", np.append(pieces.x[:-1][kept], pieces.x[-1]))
-        object.__setattr__(self, "_coefficients", pieces.c[:, kept])
+        return np.append(pieces.x[:-1][kept], pieces.x[-1]), pieces.c[:, kept]
 
     def _evaluate(self, time: Array, shift: float, derivative: int) -> Array:
-        knots, c = self._knots, self._coefficients
+        knots, c = self._pieces
         reach = (self.time[-1] - self.time[0]) / (self.time.size - 1)
         if time.size and (time.min() < knots[0] - reach or time.max() > knots[-1] + reach):
             raise UserError(
@@ -117,10 +114,9 @@ class RecordedSignal:
         # The difference to the knot is exact, so a shift of nanoseconds is not rounded away.
         x = (time - knots[piece]) - shift
         powers = np.arange(c.shape[0] - 1, derivative - 1, -1)
-        weights = [math.perm(int(n), derivative) for n in powers]
         total = np.zeros(time.shape)
-        for weight, row in zip(weights, c, strict=False):
-            total = total * x + weight * row[piece]
+        for n, row in zip(powers, c, strict=False):
+            total = total * x + math.perm(int(n), derivative) * row[piece]
         return total
 
     def value(self, time: Array, shift: float = 0.0) -> Array:

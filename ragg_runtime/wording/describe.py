@@ -105,9 +105,8 @@ def suggest_next(command: str) -> Sections:
     return (Section(sentences=(f"next: {command}",)),) if command else ()
 
 
-def say_plainly(*sentences: str) -> Sections:
-    found = tuple(text for text in sentences if text)
-    return (Section(sentences=found),) if found else ()
+def say_plainly(*sentences: str, title: str = "") -> Sections:
+    return (Section(title, sentences),)
 
 
 def label_term(t: Json) -> str:

@@ -51,7 +51,7 @@ UNTIMED = (
 
 def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sections:
     """The result of ``calibrate``."""
-    e, seen = c["error"], c["directions"]
+    e, seen, model = c["error"], c["directions"], write_effects(c["effects"])
     head = (
         f"Calibrated on {write_flights(flights)}: {write_errors(e['nominal'], e['calibrated'])}, held out {format_error(e['holdout'])} Eo;"
         f" the noise floor is {format_error(c['noise_floor'])} Eo."
@@ -60,24 +60,17 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
     )
     text = (
         f"The record determines {seen['seen']} of {seen['fitted']} directions of the parameters; the rest stay at their"
-        f" test-sheet values. {write_effects(c['effects'])[:1].upper()}{write_effects(c['effects'])[1:]}."
+        f" test-sheet values. {model[:1].upper()}{model[1:]}."
     )
-    rows = [
-        ("nominal", e["nominal"]),
-        ("calibrated", e["calibrated"]),
-        ("held out", e["holdout"]),
-        make_floor_row(c),
-    ]
-    found = [
+    rows = [("nominal", e["nominal"]), ("calibrated", e["calibrated"]), ("held out", e["holdout"])]
+    return (
         Section(sentences=(head, text), state="good" if c["converged"] else "bad"),
-        tabulate_errors(rows),
+        tabulate_errors([*rows, make_floor_row(c)]),
         *tabulate_parameters(c["combinations"], c["parameters"]),
-    ]
-    if "drifting" in c:
-        found += _drifting(c["drifting"])
-    if "certificate" in c:
-        found += _certificate(c["certificate"], c["certified"])
-    return (*found, *suggest_next(then))
+        *(_drifting(c["drifting"]) if "drifting" in c else ()),
+        *(_certificate(c["certificate"], c["certified"]) if "certificate" in c else ()),
+        *suggest_next(then),
+    )
 
 
 def tabulate_parameters(
@@ -100,36 +93,28 @@ def tabulate_parameters(
     )
 
 
-def _drifting(d: Json) -> list[Section]:
+def _drifting(d: Json) -> Sections:
     """Which kinds of parameter drift, and how fast; those of each accelerometer in detail."""
     note = () if d["timed"] else (UNTIMED,)
     if not d["rates"]:
-        text = "No parameter drifts by as much as these flights could show."
-        return [Section(title="Drift", sentences=(text, *note))]
-    rates = tuple(
-        (str(r["name"]), numbers.with_unit(number(r["per_root_hour"], 2), f"{r['unit']}/√h"))
-        for r in d["rates"]
+        return say_plainly(
+            "No parameter drifts by as much as these flights could show.", *note, title="Drift"
+        )
+    walks: Columns = {
+        "parameter": lambda r: str(r["name"]),
+        "walk": lambda r: numbers.with_unit(number(r["per_root_hour"], 2), f"{r['unit']}/√h"),
+    }
+    states: dict[tuple[str, str], list[Json]] = {}
+    for q in d["states"]:
+        states.setdefault((q["name"], q["accelerometer"]), []).append(q)
+    rows = tuple((label_parameter(q[0]), format_value(q[0]), format_value(q[-1])) for q in states.values())
+    ends = Table(("parameter", "at the beginning", "at the end"), rows)
+    summary = f"{len(rows)} parameters at the beginning and at the end"
+    text = "These kinds of parameter follow random walks, of this standard deviation after an hour."
+    return (
+        Section("Drift", (text, *note), tabulate(d["rates"], walks)),
+        Section("Drift of each parameter", table=ends, detail=True, summary=summary),
     )
-    rows = []
-    for key in dict.fromkeys((q["name"], q["accelerometer"]) for q in d["states"]):
-        own = [q for q in d["states"] if (q["name"], q["accelerometer"]) == key]
-        rows.append((label_parameter(own[0]), format_value(own[0]), format_value(own[-1])))
-    return [
-        Section(
-            title="Drift",
-            sentences=(
-                "These kinds of parameter follow random walks, of this standard deviation after an hour.",
-                *note,
-            ),
-            table=Table(("parameter", "walk"), rates),
-        ),
-        Section(
-            title="Drift of each parameter",
-            table=Table(("parameter", "at the beginning", "at the end"), tuple(rows)),
-            detail=True,
-            summary=f"{len(rows)} parameters at the beginning and at the end",
-        ),
-    ]
 
 
 def _certificate(rows: Sequence[Json], certified: Json) -> Sections:
@@ -173,37 +158,34 @@ def describe_compensation(r: Json, output: str) -> Sections:
     ]
     several = len({x["output"] for x in r["flights"]}) > 1
     meanings = [str(x).split(": ", 1) for x in r["quality"].values()]
+    parts: Columns = {
+        "": lambda q: str(q["of"]),
+        "inline, Eo": lambda q: number(q["inline_Eo"]),
+        "cross, Eo": lambda q: number(q["cross_Eo"]),
+    }
     for x in r["flights"]:
         name = str(x["flight"]) + (f": {x['output']!s}" if several else "")
         samples, values, good = (numbers.fixed(x[k], 0) for k in ("samples", "values", "good"))
         text = f"{samples} samples: {values} with a value, {good} of them good."
         flags = [f"{x['quality'][flag]} {said}." for flag, said in meanings if x["quality"][flag]]
-        removed = [(str(q["of"]), number(q["inline_Eo"]), number(q["cross_Eo"])) for q in x["contributions"]]
-        found += [
-            Section(title=name, sentences=(text, *flags), table=_channels_table(x)),
-            Section(
-                title="What was removed, rms",
-                table=Table(("", "inline, Eo", "cross, Eo"), tuple(removed), brief=8),
-                detail=several or len(r["flights"]) > 1,
-            ),
-        ]
+        removed, folded = tabulate(x["contributions"], parts, brief=8), several or len(r["flights"]) > 1
+        found.append(Section(name, (text, *flags), _channels_table(x)))
+        found.append(Section("What was removed, rms", table=removed, detail=folded))
     return tuple(found)
 
 
 def _channels_table(x: Json) -> Table:
     density, std = x["density"], x["std"]
-    return tabulate(
-        ("inline", "cross"),
-        {
-            "channel": str,
-            "nominal, Eo/√Hz": lambda k: number(density["before"].get(f"{k}_Eo_per_rtHz")),
-            "compensated, Eo/√Hz": lambda k: number(density["after"].get(f"{k}_Eo_per_rtHz")),
-            "noise, Eo/√Hz": lambda k: number(density["noise"].get(f"{k}_Eo_per_rtHz")),
-            "std by noise, Eo": lambda k: number(std["noise"][f"{k}_Eo"]),
-            "std by parameters, Eo": lambda k: number(std["parameters"][f"{k}_Eo"]),
-        },
-        note="Nominal: the error of compare. Compensated: the gravity gradient and the noise, 0.02 to 0.15 Hz.",
-    )
+    columns: dict[str, Callable[[str], str]] = {
+        "channel": str,
+        "nominal, Eo/√Hz": lambda k: number(density["before"].get(f"{k}_Eo_per_rtHz")),
+        "compensated, Eo/√Hz": lambda k: number(density["after"].get(f"{k}_Eo_per_rtHz")),
+        "noise, Eo/√Hz": lambda k: number(density["noise"].get(f"{k}_Eo_per_rtHz")),
+        "std by noise, Eo": lambda k: number(std["noise"][f"{k}_Eo"]),
+        "std by parameters, Eo": lambda k: number(std["parameters"][f"{k}_Eo"]),
+    }
+    note = "Nominal: the error of compare. Compensated: the gravity gradient and the noise, 0.02 to 0.15 Hz."
+    return tabulate(("inline", "cross"), columns, note=note)
 
 
 def describe_online(r: Json, output: str) -> Sections:
@@ -284,17 +266,13 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
 
 def _surveyed(done: Sequence[Json]) -> Section:
     """A row a flight."""
-
-    def error(key: str) -> Callable[[Json], str]:
-        return lambda r: format_error(r["error"][key])
-
     columns: Columns = {
         "flight": lambda r: str(r["flight"]),
         "verdict": lambda r: str(r["verdict"]),
-        "nominal, Eo": error("nominal"),
-        "calibrated, Eo": error("calibrated"),
-        "held out, Eo": error("holdout"),
-        "after, Eo": error("after"),
+        "nominal, Eo": lambda r: format_error(r["error"]["nominal"]),
+        "calibrated, Eo": lambda r: format_error(r["error"]["calibrated"]),
+        "held out, Eo": lambda r: format_error(r["error"]["holdout"]),
+        "after, Eo": lambda r: format_error(r["error"]["after"]),
         "noise, Eo": lambda r: format_error(r["noise_floor"]),
         "found": lambda r: " ".join(map(str, r["found"])),
     }
@@ -302,15 +280,12 @@ def _surveyed(done: Sequence[Json]) -> Section:
     return Section("Flights", table=tabulate(done[:LISTED], columns, words=2, note=more))
 
 
-def _survey_notes(done: Sequence[Json]) -> list[Section]:
+def _survey_notes(done: Sequence[Json]) -> Sections:
     """Every note once, with the flights that it is about."""
     about = group_notes((str(r["flight"]), str(note)) for r in done for note in r["notes"])
-    if not about:
-        return []
-    noted = tuple((note, write_flights(names)) for note, names in about.items())
-    table = Table(("note", "flights"), noted, words=2)
-    summary = f"{count(len(noted), 'note')} on the flights"
-    return [Section(title="Notes", table=table, detail=True, summary=summary)]
+    table = Table(("note", "flights"), tuple((n, write_flights(x)) for n, x in about.items()), words=2)
+    summary = f"{count(len(about), 'note')} on the flights"
+    return (Section("Notes", table=table, detail=True, summary=summary),) if about else ()
 
 
 def _trends(parameters: Sequence[Json]) -> Section:
@@ -333,9 +308,8 @@ def _trends(parameters: Sequence[Json]) -> Section:
 
 def describe_next_motion(r: Json, output: str) -> Sections:
     """The result of ``next-motion``, written to a file."""
-    head = (
-        f"{output}: {len(r['sinusoids'])} sinusoids, {number(r['duration_s'])} s at {number(r['rate_Hz'])} Hz"
-    )
+    flown = f"{number(r['duration_s'])} s at {number(r['rate_Hz'])} Hz"
+    head = f"{output}: {len(r['sinusoids'])} sinusoids, {flown}"
     if "channels" in r:
         now, then = r["channels"]["now"], r["channels"]["planned"]
         gain = ", ".join(
