@@ -22,9 +22,9 @@ from ragg_runtime.reference.accelerometer_noise import eotvos_noise
 from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues, channels_needed, resolve
+from ragg_runtime.reference.geometry import Rotations
 from ragg_runtime.reference.instruments import perturbed
 from ragg_runtime.reference.motion import RecordedSignal
-from ragg_runtime.reference.rotation import Rotations
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.reference.turning import Turning
 

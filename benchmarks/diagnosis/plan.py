@@ -18,8 +18,7 @@ from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import perturbed, table_v, trimmed
 from ragg_runtime.reference.motion import MotionSignals, Signal, recorded_motion
-from ragg_runtime.reference.scenario import Scenario, draw_gradient, draw_motion
-from ragg_runtime.reference.turbulence import SHAPES
+from ragg_runtime.reference.scenario import SHAPES, Scenario, draw_gradient, draw_motion
 
 Array = NDArray[np.float64]
 

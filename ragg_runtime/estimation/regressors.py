@@ -17,8 +17,7 @@ from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.model.evaluate import evaluate_voltages, find_unit_factor
 from ragg_runtime.model.evaluator import Evaluator, find_places
-from ragg_runtime.model.lateness import move_record
-from ragg_runtime.model.memory import add_responses, first_memories
+from ragg_runtime.model.memory import add_responses, first_memories, move_record
 from ragg_runtime.model.model import DerivedEffect, Model
 from ragg_runtime.model.record import Record, list_channels
 from ragg_runtime.model.recorded import RecordedSeries

@@ -19,7 +19,7 @@ from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.evaluator import Evaluator
-from ragg_runtime.model.lateness import move_record
+from ragg_runtime.model.memory import move_record
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.demodulators import Demodulator

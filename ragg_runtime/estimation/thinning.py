@@ -29,8 +29,7 @@ from ragg_runtime.estimation.whitening import find_segments, is_long
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.record import is_disc_angle
 from ragg_runtime.model.evaluate import make_vector
-from ragg_runtime.model.lateness import list_late
-from ragg_runtime.model.memory import list_memories
+from ragg_runtime.model.memory import list_late, list_memories
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import HALO
 from ragg_runtime.signals.derivative import bridge_gaps

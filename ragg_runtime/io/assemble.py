@@ -30,8 +30,7 @@ from ragg_runtime.io.recording import NEEDED
 from ragg_runtime.io.sampling import Grid, make_grid
 from ragg_runtime.io.tables import DataTable
 from ragg_runtime.io.text_tables import TWO_ROWS
-from ragg_runtime.signals.angular_acceleration import NOTE, derive_accelerations
-from ragg_runtime.signals.derivative import bridge_gaps, predict_missing, runs
+from ragg_runtime.signals.derivative import NOTE, bridge_gaps, derive_accelerations, predict_missing, runs
 from ragg_runtime.signals.resolution import find_step
 
 BRIDGED = 2.0

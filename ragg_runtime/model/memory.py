@@ -1,4 +1,6 @@
-"""What an instrument remembers: the record's own motion, force and heat, passed through what has the memory.
+"""The record as a model with certain parameters takes it: what an instrument remembers of it, and motion shifted in time.
+
+What it remembers is the record's own motion, force and heat, passed through what has the memory.
 
 With b = 1/(2 pi f_0)^2 and d = 1/(2 pi f_0 Q) a ``mount`` adds (H - 1) x to the motion x, H = (1 + d s)/(1 + d s + b s^2); an
 ``accelerometer`` sees s/(1 + d s + b s^2) and s^2/(1 + d s + b s^2) of the force that turns with the disc; ``heat`` are products of
@@ -17,7 +19,7 @@ from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 from scipy.interpolate import make_interp_spline
 
 from ragg_runtime.model.evaluator import find_places
-from ragg_runtime.model.model import DerivedEffect, Model
+from ragg_runtime.model.model import DerivedEffect, DerivedParameter, Model
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.derivative import bridge_gaps
 
@@ -223,3 +225,32 @@ def _transfer(m: Memory, name: str, s: Complex) -> dict[str, Complex]:
         found[f"{response}_by_f_0"] = -(2 * b * by_b + d * by_d) / f_0
         found[f"{response}_by_Q"] = -d / Q * by_d
     return found
+
+
+def move_record(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
+    """The record with its motion shifted, and the parameters p (size,), SI, without what moved it.
+
+    What describes a memory is left at its neutral values, about which the chain has its series.
+    Motion is moved exactly: a series in a lateness fails at half a sample.
+    """
+    rest, memories = p.copy(), [*list_memories(model, p)]
+    if memories:
+        r, places = add_responses(r, memories, model.chain.INPUTS), find_places(model.chain)
+        for q in (q for e in model.effects if e.memory for q in e.parameters if q.shape):
+            rest[places[q.symbol]] = q.neutral
+    moves: dict[str, tuple[float, float]] = {}
+    for k, q in list_late(model):
+        if not p[k]:
+            continue
+        rest[k] = 0.0
+        for quantity in q.late:
+            offset, drift = moves.get(quantity, (0.0, 0.0))
+            moves[quantity] = (offset, drift + p[k]) if q.growing else (offset + p[k], drift)
+    return (r.moved(moves) if moves else r), rest
+
+
+def list_late(model: Model) -> Iterator[tuple[int, DerivedParameter]]:
+    """Parameters of a model that make motion late, each with its place in the parameter vector."""
+    found = [q for e in model.effects for q in e.parameters if q.late]
+    places = find_places(model.chain) if found else {}
+    yield from sorted(((places[q.symbol].start, q) for q in found), key=lambda x: x[0])

@@ -37,7 +37,7 @@ class DerivedParameter:
 
     ``physical`` is the only possible value besides the neutral one (``None``: any). ``plausible`` is of a
     navigation instrument; of another it grows with the sigma that the sheet gives the accelerometers' parameter ``like``.
-    ``late``, ``growing``: which quantities of the motion it makes late (:mod:`ragg_runtime.model.lateness`). ``shape``: it does
+    ``late``, ``growing``: which quantities of the motion it makes late (:mod:`ragg_runtime.model.memory`). ``shape``: it does
     nothing while the others are neutral.
     """
 

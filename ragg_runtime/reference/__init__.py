@@ -6,15 +6,16 @@ truncations where asked (``rotations="exact"``, Newton's law, effects in full fo
 
 from __future__ import annotations
 
-from ragg_runtime.reference.angle import disc_angle, turns
 from ragg_runtime.reference.effects import CATALOGUE, EffectValues
 from ragg_runtime.reference.motion import (
     MotionSignals,
     MotionState,
     RecordedSignal,
     Sinusoids,
+    disc_angle,
     recorded_motion,
     still,
+    turns,
 )
 from ragg_runtime.reference.simulate import Simulation, instants, simulate
 

@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.reference.effects import Injected, force, geometry, transducer
-from ragg_runtime.reference.geometry import Mount, mount, standing
+from ragg_runtime.reference.geometry import Mount, Rotations, frame_rotation, mount, standing
 from ragg_runtime.reference.gravity import Gravity
 from ragg_runtime.reference.motion import MotionSignals, MotionState
-from ragg_runtime.reference.rotation import Rotations, frame_rotation
 from ragg_runtime.reference.taylor import Taylor, carried, spun
 from ragg_runtime.reference.turning import Turning
 

@@ -1,25 +1,25 @@
-"""Random flights of random instruments: what the demonstration and the diagnosis benchmark fly."""
+"""Random flights of random instruments, in turbulence of several spectra: what demonstration and benchmark fly."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.fft import irfft, next_fast_len, rfftfreq
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.auxiliaries import plausible
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues
+from ragg_runtime.reference.geometry import Rotations
 from ragg_runtime.reference.gravity import Gradient, Gravity
 from ragg_runtime.reference.instruments import perturbed, table_v, trimmed
-from ragg_runtime.reference.motion import MotionSignals, Signal, Sinusoids
-from ragg_runtime.reference.rotation import Rotations
+from ragg_runtime.reference.motion import MotionSignals, RecordedSignal, Signal, Sinusoids
 from ragg_runtime.reference.simulate import Simulation, simulate
-from ragg_runtime.reference.turbulence import SHAPES, turbulence
 
 if TYPE_CHECKING:
     from ragg_runtime.instrument.instrument import Instrument
@@ -41,6 +41,72 @@ BACKGROUND = (300.0, 120.0, 50.0, 200.0, -80.0, -500.0)
 
 # One stream for each thing that is drawn, so that a change in one leaves the others.
 _INSTRUMENT, _MOTION, _AUXILIARY, _GEOLOGY = range(10, 14)
+
+
+def _resonant(f: Array) -> Array:
+    """A broad floor with the phugoid-like and short-period peaks of a light aircraft."""
+    peaks = sum(a / (1 + ((f - f0) / width) ** 2) for a, f0, width in ((3.0, 0.12, 0.03), (2.0, 0.7, 0.12)))
+    return 0.2 + np.asarray(peaks)
+
+
+SHAPES: Mapping[str, Callable[[Array], Array]] = {
+    "flat": np.ones_like,
+    "dryden": lambda f: 1 / (1 + (f / 0.25) ** 2),
+    "kolmogorov": lambda f: (0.03**2 + f**2) ** (-5 / 6),
+    "resonant": _resonant,
+}
+"""Power spectral density over frequency (Hz) below the cutoff, up to a factor."""
+
+CUTOFF = 1.2
+"""Half-power frequency of the platform's low-pass (48 dB an octave), Hz."""
+
+_NODES_PER_CYCLE = 13
+_PAD = 10.0
+_BURST_FREQUENCY = 0.015
+
+
+def _gaussian(rng: np.random.Generator, size: int, rate: float, density: Callable[[Array], Array]) -> Array:
+    """A stationary Gaussian record of some power spectral density, unit variance on average."""
+    # Longer than needed, so that the end does not run into the beginning.
+    period = next_fast_len(size + int(60 * rate), real=True)
+    f = rfftfreq(period, 1 / rate)
+    amplitude = np.sqrt(density(f))
+    noise = rng.standard_normal(f.size) + 1j * rng.standard_normal(f.size)
+    record: Array = irfft(amplitude * noise, period)[:size]
+    record *= period / np.sqrt(4 * np.sum(amplitude**2))
+    return record
+
+
+def turbulence(
+    rng: np.random.Generator,
+    duration: float,
+    rms: float,
+    *,
+    mean: float = 0.0,
+    shape: str = "dryden",
+    bursts: float = 0.0,
+) -> RecordedSignal:
+    """One component of a random motion, smooth in time.
+
+    ``duration``: of the flight, s; the signal goes on for ten seconds at both ends. ``rms``, ``mean``: SI, met exactly.
+    ``shape``: one of ``SHAPES``. ``bursts``: standard deviation of the logarithm of a slowly varying intensity; 0 is
+    stationary.
+    """
+    if shape not in SHAPES:
+        raise UserError(
+            f"unknown shape of turbulence {shape!r}",
+            expected=", ".join(SHAPES),
+            remedy=did_you_mean(shape, SHAPES),
+        )
+    rate = _NODES_PER_CYCLE * CUTOFF
+    nodes = -_PAD + np.arange(int((duration + 2 * _PAD) * rate) + 2) / rate
+    record = _gaussian(rng, nodes.size, rate, lambda f: SHAPES[shape](f) / (1 + (f / CUTOFF) ** 16))
+    if bursts > 0:
+        slow = _gaussian(rng, nodes.size, rate, lambda f: 1 / (1 + (f / _BURST_FREQUENCY) ** 16))
+        record = record * np.exp(bursts * slow)
+    flight = (nodes >= 0.0) & (nodes <= duration)
+    record = (record - record[flight].mean()) / record[flight].std()
+    return RecordedSignal(nodes, mean + rms * record)
 
 
 @dataclass(frozen=True)

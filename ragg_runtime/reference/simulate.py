@@ -20,9 +20,9 @@ from ragg_runtime.reference.effects.memory import MEMORIES, remembered, swallowe
 from ragg_runtime.reference.effects.output import record_output
 from ragg_runtime.reference.effects.sensing import record_motion
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
+from ragg_runtime.reference.geometry import Rotations
 from ragg_runtime.reference.gravity import COMPONENTS, Gravity
 from ragg_runtime.reference.motion import MotionSignals
-from ragg_runtime.reference.rotation import Rotations
 from ragg_runtime.reference.turning import Turning
 
 if TYPE_CHECKING:

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.reference.angle import disc_angle, turns
-from ragg_runtime.reference.motion import RecordedSignal
+from ragg_runtime.reference.motion import RecordedSignal, disc_angle, turns
 from ragg_runtime.reference.taylor import Taylor
 
 Array = NDArray[np.float64]

@@ -25,10 +25,9 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.units import units
 from ragg_runtime.reference import CATALOGUE, MotionSignals, Sinusoids, disc_angle, simulate
-from ragg_runtime.reference.geometry import mount
+from ragg_runtime.reference.geometry import Rotations, frame_rotation, mount
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import table_v
-from ragg_runtime.reference.rotation import Rotations, frame_rotation
 
 Array = NDArray[np.float64]
 Record = tuple[Mapping[str, Array], Array]

@@ -14,8 +14,14 @@ from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import screen
-from ragg_runtime.signals.angular_acceleration import REACH, derive_accelerations, differentiate_rate
-from ragg_runtime.signals.derivative import bridge_gaps, differentiate, predict_missing
+from ragg_runtime.signals.derivative import (
+    REACH,
+    bridge_gaps,
+    derive_accelerations,
+    differentiate,
+    differentiate_rate,
+    predict_missing,
+)
 
 pytestmark = pytest.mark.usefixtures("no_next_motion")
 

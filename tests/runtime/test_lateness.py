@@ -16,7 +16,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import evaluate_voltages, make_vector
-from ragg_runtime.model.lateness import list_late, move_record
+from ragg_runtime.model.memory import list_late, move_record
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.scenario import Scenario, scenario
 

@@ -16,11 +16,9 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.record import Record
 from ragg_runtime.reference import disc_angle, simulate, still
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
-from ragg_runtime.reference.angle import turns
 from ragg_runtime.reference.instruments import perfect
-from ragg_runtime.reference.motion import RecordedSignal, Signal, Sinusoids
-from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.reference.turbulence import SHAPES, turbulence
+from ragg_runtime.reference.motion import RecordedSignal, Signal, Sinusoids, turns
+from ragg_runtime.reference.scenario import SHAPES, scenario, turbulence
 from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.simulate import simulate_flight
 

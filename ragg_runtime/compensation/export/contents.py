@@ -18,10 +18,10 @@ from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS, is_disc_angle
 from ragg_runtime.model.evaluate import name_values, scale_factor
-from ragg_runtime.model.lateness import list_late
+from ragg_runtime.model.memory import list_late
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import SPIN, Record, measure_phase
-from ragg_runtime.signals.angular_acceleration import differentiate_rate
+from ragg_runtime.signals.derivative import differentiate_rate
 
 Array = NDArray[np.float64]
 Json = dict[str, Any]

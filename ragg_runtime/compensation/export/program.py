@@ -21,8 +21,7 @@ from ragg_runtime.estimation.regressors import Column, list_base_columns, list_o
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT
 from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
-from ragg_runtime.signals.angular_acceleration import REACH, wide_weights
-from ragg_runtime.signals.derivative import DEGREES, WINDOW, weights
+from ragg_runtime.signals.derivative import DEGREES, REACH, WINDOW, weights, wide_weights
 
 TOLERANCE_EO = 1e-6
 """Largest difference of C and Python, Eo, that `make check` allows."""

@@ -12,7 +12,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects import memory
 from ragg_runtime.reference.effects.catalogue import Injected
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
-from ragg_runtime.reference.rotation import by_vector
+from ragg_runtime.reference.geometry import by_vector
 from ragg_runtime.reference.taylor import Taylor, stacked
 
 Array = NDArray[np.float64]

@@ -11,8 +11,8 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected, Values
 from ragg_runtime.reference.effects.memory import recoil
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE, averaging
+from ragg_runtime.reference.geometry import by_vector
 from ragg_runtime.reference.motion import MotionSignals, MotionState
-from ragg_runtime.reference.rotation import by_vector
 
 Array = NDArray[np.float64]
 
