@@ -5,14 +5,13 @@ Left open by the paper: sampling (here 16 Hz, 64 turns), vartheta_x (here 0), an
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.paper import Experiment, PrintedEntry, judge
+from ragg_runtime.experiments.paper import Experiment, judge
 from ragg_runtime.experiments.runs import (
     DERIVED,
     LARGEST,
@@ -48,23 +47,26 @@ def repeat_dynamic() -> Experiment:
     rows = [
         judge("k_ggi", paper.K_GGI, run.instrument.scale_factor * EOTVOS),
         judge("output before demodulation", paper.OUTPUT, whole),
-        *(
-            judge(f"{n} model error before demodulation", paper.MODEL_ERROR, largest(e))
-            for n, e in errors.items()
-        ),
-        judge(
-            "relative error of the analytical model",
-            paper.RELATIVE_ERROR,
-            largest(errors["analytical"]) / whole,
-        ),
-        judge(
-            "voltage of the gravitational gradient",
-            paper.GRADIENT_VOLTAGE,
-            gradient,
-            unexplained="no gradient is stated for this experiment",
-        ),
     ]
-    rows += _judge_channels(run, errors, reached)
+    for name, error in errors.items():
+        rows.append(judge(f"{name} model error before demodulation", paper.MODEL_ERROR, largest(error)))
+    relative = largest(errors["analytical"]) / whole
+    rows.append(judge("relative error of the analytical model", paper.RELATIVE_ERROR, relative))
+    stated = "no gradient is stated for this experiment"
+    what = "voltage of the gravitational gradient"
+    rows.append(judge(what, paper.GRADIENT_VOLTAGE, gradient, unexplained=stated))
+    for name, error in errors.items():
+        channels = zip(("inline", "cross"), average_turns(error, run), reached.T, strict=True)
+        for channel, ours, by_draws in channels:
+            entry = judge(
+                f"{name} model error, {channel}",
+                paper.DYNAMIC[name, channel],
+                ours,
+                reach=bounds(by_draws) if name == "analytical" else None,
+                open_input=_OPEN,
+                unexplained=_FIXED,
+            )
+            rows.append(entry)
     settings = {
         "instrument": "Table V, R = 0.1 m, 0.25 Hz; vartheta_x = 0 (not stated), g = 9.8 m/s^2",
         "motion": "Table VI; angular acceleration is the derivative of the angular rate",
@@ -75,27 +77,12 @@ def repeat_dynamic() -> Experiment:
     return Experiment(title, settings, tuple(rows))
 
 
-def _judge_channels(run: Simulation, errors: Mapping[str, Array], reached: Array) -> list[PrintedEntry]:
-    """The models' errors in the two channels; ``reached`` (draws, 2): those of the analytical model within what is open."""
-    rows = []
-    for name, e in errors.items():
-        for channel, ours, by_draws in zip(
-            ("inline", "cross"), average_turns(e, run), reached.T, strict=True
-        ):
-            rows.append(
-                judge(
-                    f"{name} model error, {channel}",
-                    paper.DYNAMIC[name, channel],
-                    ours,
-                    reach=bounds(by_draws) if name == "analytical" else None,
-                    open_input="the analytical model's error is the product of second-order coefficients and "
-                    "angles (misalignments and mounting errors) alone, vartheta_x among them, which Table V does not give; four "
-                    f"vartheta_x within {LARGEST:g} arcsec, the largest misalignment of Table V, reach it",
-                    unexplained="analytical minus simplified follows from Eq. 17-19 and 42-47 with Tables V "
-                    "and VI alone, whatever the numerical model",
-                )
-            )
-    return rows
+_OPEN = (
+    "the analytical model's error is the product of second-order coefficients and angles (misalignments and mounting errors) alone, "
+    "vartheta_x among them, which Table V does not give; four vartheta_x within "
+    f"{LARGEST:g} arcsec, the largest misalignment of Table V, reach it"
+)
+_FIXED = "analytical minus simplified follows from Eq. 17-19 and 42-47 with Tables V and VI alone, whatever the numerical model"
 
 
 def measure_analytical(instrument: Instrument) -> Array:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,8 +28,7 @@ LARGEST = 30.0
 DRAWS = 1000
 
 
-@dataclass(frozen=True)
-class Channels:
+class Channels(NamedTuple):
     """Demodulated: (M,) Eo each, at ``time`` (M,) s."""
 
     time: Array
@@ -78,16 +76,11 @@ def bounds(x: Array) -> tuple[float, float]:
     return float(x.min()), float(x.max())
 
 
-def with_angles(arcsec: Array) -> Instrument:
-    """Table V with four vartheta_x in arcsec."""
-    return table_v().replace(vartheta_x=np.asarray(arcsec) * ARCSEC)
-
-
 def respond(measure: Callable[[Instrument], Array]) -> tuple[Array, Array]:
     """A measured array without vartheta_x, shape (...), and its change per arcsec of each, (4, ...)."""
-    base = measure(with_angles(np.zeros(4)))
-    slopes = np.stack([(measure(with_angles(one)) - base) / LARGEST for one in LARGEST * np.eye(4)])
-    return base, slopes
+    angles = LARGEST * np.eye(4)
+    base, *changed = (measure(table_v().replace(vartheta_x=x * ARCSEC)) for x in (np.zeros(4), *angles))
+    return base, np.stack([(x - base) / LARGEST for x in changed])
 
 
 def draw_angles() -> Array:

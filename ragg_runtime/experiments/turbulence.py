@@ -157,8 +157,7 @@ def draw_moments() -> Values:
 
         def measure(instrument: Instrument, experiment: int = e) -> Array:
             run = run_turbulent(experiment, 0, instrument)
-            c = demodulate_run(find_error("analytical", run), run)
-            return np.stack([c.inline, c.cross])
+            return np.stack(demodulate_run(find_error("analytical", run), run)[1:])
 
         base, slopes = respond(measure)
         for n, channel in enumerate(SHORT.values()):

@@ -94,7 +94,9 @@ def read_demodulation(table: object, where: str) -> Demodulation | None:
         raise UserError(
             f"the demodulator {kind} is not described",
             where=where,
-            found=f"no {', '.join(missing)}" if missing else f"{', '.join(foreign)}, which it does not have",
+            found=f"no {', '.join(missing)}"
+            if missing
+            else f"{', '.join(foreign)}, which {kind} does not have",
             expected=", ".join(KINDS[kind]),
             remedy="ask whoever made the channels",
         )

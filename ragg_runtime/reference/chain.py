@@ -115,27 +115,20 @@ class Chain:
 
     def forces(self, time: Array) -> Array:
         """f_x, f_y, f_z of the accelerometers, (n, 3, N) m/s^2, at (N,) s."""
-        now, k = self._instant(time, 0.0, np.zeros(time.size)), self.instrument.accelerometers
-        found = []
-        for j, place in enumerate(self.instrument.layout.places):
-            fixed = mount(place, float(k["beta_x"][j]), float(k["beta_z"][j]), self.rotations)
-            radius = place.radius + float(k["dR"][j]) + geometry.arm_error(self.effects)
-            found.append(self._nominal_force(j, fixed, radius, now, np.zeros((3, 1)))[0])
-        return np.array(found)
+        now, still = self._instant(time, 0.0, np.zeros(time.size)), np.zeros((3, 1))
+        return np.array([self._nominal_force(j, *self._mount(j), now, still)[0] for j in range(self.size)])
 
     def scale(self, time: Array) -> Array:
         """k_VI K1 of the accelerometers as they are at the time, (n, N) V/(m/s^2)."""
-        auxiliaries = self._auxiliaries_at(time)
-        k = self.instrument.accelerometers
-        return np.stack(
-            [
-                k["k_VI"][j]
-                * k["K1"][j]
-                * transducer.gain(j, time, auxiliaries, self.effects)
-                * np.ones(time.size)
-                for j in range(self.size)
-            ]
-        )
+        auxiliaries, k = self._auxiliaries_at(time), self.instrument.accelerometers
+        gains = [transducer.gain(j, time, auxiliaries, self.effects) for j in range(self.size)]
+        return np.stack([k["k_VI"][j] * k["K1"][j] * g * np.ones(time.size) for j, g in enumerate(gains)])
+
+    def _mount(self, j: int) -> tuple[Mount, float]:
+        """Accelerometer j where it really is, and its radius, m, before forces stretch the arm."""
+        place, k = self.instrument.layout.places[j], self.instrument.accelerometers
+        radius = place.radius + float(k["dR"][j]) + geometry.arm_error(self.effects)
+        return mount(place, float(k["beta_x"][j]), float(k["beta_z"][j]), self.rotations), radius
 
     def _instant(self, time: Array, delay: float, angle_error: Array, alone: bool = False) -> Instant:
         bending = not alone and any(geometry.bends(j, self.effects) for j in range(self.size))
@@ -156,7 +149,7 @@ class Chain:
         """The true angle of each disc, (N,) rad each."""
         past = time - delay
         found = [geometry.disc_angle(t.at(time, delay), past, error, self.effects) for t in self.turning]
-        if geometry.yields(self.effects):
+        if "spin-servo" in self.effects:  # the disc falls behind where the platform is turned about its axis
             near = [self.motion.at(time, delay - n * _STEP).omegadot for n in range(-2, 3)]
             for k, d in enumerate(self.instrument.layout.discs):
                 about = np.stack([np.asarray(d.axis) @ m for m in near])
@@ -185,9 +178,7 @@ class Chain:
     def _voltage(self, j: int, instant: Instant, shake: Array) -> Array:
         """Eq. 49-52 for accelerometer j, counted from 0, (N,) V."""
         k = {name: float(values[j]) for name, values in self.instrument.accelerometers.items()}
-        place = self.instrument.layout.places[j]
-        radius = place.radius + k["dR"] + geometry.arm_error(self.effects)
-        actual = mount(place, k["beta_x"], k["beta_z"], self.rotations)
+        actual, radius = self._mount(j)
         nominal, triad = self._nominal_force(j, actual, radius, instant, shake)
         angles = (k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])
         time, auxiliaries = instant.time, instant.auxiliaries
@@ -197,7 +188,7 @@ class Chain:
         kappa = transducer.angles_in_second_order(self.effects)
         i, o, p = measured
         if kappa != 1:
-            level = mount(place, 0.0, 0.0, self.rotations)
+            level = mount(self.instrument.layout.places[j], 0.0, 0.0, self.rotations)
             unturned, _ = self._nominal_force(j, level, radius, instant, shake)
             i, o, p = (n + kappa * (m - n) for n, m in zip(unturned, measured, strict=True))
         bracket = (

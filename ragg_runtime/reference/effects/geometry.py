@@ -34,11 +34,6 @@ def disc_angle(nominal: Taylor, time: Array, error: Array, effects: Injected) ->
     return phi + error
 
 
-def yields(effects: Injected) -> bool:
-    """Whether the disc falls behind where the platform is turned about its axis."""
-    return "spin-servo" in effects
-
-
 def run_out(phi: Taylor, effects: Injected) -> Taylor | None:
     """Where the disc's centre is, (3, N) m along axes that do not turn with it, or None."""
     path = effects.get("bearing-run-out")
