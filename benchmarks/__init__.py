@@ -2,15 +2,19 @@
 
 A benchmark of speed is a module of this package with a function ``run() -> list[Row]``; nothing is registered.
 
-``python -m benchmarks [NAME ...]`` runs all or those named, each in a process of its own (so import heavy things inside
-``run``; ``ENVIRONMENT`` adds to the environment of that process), prints tables and keeps ``build/bench.json``; a run of all
-writes ``docs/contributors/benchmarks.md`` too. A row should be a time or a rate, and beside it the *ratio to something fixed,
-measured interleaved in the same run* (``timing.interleaved``), since machines and their load differ.
+``python -m benchmarks [NAME ...]`` runs all or those named, each in a process of its own, prints tables and keeps
+``build/bench.json``; a run of all writes the tables of ``docs/contributors/benchmarks.md`` too. A row should be a time or a rate,
+and beside it the *ratio to something fixed, measured interleaved in the same run*, since machines and their load differ.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 RATIO = "x"
 """The unit of a ratio."""
@@ -18,24 +22,29 @@ RATIO = "x"
 
 @dataclass(frozen=True)
 class Row:
-    """One measured number: the median over repetitions, with ``low`` and ``high`` quartiles.
-
-    ``target``: what it is held against, in words; ``met``: whether it is.
-    """
+    """One measured number: the median over repetitions, with ``low`` and ``high`` quartiles; ``limit``: what it is held against."""
 
     name: str
     value: float
     unit: str
     note: str = ""
-    target: str | None = None
-    low: float | None = None
-    high: float | None = None
-    met: bool | None = None
+    limit: float | None = None
+    at_least: bool = False
+    low: float = math.nan
+    high: float = math.nan
 
+    @staticmethod
+    def of(name: str, values: Sequence[float], unit: str, **more: Any) -> Row:
+        """The median of repetitions."""
+        low, value, high = map(float, np.quantile(values, (0.25, 0.5, 0.75)))
+        return Row(name, value, unit, low=low, high=high, **more)
 
-def at_most(name: str, value: float, unit: str, limit: float | None, note: str = "", **spread: float) -> Row:
-    """A row that is held against an upper limit, if there is one."""
-    target = (
-        None if limit is None else f"at most {limit:g} {'' if unit == RATIO else unit.split()[0]}".rstrip()
-    )
-    return Row(name, value, unit, note, target, met=None if limit is None else value <= limit, **spread)
+    @property
+    def target(self) -> str:
+        """What it is held against, and whether that is met."""
+        if self.limit is None:
+            return ""
+        met = self.value >= self.limit if self.at_least else self.value <= self.limit
+        unit = "" if self.unit == RATIO else self.unit.split()[0]
+        text = f"at {'least' if self.at_least else 'most'} {self.limit:g} {unit}".rstrip()
+        return f"{text}: {'met' if met else 'not met'}"

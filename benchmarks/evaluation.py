@@ -1,9 +1,9 @@
-"""How long evaluating the analytical model takes, a sample, on one core: ours, other ways, and the memory's bound.
+"""How long evaluating the analytical model takes, a sample, on one core: ours, heyoka, and the memory's bound.
 
 A million samples, all fifteen channels as series ("streaming": everything comes from memory), and some thousand again and again
 ("in cache"). Processor time of a process held to one core, calls from Python included; all get series that begin at multiples
-of 64 bytes. What each yields is compared with the 50-digit value first: the rivals (``benchmarks/rivals.py``) form omega t in
-float64 and lose there. Generated C of other instruments and orders is timed against the paper's.
+of 64 bytes. What each yields is compared with the 50-digit value first: heyoka forms omega t in float64 and loses there.
+Generated C of other instruments and orders is timed against the paper's.
 """
 
 from __future__ import annotations
@@ -16,31 +16,60 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from typing import Any
 
-from benchmarks import Row
-from benchmarks.rivals import aligned
-from benchmarks.timing import Timing, interleaved, ratio
+import numpy as np
+from numpy.typing import NDArray
 
-ENVIRONMENT = {
-    "OPENBLAS_NUM_THREADS": "1",
-    "OMP_NUM_THREADS": "1",
-}
+from benchmarks import RATIO, Row
+from benchmarks.rivals import Rival, aligned, heyoka, memory_traffic
+
 SIZES = {"streaming": (1_000_000, 1), "in cache": (16_000, 20)}
 """Samples, and calls in a row."""
 START, RATE = 1e4, 100.0  # s, Hz
-OURS, OURS_NUMPY, PAPER = "generated C, compiled", "generated NumPy", "the paper's model"
-SLOW = ("SymPy lambdify", "NumPy in blocks", OURS_NUMPY)
-TARGETS: Mapping[str, tuple[float, float]] = {"heyoka cfunc": (1.4, 2.2)}
-"""Rival -> at least so many times our time, streaming and in cache."""
-GOALS: Mapping[str, tuple[float, float]] = {OURS: (15.0, 10.0), OURS_NUMPY: (350.0, 350.0)}
+OURS, OURS_NUMPY, HEYOKA, PAPER = (
+    "generated C, compiled",
+    "generated NumPy",
+    "heyoka cfunc",
+    "the paper's model",
+)
+ROUNDS, FEW = 25, 5
+"""Rounds; NumPy, a hundred times slower, has fewer."""
+FASTER = {"streaming": 1.4, "in cache": 2.2}
+"""At least so many times our time heyoka takes."""
+GOALS: Mapping[str, Mapping[str, float]] = {
+    "streaming": {OURS: 15.0, OURS_NUMPY: 350.0},
+    "in cache": {OURS: 10.0, OURS_NUMPY: 350.0},
+}
 """Largest time a sample, ns, on a machine of 2.5 GHz with AVX-512 and 11 GB/s."""
 
-Call = Callable[[Any, Any, Any], object]
+Times = NDArray[np.float64]
+
+
+def interleave(
+    functions: Mapping[str, Callable[[], object]],
+    repeats: int,
+    inner: int = 1,
+    clock: Callable[[], float] = time.process_time,
+) -> dict[str, Times]:
+    """(repeats,) s of every function: one after the other in each round, so that whatever else the machine does strikes all alike.
+
+    Each is called once for nothing, then ``inner`` times in a row. If these are several, its data are put into the caches before.
+    """
+    for function in functions.values():
+        function()
+    times: dict[str, list[float]] = {name: [] for name in functions}
+    for _ in range(repeats):
+        for name, function in functions.items():
+            if inner > 1:
+                function()
+            start = clock()
+            for _ in range(inner):
+                function()
+            times[name].append((clock() - start) / inner)
+    return {name: np.array(t) for name, t in times.items()}
 
 
 def instrument_and_motion(n: int) -> tuple[Any, Any, Any]:
     """(t, inputs, p): Tables V and VI of the paper, at random; t from START s on."""
-    import numpy as np
-
     from ragg_runtime.model.model import load_packaged
 
     draw = np.random.default_rng(5)
@@ -57,25 +86,25 @@ def instrument_and_motion(n: int) -> tuple[Any, Any, Any]:
     return START + np.arange(n) / RATE, inputs, np.array(p)
 
 
-def contenders(p: Any) -> tuple[dict[str, Call], dict[str, str]]:
-    """Name -> (t, inputs, out) -> anything; and what is missing, with the reason."""
-    from benchmarks import rivals
+def contenders(p: NDArray[np.float64]) -> dict[str, Rival]:
+    """Name -> (t, inputs, out) -> anything; heyoka only where it is installed."""
     from ragg_runtime.model.model import load_packaged
 
     compiled, blocks = load_packaged().compiled(), load_packaged().compiled(native=False)
-    ours: dict[str, Call] = {
+    found: dict[str, Rival] = {
         # which allocate what they return, as for users
         OURS: lambda t, x, out: compiled.output(t, x, p),
         OURS_NUMPY: lambda t, x, out: blocks.output(t, x, p),
     }
-    others, missing = rivals.available(p)
-    return {**ours, **others}, missing
+    try:
+        return found | {HEYOKA: heyoka(p)}
+    except ModuleNotFoundError as error:
+        print(f"missing: {error.name} is not installed", file=sys.stderr)
+        return found
 
 
-def errors(p: Any, functions: Mapping[str, Call]) -> dict[str, float]:
+def errors(p: NDArray[np.float64], functions: Mapping[str, Rival]) -> dict[str, float]:
     """Largest difference from the 50-digit value, Eo."""
-    import numpy as np
-
     from tests.generated import fifty_digits as fifty
 
     t, x, _ = instrument_and_motion(40)
@@ -89,22 +118,6 @@ def errors(p: Any, functions: Mapping[str, Call]) -> dict[str, float]:
         pairs = zip(result if name in (OURS, OURS_NUMPY) else out, true, strict=True)
         found[name] = max(abs(float(fifty.real(float(g)) - v)) for g, v in pairs) / scale
     return found
-
-
-def rows_of(times: Mapping[str, Timing], label: str, wrong: Mapping[str, float]) -> list[Row]:
-    """Times a sample, and ratios to ours."""
-    n, which = SIZES[label][0], list(SIZES).index(label)
-    rows, ratios = [], []
-    for name, timing in times.items():
-        middle, low, high = (1e9 * s / n for s in (timing.median, *timing.quartiles))
-        least, goal = 1e9 * timing.least / n, GOALS[name][which] if name in GOALS else None
-        target, met = (None, None) if goal is None else (f"at most {goal:g}", least <= goal)
-        note = f"best {least:.1f}; off by {wrong[name]:.1e} Eo"
-        rows.append(Row(f"{name}, {label}", middle, "ns", note, target, low, high, met))
-        if name != OURS:
-            aim = f"at least {TARGETS[name][which]:g}" if name in TARGETS else None
-            ratios.append(ratio(f"{name} / {OURS}, {label}", timing, times[OURS], aim))
-    return rows + ratios
 
 
 def layouts(p: Any) -> Iterator[tuple[str, Any, Any, float]]:
@@ -131,17 +144,15 @@ def layouts(p: Any) -> Iterator[tuple[str, Any, Any, float]]:
 
 def layout_rows(t: Any, x: Any, p: Any) -> list[Row]:
     """Ratios of other instruments; an output of four accelerometers each, so a ratio a sample is one an accelerometer."""
-    import numpy as np
-
     turning = np.stack([np.full(len(t), 2 * np.pi * p[1]), np.zeros(len(t))])
     wide, models = np.vstack([x, turning]), list(layouts(p))
     found = []
     for label, (n, inner) in SIZES.items():
         s, y = aligned(t[:n]), aligned(wide[:, :n])
         calls = {name: partial(e.output, s, y[: len(e.inputs)], q) for name, e, q, _ in models}
-        times = interleaved(calls, 15, inner, prime=inner > 1)
+        times = interleave(calls, 15, inner)
         found += [
-            ratio(f"{name} / {PAPER}, {label}", times[name], times[PAPER], f"at most {limit:g}")
+            Row.of(f"{name} / {PAPER}, {label}", times[name] / times[PAPER], RATIO, limit=limit)
             for name, _, _, limit in models[1:]
         ]
     return found
@@ -149,40 +160,34 @@ def layout_rows(t: Any, x: Any, p: Any) -> list[Row]:
 
 def run() -> list[Row]:
     """Accuracy, times streaming and in cache, ratios, the memory's bound, other instruments."""
-    import numpy as np
-
-    from benchmarks import rivals
-
-    cores = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
-    if cores:
-        os.sched_setaffinity(0, cores[:1])
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:1])
     t, x, p = instrument_and_motion(SIZES["streaming"][0])
-    functions, missing = contenders(p)
+    functions = contenders(p)
     wrong = errors(p, functions)
     rows: list[Row] = []
-    fast = {name: f for name, f in functions.items() if name not in SLOW}
-    few = {name: f for name, f in functions.items() if name in (*SLOW, OURS)}
     for label, (n, inner) in SIZES.items():
-        s, y, out = aligned(t[:n]), aligned(x[:, :n]), aligned(np.zeros(n))
-
-        def timed(
-            among: Mapping[str, Call], rounds: int, inner: int, s: Any = s, y: Any = y, out: Any = out
-        ) -> dict[str, Timing]:
-            calls = {name: partial(f, s, y, out) for name, f in among.items()}
-            return interleaved(calls, rounds, inner, time.process_time, prime=inner > 1)
-
-        times = timed({**fast, "bound": rivals.memory_traffic()}, 25, inner)
-        slow = timed(few, 5, min(inner, 2))
-        floor = times.pop("bound")
-        rows += rows_of(times, label, wrong)
-        rows += [r for r in rows_of(slow, label, wrong) if not r.name.startswith(OURS)]
-        low, high = (1e9 * q / n for q in floor.quartiles)
-        name, note = f"reading 16 series, writing one, {label}", "nothing is computed: the memory bound"
-        rows.append(Row(name, 1e9 * floor.median / n, "ns", note, low=low, high=high))
-        near = "at most 1.3" if inner == 1 else None
-        rows.append(ratio(f"{OURS} / memory bound, {label}", times[OURS], floor, near))
-    rows += layout_rows(t, x, p)
-    for name, reason in missing.items():
-        print(f"missing: {name}: {reason}", file=sys.stderr)
-        rows.append(Row(f"{name}: missing", float("nan"), "ns", reason))
-    return rows
+        given = aligned(t[:n]), aligned(x[:, :n]), aligned(np.zeros(n))
+        calls = {name: partial(f, *given) for name, f in (functions | {"bound": memory_traffic()}).items()}
+        slow = interleave({OURS_NUMPY: calls.pop(OURS_NUMPY)}, FEW, min(inner, 2))
+        times = interleave(calls, ROUNDS, inner)
+        bound, ours = times.pop("bound"), times[OURS]
+        rows += [
+            Row.of(
+                f"{name}, {label}",
+                1e9 / n * s,
+                "ns",
+                note=f"off by {wrong[name]:.1e} Eo",
+                limit=GOALS[label].get(name),
+            )
+            for name, s in (times | slow).items()
+        ]
+        if HEYOKA in times:
+            name = f"{HEYOKA} / {OURS}, {label}"
+            rows.append(Row.of(name, times[HEYOKA] / ours, RATIO, limit=FASTER[label], at_least=True))
+        rows.append(
+            Row.of(f"reading 16 series, writing one, {label}", 1e9 / n * bound, "ns", note="the memory bound")
+        )
+        near = 1.3 if inner == 1 else None
+        rows.append(Row.of(f"{OURS} / memory bound, {label}", ours / bound, RATIO, limit=near))
+    return [*rows, *layout_rows(t, x, p)]

@@ -1,27 +1,23 @@
-"""Other ways to evaluate the same model fast: each is given the chain as straight-line code with one sincos.
+"""What our evaluation is held against: heyoka, given the chain as straight-line code with one sincos, and the memory's bound.
 
-The rivals get what one would write by hand before reaching for them: motion numbers once, one cosine and sine a
-sample, four accelerometers, the instrument's parameters as numbers, shared subexpressions apart. A rival that is
-not installed is left out and named.
+heyoka gets what one would write by hand before reaching for it: motion numbers once, one cosine and sine a sample, four
+accelerometers, the instrument's parameters as numbers, shared subexpressions apart.
 """
 
 from __future__ import annotations
 
 import ctypes
 import importlib
-import platform
-import subprocess
-import tempfile
-from collections.abc import Callable, Mapping, Sequence
-from functools import cache
-from pathlib import Path
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.model import compile as compilation
+
 Array = NDArray[np.float64]
-Rival = Callable[[Array, Array, Array], None]
+Rival = Callable[[Array, Array, Array], object]
 """Evaluates (t, inputs) into an array that it is given."""
 
 Program = Sequence[tuple[str, Any]]
@@ -67,58 +63,23 @@ def program(p: Array) -> Program:
     return [*((s.name, e) for s, e in found.assignments), *found.outputs]
 
 
-def python_source(code: Program, head: str, module: str) -> str:
-    """The program as a Python function body."""
+def write_function(code: Program, module: Any) -> Callable[..., Any]:
+    """The program as a Python function of (cos_phi, sin_phi, *inputs), with the functions of a module."""
     from sympy.printing.pycode import pycode
 
     lines = [f"    {name} = {pycode(e)}" for name, e in code]
-    return "\n".join([head, *lines, "    return G", ""]).replace("math.", f"{module}.")
-
-
-def _function(source: str, names: Mapping[str, Any]) -> Callable[..., Any]:
-    space = dict(names)
-    exec(source, space)
+    head = f"def g(cos_phi, sin_phi, {', '.join(INPUTS)}):"
+    space: dict[str, Any] = {"math": module}
+    exec("\n".join([head, *lines, "    return G"]), space)
     return space["g"]  # type: ignore[no-any-return]
 
 
-ARGUMENTS = ", ".join(INPUTS)
-
-
-def numpy_blocks(code: Program, f: float) -> Rival:
-    g = _function(python_source(code, f"def g(cos_phi, sin_phi, {ARGUMENTS}):", "np"), {"np": np})
-
-    def run(t: Array, x: Array, out: Array) -> None:
-        for start in range(0, len(t), 4096):
-            part = slice(start, start + 4096)
-            phi = 2 * np.pi * f * t[part]
-            out[part] = g(np.cos(phi), np.sin(phi), *x[:, part])
-
-    return run
-
-
-def lambdify(code: Program, f: float) -> Rival:
-    """SymPy's own, of the whole expression with cse=True, over whole series."""
-    import sympy as sp
-
-    values: dict[Any, Any] = {}
-    for name, e in code:
-        values[sp.Symbol(name, real=True)] = e.xreplace(values)
-    symbols = [sp.Symbol(n, real=True) for n in ("cos_phi", "sin_phi", *INPUTS)]
-    g = sp.lambdify(symbols, values[sp.Symbol("G", real=True)], "numpy", cse=True)
-
-    def run(t: Array, x: Array, out: Array) -> None:
-        phi = 2 * np.pi * f * t
-        out[:] = g(np.cos(phi), np.sin(phi), *x)
-
-    return run
-
-
-def heyoka(code: Program, f: float) -> Rival:
+def heyoka(p: Array) -> Rival:
+    """The program compiled by heyoka. Raises ModuleNotFoundError."""
     hy = importlib.import_module("heyoka")
     variables = hy.make_vars("t", *INPUTS)
-    phi = 2 * np.pi * f * variables[0]
-    g = _function(python_source(code, f"def g(cos_phi, sin_phi, {ARGUMENTS}):", "hy"), {"hy": hy})
-    G = g(hy.cos(phi), hy.sin(phi), *variables[1:])
+    phi = 2 * np.pi * float(p[1]) * variables[0]
+    G = write_function(program(p), hy)(hy.cos(phi), hy.sin(phi), *variables[1:])
     compiled = hy.cfunc([G], list(variables))
     there: dict[int, Array] = {}
 
@@ -129,20 +90,6 @@ def heyoka(code: Program, f: float) -> Rival:
         compiled(inputs=there[id(x)], outputs=out.reshape(1, -1))
 
     return run
-
-
-@cache
-def _folder() -> tempfile.TemporaryDirectory[str]:
-    return tempfile.TemporaryDirectory()
-
-
-def compile_c(name: str, text: str, flags: Sequence[str]) -> ctypes.CDLL:
-    """C text -> loaded library."""
-    place = Path(_folder().name)
-    source, made = place / f"{name}.c", place / f"{name}.so"
-    source.write_text(text, "utf-8")
-    subprocess.run(["gcc", *flags, str(source), "-lm", "-o", str(made)], check=True, capture_output=True)
-    return ctypes.CDLL(str(made))
 
 
 TRAFFIC = """
@@ -159,28 +106,9 @@ void traffic(size_t n, const double *restrict t, const double *restrict x, doubl
 def memory_traffic() -> Rival:
     """Reads t and the 15 rows of x and writes out, by a small C loop: the memory bound."""
     streams = " ".join(f"+ x[{k} * n + i]" for k in range(len(INPUTS)))
-    wide = ("-mprefer-vector-width=512",) if platform.machine() in ("x86_64", "AMD64") else ()
-    library = compile_c("traffic", TRAFFIC % streams, ("-O3", "-march=native", *wide, "-fPIC", "-shared"))
+    library = compilation.load(compilation.build({"traffic.c": TRAFFIC % streams}))
 
     def run(t: Array, x: Array, out: Array) -> None:
         library.traffic(ctypes.c_size_t(len(t)), *(ctypes.c_void_p(a.ctypes.data) for a in (t, x, out)))
 
     return run
-
-
-RIVALS: Mapping[str, Callable[[Program, float], Rival]] = {
-    "heyoka cfunc": heyoka,
-    "NumPy in blocks": numpy_blocks,
-    "SymPy lambdify": lambdify,
-}
-
-
-def available(p: Array) -> tuple[dict[str, Rival], dict[str, str]]:
-    """Rivals for an instrument's parameters, and those that cannot be had, with the reason."""
-    code, made, missing = program(p), {}, {}
-    for name, make in RIVALS.items():
-        try:
-            made[name] = make(code, float(p[1]))
-        except ModuleNotFoundError as error:
-            missing[name] = f"{error.name} is not installed"
-    return made, missing

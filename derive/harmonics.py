@@ -2,7 +2,7 @@
 
 A quantity that turns with the disc is a Laurent polynomial in exp(i psi) whose coefficients are
 polynomials in the instrument's parameters and the motion numbers, over the Gaussian rationals. Expanding
-in that ring costs a hundredth of what expanding SymPy expressions does (see ``benchmarks/derivation.py``).
+in that ring costs a hundredth of what expanding SymPy expressions does.
 """
 
 from __future__ import annotations
