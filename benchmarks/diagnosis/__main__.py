@@ -136,11 +136,64 @@ def committed_page() -> str:
     return table.page({n: read_rows(p) for n, p in RESULTS.items() if p.exists()})
 
 
-def _ablate(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
-    cache = Cache(options.cache.with_stem(f"{options.cache.stem}-ablation"), source)
-    there = [r for r in ablation.RULES if r.there and (not options.rule or r.id in options.rule)]
+Rows = Callable[[str, dict[str, Any]], list[Row]]
+"""What is kept of a line of the cache, with its key."""
+
+
+def _keep_flight(key: str, line: dict[str, Any]) -> list[Row]:
+    return [score.row(line)]
+
+
+def _keep_all(key: str, line: dict[str, Any]) -> list[Row]:
+    return [{n: str(v) for n, v in line.items() if n not in ("key", "source")}]
+
+
+MODES: dict[str, tuple[str, Rows, Callable[[Sequence[Row]], list[str]]]] = {
+    "flights": ("which flights of the plan are diagnosed rightly", _keep_flight, table.flights),
+    "catalogue": ("hide each effect of the catalogue in turn", _keep_flight, table.catalogue),
+    "grammar": ("hide terms drawn from a grammar", _keep_flight, table.grammar),
+    "record": ("one kind of record, nothing hidden", _keep_flight, table.quiet_records),
+    "ceiling": ("what an oracle that knows the noise finds of weak effects", _keep_all, table.ceiling),
+    "array": ("ask the real array instead", array.rows, table.array),
+}
+"""What can be run: in words, what is kept of a result, and the table of all."""
+
+
+def _list_tasks(o: argparse.Namespace) -> dict[str, Task]:
+    """What a mode has to do, by key."""
+    seeds = o.seed or plan.REFERENCE
+    if o.mode == "array":
+        return {f"{r}/{c}": partial(array.asked, path, c) for r, path, c in array.cases(o.real)}
+    if o.mode == "ceiling":
+        weak = [s for n in seeds for s in plan.specs(n) if s.kind in ("five", "ten")]
+        return {s.id: partial(ceiling.tested, s) for s in weak}
+    if o.mode == "catalogue":
+        searched = [e.id for e in load_packaged().candidates if e.searched and e.id not in NEVER]
+        specs = plan.catalogue(len(searched))
+    elif o.mode == "grammar":
+        specs = plan.grammar()
+    elif o.mode == "record":
+        own = o.seed or [plan.RECORDS]
+        specs = [s for r in o.record for n in own for s in plan.of_record(r, o.count, n)]
+    else:
+        specs = [s for n in seeds for s in plan.specs(n) if not o.only or s.kind in o.only]
+    return {s.id: partial(fly, s) for s in specs}
+
+
+def _run_mode(o: argparse.Namespace, cache: Cache, pool: Executor | None) -> list[Row]:
+    _, keep, show = MODES[o.mode]
+    tasks = _list_tasks(o)
+    run(tasks, cache, pool)
+    rows = [row for key in tasks for row in keep(key, cache.lines[key])]
+    print("\n" + "\n".join(show(rows)))
+    if o.against is not None:
+        print("\n".join(table.against(rows, read_rows(o.against))))
+    return rows
+
+
+def _ablate(o: argparse.Namespace, cache: Cache, pool: Executor | None) -> list[Row]:
     rows = []
-    for r in there:
+    for r in (r for r in ablation.RULES if not o.rule or r.id in o.rule):
         flights = ablation.flights(r)
         run({f"/{s.id}": partial(ablation.watched, s) for s in flights}, cache, pool)
         acting = [s for s in flights if ablation.acts(r, cache.lines[f"/{s.id}"])]
@@ -151,109 +204,42 @@ def _ablate(options: argparse.Namespace, source: str, pool: Executor | None) -> 
     return rows
 
 
-def _fly_specs(specs: Sequence[Spec], cache: Cache, pool: Executor | None) -> list[Row]:
-    """The rows of flights, those that are not known flown."""
-    run({s.id: partial(fly, s) for s in specs}, cache, pool)
-    return [score.row(cache.lines[s.id]) for s in specs]
-
-
-def _fly(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
-    cache = Cache(options.cache, source)
-    specs = [s for n in options.seed or plan.REFERENCE for s in plan.specs(n)]
-    specs = [s for s in specs if not options.only or s.kind in options.only]
-    rows = _fly_specs(specs, cache, pool)
-    print("\n" + "\n".join(table.flights(rows)))
-    if options.against is not None:
-        print("\n".join(table.against(rows, read_rows(options.against))))
-    return rows
-
-
-def _catalogue(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
-    cache = Cache(options.cache.with_stem(f"{options.cache.stem}-catalogue"), source)
-    hidden = [e.id for e in load_packaged().candidates if e.searched and e.id not in NEVER]
-    specs = plan.catalogue(len(hidden))
-    rows = _fly_specs(specs, cache, pool)
-    print("\n" + "\n".join(table.catalogue(rows)))
-    return rows
-
-
-def _grammar(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
-    cache = Cache(options.cache.with_stem(f"{options.cache.stem}-grammar"), source)
-    specs = plan.grammar()
-    rows = _fly_specs(specs, cache, pool)
-    print("\n" + "\n".join(table.grammar(rows)))
-    return rows
-
-
-def _records(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
-    cache = Cache(options.cache, source)
-    seeds = options.seed or [plan.RECORDS]
-    specs = [s for r in options.record for n in seeds for s in plan.of_record(r, options.count, n)]
-    rows = _fly_specs(specs, cache, pool)
-    print("\n" + "\n".join(table.quiet_records(rows)))
-    return rows
-
-
-def _ceiling(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
-    cache = Cache(options.cache.with_stem(f"{options.cache.stem}-ceiling"), source)
-    specs = [s for n in options.seed or plan.REFERENCE for s in plan.specs(n) if s.kind in ("five", "ten")]
-    tasks: dict[str, Task] = {s.id: partial(ceiling.tested, s) for s in specs}
-    run(tasks, cache, pool)
-    rows = [{n: str(v) for n, v in cache.lines[s.id].items() if n not in ("key", "source")} for s in specs]
-    print("\n" + "\n".join(table.ceiling(rows)))
-    return rows
-
-
-def _array(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
-    cache = Cache(options.cache.with_stem(f"{options.cache.stem}-array"), source)
-    tasks = {f"{r}/{c}": partial(array.asked, path, c) for r, path, c in array.cases(options.real)}
-    run(tasks, cache, pool)
-    rows = [row for key in tasks for row in array.rows(key, cache.lines[key])]
-    print("\n" + "\n".join(table.array(rows)))
-    return rows
-
-
 def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.diagnosis")
     ask = parser.add_argument
     ask("--seed", type=int, action="append", help="which flights (default: the reference's)")
     ask("--only", action="append", choices=list(plan.COUNTS), help="kinds of flights")
     ask("--flight", action="append", default=[], metavar="ID", help="show one flight")
-    ask("--array", action="store_true", help="ask the real array instead")
-    ask("--catalogue", action="store_true", help="hide each effect of the catalogue in turn")
-    ask("--ceiling", action="store_true", help="what an oracle that knows the noise finds of weak effects")
-    ask("--grammar", action="store_true", help="hide terms drawn from a grammar")
-    ask("--record", action="append", choices=list(records.KINDS), help="one kind of record, nothing hidden")
+    for name in ("array", "catalogue", "ceiling", "grammar"):
+        ask(f"--{name}", action="store_const", dest="mode", const=name, help=MODES[name][0])
+    ask("--record", action="append", choices=list(records.KINDS), help=MODES["record"][0])
     ask("--count", type=int, default=40, help="flights of each of these")
     ask("--real", type=Path, metavar="FOLDER", help="its recordings, *.bin.gz (default: what is shipped)")
-    ask("--ablate", action="store_true", help="fly with one rule after the other switched off")
+    ask(
+        "--ablate",
+        action="store_const",
+        dest="mode",
+        const="ablation",
+        help="without one rule after the other",
+    )
     ask("--rule", action="append", choices=[r.id for r in ablation.RULES], help="of the ablation")
     ask("--jobs", type=int, default=1, help="processes")
     ask("--cache", type=Path, default=CACHE, help="results, a JSON line each")
     ask("--save", type=Path, metavar="CSV", help="keep the results in short")
     ask("--against", type=Path, metavar="CSV", help="compare flight by flight with results in short")
-    options = parser.parse_args(arguments)
-    for name in options.flight:
+    o = parser.parse_args(arguments)
+    for name in o.flight:
         sample, kind, record, index = name.split("/")
         print(json.dumps(fly(Spec(kind, record, int(index), int(sample))), indent=1))
-    if options.flight:
+    if o.flight:
         return 0
-    what = _fly
-    others = (
-        (options.ablate, _ablate),
-        (options.array, _array),
-        (options.catalogue, _catalogue),
-        (options.grammar, _grammar),
-        (options.record, _records),
-        (options.ceiling, _ceiling),
-    )
-    for asked, other in others:
-        what = other if asked else what
+    o.mode = o.mode or ("record" if o.record else "flights")
+    cache = o.cache if o.mode in ("flights", "record") else o.cache.with_stem(f"{o.cache.stem}-{o.mode}")
     try:
-        with pool_of(options.jobs) as pool:
-            rows = what(options, source_digest(), pool)
-        if options.save is not None:
-            write_rows(rows, options.save)
+        with pool_of(o.jobs) as pool:
+            rows = (_ablate if o.mode == "ablation" else _run_mode)(o, Cache(cache, source_digest()), pool)
+        if o.save is not None:
+            write_rows(rows, o.save)
     except KeyboardInterrupt:
         print("interrupted: run it again to go on", file=sys.stderr)
         return 130

@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import optimize
 
 from benchmarks.diagnosis import plan, score
 from benchmarks.diagnosis.fly import fly
@@ -116,10 +115,6 @@ class Rule:
     kinds: Kinds
     patches: tuple[Patch, ...]
 
-    @property
-    def there(self) -> bool:
-        return all(p.there for p in self.patches)
-
 
 def _first(*args: Any) -> Any:
     return args[0]
@@ -149,42 +144,8 @@ def _level(*args: Any) -> Any:
     return Level()
 
 
-def _scipy(linearise: Callable[[Array], Any], start: Array, most: int = 150, ceiling: float = np.inf) -> Any:
-    """``scipy.optimize.least_squares`` on the R factors: residual [y, sqrt(rest)], Jacobian -R."""
-    from ragg_runtime.estimation.least_squares import Minimum, is_settled
-
-    known: dict[bytes, Any] = {}
-
-    def at(x: Array) -> Any:
-        key = x.tobytes()
-        if key not in known:
-            while len(known) > 3:
-                known.pop(next(iter(known)))
-            known[key] = linearise(x)
-        return known[key]
-
-    def residual(x: Array) -> Array:
-        p = at(x)
-        there = np.isfinite(p.cost)
-        return np.append(p.y, np.sqrt(p.rest)) if there else np.full(len(x) + 1, 1e100)
-
-    def jacobian(x: Array) -> Array:
-        return np.vstack([-at(x).R, np.zeros((1, len(x)))])
-
-    x = np.array(start, dtype=np.float64)
-    if not np.isfinite(at(x).cost):
-        return Minimum(x=x, at=at(x), converged=False, reason="no finite output")
-    got = optimize.least_squares(residual, x, jac=jacobian, ftol=1e-7, xtol=1e-10, gtol=1e-10, max_nfev=most)
-    end = at(got.x)
-    arrived = bool(got.status > 0 or is_settled(end))
-    return Minimum(x=got.x, at=end, converged=arrived, reason=got.message, faithful=True)
-
-
 # fmt: off
 RULES: tuple[Rule, ...] = (
-    Rule("trust-region", "own trust region instead of scipy.optimize.least_squares",
-         (*OFF, ("strong", "white"), ("pair", "red")),
-         (Patch("estimation.calibration:minimise", _scipy, constant=True),)),
     Rule("line-rival", "a line beside a multiple of the spin rate in the place of an effect",
          (*quiet("near-line"), ("ten", "white"), ("quiet", "spin-off")),
          (Patch("identification.verdict:find_line_rival", lambda *a: (None, ()), acts=lambda r: r[0] is not None or bool(r[1])),)),
@@ -335,7 +296,7 @@ def watching(acted: set[str]) -> Iterator[None]:
         return call
 
     with ExitStack() as stack:
-        for rule, p in ((r, p) for r in RULES for p in r.patches if p.there):
+        for rule, p in ((r, p) for r in RULES for p in r.patches):
             if p.constant:
                 acted.add(rule.id)
             else:
