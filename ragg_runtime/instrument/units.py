@@ -223,7 +223,7 @@ def _values(value: object, where: str | None, count: int) -> float | tuple[float
             "wrong number of values",
             where=where,
             found=f"{len(value)} values",
-            expected=f"one number, or {count} ({_each(count)})" if count > 1 else "one number",
+            expected=f"one number, or {count} ({_count_up(count, 'A')})" if count > 1 else "one number",
         )
     return tuple(_number(v, where) for v in value)
 
@@ -259,17 +259,14 @@ def _not_a_quantity(raw: object, where: str | None, count: int) -> UserError:
         where=where,
         found=repr(raw),
         expected='"0.1 m", { value = 0.1, unit = "m" }'
-        + (f' or {{ value = [{_numbers(count)}], unit = "m" }}' if count > 1 else ""),
+        + (f' or {{ value = [{_count_up(count)}], unit = "m" }}' if count > 1 else ""),
     )
 
 
-def _each(count: int) -> str:
-    """A1, A2 ... A8."""
-    return ", ".join(f"A{k + 1}" for k in range(count)) if count <= 4 else f"A1 ... A{count}"
-
-
-def _numbers(count: int) -> str:
-    return ", ".join(str(k + 1) for k in range(count)) if count <= 4 else f"1, 2, ... {count}"
+def _count_up(count: int, before: str = "") -> str:
+    """1, 2, 3 or 1 ... 8, each with what stands ``before`` it."""
+    each = [f"{before}{k + 1}" for k in range(count)]
+    return ", ".join(each) if count <= 4 else f"{each[0]} ... {each[-1]}"
 
 
 def _dimension(unit: Any) -> str:

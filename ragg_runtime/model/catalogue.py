@@ -9,8 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.model.derive import list_own_entries
+from ragg_runtime.model.derive import find_effect, list_own_entries
 from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.sections import Section, render_notebook
 
@@ -28,15 +27,7 @@ class Catalogue:
         return iter(self.entries)
 
     def __getitem__(self, identifier: str) -> Mapping[str, Any]:
-        found = {str(e["id"]): e for e in self.entries}
-        if identifier not in found:
-            raise UserError(
-                "unknown effect",
-                found=repr(identifier),
-                expected="an id listed by `ragg effects`",
-                remedy=did_you_mean(identifier, found),
-            )
-        return found[identifier]
+        return find_effect({str(e["id"]): e for e in self.entries}, identifier)
 
     def __repr__(self) -> str:
         return f"<Catalogue: {len(self.entries)} effects>"

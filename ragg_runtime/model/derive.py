@@ -16,7 +16,7 @@ from importlib import metadata, resources
 from importlib.metadata import entry_points
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.base.files import read_text, write_text
@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from derive.layout import SymbolicLayout
     from derive.pipeline import SymbolicForm
 
+
+E = TypeVar("E")
 
 _SYMPY = threading.RLock()
 """One thread at a time derives: SymPy's caches are not made for several."""
@@ -58,9 +60,7 @@ def list_known(instrument: Instrument) -> Mapping[str, SymbolicEffect]:
     return {e.id: e for e in found}
 
 
-def find_effect(
-    effects: Mapping[str, SymbolicEffect], identifier: str, where: str | None = None
-) -> SymbolicEffect:
+def find_effect(effects: Mapping[str, E], identifier: str, where: str | None = None) -> E:
     """The effect of this id; UserError if there is none."""
     if identifier in effects:
         return effects[identifier]

@@ -45,30 +45,24 @@ def low_pass(rate: float, *, cutoff: float = CUTOFF, attenuation: float = ATTENU
     """Linear-phase FIR low-pass of odd length, unit gain at zero frequency (Kaiser window).
 
     Samples of one function of time, whatever the rate: channels that were made at one and thinned out to another have
-    passed the same filter. (Lengths rounded at each rate moved the edge of the band by 1e-3: ten thousand eotvos where the
-    output before demodulation is ten million.)
-
-    Parameters
-    ----------
-    rate, cutoff
-        Hz.
-    attenuation
-        dB.
+    passed the same filter. ``rate``, ``cutoff``: Hz; ``attenuation``: dB.
     """
+    from scipy.signal import kaiser_beta  # slow to import
+
     if not (np.isfinite(rate) and 0 < cutoff - WIDTH / 2 < cutoff + WIDTH / 2 < rate / 2):
         raise UserError(
             "the low-pass does not fit the sampling rate",
             found=f"cutoff {cutoff:g} Hz, transition {WIDTH:g} Hz, rate {rate:g} Hz",
             expected="a pass band above zero and a stop band below half of the rate",
         )
-    # Kaiser's rules (1974): the length for the transition, the window's shape for the attenuation
+    # Kaiser's rule (1974) for the transition
     length = int(np.ceil((attenuation - 7.95) / 2.285 / (np.pi * WIDTH / (REFERENCE / 2)) + 1))
-    above = max(0.0, attenuation - 21.0)
-    beta = 0.1102 * (attenuation - 8.7) if attenuation > 50 else 0.5842 * above**0.4 + 0.07886 * above
     half = (length // 2) / REFERENCE
     reach = int(half * rate * (1 + 1e-12))
     t = np.arange(-reach, reach + 1) / rate
-    taps = np.sinc(2 * cutoff * t) * i0(beta * np.sqrt(np.clip(1 - (t / half) ** 2, 0.0, None)))
+    taps = np.sinc(2 * cutoff * t) * i0(
+        kaiser_beta(attenuation) * np.sqrt(np.clip(1 - (t / half) ** 2, 0.0, None))
+    )
     return np.asarray(taps / np.sum(taps), dtype=np.float64)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, check_choice
 from ragg_runtime.signals.demodulate import CUTOFF as HALF_AMPLITUDE
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.fir import Series, convolve
@@ -193,6 +193,5 @@ DEMODULATORS: Mapping[str, Callable[[float], Demodulator]] = MappingProxyType(
 @cache
 def find_demodulator(name: str, rate: float) -> Demodulator:
     """The demodulator of this name; UserError if there is none."""
-    if name not in DEMODULATORS:
-        raise UserError("there is no such demodulator", found=repr(name), expected=", ".join(DEMODULATORS))
+    check_choice(name, tuple(DEMODULATORS), "demodulator", "there is no such demodulator")
     return DEMODULATORS[name](rate)

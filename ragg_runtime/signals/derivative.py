@@ -27,11 +27,10 @@ def differentiate(x: Array, rate: float, valid: NDArray[np.bool_] | None = None)
     """Time derivative of ``x`` along its last axis, in units of x per second.
 
     A window of 25 samples, weighted by least squares for motion below 42 % of the Nyquist frequency, exact
-    for polynomials up to the fourth degree. Measured on sines up to 40 % of Nyquist, error over amplitude of
-    the derivative: below 1e-6 with six samples or more on either side; towards an end or a gap 5e-5, the last
-    sample but one 1.5e-4, the last 1e-3. There more accuracy would multiply noise: white noise of ``x`` grows
-    by 1.2 ``rate`` inside, 6 ``rate`` at the last sample but one, 30 ``rate`` at the last. Above the band
-    this is no derivative.
+    for polynomials up to the fourth degree. Error over amplitude of the derivative, of sines up to 40 % of
+    Nyquist: below 1e-6 with six samples or more on either side; towards an end or a gap 5e-5, the last
+    sample but one 1.5e-4, the last 1e-3. White noise of ``x`` grows by 1.2 ``rate`` inside, 6 ``rate`` at the
+    last sample but one, 30 ``rate`` at the last. Above the band this is no derivative.
 
     Parameters
     ----------
@@ -40,8 +39,7 @@ def differentiate(x: Array, rate: float, valid: NDArray[np.bool_] | None = None)
     rate
         Sampling rate, Hz.
     valid
-        (N,) bool, False where there is no sample; NaN counts as none as well. Each run of samples is
-        differentiated separately, so that nothing is carried over a gap.
+        (N,) bool, False where there is no sample, as is NaN. Each run of samples is differentiated by itself.
 
     Returns
     -------
