@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -221,9 +221,7 @@ _FOUR = tuple(
 
 def paper(radius: float, spin_frequency: float) -> Layout:
     """The paper's instrument: A1 ... A4 at 0, 180, 90 and 270 degrees, G_out = V_1 + V_2 - V_3 - V_4."""
-    places = tuple(
-        AccelerometerPosition(name=p.name, disc=0, angle=p.angle, radius=radius, sign=p.sign) for p in _FOUR
-    )
+    places = tuple(replace(p, radius=radius) for p in _FOUR)
     return Layout(discs=(Disc(name="", spin_frequency=spin_frequency),), places=places)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,28 +18,18 @@ _EARTH_FIELD = (1.5e-5, 1.0e-5, -4.5e-5)
 """Magnetic flux density in the measurement frame, T."""
 
 
-@dataclass(frozen=True)
-class Warming:
-    """Temperature that settles exponentially from one value to another, with slow swings, K."""
-
-    change: float
-    constant: float
-    swing: Sinusoids
-
-    def __call__(self, time: Array) -> Array:
-        """Temperature at (N,) s."""
-        settled = -np.expm1(-time / self.constant)
-        return REFERENCE_TEMPERATURE + self.change * settled + self.swing.value(time)
-
-
 def plausible(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
     """Temperature, roll, pitch, pressure and magnetic field of a survey line.
 
     It warms by 2 K with a time constant of 20 minutes, and swings slowly by 0.1 K.
     """
     swings = Sinusoids(0.0, 0.1 * np.array([0.7, 0.3]), 1 / rng.uniform(200, 900, 2), rng.uniform(0, 6.28, 2))
+
+    def warming(time: Array) -> Array:
+        return REFERENCE_TEMPERATURE + 2.0 * -np.expm1(-time / 1200.0) + swings.value(time)
+
     return {
-        "temperature": Warming(2.0, 1200.0, swings),
+        "temperature": warming,
         "roll": _attitude(rng).value,
         "pitch": _attitude(rng).value,
         "pressure": _slow(rng, REFERENCE_PRESSURE - 3000.0, 300.0).value,
