@@ -141,7 +141,7 @@ REMEDIES = {
     "diagnosed": "wait until every effect is tested",
     "unwhitened": "wait until every effect is tested",
     "previous": "derive an effect into the model first",
-    "compensated": "compensate the flights under Apply",
+    "compensated": "compensate the flights under Compensation",
 }
 
 

@@ -249,7 +249,7 @@ def test_07_compensated_channels_and_files(page: Page) -> None:
     idle(page)
     page.keyboard.press("7")
     with page.expect_download() as got:
-        page.get_by_role("link", name="The commands").click()
+        page.get_by_role("link", name="Shell commands").click()
     commands = Path(got.value.path()).read_text()
     for verb in ("diagnose", "compensate"):
         assert f"ragg {verb}" in commands

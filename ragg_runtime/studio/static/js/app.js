@@ -12,13 +12,13 @@ import { known, look, on, recall, server, view } from "./store.js";
 import { loopView } from "./loop.js";
 
 const VIEWS = [
-  ["loop", "Loop", loopView],
+  ["loop", "Diagnosis", loopView],
   ["parameters", "Parameters", parametersView],
   ["sheet", "Test sheet", sheetView],
   ["history", "History", historyView],
   ["files", "Files", filesView],
-  ["apply", "Apply", applyView],
-  ["take", "Save", takeView],
+  ["apply", "Compensation", applyView],
+  ["take", "Export", takeView],
 ];
 const $ = (id) => document.getElementById(id);
 let leave = null;

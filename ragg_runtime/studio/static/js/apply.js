@@ -45,7 +45,7 @@ export function applyView(main) {
 
   const known = () => {
     const { state } = server;
-    if (!state || !state.model) return void fill(main, h("p.empty-note", {}, "Open a model and a flight to apply it."));
+    if (!state || !state.model) return void fill(main, h("p.empty-note", {}, "Open a model and a flight to compensate it."));
     if (!box.isConnected) fill(main, box, figures);
     compensation(state);
     curves(state);
@@ -62,11 +62,11 @@ const FILES = [
   ["steps.html", "Report of the steps", "the error before and after, step by step"],
   ["diagnosis.json", "Diagnosis as JSON", "every number, with its provenance"],
   ["compare.json", "Comparison as JSON", "errors before and after calibration, terms, outputs"],
-  ["compensated.csv", "Compensated channels", "inline and cross with their standard uncertainties (first compensate under Apply)"],
+  ["compensated.csv", "Compensated channels", "inline and cross with their standard uncertainties (see Compensation)"],
   ["model.toml", "The model", "test sheet and effects with their calibrated values"],
   ["model-c.zip", "The model in C", "a C17 program with the saved calibration, else the test sheet’s values"],
   ["model-numpy.zip", "The model for NumPy", "the same as a folder that runs with NumPy alone"],
-  ["commands.sh", "The commands", "the same in a shell"],
+  ["commands.sh", "Shell commands", "the same steps as ragg commands"],
 ];
 
 export function takeView(main) {
@@ -75,9 +75,9 @@ export function takeView(main) {
     const ready = { "diagnosis.html": state && state.effects.length, "diagnosis.json": state && state.effects.length, "compare.html": state && state.banner, "compare.json": state && state.banner, "steps.html": state && state.before && state.banner, "compensated.csv": state && state.compensated, "model.toml": state && state.model, "model-c.zip": state && state.model, "model-numpy.zip": state && state.model, "commands.sh": state && state.model };
     fill(
       main,
-      h("section.card", {}, h("h2", {}, "Files"),
+      h("section.card", {}, h("h2", {}, "Downloads"),
         h("ul.downloads", {}, FILES.map(([name, title, about]) => h("li", {}, ready[name] ? h("a", { href: `/api/take/${name}`, download: name }, title) : h("span.quiet", {}, title), h("small", {}, about))))),
-      h("section.card", {}, h("h2", {}, "The same in a shell"),
+      h("section.card", {}, h("h2", {}, "Shell commands"),
         state && state.commands.length ? h("pre", { tabindex: "0" }, state.commands.join("\n")) : h("p.note", {}, "Open a model first."),
         state && state.commands.length ? h("div.row", {}, h("button", { type: "button", onclick: (e) => navigator.clipboard.writeText(state.commands.join("\n")).then(() => (e.target.textContent = "Copied")) }, "Copy")) : null,
         h("p.note", {}, "The view is stored in the URL, the steps in the model directory: closing the page loses nothing.")),

@@ -203,7 +203,6 @@ export function figures(box) {
     heading();
     if (key === shown) return;
     shown = key;
-    box.classList.toggle("empty", !flight());
     box.classList.toggle("waiting", !ready());
     all();
   };

@@ -11,8 +11,10 @@ export function loopView(main) {
   const left = h("div.figures"), noise = h("div.noise-pane");
   const right = h("aside.effects", { "aria-label": "Effects" });
   const below = h("section.unexplained", { "aria-label": "What is unexplained" });
-  main.replaceChildren(top, h("div.columns", {}, h("div.left", {}, left, noise), h("div.side", {}, right, below)));
-  const parts = [banner(top), figures(left), noisePane(noise), validationPane(noise), effectsPane(right), unexplainedPane(below)];
+  const columns = h("div.columns", {}, h("div.left", {}, left, noise), h("div.side", {}, right, below));
+  main.replaceChildren(top, columns);
+  const empty = { known: () => (columns.hidden = !(server.state && server.state.flights.length)) };
+  const parts = [empty, banner(top), figures(left), noisePane(noise), validationPane(noise), effectsPane(right), unexplainedPane(below)];
   const off = on("server", () => parts.forEach((p) => p.known && p.known()));
   parts.forEach((p) => p.known && p.known());
   return () => {

@@ -128,12 +128,12 @@ export function historyView(main) {
         h("thead", {}, h("tr", {}, h("th", {}, "no."), h("th", {}, "when"), h("th", {}, "step"), h("th.n", {}, "before, Eo"), h("th.n", {}, "after, Eo"), h("th.n", {}, "held out, Eo"), h("th", {}, "flights"), h("th", { "aria-label": "what can be done" }))),
         h("tbody", {}, [...history.steps].reverse().map((s) => h("tr", { class: s.present ? "" : "abandoned" },
           h("td", {}, String(s.n + 1)), h("td", {}, new Date(s.time).toLocaleString("sv")),
-          h("th", { scope: "row" }, `${SAID[s.action] || s.action} `, s.action === "add" || s.action === "remove" ? h("code", {}, s.effect) : /^\d+$/.test(s.effect) ? `to the state after step ${Number(s.effect) + 1}` : s.effect, s.n === history.now ? h("em.badge", {}, "present") : null),
+          h("th", { scope: "row" }, `${SAID[s.action] || s.action} `, s.action === "add" || s.action === "remove" ? h("code", {}, s.effect) : /^\d+$/.test(s.effect) ? `to the state after step ${Number(s.effect) + 1}` : s.effect, s.n === history.now ? h("em.badge", {}, "current") : null),
           [s.before, s.after, s.holdout].map((x) => h("td.n", {}, x === null ? "–" : number(x))),
           h("td", {}, s.flights.join(", ")),
           h("td.do", {},
             s.kept && s.n !== history.now ? h("button", { type: "button", disabled: busy, onclick: () => doing("restore", { step: s.n }), "aria-label": `Go back to the state after step ${s.n + 1}` }, "go back") : null,
-            s.kept && s.n !== history.now && state.flights.length ? h("button", { type: "button", disabled: busy, onclick: () => doing("beside", { step: s.n }), "aria-label": `Compare the state after step ${s.n + 1} beside the present one` }, "beside") : null)))))));
+            s.kept && s.n !== history.now && state.flights.length ? h("button", { type: "button", disabled: busy, onclick: () => doing("beside", { step: s.n }), "aria-label": `Compare the state after step ${s.n + 1} beside the present one` }, "compare") : null)))))));
   };
   known();
   return on("server", known);
