@@ -239,7 +239,8 @@ def gain(o: Output, k1: Array, R: Array) -> complex:
 
     ``k1`` = k_VI K1 and radii ``R``, (n,), of all accelerometers of the layout.
     """
-    return complex(np.sum(k1[list(o.members)] * R[list(o.members)] * np.multiply(o.signs, o.carriers)))
+    w, seen = k1[list(o.members)] * R[list(o.members)], np.multiply(o.signs, o.carriers)
+    return complex(np.sum(w * seen.real), np.sum(w * seen.imag))
 
 
 def sees(o: Output, k1: Array, R: Array) -> bool:
