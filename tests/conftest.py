@@ -7,6 +7,7 @@ import gc
 import os
 import shutil
 import tempfile
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import settings
@@ -49,15 +50,29 @@ DEAREST = (
     "test_report.py",
     "test_quality.py",
 )
-"""Files that take ten seconds and more, the longest first: what one worker begins last the other waits for."""
+"""Files that take seven seconds and more, the longest first: what one worker begins last the other waits for."""
 
 
-@pytest.fixture
-def no_next_motion(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No motion to fly next is sought, which takes a fifth of a diagnosis: for what is about the verdict."""
+WHOLE = ("test_next_motion.py", "test_outputs.py", "test_screening_mistakes.py")
+"""Files in which nothing is left out of reading and diagnosis; servers and other processes of their own leave nothing out either."""
+
+SCREENED = (*WHOLE, "test_form.py", "test_bad_input_messages.py", "test_reference_pages.py")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def brief(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Elsewhere no mistake of time is looked for in a flight, and no motion to fly next: they take most of a reading, and a fifth
+    of a diagnosis.
+    """
     from ragg_runtime.identification import next_motion
+    from ragg_runtime.screening import timing
 
-    monkeypatch.setattr(next_motion, "propose_motions", lambda *_: ())
+    with pytest.MonkeyPatch.context() as patch:
+        if request.path.name not in WHOLE:
+            patch.setattr(next_motion, "propose_motions", lambda *_: ())
+        if request.path.name not in SCREENED:
+            patch.setattr(timing, "propose_times", lambda *_: [])
+        yield
 
 
 @pytest.fixture

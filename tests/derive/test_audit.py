@@ -119,9 +119,6 @@ def test_derivation_equals_direct_evaluation_exactly(seed):
             assert proof.current(derived_transducer(), p, j) == direct.current(p, j, p.a)
 
 
-# --- dynamic experiment ---
-
-
 def test_scale_factor_is_the_papers():
     assert experiment.scale_factor() * experiment.EOTVOS == pytest.approx(4.54e-4, rel=1e-3)
 
@@ -134,10 +131,3 @@ def test_signal_costs_what_it_is():
     assert c.inline == pytest.approx(2 * mean, rel=1e-12)
     # The harmonics of T_1 (once and twice the spin rate) do not leak into the other channel.
     assert c.cross == pytest.approx(0, abs=1e-6 * mean)
-
-
-def test_demodulation_rejects_constants_and_the_first_harmonic():
-    read = model_reader().read
-    c = experiment.cost({"A_0": read("D_{k_0}^{1234}"), "A_1c": read("D_{k_0}^{12}")})
-    assert c.rms > 0
-    assert (c.inline, c.cross) == (0, 0)

@@ -14,11 +14,10 @@ from derive import ir
 from derive.chain import recorded_motion
 from derive.context import Context
 from derive.effects import catalogue
-from derive.propagation import MOTION_NUMBERS, collect, ideal
 from derive.rotation import small_rotation
 from derive.stages import EXACT
 from derive.symbols import ACCELEROMETER, MOTION, SPIN_ACCELERATION, SPIN_RATE
-from derive.tape import About, Tape, partials
+from derive.tape import Tape, partials
 from tests.derive.evaluated import Evaluated, neutral_values
 
 X, Y, Z = sp.symbols("x y z", real=True)
@@ -107,46 +106,6 @@ def test_signatures_are_the_derivatives_of_the_whole_model_at_neutral_values() -
         np.testing.assert_allclose(
             found[n], expected[n], rtol=1e-12, atol=1e-12 * np.max(np.abs(expected[n])), err_msg=n
         )
-
-
-def test_degrees_and_rates_up_to_them() -> None:
-    x, a, b, t = sp.symbols("x a b t", real=True)
-    small = frozenset({a, b})
-    tape = Tape()
-    first = tape.let("first", x + a * t)
-    second = tape.let("second", first**2 + sp.sin(b * t) * first)
-    degrees = {
-        e: tape.degree(e, small) for e in (x, a * b, first, second, sp.sin(a), sp.cos(a), a**3, a * first + x)
-    }
-    assert list(degrees.values()) == [0, 2, 0, 0, 1, 0, 3, 0]
-
-    def base(s: sp.Symbol) -> sp.Expr:
-        return {x: sp.Symbol("v", real=True), t: sp.Integer(1)}.get(s, sp.Integer(0))
-
-    def plain(e: sp.Expr) -> sp.Expr:
-        return e.subs(dict(reversed(tape.assignments))).subs(dict(reversed(tape.assignments)))
-
-    v = base(x)
-    exact = plain(tape.rate(second, base))
-    linear = plain(tape.rate(second, base, About(small, 1)))
-    none = plain(tape.rate(second, base, About(small, 0)))
-    zero = {a: 0, b: 0}
-    assert sp.expand(none.subs(zero) - 2 * x * v) == 0
-    for s in (a, b):
-        assert sp.expand(sp.diff(exact - linear, s).subs(zero)) == 0
-
-
-def test_a_perfect_instrument_sees_two_gradients_at_twice_the_spin_rate() -> None:
-    found = {
-        (
-            name,
-            tuple(n for n, k in zip(MOTION_NUMBERS, t.motion, strict=True) if k),
-            str(t.coefficient.as_expr()),
-        )
-        for name, terms in ideal(collect()).items()
-        for t in terms
-    }
-    assert found == {("A_2s", ("T_1",), "R*k1"), ("A_2c", ("T_2",), "R*k1")}
 
 
 def test_small_rotations_are_rotations_to_second_order() -> None:

@@ -15,9 +15,7 @@ from .__main__ import COMMANDS, OLD, prepared, state
 
 
 @pytest.mark.parametrize("command", ["add", "calibrate"])
-def test_a_command_that_is_cut_off_leaves_the_old_or_the_new_model(
-    command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_command_that_is_cut_off_leaves_the_old_or_the_new_model(command, tmp_path, monkeypatch) -> None:
     """What lies there whenever a file is put in place is kept, as a kill would leave it, and the command repeated."""
     base = prepared(tmp_path / "base")
     places: list[Path] = []

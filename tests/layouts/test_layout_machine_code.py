@@ -32,25 +32,6 @@ def drawn(chain_inputs: tuple[str, ...]) -> np.ndarray:
     return np.stack([rng.standard_normal(N) * size[n.split("_")[0]] for n in chain_inputs])
 
 
-def test_c_agrees_with_numpy() -> None:
-    i = instrument("odd", sheets.EXACT)  # the others against fifty digits
-    model, _ = derive.derived((), (), i.form, i.layout)
-    p = make_vector(model, i)
-    x = drawn(model.chain.INPUTS)
-    t, phi = np.arange(N) / 16.0, np.random.default_rng(3).uniform(-3, 3, N)
-    c, n = model.compiled(), model.compiled(native=False)
-    for k, o in enumerate(i.layout.outputs):
-        gap = c.output(t, x, p, phi, which=k) - n.output(t, x, p, phi, which=k)
-        assert (
-            np.max(np.abs(gap)) / scale_factor(model, p, k) < 1e-3
-        )  # rounding of volts of single accelerometers
-        V, W = (e.voltages(t, x, p, phi, members=o.members) for e in (c, n))
-        assert np.max(np.abs(V - W)) < 1e-14 * np.max(np.abs(W))
-    for j in range(i.layout.size):
-        C, D = (e.derivatives(j, t, x, p, phi) for e in (c, n))
-        assert pytest.approx(D, rel=1e-11, abs=1e-11 * float(np.max(np.abs(D)))) == C
-
-
 INSTANTS = 4
 FEW = 3.0
 """Times the unavoidable: rotated channels are rounded, too, and added in some order."""

@@ -26,7 +26,6 @@ from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.signals.derivative import DEGREES
 from ragg_runtime.simulate import parse_turning, simulate_flight
 from tests.layouts import sheets
-from tests.runtime.commands import ragg
 
 LAYOUTS: dict[str, tuple[Callable[[], list[str]], int]] = {
     "two": (sheets.two, 2),
@@ -82,21 +81,6 @@ def test_derived_agrees_with_reference(name: str, head: str, kinematics: str, ro
     gap = worst(i, flight)
     assert gap < 1e-4, gap  # rounding of a single accelerometer's volt is 1e-6 Eo and more
     assert size / (i.scale_factor * EOTVOS) > 1e3
-
-
-@pytest.mark.parametrize(
-    ("old", "new"),
-    [
-        ('spin_frequency = "0.25 Hz"', 'spin_frequency = "0 Hz"'),
-        ("sign = -1\n", 'sign = -1\nradius = "0.11 m"\n'),
-    ],
-    ids=["still", "radii"],
-)
-def test_the_papers_four_standing_still_or_at_other_radii_are_a_layout_of_their_own(
-    old: str, new: str
-) -> None:
-    i = parse_instrument(sheets.sheet([sheets.disc("A", sheets.four("A", "G_out"))], 4).replace(old, new))
-    assert worst(i, flown(i, "platform", "first-order")) < 1e-4
 
 
 SPINS = {"varies": "0.25,0.4@0.05@0.3", "reverses": "0,9@0.02", "backwards": "-0.25", "stands still": "0"}
@@ -193,13 +177,6 @@ def test_the_encoder_of_a_record_is_flown(tmp_path: Path) -> None:
 def test_what_is_no_turning_is_said(text: str) -> None:
     with pytest.raises(UserError, match="disc"):
         parse_turning([text], instrument("complements").layout)
-
-
-def test_the_option(tmp_path: Path) -> None:
-    assert ragg("new", tmp_path / "m").returncode == 0
-    out = tmp_path / "flight.csv"
-    assert ragg("simulate", tmp_path / "m", "-o", out, "--duration", 5, "--spin", "-0.25").returncode == 0
-    assert np.all(np.diff(np.unwrap(read_flight(out, 9.8).channels["spin_angle"])) < 0)
 
 
 def test_an_encoder_read_at_uneven_instants_turns_evenly() -> None:

@@ -18,8 +18,6 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import read_flight
 from ragg_runtime.model import derive
 
-pytestmark = pytest.mark.usefixtures("no_next_motion")
-
 HERE = Path(record.__file__).parent
 RADIUS = 0.013364
 

@@ -87,42 +87,48 @@ def test_two_discs_are_refused() -> None:
         tensor(axes, channels(axes, TRUE), np.ones(4))
 
 
-def flown(discs: list[str], count: int, duration: float = 600.0) -> several_outputs.Together:
+DURATION = 600.0
+DISCS = {
+    "umbrella": (sheets.umbrella(), 12),
+    "complements": (sheets.complements(), 8),
+    "odd": (sheets.odd(), 4),
+}
+
+
+@cache
+def flight_of(which: str) -> tuple[Instrument, Flight]:
+    """A flight by the reference over a gradient that varies; the sheet knows the instrument to a third of its errors."""
+    discs, count = DISCS[which]
     sheet = parse_instrument(sheets.sheet(discs, count, sheets.FULL))
+    return sheet, flown_by(sheet, DURATION)
+
+
+def compared(which: str) -> several_outputs.Together:
+    sheet, flight = flight_of(which)
     model, _ = derive.derived((), (), sheet.form, sheet.layout)
-    (found,) = several_outputs.compare_outputs(
-        fit(model, sheet, observe_flights([flown_by(sheet, duration)], sheet))
-    )
+    (found,) = several_outputs.compare_outputs(fit(model, sheet, observe_flights([flight], sheet)))
     return found
 
 
 def test_three_discs_see_the_tensor_and_close() -> None:
-    found = flown(sheets.umbrella(), 12)
-    t = found.tensor
+    found = compared("umbrella")
+    t, o = found.tensor, found.fitted.observations[0].record
     assert t is not None
-    true = np.stack(
-        [
-            found.fitted.observations[0].record.channels[f"Gamma_{c}"]
-            for c in ("xx", "xy", "xz", "yy", "yz", "zz")
-        ]
-    )
-    here = np.searchsorted(found.fitted.observations[0].record.time, found.common)
-    off = (t.gamma - true[:, here] / 1e-9) / t.std[:, None]
+    true = np.stack([o.channels[f"Gamma_{c}"] for c in COMPONENTS])
+    off = (t.gamma - true[:, np.searchsorted(o.time, found.common)] / 1e-9) / t.std[:, None]
     assert np.sqrt(np.mean(off**2)) < 1.5  # the calibration takes its own share
     assert 0.7 < t.quality < 1.4
     assert not found.differences()
 
 
 def test_complements_tell_their_noise() -> None:
-    found = flown(sheets.complements(), 8)
+    found = compared("complements")
     assert found.tensor is None
     (told,) = found.differences()
     assert told["outputs"] == ["G_out_A", "G_out_B"]
-    for channel, usual in (("inline", 2.0), ("cross", 1.0)):
+    for channel, usual in (("inline", 2.0), ("cross", 1.0)):  # 2 Eo/sqrt(Hz) of the cross channel
         noise = float(str(told[f"{channel}_Eo"]))
-        assert noise == pytest.approx(
-            usual * 2.0 * np.sqrt(0.2), rel=0.25
-        )  # 2 Eo/sqrt(Hz) of the cross channel
+        assert noise == pytest.approx(usual * 2.0 * np.sqrt(0.2), rel=0.25)
         assert noise == pytest.approx(float(str(told[f"expected_{channel}_Eo"])), rel=0.25)
 
 
@@ -156,22 +162,6 @@ def test_a_step_is_found_in_several_outputs(hidden: str | None, values: dict[str
     size, spread = found[-len(own) :] * scale, scale[:, None] * covariance[-len(own) :, -len(own) :] * scale
     off = np.ravel(given) - size
     assert off @ np.linalg.solve(spread, off) < 30.0  # chi-square of at most eight
-
-
-DURATION = 600.0
-DISCS = {
-    "umbrella": (sheets.umbrella(), 12),
-    "complements": (sheets.complements(), 8),
-    "odd": (sheets.odd(), 4),
-}
-
-
-@cache
-def flight_of(which: str) -> tuple[Instrument, Flight]:
-    """A flight by the reference over a gradient that varies; the sheet knows the instrument to a third of its errors."""
-    discs, count = DISCS[which]
-    sheet = parse_instrument(sheets.sheet(discs, count, sheets.FULL))
-    return sheet, flown_by(sheet, DURATION)
 
 
 @cache

@@ -1,11 +1,9 @@
-"""A diagnosis of simulated flights under their sheet, with all that the catalogue can derive; no motion to fly next is sought."""
+"""A diagnosis of simulated flights under their sheet, with all that the catalogue can derive."""
 
 from __future__ import annotations
 
 from functools import partial
-from unittest import mock
 
-from ragg_runtime.identification import next_motion
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import Instrument
@@ -17,5 +15,4 @@ from ragg_runtime.reference.scenario import Scenario
 def diagnosed(known: Scenario | Instrument, *flights: Flight) -> Diagnosis:
     """``known``: the sheet, or a scenario that has one."""
     sheet = known.sheet if isinstance(known, Scenario) else known
-    with mock.patch.object(next_motion, "propose_motions", lambda *_: ()):
-        return diagnose(derive.load_model(sheet), sheet, flights, partial(derive.with_effects, sheet))
+    return diagnose(derive.load_model(sheet), sheet, flights, partial(derive.with_effects, sheet))

@@ -23,8 +23,6 @@ from ragg_runtime.signals.derivative import (
     predict_missing,
 )
 
-pytestmark = pytest.mark.usefixtures("no_next_motion")
-
 RATE = 16.0
 
 
@@ -55,9 +53,8 @@ def test_lost_rates_are_predicted_from_those_beside_them() -> None:
         [(f - x)[~there] for f in (predict_missing(x, there), bridge_gaps(x, there, smooth=True))], axis=1
     )
     assert off[0] < off[1] / 50
-    assert np.array_equal(
-        predict_missing(x, ~there), bridge_gaps(x, ~there, smooth=True)
-    )  # nothing to learn from
+    # nothing to learn from
+    assert np.array_equal(predict_missing(x, ~there), bridge_gaps(x, ~there, smooth=True))
 
 
 def test_gaps_cost_little_of_short_runs() -> None:
@@ -87,7 +84,7 @@ def test_an_unmatched_instrument_sampled_slowly_is_not_accused() -> None:
 
 
 def test_the_error_of_the_derivative_is_part_of_the_noise() -> None:
-    sheet, flight = derived(7016, 8.0, "table-v", 900.0)
+    sheet, flight = derived(7016, 8.0, "table-v", 450.0)
     c = compare(load_packaged(), sheet, [flight])
     assert c.calibrated.rms_Eo == pytest.approx(measure_noise_floor(c.fitted), rel=0.15)
     assert c.noise_floor > 3 * 2.8, "it is the largest part"

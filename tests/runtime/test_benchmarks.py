@@ -9,7 +9,7 @@ import numpy as np
 from benchmarks import Row, evaluation
 from benchmarks.__main__ import find_benchmarks, main, page
 from benchmarks.evaluation import instrument_and_motion
-from benchmarks.rivals import memory_traffic, program, write_function
+from benchmarks.rivals import program, write_function
 from generated import folded
 
 
@@ -48,13 +48,6 @@ def test_the_rival_is_given_the_same_model() -> None:
     true, phi = folded.output(t, x, p), 2 * np.pi * p[1] * t
     found = write_function(program(p), np)(np.cos(phi), np.sin(phi), *x)
     np.testing.assert_allclose(found, true, rtol=0, atol=1e-9 * np.max(np.abs(true)))
-
-
-def test_the_memory_bound_reads_all_series() -> None:
-    t, x, _ = instrument_and_motion(100)
-    out = np.empty(len(t))
-    memory_traffic()(t, x, out)
-    np.testing.assert_allclose(out, t + x.sum(axis=0), rtol=1e-12)
 
 
 def test_what_is_timed_is_what_fifty_digits_say() -> None:

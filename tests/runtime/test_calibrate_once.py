@@ -123,9 +123,7 @@ def test_what_is_compensated_by_a_calibration_that_does_not_hold_says_so(kept: t
 
 
 @pytest.mark.parametrize(("changed", "holds"), [(0.0, True), (1e-6, False)])
-def test_of_a_long_flight_some_blocks_say_whether_it_holds(
-    changed: float, holds: bool, kept: tuple[Any, ...], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_of_a_long_flight_some_blocks_say_whether_it_holds(changed, holds, kept, monkeypatch) -> None:
     """Without an encoder the disc's angle counts from the flight's beginning, not from a block's."""
     monkeypatch.setattr(frozen, "TESTED", 500)
     c = api.compensate(api.load(kept[0]), [flights(changed)[1]], "frozen").as_json()
@@ -137,9 +135,9 @@ def test_chi_square_is_one_a_direction_if_nothing_changed() -> None:
     """Over several pairs of flights of unchanged instruments the statistic has its mean."""
     total, directions, model = 0.0, 0, load.load_packaged()
     for seed in (1, 2):
-        s = scenario(seed, duration=300.0, rate=RATE)
+        s = scenario(seed, duration=200.0, rate=RATE)
         saved = make_saved(calibrate(model, s.sheet, [s.simulate({}).flight()]), [], "now")
-        t = scenario(seed + 50, duration=300.0, rate=RATE)
+        t = scenario(seed + 50, duration=200.0, rate=RATE)
         x = dataclasses.replace(s, motion=t.motion, seed=t.seed).simulate({}).flight()
         h = frozen.compare_frozen(model, s.sheet, [x], saved)
         total, directions = total + h.change.chi2, directions + len(h.change.z)
@@ -237,13 +235,11 @@ def test_parameters_walk_on_between_flights(monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
     """What is compensated with them is as sure as it says; with constant parameters it is not."""
-    s = scenario(3, duration=600.0, rate=RATE, gradient_rms=50e-9)
+    s = scenario(3, duration=450.0, rate=RATE, gradient_rms=50e-9)
     still = s.simulate({}).flight()
     f = fit(load_packaged(), s.sheet, observe_flights([still], s.sheet), candidates=False)
     assert drift.smooth_drift(f, [still]).rates == {}
-    x = s.simulate(
-        {"gain-drift": {"dK1_dt": [2e-10, -2e-10, 4e-11, -4e-11]}}
-    ).flight()  # 1/s: 1e-7 over the flight
+    x = s.simulate({"gain-drift": {"dK1_dt": [2e-10, -2e-10, 4e-11, -4e-11]}}).flight()  # 1/s: 1e-7 in 500 s
     rms = {}
     for kind in ("self", "smoothed"):
         c = make_channel(prepare(load_packaged(), s.sheet, [x], kind), 0, "fir")  # type: ignore[arg-type]

@@ -14,7 +14,6 @@ from test_reference_pages import PYTHON
 from test_report import Page
 
 from ragg_runtime.api import Added
-from ragg_runtime.identification import next_motion
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.survey.result import Survey
@@ -41,8 +40,7 @@ def result(tmp_path_factory: pytest.TempPathFactory) -> Result:
     (folder / "examples").mkdir()
     whole = pq.read_table(EXAMPLES / "demo-flight.parquet")
     pq.write_table(whole.slice(0, 2880), folder / "examples" / "demo-flight.parquet")
-    with contextlib.chdir(folder), pytest.MonkeyPatch.context() as patch:
-        patch.setattr(next_motion, "propose_motions", lambda *_: ())  # test_next_motion.py has these
+    with contextlib.chdir(folder):
         exec(PYTHON, made)
     assert made["analytical"] and made["simplified"]
     return Result(made["step"].before, made["d"], made["step"])

@@ -52,9 +52,6 @@ def _row(rows: tuple[PrintedEntry, ...], quantity: str) -> PrintedEntry:
     return found
 
 
-# --- verdicts ---
-
-
 def test_a_number_is_met_to_its_last_digit_and_a_disagreement_open_only_within_reach() -> None:
     for text, ours, agrees in (
         ("-0.72", -0.7249, True),
@@ -71,12 +68,7 @@ def test_a_number_is_met_to_its_last_digit_and_a_disagreement_open_only_within_r
     assert judge("x", printed, 3.0, unexplained="no").verdict == "unexplained"
 
 
-# --- III.A ---
-
-
-def test_centre_gradient_is_that_of_a_point_mass(
-    beside_the_mass: tuple[Channels, dict[str, Channels]],
-) -> None:
+def test_centre_gradient_is_that_of_a_point_mass(beside_the_mass) -> None:
     c, _ = beside_the_mass
     angle = np.deg2rad(c.time + 0.1 / 0.0628 * (1 - np.cos(0.0628 * c.time)))
     amplitude = 3 * G * 486 / 1.2**3 * 1e9
@@ -84,9 +76,7 @@ def test_centre_gradient_is_that_of_a_point_mass(
     np.testing.assert_allclose(c.cross, amplitude / 2 * np.sin(2 * angle), rtol=0, atol=1e-9)
 
 
-def test_numerical_difference_is_the_next_multipoles(
-    beside_the_mass: tuple[Channels, dict[str, Channels]],
-) -> None:
+def test_numerical_difference_is_the_next_multipoles(beside_the_mass) -> None:
     # cos 2x in P_4 and P_6 of the potential of a mass in the disc's plane, over that in P_2.
     ratio = (0.1 / 1.2) ** 2
     factor = (20 / 64) / (3 / 4) * ratio + (105 / 512) / (3 / 4) * ratio**2
@@ -95,16 +85,11 @@ def test_numerical_difference_is_the_next_multipoles(
     np.testing.assert_allclose(found["numerical"].cross, factor * c.cross, rtol=0, atol=2e-4)
 
 
-def test_derived_models_measure_the_centre(
-    beside_the_mass: tuple[Channels, dict[str, Channels]], third_a: Experiment
-) -> None:
+def test_derived_models_measure_the_centre(beside_the_mass, third_a) -> None:
     _, found = beside_the_mass
     for model in ("analytical", "simplified"):
         assert np.abs([found[model].inline, found[model].cross]).max() < 1e-4
     assert _row(third_a.rows, "numerical minus centre, largest of both channels").verdict == "agrees"
-
-
-# --- III.B ---
 
 
 def test_analytical_error_is_second_order_coefficients_times_angles() -> None:
@@ -113,9 +98,6 @@ def test_analytical_error_is_second_order_coefficients_times_angles() -> None:
     assert np.abs(run.G_out).max() > 1e5
     zero = dict.fromkeys(("K2", "K4", "K5", "K6", "K7", "K8"), 0.0)
     assert np.abs(find_error("analytical", run_regular(table_v().replace(**zero)))).max() < 1e-8
-
-
-# --- III.C ---
 
 
 def test_turbulence_has_the_moments_of_table_vii() -> None:
@@ -133,12 +115,7 @@ def test_turbulence_has_the_moments_of_table_vii() -> None:
     np.testing.assert_allclose(np.rad2deg(state.omega).mean(axis=1) * 3600, omega_mean, atol=1.5)
 
 
-# --- what a reader gets ---
-
-
-def test_the_page_counts_the_verdicts_of_all_printed_numbers(
-    third_a: Experiment, third_b: Experiment, third_c: Experiment
-) -> None:
+def test_the_page_counts_the_verdicts_of_all_printed_numbers(third_a, third_b, third_c) -> None:
     text = write_page([third_a, third_b, third_c])
     assert "Of 42 printed numbers, **15 agree**, **20 depend on an input" in " ".join(text.split())
     for row in third_c.rows:

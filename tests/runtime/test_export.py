@@ -38,15 +38,12 @@ WARNED = "CFLAGS=-std=c17 -O0 -Wall -Wextra -Wconversion -Wno-sign-conversion -W
 STRICT = f"{WARNED} -fsanitize=undefined,address -fno-sanitize-recover=all"
 
 
-def make(folder: Path, *arguments: str) -> str:
-    done = subprocess.run(["make", "-C", folder, *arguments], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
 def make_strictly(folder: Path, target: str) -> str:
     """With every warning an error, and for the sanitizers."""
-    return make(folder, STRICT, target)
+    words = ["make", "-C", folder, STRICT, target]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
 
 
 def program(folder: Path, motion: bytes) -> subprocess.CompletedProcess[bytes]:
@@ -72,7 +69,7 @@ def base(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path]:
     model, (one, _) = new_model(folder), files(folder, rows=BRIEF)
     run("calibrate", model, one, "--save")
     run("export", model, folder / "c", "--c")
-    assert "largest difference" in make(folder / "c", WARNED, "check")
+    assert "largest difference" in make_strictly(folder / "c", "check")
     write_flight(flights()[0].part(HALF), folder / "one.csv")
     return model, folder / "c", folder / "one.csv"
 
@@ -120,9 +117,7 @@ def test_the_program_gives_what_python_gives(which: str, request: pytest.Fixture
 
 
 @pytest.mark.parametrize("which", ["base", "extended"])
-def test_the_angular_acceleration_is_derived_as_python_does_it(
-    which: str, request: pytest.FixtureRequest, tmp_path: Path
-) -> None:
+def test_the_angular_acceleration_is_derived_as_python_does_it(which, request, tmp_path) -> None:
     """From a file with neither omegadot nor all of its rows: beside gaps and ends too, wherever Python has a value."""
     model, folder, flight = request.getfixturevalue(which)
     table = [line.split(",") for line in flight.read_text().splitlines()]
@@ -238,9 +233,8 @@ def test_numpy_alone_gives_the_same(extended: tuple[Path, Path, Path], tmp_path:
     assert done.returncode == 0, done.stderr
     _, G = answer(done.stdout.encode())
     found, k_ggi = expected(model, flight)
-    assert (
-        np.max(np.abs(G[:1900] - found[:1900])) / k_ggi < 1e-6
-    )  # the derivative at the cut's end is another
+    # the derivative at the cut's end is another
+    assert np.max(np.abs(G[:1900] - found[:1900])) / k_ggi < 1e-6
     for x in ("motion", "derived_motion"):
         motion = (tmp_path / "n" / "test" / f"{x}.csv").read_text()
         done = subprocess.run(command, input=motion, capture_output=True, text=True, check=True)
@@ -285,9 +279,7 @@ def test_a_folder_with_other_things_is_left_alone(base: tuple[Path, Path, Path],
         api.export(api.load(base[0]), tmp_path / "x", "fortran")
 
 
-def test_a_calibration_of_another_model_is_not_exported(
-    base: tuple[Path, Path, Path], tmp_path: Path
-) -> None:
+def test_a_calibration_of_another_model_is_not_exported(base, tmp_path) -> None:
     model, _, _ = base
     copy = new_model(tmp_path)
     text = (model / "calibration.json").read_text().replace('"effects": []', '"effects": ["lag"]')
@@ -378,16 +370,6 @@ def test_gaps_and_missing_samples_are_passed_over() -> None:
     assert last < 3
 
 
-@pytest.fixture(scope="module")
-def exported(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path]:
-    folder = tmp_path_factory.mktemp("online")
-    model, (one, two) = new_model(folder), files(folder)
-    run("calibrate", model, one, "--save")
-    run("export", model, folder / "c", "--c")
-    make_strictly(folder / "c", "ragg_online")
-    return model, folder / "c", two
-
-
 def samples(o: Observation, G: Array) -> str:
     """A record as CSV in SI units."""
     r = o.record
@@ -396,11 +378,11 @@ def samples(o: Observation, G: Array) -> str:
 
 
 @pytest.mark.parametrize(("walk", "gap"), [(0.0, 0.0), (1.0, 1e6)])
-def test_the_c_is_the_same_filter(walk: float, gap: float, exported: tuple[Path, Path, Path]) -> None:
+def test_the_c_is_the_same_filter(walk: float, gap: float, base: tuple[Path, Path, Path]) -> None:
     """Also beyond a gap so long that nothing of what the flight said is left."""
-    model, folder, two = exported
+    model, folder, _ = base
     m = api.load(model)
-    x = api.read_for_compensation(m, [two])[0].part(slice(0, 600))
+    x = api.read_for_compensation(m, [flights()[1].part(slice(0, 600))])[0]
     o = observe(x, m.instrument)
     valid = o.record.valid.copy()
     valid[150:250] = False
@@ -426,10 +408,8 @@ def test_the_c_is_the_same_filter(walk: float, gap: float, exported: tuple[Path,
     assert np.max(np.abs(p - f.parameters()[0])[f.index] / f.scale) < 1e-4
 
 
-def test_the_command_follows_a_flight_within_its_uncertainty(
-    exported: tuple[Path, Path, Path], tmp_path: Path
-) -> None:
-    model, _, _ = exported
+def test_the_command_follows_a_flight_within_its_uncertainty(base, tmp_path) -> None:
+    model, _, _ = base
     flight = flights()[1].part(slice(0, 3200))
     write_flight(flight, tmp_path / "two.parquet")
     out = ("-o", tmp_path / "o.csv", "--json", tmp_path / "o.json")

@@ -116,9 +116,7 @@ def test_units_stand_where_other_tools_look(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("suffix", WRITTEN)
-def test_a_failed_writer_leaves_the_old_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, suffix: str
-) -> None:
+def test_a_failed_writer_leaves_the_old_file(tmp_path, monkeypatch, suffix) -> None:
     path = tmp_path / f"x{suffix}"
     path.write_bytes(b"old")
 
@@ -306,6 +304,5 @@ def test_a_workbook_is_not_computed_and_read_beyond_its_dimension(tmp_path: Path
     shutil.move(tmp_path / "y.zip", path)
     found = content(path)[None]
     assert [(n, u) for n, (u, _) in found.items()] == [("time", "s"), ("v", "mV")]
-    np.testing.assert_array_equal(
-        found["v"][1], [np.nan, 2.0, np.nan]
-    )  # the file holds no value of the formula
+    # the file holds no value of the formula
+    np.testing.assert_array_equal(found["v"][1], [np.nan, 2.0, np.nan])

@@ -208,9 +208,8 @@ def test_jitter(load: Load) -> None:
     found = load(table)
     assert any("the time stamps are rounded to 0.001 s" in note for note in found.notes)
     assert found.rate == pytest.approx(RATE, rel=1e-9)
-    assert found.valid[
-        N // 8 : -N // 8
-    ].all()  # jitter is noise of omegadot, which is derived poorly at the ends
+    # jitter is noise of omegadot, which is derived poorly at the ends
+    assert found.valid[N // 8 : -N // 8].all()
     table["time"] = table["time"] + rng.uniform(-0.4, 0.4, N) / RATE
     with pytest.raises(UserError, match="not uniformly sampled"):
         load(table)
@@ -265,9 +264,7 @@ T = np.arange(N) / RATE
         (edited(G_out=np.full(N, np.nan), time=T), ("output is missing",)),
     ],
 )
-def test_what_is_refused(
-    load: Load, tmp_path: Path, table: dict[str, np.ndarray] | str, facts: tuple[str, ...]
-) -> None:
+def test_what_is_refused(load, tmp_path, table, facts) -> None:
     with pytest.raises(UserError) as caught:
         load(table, {"V_1": "V", "omegadot_x": "rad/s^2"})
     for fact in (str(tmp_path / "record.csv"), *facts):

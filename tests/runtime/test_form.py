@@ -134,21 +134,6 @@ def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -
     assert np.sqrt(np.mean(left**2)) > 0.1
 
 
-def test_folded_and_chain_of_full_kinematics_are_one_model() -> None:
-    """Two derived forms, in NumPy and in C, to rounding: 1e-6 Eo."""
-    model, instrument = load_packaged("full"), parse_instrument(EXAMPLE)
-    flight = simulate_flight(instrument, (), noise=0.0, sheet_error=0.0, duration=30.0, no_gradient=False)
-    r = record(flight, instrument)
-    p = make_vector(model, instrument)
-    chain = evaluate_output(model.chain, r, p)
-    inputs = r.inputs(model.chain)
-    for native in (False, True):
-        e = model.compiled(native)
-        assert set(e.inputs[-2:]) == set(SPIN)
-        G = e.output(r.time, inputs, p)
-        assert np.max(np.abs(G - chain)) < 1e-6 * scale_factor(model, p)
-
-
 def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
     """A swing of the disc comes out, the encoder's steps hardly; parts of a record give what the whole gives."""
     rate, f, step = 16.0, 0.25, 6e-6
@@ -180,7 +165,6 @@ def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
         np.testing.assert_array_equal(plain.series(name), value)
 
 
-@pytest.mark.usefixtures("no_next_motion")
 def test_a_paper_model_lacks_the_spin_and_with_it_the_error_is_the_noise(tmp_path: Path) -> None:
     (tmp_path / "sheet.toml").write_text(sheet("[model]"))
     m = api.new(tmp_path / "paper", tmp_path / "sheet.toml")

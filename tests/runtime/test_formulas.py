@@ -32,7 +32,6 @@ from ragg_runtime.base.series_name import (
     series,
 )
 from ragg_runtime.estimation.observation import ROWS
-from ragg_runtime.identification import likelihood_ratio, probability, sequential
 from ragg_runtime.identification.dictionary import list_generic, list_harmonics
 from ragg_runtime.io import files
 from ragg_runtime.report.plots import draw_plot
@@ -79,21 +78,6 @@ def test_every_reference_is_cited_and_every_citation_is_there() -> None:
     listed = set(re.findall(r"^(\d+)\. ", references, flags=re.MULTILINE))
     cited = set(re.findall(r"\[([1-9]\d*)(?:, [^\]]+)?\]", text))
     assert cited == listed
-
-
-def test_evidence_and_e_value_are_those_of_the_page() -> None:
-    """ln B_S(g) for one effect against the code's, and an e-value from its formula."""
-    g = likelihood_ratio.STRENGTHS
-    assert (g[0], g[-1]) == (1.0, 1e8)
-    block = probability._Subspace(effect="e", Q=np.eye(3)[:, :2], along=np.array([3.0, -1.0]), weight=0.0)
-    log_b = 10.0 / 2 * g / (1 + g) - 2 / 2 * np.log(1 + g)
-    assert np.allclose(
-        probability._weigh_evidence([block], np.array([[0]])), np.log(np.mean(np.exp(log_b))), atol=1e-6
-    )
-    z, v = np.array([0.5, 3.0]), sequential.SIZES[:, None]
-    each = (1 + v) ** -0.5 * np.exp(z**2 / 2 * v / (1 + v))
-    expected = (np.mean(np.prod(each, axis=1)) + np.mean(each)) / 2
-    assert np.isclose(sequential.log_e(z), np.log(expected))
 
 
 def test_glossary_states_the_sizes_of_the_code() -> None:

@@ -214,20 +214,7 @@ def test_written_numbers_are_those_of_the_sheet() -> None:
 
 
 def sure(sigma: str) -> str:
-    return TEXT_WITH_K1.replace("SIGMA", sigma)
-
-
-TEXT_WITH_K1 = """
-[disc]
-radius = "0.1 m"
-spin_frequency = "0.25 Hz"
-g0 = "9.8 m/s^2"
-
-[accelerometers]
-K1 = { value = [10, 11, 11.5, 12], unit = "mA/g", sigma = SIGMA }
-K2 = { value = 5, unit = "ug/g^2" }
-k_VI = { value = 1e9, unit = "ohm" }
-"""
+    return TEXT.replace('unit = "mA/g"', f'unit = "mA/g", sigma = {sigma}')
 
 
 @pytest.mark.parametrize(

@@ -103,9 +103,7 @@ def switching_world() -> tuple[Scenario, load.Model]:
     return s, derive.with_effects(s.sheet, load.load_packaged(), ["adc-nonlinearity"])
 
 
-def test_what_is_kept_is_on_the_same_side_for_every_instrument_that_the_sheet_allows(
-    switching_world: tuple[Scenario, load.Model],
-) -> None:
+def test_what_is_kept_is_on_the_same_side_for_every_instrument_that_the_sheet_allows(switching_world) -> None:
     s, model = switching_world
     o = observe(s.simulate().flight(), s.sheet)
     (kept,) = leave_out_uncertain(model, s.sheet, [o])
@@ -129,9 +127,7 @@ def test_what_is_kept_is_on_the_same_side_for_every_instrument_that_the_sheet_al
     assert not np.any(changed & kept.record.valid)
 
 
-def test_what_was_found_for_all_samples_does_not_serve_those_that_are_kept(
-    switching_world: tuple[Scenario, load.Model],
-) -> None:
+def test_what_was_found_for_all_samples_does_not_serve_those_that_are_kept(switching_world) -> None:
     s, model = switching_world
     o = observe(s.simulate(record_gradient=False).flight(), s.sheet)
     noise, every = NoiseModel.white(o.record.rate, 1), slice(0, len(o.record.time))
@@ -140,17 +136,13 @@ def test_what_was_found_for_all_samples_does_not_serve_those_that_are_kept(
     assert len(make_windows(kept, every, noise)[0].places) == np.sum(kept.record.valid)
 
 
-def test_a_model_that_does_not_switch_keeps_every_sample(
-    switching_world: tuple[Scenario, load.Model],
-) -> None:
+def test_a_model_that_does_not_switch_keeps_every_sample(switching_world) -> None:
     s, _ = switching_world
     o = observe(s.simulate().flight(), s.sheet)
     assert leave_out_uncertain(load.load_packaged(), s.sheet, [o]) == [o]
 
 
-def test_a_sheet_that_knows_nothing_of_the_side_leaves_nothing_out(
-    switching_world: tuple[Scenario, load.Model],
-) -> None:
+def test_a_sheet_that_knows_nothing_of_the_side_leaves_nothing_out(switching_world) -> None:
     s, model = switching_world
     o = observe(s.simulate().flight(), s.sheet)
     unsure = replace(s.sheet, sigmas={**s.sheet.sigmas, "K0": np.full(4, 0.2)})

@@ -37,7 +37,7 @@ from ragg_runtime.simulate import simulate_flight
 from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
-DURATION = 300.0
+DURATION = 200.0
 
 
 def flown(seed: int, effects: dict[str, Any] | None = None, **options: Any) -> tuple[Scenario, Flight]:
@@ -62,6 +62,7 @@ def test_a_flight_without_hidden_effect_is_adequate_and_its_error_is_the_noise()
         s, flight = flown(seed, trim="table-v")
         c = compare(load.load_packaged(), s.sheet, [flight])
         assert c.adequate
+        assert 0.999 < c.explained.share < 1.0
         truth = noise_of(s) / c.fitted.k_ggi
         assert c.calibrated.rms_Eo == pytest.approx(truth, rel=0.01)
         assert c.nominal.rms_Eo > 100 * truth  # the test sheet alone is far off
@@ -199,9 +200,6 @@ def test_of_a_constant_gradient_it_leaves_nothing_and_the_report_says_why() -> N
     assert "a gradient that is not recorded" in why["gradient-offset"]
 
 
-pytestmark = pytest.mark.usefixtures("no_next_motion")
-
-
 def good_flight(seed: int = 3, duration: float = 90.0) -> tuple[Instrument, Flight]:
     s = scenario(seed, duration=duration)
     return s.sheet, s.simulate().flight()
@@ -214,20 +212,10 @@ def test_an_output_in_which_nothing_follows_the_motion_is_not_adequate() -> None
     assert (d.verdict, d.found) == ("unexplained", ())
     assert "the output does not follow the motion" in str(d.as_json()["reason"])
     assert d.explained is not None and d.explained.share < 0.5
-    c = compare(load_packaged(), sheet, [replace(x, outputs={"G_out": shuffled})])
-    assert not c.adequate
-
-
-def test_a_right_model_explains_nearly_all() -> None:
-    sheet, x = good_flight()
-    c = compare(load_packaged(), sheet, [x])
-    said = c.as_json()["explained"]
-    assert c.adequate and isinstance(said, dict)
-    assert 0.999 < said["share"] < 1.0
 
 
 def test_noise_that_follows_the_motion_is_said_and_accuses_nothing() -> None:
-    s = scenario(11, duration=300.0)
+    s = scenario(11, duration=300.0, rate=RATE)
     sim = s.simulate()
     x = sim.flight()
     a = np.abs(x.channels["a_x"])
@@ -286,9 +274,7 @@ def test_effects_that_look_alike_are_named_by_what_they_share() -> None:
         (("roll", "pitch"), {"magnetic-bias"}),
     ],
 )
-def test_an_effect_is_tested_with_the_channels_that_are_there(
-    lost: tuple[str, ...], testable: set[str]
-) -> None:
+def test_an_effect_is_tested_with_the_channels_that_are_there(lost, testable) -> None:
     sheet, x = good_flight(duration=40.0)
     x = replace(x, channels={n: v for n, v in x.channels.items() if n not in lost})
     found = selection.list_testable(fit(load_packaged(), sheet, observe_flights([x], sheet)))

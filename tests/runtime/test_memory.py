@@ -54,7 +54,7 @@ def of_first(effect: str, name: str, size: float, **shape: float) -> EffectValue
     ids=str,
 )
 def test_what_describes_a_memory_is_fitted_down_to_noise(hidden: EffectValues) -> None:
-    s = scenario(72, duration=240.0)
+    s = scenario(72, duration=240.0, rate=RATE)
     sim = s.simulate(hidden)
     ((effect, values),) = hidden.items()
     model = derive.with_effects(s.sheet, load.load_packaged(), [effect])

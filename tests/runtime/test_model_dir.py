@@ -218,7 +218,10 @@ def test_messages(tmp_path: Path) -> None:
     made = make(tmp_path, 1)
     with pytest.raises(UserError, match="exists already"):
         make(tmp_path, 1)
-    for bad in ("{", "[]", '{"steps": [{}]}', '{"steps": 3}'):
+    whole = {"action": "add", "effect": "lag", "time": "now"}
+    odd = ({"before": 3}, {"before": {"calibrated": [1]}}, {"after": {"rms_Eo": "many"}}, {"flights": ["a"]})
+    steps = (json.dumps({"steps": [whole | step]}) for step in odd)
+    for bad in ("{", "[]", '{"steps": [{}]}', '{"steps": 3}', *steps):
         (made.path / "history.json").write_text(bad)
         with pytest.raises(UserError, match="history is damaged"):
             load_model_dir(made.path)

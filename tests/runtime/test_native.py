@@ -80,9 +80,7 @@ def test_fits_of_a_derived_model_run_in_machine_code_candidates_too() -> None:
         assert np.all(np.abs(e.derivatives(2, t, inputs, p) - D) <= 1e-11 * np.max(np.abs(D), 1)[:, None])
 
 
-def test_without_a_compiler_numpy_serves_and_says_so_once(
-    case: tuple[Array, Array, Array], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_without_a_compiler_numpy_serves_and_says_so_once(case, monkeypatch, tmp_path) -> None:
     t, inputs, p = case
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("CC", raising=False)
@@ -98,9 +96,7 @@ def test_without_a_compiler_numpy_serves_and_says_so_once(
 
 
 @needs_compiler
-def test_library_is_made_once_and_anew_when_anything_changes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_library_is_made_once_and_anew_when_anything_changes(tmp_path, monkeypatch) -> None:
     source = {"one.c": "int one(void) { return 1; }\n"}
     first = build(source, tmp_path)
     made = first.stat().st_mtime_ns

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import os
-import subprocess
 import sys
 import time
 from importlib import resources
@@ -25,55 +23,12 @@ from ragg_runtime.wording.sections import Bar, Bars, Section
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="such names and streams")
 
 
-def run(*words: str | Path, shell: str = "", cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    """``ragg`` in a shell, with redirections."""
-    command = " ".join([sys.executable, "-m", "ragg_runtime", *map(str, words), shell])
-    root = str(Path(api.__file__).parents[1])
-    environment = os.environ | {"PYTHONPATH": root}
-    return subprocess.run(
-        ["sh", "-c", command],
-        cwd=cwd,
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-        env=environment,
-    )
-
-
 @pytest.fixture
 def model(tmp_path: Path) -> Path:
     return api.new(tmp_path / "model").directory.path
 
 
-def test_streams_that_are_closed(model: Path) -> None:
-    """Where stdout is full, or a model would change: test_outputs.py."""
-    for shell, status in (("2>&-", 0), ("0<&- 1>&- 2>&-", 2)):
-        done = run("history", model, shell=shell)
-        assert done.returncode == status, (shell, done.stderr)
-        assert "Traceback" not in done.stderr
-
-
-@pytest.mark.parametrize(
-    "step",
-    [{"before": 3}, {"before": {"calibrated": [1]}}, {"after": {"rms_Eo": "many"}}, {"flights": ["a"]}],
-    ids=str,
-)
-def test_histories_of_odd_shapes(
-    model: Path, step: dict[str, object], capsys: pytest.CaptureFixture[str]
-) -> None:
-    whole = {"action": "add", "effect": "lag", "time": "now"} | step
-    (model / "history.json").write_text(json.dumps({"steps": [whole]}))
-    for command in (["history", str(model)], ["add", str(model), "lag"]):
-        with pytest.raises(SystemExit) as end:
-            main(command)
-        assert end.value.code == 2
-        assert "the history is damaged" in capsys.readouterr().err
-
-
-def test_every_refusal_of_the_system_names_its_place(
-    model: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_every_refusal_of_the_system_names_its_place(model, capsys, monkeypatch) -> None:
     def refuses(*_: object) -> None:
         raise OSError(40, "Too many levels of symbolic links", "/some\n/where")
 
@@ -84,9 +39,7 @@ def test_every_refusal_of_the_system_names_its_place(
     assert capsys.readouterr().err == "ragg: /some\\n/where: Too many levels of symbolic links\n"
 
 
-def test_a_missing_reader_ends_in_what_to_install(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_missing_reader_ends_in_what_to_install(tmp_path, monkeypatch, capsys) -> None:
     monkeypatch.setitem(sys.modules, "h5py", None)
     (tmp_path / "flight.h5").write_bytes(b"\x89HDF\r\n\x1a\n")
     with pytest.raises(SystemExit) as end:
@@ -140,9 +93,7 @@ def test_an_odd_compiler_is_one_message(cc: str, tmp_path: Path, monkeypatch: py
 
 @pytest.mark.parametrize("option", ["--duration", "--noise"])
 @pytest.mark.parametrize("value", ["nan", "inf"])
-def test_a_number_must_be_one(
-    option: str, value: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_number_must_be_one(option, value, tmp_path, capsys) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["simulate", str(tmp_path / "m"), "-o", str(tmp_path / "x.csv"), option, value])
     assert ended.value.code == 2

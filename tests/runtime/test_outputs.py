@@ -59,9 +59,7 @@ def ragg(*arguments: object, redirect: str = "", cwd: Path | None = None) -> tup
 
 
 @pytest.mark.parametrize("how", ["report", "json", "stdout full", "stdout closed", "json full"])
-def test_a_result_that_cannot_be_written_leaves_the_model_as_it_was(
-    how: str, given: tuple[Path, Path], tmp_path: Path
-) -> None:
+def test_a_result_that_cannot_be_written_leaves_the_model_as_it_was(how, given, tmp_path) -> None:
     model, flight = given
     before = state(model, flight)
     nowhere = tmp_path / "nowhere"
@@ -83,18 +81,15 @@ def test_a_result_that_cannot_be_written_leaves_the_model_as_it_was(
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize(
-    "over",
-    [
-        "flight",
-        "model.toml",
-        "history.json",
-        "calibration.json",
-        "mapping.toml",
-        "generated/manifest.json",
-        "link",
-    ],
-)
+def test_streams_that_are_closed(given: tuple[Path, Path]) -> None:
+    for redirect, status in (("2>&-", 0), ("0<&- 1>&- 2>&-", 2)):
+        assert ragg("history", given[0], redirect=redirect)[0] == status
+
+
+FILES = ("model.toml", "history.json", "calibration.json", "mapping.toml", "generated/manifest.json")
+
+
+@pytest.mark.parametrize("over", ["flight", *FILES, "link"])
 @pytest.mark.parametrize("option", ["--json", "--report"])
 def test_nothing_is_written_over_what_is_read(option: str, over: str, given: tuple[Path, Path]) -> None:
     model, flight = given
@@ -132,9 +127,7 @@ def test_a_series_is_not_written_over_what_is_read(command: str, given: tuple[Pa
     assert state(model, flight) == before
 
 
-def test_two_results_do_not_share_a_file_and_a_flight_is_not_flown_over_its_model(
-    given: tuple[Path, Path], tmp_path: Path
-) -> None:
+def test_two_results_do_not_share_a_file_and_a_flight_is_not_flown_over_its_model(given, tmp_path) -> None:
     model, flight = given
     status, said = ragg("compare", model, flight, "--json", tmp_path / "x", "--report", tmp_path / "x")
     assert (status, "two results" in said) == (2, True)
@@ -166,16 +159,6 @@ def test_devices_and_pipes_are_written_to(given: tuple[Path, Path], tmp_path: Pa
 DAY = re.compile(r"20\d\d-\d\d-\d\d")
 
 
-@pytest.fixture(scope="module")
-def made_place(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A model and a flight of two minutes."""
-    folder = tmp_path_factory.mktemp("provenance")
-    m = api.new(folder / "model")
-    flight = simulate_flight(m.instrument, [], seed=1, duration=120.0, rate=8.0)
-    write_flight(flight, folder / "flight.parquet")
-    return folder
-
-
 def json_of(arguments: Sequence[str], folder: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Any, str]:
     monkeypatch.chdir(folder)
     monkeypatch.setattr(sys, "argv", ["ragg", *arguments, "--json", "result.json"])
@@ -187,10 +170,9 @@ def json_of(arguments: Sequence[str], folder: Path, monkeypatch: pytest.MonkeyPa
 @pytest.mark.parametrize(
     "arguments", [["compare", "model", "flight.parquet"], ["effects", "lag"]], ids=" ".join
 )
-def test_a_result_names_what_made_it(
-    made_place: Path, monkeypatch: pytest.MonkeyPatch, arguments: Sequence[str]
-) -> None:
-    found, text = json_of(arguments, made_place, monkeypatch)
+def test_a_result_names_what_made_it(given, monkeypatch, arguments) -> None:
+    place = given[0].parent
+    found, text = json_of(arguments, place, monkeypatch)
     made = found["provenance"]
     assert made["python"] == "{}.{}.{}".format(*sys.version_info)
     assert {n: made[n] for n in ("numpy", "scipy", "sympy")} == {
@@ -198,18 +180,16 @@ def test_a_result_names_what_made_it(
     }
     assert made["command"] == shlex.join(["ragg", *arguments, "--json", "result.json"])
     if "model" in arguments:
-        digest = hashlib.sha256((made_place / "model" / "model.toml").read_bytes()).hexdigest()
+        digest = hashlib.sha256((place / "model" / "model.toml").read_bytes()).hexdigest()
         assert (made["model"], made["model_digest"]) == ("model", digest)
     if "flight.parquet" in arguments:
-        digest = hashlib.sha256((made_place / "flight.parquet").read_bytes()).hexdigest()
+        digest = hashlib.sha256((place / "flight.parquet").read_bytes()).hexdigest()
         assert made["flights"] == [{"path": "flight.parquet", "digest": digest}]
         assert not DAY.search(text), "a result of today is no other than one of tomorrow"
-    assert json_of(arguments, made_place, monkeypatch)[1] == text
+    assert json_of(arguments, place, monkeypatch)[1] == text
 
 
-def test_a_change_names_the_state_before_and_after(
-    made_place: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_a_change_names_the_state_before_and_after(given, monkeypatch, tmp_path) -> None:
     api.new(tmp_path / "model")
     toml = tmp_path / "model" / "model.toml"
     digests = [hashlib.sha256(toml.read_bytes()).hexdigest()]
@@ -220,18 +200,14 @@ def test_a_change_names_the_state_before_and_after(
     assert digests[0] == digests[2] != digests[1]
 
 
-def test_the_same_result_on_any_number_of_threads(made_place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_same_result_on_any_number_of_threads(given, monkeypatch) -> None:
     """BLAS splits sums by the number of its threads; the verdict and the figures must not notice. ``make test`` has one."""
     words = ["diagnose", "model", "flight.parquet", "--json", "result.json"]
-    results = [json_of(words[:3], made_place, monkeypatch)[1]]
-    subprocess.run(
-        [sys.executable, "-m", "ragg_runtime", *words],
-        cwd=made_place,
-        env={**_environment(), "OPENBLAS_NUM_THREADS": "2", "OMP_NUM_THREADS": "2"},
-        capture_output=True,
-        check=True,
-    )
-    results.append((made_place / "result.json").read_text("utf-8"))
+    place, threads = given[0].parent, {"OPENBLAS_NUM_THREADS": "2", "OMP_NUM_THREADS": "2"}
+    results = [json_of(words[:3], place, monkeypatch)[1]]
+    program = [sys.executable, "-m", "ragg_runtime"]
+    subprocess.run([*program, *words], cwd=place, env=os.environ | threads, capture_output=True, check=True)
+    results.append((place / "result.json").read_text("utf-8"))
     if np.lib.NumpyVersion(np.__version__) >= "2.0.0":
         assert results[0] == results[1]
     else:  # BLAS of that time: sums depend on where in memory their terms lie
@@ -239,10 +215,3 @@ def test_the_same_result_on_any_number_of_threads(made_place: Path, monkeypatch:
         assert (first["verdict"], first["found"]) == (second["verdict"], second["found"])
         errors = [[r["error_after"]["rms_Eo"] for r in x["ranking"]] for x in (first, second)]
         np.testing.assert_allclose(errors[0], errors[1], rtol=1e-3)
-
-
-def _environment() -> dict[str, str]:
-    import os
-
-    root = str(Path(api.__file__).parents[1])
-    return {**os.environ, "PYTHONPATH": root}

@@ -103,9 +103,7 @@ def test_effects_of_an_installed_package(tmp_path: Path, monkeypatch: pytest.Mon
         (mine("lag"), "the id of your effect is taken"),
     ],
 )
-def test_one_that_cannot_be_read_is_one_message(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, said: str
-) -> None:
+def test_one_that_cannot_be_read_is_one_message(tmp_path, monkeypatch, text, said) -> None:
     (tmp_path / "mine.py").write_text(text)
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path))
     with pytest.raises(UserError, match=said):
@@ -150,9 +148,7 @@ def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: 
 
 
 @pytest.mark.parametrize("name", ["chain.py", "digest"])
-def test_generated_is_not_executed(
-    model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
+def test_generated_is_not_executed(model, tmp_path, monkeypatch, name) -> None:
     mark = tmp_path / "mark"
     with (model / "generated" / name).open("a") as stream:
         stream.write(EVIL.format(mark=str(mark)))

@@ -19,13 +19,7 @@ from ragg_runtime.cli.main import COMMANDS, cli
         ([0.1], 1.0, ""),  # a short command
     ],
 )
-def test_lines_tell_share_and_time_left(
-    passes: list[float],
-    pause: float,
-    last: str,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_lines_tell_share_and_time_left(passes, pause, last, monkeypatch, capsys) -> None:
     now = [100.0]
     monkeypatch.setattr(time, "monotonic", lambda: now[0])
     with progress.shown("diagnose", 1000):
@@ -37,9 +31,7 @@ def test_lines_tell_share_and_time_left(
     assert capsys.readouterr().err == ""
 
 
-def test_lines_beyond_the_estimate_become_rare(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_lines_beyond_the_estimate_become_rare(monkeypatch, capsys) -> None:
     now = [100.0]
     monkeypatch.setattr(time, "monotonic", lambda: now[0])
     with progress.shown("diagnose", 1000):

@@ -19,21 +19,16 @@ from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT, Flag
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.screening import checks, screen, timing
+from ragg_runtime.screening import checks, screen
 from ragg_runtime.screening.motion_noise import predict_true
 from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
-
-pytestmark = pytest.mark.usefixtures("no_next_motion")
 
 STEP = 32 / 65536 * 9.8
 """m/s^2: 16 bits over +-16 g."""
 
 
-def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(timing, "propose_times", lambda *_: [])  # test_screening_mistakes.py has these
+def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect() -> None:
     s, model = scenario(4, duration=150.0, rate=RATE, trim="table-v"), load_packaged()
     x = s.simulate().flight()
     rng = np.random.default_rng(1)
@@ -52,11 +47,12 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect(
         assert any(words in note for note in flight.notes)
     coarse, still = flown["in steps of"], flown["a_x does not change at all"]
     d = diagnose(model, s.sheet, [coarse])
+    # the noise that steps leave is as loud throughout
     assert (d.verdict, d.found, d.remark) == (
         "adequate",
         (),
         None,
-    )  # the noise that steps leave is as loud throughout
+    )
     assert d.noise_floor == pytest.approx(d.before.rms_Eo, rel=0.1)
     heeded = heed_flags(diagnose(model, s.sheet, [still]), [still])
     assert (heeded.verdict, heeded.found) == ("unexplained", ())
@@ -94,10 +90,7 @@ def test_noise_is_smoothed_to_the_best_prediction_at_the_ends_and_beside_gaps_to
 
 
 @pytest.mark.parametrize(("size", "used"), [(5.0, True), (50.0, False)])
-def test_a_noisy_gradient_is_smoothed_or_not_used(
-    size: float, used: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(timing, "propose_times", lambda *_: [])
+def test_a_noisy_gradient_is_smoothed_or_not_used(size: float, used: bool) -> None:
     s, model = scenario(3, duration=150.0, rate=RATE, trim="table-v"), load_packaged()
     x = s.simulate().flight()
     rng = np.random.default_rng(1)

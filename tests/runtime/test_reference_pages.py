@@ -19,7 +19,6 @@ from commands import ragg
 from docs import made
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import COMMANDS, cli
-from ragg_runtime.identification import next_motion
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.report import plots
 
@@ -71,9 +70,7 @@ def test_a_key_without_a_meaning_is_an_error() -> None:
         made.meaning("compare", "error.odd", made.read_meanings())
 
 
-def test_the_json_of_commands_that_fit_nothing_has_meanings(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_json_of_commands_that_fit_nothing_has_meanings(tmp_path, monkeypatch) -> None:
     """Of the others the tests of these commands: ``commands.ragg`` looks up every key."""
     monkeypatch.chdir(tmp_path)
     pq.write_table(pq.read_table(made.FLIGHT).slice(0, 960), "flight.parquet")
@@ -83,7 +80,7 @@ def test_the_json_of_commands_that_fit_nothing_has_meanings(
         "effects lag",
         "info flight.parquet",
         "convert flight.parquet flight.csv",
-        "simulate model -o simulated.parquet --duration 60",
+        "simulate model -o simulated.parquet --duration 60 --spin -0.25",
         "add model bias-drift",
         "history model",
         "remove model bias-drift",
@@ -119,7 +116,6 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(place)
         patch.setattr(plots, "draw_plot", lambda _: "<svg></svg>")  # test_report.py has figures
-        patch.setattr(next_motion, "propose_motions", lambda *_: ())  # and test_next_motion.py these
         yield place
 
 
@@ -185,9 +181,7 @@ def test_the_commands_speak_the_interface(said: dict[str, str], clone: Path) -> 
     assert [s["action"] for s in history["steps"]] == ["new", "add"]
 
 
-def test_a_process_of_its_own_sees_the_model_and_removing_makes_it_what_it_was(
-    said: dict[str, str], clone: Path
-) -> None:
+def test_a_process_of_its_own_sees_the_model_and_removing_makes_it_what_it_was(said, clone) -> None:
     flight = "examples/demo-flight.parquet"
     assert (clone / "my-model" / "generated" / "manifest.json").is_file()
     words = [sys.executable, "-m", "ragg_runtime", "compare", "my-model", flight, "--json", "-"]

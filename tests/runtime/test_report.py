@@ -10,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
 from html.parser import HTMLParser
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -21,14 +22,13 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.calibrate import list_combinations, list_parameters
 from ragg_runtime.identification import budget, result, series
 from ragg_runtime.identification import comparison as compare
-from ragg_runtime.instrument.instrument import EffectSetting
-from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import evaluate_output, make_vector, name_values
-from ragg_runtime.model.record import record
+from ragg_runtime.model.evaluate import name_values
+from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.instruments import trimmed
+from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.report import parameters, plots, whiteness
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.pages import write_addition, write_comparison, write_diagnosis
@@ -36,51 +36,20 @@ from ragg_runtime.report.plots import draw_plot
 from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Bar, Bars, render_text
+from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
-RATE = 16.0
 HOSTILE = 'leg <script>alert("1")</script> & $\\frac{x}$ \u202e\x07\udcff'
 
 
-# --- a small flight -----------------------------------------------------------------------------------------
+def flight(effects: EffectValues = MappingProxyType({}), name: str = "leg 1") -> Flight:
+    """200 s of an instrument whose biases are 1 ug, and K7 a tenth, above its test sheet."""
+    s, k = scenario(1, duration=200.0, rate=RATE), trimmed().accelerometers
+    true = trimmed().replace(K0=k["K0"] + 9.8e-6, K7=k["K7"] * 1.1)
+    return replace(s, instrument=true).simulate(effects).flight(name)
 
 
-def motion(samples: int, seed: int) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Turbulence of many sines below 2 Hz: their derivatives are exact."""
-    rng = np.random.default_rng(seed)
-    time = np.arange(samples) / RATE
-    f = rng.uniform(0.02, 2.0, 40)[:, None]
-    channels = {}
-    for k in "xyz":
-        for name, size in (("a", 0.5), ("omega", 1e-3)):
-            c, p = rng.normal(0, size / 6, (40, 1)), rng.uniform(0, 2 * np.pi, (40, 1))
-            angle = 2 * np.pi * f * time + p
-            channels[f"{name}_{k}"] = np.sum(c * np.sin(angle), axis=0)
-            if name == "omega":
-                channels[f"omegadot_{k}"] = np.sum(c * 2 * np.pi * f * np.cos(angle), axis=0)
-    for name, value in zip(("xx", "xy", "xz", "yy", "yz", "zz"), (300, 120, 50, 200, -80, -500), strict=True):
-        channels[f"Gamma_{name}"] = np.full(samples, value * 1e-9)
-    return time, channels
-
-
-def flight(
-    effect: EffectSetting | None = None, samples: int = 3200, seed: int = 1, name: str = "leg 1"
-) -> Any:
-    """A record of the instrument above, calibrated a little off, with white noise of 2 sqrt(2) Eo."""
-    true = trimmed()
-    true = true.replace(K0=true.accelerometers["K0"] + 9.8e-6, K7=true.accelerometers["K7"] * 1.1)
-    model = load.load_packaged()
-    if effect is not None:
-        true = replace(true, effects=(effect,))
-        model = derive.with_effects(true, model, [effect.id])
-    time, channels = motion(samples, seed)
-    made = Flight(time=time, channels=channels, outputs={}, name=name)
-    G = evaluate_output(model.chain, record(made, true), make_vector(model, true))
-    noise = np.random.default_rng(seed + 1000).normal(0, math.sqrt(8.0) * true.scale_factor * 1e-9, samples)
-    return replace(made, outputs={"G_out": G + noise})
-
-
-CUBIC = EffectSetting("cubic-input", {"K_iii": RawQuantity((0.0, 0.0, 4.0, 0.0), "ug/g^3")})
+CUBIC = {"cubic-input": {"K_iii": [0.0, 0.0, 4e-6 / 9.8**2, 0.0]}}
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,9 +75,6 @@ ORIGIN = Origin(
     "ragg compare <dir> leg.csv",
     [("model.toml", "ab" * 32), ('<img src="http://evil.example/x">', "cd" * 32)],
 )
-
-
-# --- the page as a whole ------------------------------------------------------------------------------------
 
 
 class Page(HTMLParser):
@@ -204,9 +170,6 @@ def test_two_figures_at_once_keep_their_text() -> None:
         assert [*pool.map(draw_plot, figures)] == [draw_plot(x) for x in figures]
 
 
-# --- what they say ------------------------------------------------------------------------------------------
-
-
 def test_clean_flight_is_adequate_in_words(clean: compare.Comparison) -> None:
     said = render_text(describe.describe_comparison(clean.as_json(), ["leg"]))
     assert said.startswith("The model is adequate")
@@ -260,9 +223,6 @@ def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
     assert rows["cubic-input"].rms > 0.9 * excess
 
 
-# --- parameters ---------------------------------------------------------------------------------------------
-
-
 def test_what_a_record_sees_of_the_parameters_is_what_the_paper_derives(clean: compare.Comparison) -> None:
     """Eq. 17-19: of the biases only D1234 enters; K2 and K5 enter as Sigma (k5 - k2) and D1234 (k2 + k5)."""
     v = parameters.find_visibility(clean.fitted)
@@ -270,9 +230,8 @@ def test_what_a_record_sees_of_the_parameters_is_what_the_paper_derives(clean: c
     assert "D1234 K0" not in v.unseen
     groups = {frozenset(members) for members in v.groups}
     assert {frozenset({f"{pattern} K2", f"{pattern} K5"}) for pattern in ("Sigma", "D1234")} <= groups
-    assert (
-        frozenset({"Sigma dR", "Sigma K1"}) in groups
-    )  # a larger radius is the same as a larger scale factor
+    # a larger radius is the same as a larger scale factor
+    assert frozenset({"Sigma dR", "Sigma K1"}) in groups
 
 
 def test_combinations_are_known_better_than_single_values(clean: compare.Comparison) -> None:
@@ -297,9 +256,6 @@ def test_budget_of_the_bias_is_its_analytical_value(clean: compare.Comparison) -
     assert row.rms == pytest.approx(expected, rel=1e-6)
     assert row.inline < 1e-4 * row.rms
     assert row.cross < 1e-4 * row.rms
-
-
-# --- series -------------------------------------------------------------------------------------------------
 
 
 def test_noise_in_the_channels_is_what_demodulated_noise_has(clean: compare.Comparison) -> None:
@@ -367,10 +323,8 @@ def test_whiteness_has_99_percent_bounds_and_finds_what_is_not_noise(clean: comp
     against = whiteness.plot_against(f, 0, noise, "a_x")
     assert np.mean(against.axes[1].curves[1].y) == pytest.approx(1.0, abs=0.05)
     with pytest.raises(UserError, match="no such channel"):
-        whiteness.plot_against(f, 0, noise, "pressure")
+        whiteness.plot_against(f, 0, noise, "humidity")
 
-
-# --- numbers in words ---------------------------------------------------------------------------------------
 
 FINITE = st.floats(-1e30, 1e30, allow_nan=False).filter(lambda x: x == 0 or abs(x) > 1e-30)
 

@@ -27,9 +27,6 @@ PLACES = np.sort(RNG.choice(np.arange(20, N - 20, 3), 96, replace=False))
 SMOOTH = np.sin(TIME) + 0.3 * np.sin(3.3 * TIME) + 0.05 * np.sin(2 * np.pi * 2.1 * TIME)
 
 
-# --- repeated values -----------------------------------------------------------------------------------
-
-
 def screened(x: np.ndarray, name: str = "G_out") -> Flight:
     given = {"outputs" if name == "G_out" else "channels": {name: x}}
     return leave_out_repeated(Flight(time=TIME[: len(x)], **{"channels": {}, "outputs": {}, **given}))
@@ -148,9 +145,6 @@ def test_the_resolution_of_a_column_is_found_whatever_it_is(step: float) -> None
         assert find_step(column) is None
 
 
-# --- spikes --------------------------------------------------------------------------------------------
-
-
 def test_spikes_of_any_size_are_found_and_nothing_else() -> None:
     for size in (20.0, 1e9):
         e = NOISE.copy()
@@ -222,10 +216,11 @@ def test_readings_that_did_not_arrive_are_left_out() -> None:
         found = leave_out_repeated(Flight(TIME, motion, {}))
         assert np.flatnonzero(~found.valid).tolist() == lost.tolist()
         assert "samples (t = 0.5625" in found.flags[0].reason
+    # two within as few samples as tell the usual
     x, held = (
         SMOOTH + 0.1 * NOISE,
         np.array([100, 101, 130, 900]),
-    )  # two within as few samples as tell the usual
+    )
     x[held] = x[held - [1, 2, 1, 1]]
     x[[500, 3000, 3001]] = 0.0
     x[1000:3000:400] = 0.7  # a code within the range
@@ -256,9 +251,6 @@ def test_numbers_that_overflow_are_said() -> None:
     fast, valid = np.sin(2 * np.pi * TIME / 5.0), np.ones(N, dtype=bool)
     valid[20:60] = False  # from one end of the range to the other, unseen
     assert _overflown(Flight(TIME, {"a_x": fast}, {}, valid=valid)) == []
-
-
-# --- the clock -----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("rate", "start"), [(16, 0.0), (16, 12.0625), (30, 0.0), (128, 1.7e9)])

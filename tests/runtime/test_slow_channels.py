@@ -35,9 +35,7 @@ def rarely(flight: Flight, every: int, names: tuple[str, ...], path: Path) -> Pa
     return path
 
 
-def test_a_thermometer_read_every_ten_seconds_is_interpolated(
-    model: api.Loaded, hot: Flight, tmp_path: Path
-) -> None:
+def test_a_thermometer_read_every_ten_seconds_is_interpolated(model, hot, tmp_path) -> None:
     """It dropped all samples but one in eighty, and acquitted the model."""
     path = rarely(hot, 80, ("temperature",), tmp_path / "slow.parquet")
     (read,) = api.read_flights(model, [path])
@@ -48,9 +46,7 @@ def test_a_thermometer_read_every_ten_seconds_is_interpolated(
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.05])
-def test_a_thermometer_of_coarse_steps_is_interpolated_between_them(
-    noise: float, hot: Flight, tmp_path: Path
-) -> None:
+def test_a_thermometer_of_coarse_steps_is_interpolated_between_them(noise, hot, tmp_path) -> None:
     """thermal-scale of 54 sigma was gain-drift and gain-step where temperatures had steps of 0.1 K."""
     known, rng = hot.channels["temperature"], np.random.default_rng(2)
     read = 0.0625 * np.round((known + 0.0625 * noise * rng.standard_normal(len(hot))) / 0.0625)

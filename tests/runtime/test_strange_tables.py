@@ -19,7 +19,6 @@ from scipy.io import savemat
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.units import units
 from ragg_runtime.io import read_flight, read_flights, tables
 from ragg_runtime.io.draft import draft_mapping
 from ragg_runtime.io.files import read_recordings
@@ -214,9 +213,8 @@ def test_excel_as_people_write_it(tmp_path: Path) -> None:
         book.save(tmp_path / f"{k}.xlsx")
         read = read_flight(tmp_path / f"{k}.xlsx", G0)
         assert read.instants == instants
-        assert read.time - read.time[0] == pytest.approx(
-            VALUES["time"], abs=6e-4
-        )  # openpyxl rounds to milliseconds
+        # openpyxl rounds to milliseconds
+        assert read.time - read.time[0] == pytest.approx(VALUES["time"], abs=6e-4)
         assert read.channels["a_y"] == pytest.approx(VALUES["a_y"] * G0)
 
 
@@ -470,22 +468,6 @@ def test_what_a_file_holds(tmp_path: Path) -> None:
     (tmp_path / "x.csv").write_text(text(PLAIN, kept))
     (record,) = describe_flight(tmp_path / "x.csv")["records"]
     assert record["refused"] is None and any("2 gaps" in n for n in record["notes"])
-
-
-@pytest.mark.parametrize(
-    ("spelling", "unit"),
-    [("Volt", "V"), ("DEG/S", "deg/s"), ("mdps", "mdeg/s"), ("\u2103", "degC"), ("m/s²", "m/s^2"), ("Deg/Hr", "deg/h"), ("volts", "V"),
-     ("mVolt", "mV"), ("G", "g"), ("C", "degC"), ("degrees_celsius", "degC")],
-)  # fmt: skip
-def test_spellings(spelling: str, unit: str) -> None:
-    si = units(G0).base_unit(unit)
-    assert units(G0).to_si(1.0, spelling, si) == pytest.approx(units(G0).to_si(1.0, unit, si))
-
-
-def test_a_decimal_comma_in_a_quantity() -> None:
-    assert units(G0).quantity("0,1 m").value == 0.1
-    with pytest.raises(UserError, match="not a unit"):  # a thousand, or one?
-        units(G0).quantity("1,234 m")
 
 
 def test_a_header_over_two_rows_is_named_where_its_names_are_not_known(tmp_path: Path) -> None:

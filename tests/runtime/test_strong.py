@@ -47,13 +47,13 @@ def test_strong_effects_of_unequal_size_are_found_and_nothing_beside_them() -> N
 
 
 def test_an_effect_that_a_sheet_with_larger_errors_would_absorb_is_found() -> None:
-    s = scenario(5, duration=400.0, rate=4.0)
+    s = scenario(5, duration=250.0, rate=4.0)
     d = diagnosed(s, s.simulate({"spin-phase-offset": {"phi_0": 2e-3}}).flight())
     assert (d.verdict, d.found) == ("missing-effect", ("spin-phase-offset",))
 
 
 def test_a_strong_effect_keeps_no_coefficients_that_its_second_order_seemed_to_need() -> None:
-    s = scenario(5, duration=300.0, rate=RATE)
+    s = scenario(5, duration=200.0, rate=RATE)
     d = diagnosed(s, s.simulate({"gain-drift": {"dK1_dt": [0.0, 0.0, 0.0, 3e-9]}}).flight())
     assert d.found == ("gain-drift",)
     assert len(d.target.instrument.held) == 3
@@ -155,7 +155,6 @@ def never_arrives(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(calibration, "minimise", stopped)
 
 
-@pytest.mark.usefixtures("no_next_motion")
 def test_what_has_not_converged_says_so_and_adds_nothing(tmp_path: Path, never_arrives: None) -> None:
     m = ragg.new(tmp_path / "m")
     s = scenario(6, duration=150.0, rate=RATE)
@@ -186,9 +185,8 @@ def test_a_step_in_red_noise_is_placed_to_the_sample() -> None:
     flight = s.simulate({"bias-step": {"dK0": [1e-8, 0, 0, 0], "t_step": 141.2}}).flight()
     stage = Stage.of(fit(load.load_packaged(), s.sheet, observe_flights([flight], s.sheet)))
     assert stage.choice.chosen == ("bias-step",)
-    assert (
-        stage.instants["bias-step"] == 141.25
-    )  # of samples a sixteenth of a second apart the first after it
+    # of samples a sixteenth of a second apart the first after it
+    assert stage.instants["bias-step"] == 141.25
 
 
 def test_a_step_in_one_voltage_is_placed_to_the_sample() -> None:

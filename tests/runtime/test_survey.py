@@ -95,13 +95,10 @@ def test_a_flight_that_cannot_be_read_is_reported_and_stops_nothing(flights: Fli
     assert "ragg add" in said
 
 
-def test_a_flight_that_kills_every_worker_is_given_up(
-    flights: Flights, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_flight_that_kills_every_worker_is_given_up(flights, monkeypatch) -> None:
     monkeypatch.setattr(run, "examine", dying.deadly)
-    monkeypatch.setattr(
-        run, "_begin", dying.begin
-    )  # ours imports the program, which takes a second each time
+    # ours imports the program, which takes a second each time
+    monkeypatch.setattr(run, "_begin", dying.begin)
     files = [str(p) for p in flights[1]]
     found = dict(run.examine_here(None, files, 1))  # type: ignore[arg-type]
     assert sorted(found) == sorted(files)
@@ -322,9 +319,8 @@ def test_lines_are_flights(tmp_path: Path) -> None:
 
 def test_flights_of_one_file_name_are_named_with_their_folders_and_in_order() -> None:
     days = [f"/s/day-{d}/line-{n}.csv" for d in (1, 0) for n in (1, 0)]
-    assert order_files([*days, days[0]]) == sorted(
-        days
-    )  # the days follow one another, and so does what drifts
+    # the days follow one another, and so does what drifts
+    assert order_files([*days, days[0]]) == sorted(days)
     assert order_files(["/s/b/1.csv", "/s/a/2.csv"]) == ["/s/b/1.csv", "/s/a/2.csv"]
     files = ["/s/01/flight.csv", "/s/02/flight.csv", "/t/02/flight.csv", "/s/other.csv", "/none/s.csv::20"]
     assert name_flights(files) == dict(
@@ -336,9 +332,6 @@ def test_flights_of_one_file_name_are_named_with_their_folders_and_in_order() ->
     )
     many = [f"/s/{n}/flight.csv" for n in range(3000)]
     assert name_flights(many)[many[7]] == "7/flight.csv"
-
-
-# --- on a cluster ----------------------------------------------------------------------------------------
 
 
 def summary(s: Survey) -> str:
@@ -410,9 +403,7 @@ def running(folder: Path, workers: int) -> Iterator[Cluster]:
         c.end()
 
 
-def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
-    flights: Flights, whole: Survey, tmp_path: Path
-) -> None:
+def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(flights, whole, tmp_path) -> None:
     """And once the scheduler is lost that is one message, and what is done is kept."""
     killed: list[int] = []
     m, kept, files = api.load(flights[0]), tmp_path / "kept.jsonl", without_effect(flights[1])
@@ -454,9 +445,7 @@ def test_a_record_of_another_program_is_not_taken(flights: Flights) -> None:
 
 
 @pytest.mark.parametrize("address", ["free", "127.0.0.1", "tcp://", "", "scheduler.json"])
-def test_a_scheduler_that_is_not_there_is_one_message(
-    flights: Flights, address: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_scheduler_that_is_not_there_is_one_message(flights, address, monkeypatch) -> None:
     pytest.importorskip("distributed", reason="Dask is an optional extra: pip install 'ragg[cluster]'")
     if address == "free":
         with socket.socket() as s:

@@ -57,9 +57,7 @@ def _force(exact: dict[str, Callable[[Array], Array]], axis: str) -> Callable[[A
 
 
 @pytest.mark.parametrize("axis", ["f_i", "f_o"])
-def test_turning_forces_and_their_derivatives(
-    axis: str, smooth: tuple[Record, dict[str, Callable[[Array], Array]]]
-) -> None:
+def test_turning_forces_and_their_derivatives(axis, smooth) -> None:
     r, exact = smooth
     f, h, t = _force(exact, axis), 1e-4, r.time
     inner = slice(50, -50)
@@ -73,9 +71,7 @@ def test_turning_forces_and_their_derivatives(
     np.testing.assert_array_equal(features.make_series(f"sign({axis})", r)[clear], np.sign(f(t))[clear])
 
 
-def test_forces_of_the_other_accelerometers_are_these_up_to_sign_and_exchange(
-    smooth: tuple[Record, dict[str, Callable[[Array], Array]]],
-) -> None:
+def test_forces_of_the_other_accelerometers_are_these_up_to_sign_and_exchange(smooth) -> None:
     """A2 is half a turn on, A3 a quarter, A4 three quarters: no further terms are needed for them."""
     r, _ = smooth
     f = {n: features.make_series(n, r) for n in ("f_i", "f_o")}
@@ -90,9 +86,7 @@ def test_forces_of_the_other_accelerometers_are_these_up_to_sign_and_exchange(
         np.testing.assert_allclose(features.make_series(force, turned), expected, atol=1e-12)
 
 
-def test_relaxations_are_those_of_the_differential_equation_wherever_they_are_taken_up(
-    smooth: tuple[Record, dict[str, Callable[[Array], Array]]],
-) -> None:
+def test_relaxations_are_those_of_the_differential_equation_wherever_they_are_taken_up(smooth) -> None:
     r, _ = smooth
     x = r.wide["a_z"] - r.wide["a_z"][0]
     # y' = (x - y)/T for sin(w t): (sin(wt) - wT cos(wt) + wT exp(-t/T))/(1 + w^2 T^2)
@@ -113,9 +107,7 @@ def test_relaxations_are_those_of_the_differential_equation_wherever_they_are_ta
         np.testing.assert_allclose(parts.series(name, part), whole[start : start + 1500], rtol=1e-12)
 
 
-def test_what_a_record_lacks_makes_no_term(
-    smooth: tuple[Record, dict[str, Callable[[Array], Array]]],
-) -> None:
+def test_what_a_record_lacks_makes_no_term(smooth) -> None:
     r, _ = smooth
     all_terms = {t.product for t in Dictionary(r).terms}
     assert {"f_i*f_i*f_i*f_i", "f_i*temperature*temperature", "slow(f_o, 1 s)"} <= all_terms
@@ -176,7 +168,7 @@ def _transducer(run: Simulation, s: Scenario, change: Callable[[dict[str, Array]
 
 def test_a_product_with_a_force_at_a_harmonic_is_one_formula() -> None:
     """Too many terms of the dictionary for one of them to stand out, and none of them with a sign."""
-    s = scenario(72, duration=400.0, rate=RATE)
+    s = scenario(72, duration=250.0, rate=RATE)
     run, turn = s.simulate({}), 2 * np.pi * s.instrument.spin_frequency
     centred = {n: x - np.mean(x) for n, x in run.channels.items()}
     sense = np.sign(centred["roll"] * centred["pressure"])
@@ -201,7 +193,7 @@ def _crept(f: Array, t: Array, constant: float) -> Array:
 
 
 def test_what_a_transducer_may_do_beyond_the_catalogue_is_unexplained_and_named() -> None:
-    s = scenario(72, duration=400.0, rate=RATE)
+    s = scenario(72, duration=250.0, rate=RATE)
     creep = _transducer(s.simulate({}), s, lambda w: 1e-7 * _crept(w["f_p"] - w["f_p"][0], w["t"], 20.0))
     d = diagnosed(s, creep)
     assert (d.verdict, d.found) == ("unexplained", ())
@@ -211,7 +203,7 @@ def test_what_a_transducer_may_do_beyond_the_catalogue_is_unexplained_and_named(
 
 
 def test_a_bent_converter_of_the_output_is_its_curve() -> None:
-    s = scenario(72, duration=400.0, rate=RATE)
+    s = scenario(72, duration=250.0, rate=RATE)
     run = s.simulate({})
     flight, G = run.flight(), run.G_out
     noise = float(np.std(run.G_out - run.G_out_noise_free))

@@ -31,14 +31,12 @@ from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.report import panels
 from tests.rate import RATE as SLOW
 
-pytestmark = pytest.mark.usefixtures("no_next_motion")
-
 RATE, EVERY = 100.0, 12
 
 
 @pytest.fixture(scope="module")
 def flown() -> tuple[Scenario, Flight]:
-    s = scenario(77, duration=420.0, rate=RATE)
+    s = scenario(77, duration=320.0, rate=RATE)
     return s, s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-8, 0]}}).flight()
 
 
@@ -59,9 +57,13 @@ def thinned(sheet: Instrument, flight: Flight) -> Observation:
     return found
 
 
+def at_sheet(sheet: Instrument, *, with_candidates: bool = False) -> LinearisationPoint:
+    m = model.load_packaged()
+    return LinearisationPoint(m, sheet, make_vector(m, sheet), with_candidates=with_candidates)
+
+
 def with_output(flight: Flight, further: NDArray[np.float64]) -> Flight:
-    outputs = {n: x + further for n, x in flight.outputs.items()}
-    return Flight(flight.time, flight.channels, outputs, valid=flight.valid, units=flight.units)
+    return replace(flight, outputs={n: x + further for n, x in flight.outputs.items()})
 
 
 def test_one_sample_in_twelve_is_kept_at_its_own_instant(whole: Observation, thin: Observation) -> None:
@@ -86,14 +88,12 @@ def test_the_low_pass_passes_the_motion_and_stops_what_would_fold() -> None:
         assert np.max(gain[f >= thinning.STOPPED * half]) < 2e-5
 
 
-def test_the_residual_is_that_of_the_whole_record_thinned(
-    flown: tuple[Scenario, Flight], whole: Observation, thin: Observation
-) -> None:
+def test_the_residual_is_that_of_the_whole_record_thinned(flown, whole, thin) -> None:
     """Against the NumPy model along the recorded motion, and a sum over the taps for a few samples."""
     s, _ = flown
     m = model.load_packaged()
     p = make_vector(m, s.sheet)
-    at = LinearisationPoint(m, s.sheet, p, with_candidates=False)
+    at = at_sheet(s.sheet)
     found = linearise(at, thin)[-1, 0]
     assert thin.thin is not None
     full = whole.data[0] - evaluate_output(m.chain, whole.record, p, whole.output)
@@ -105,9 +105,7 @@ def test_the_residual_is_that_of_the_whole_record_thinned(
     np.testing.assert_allclose(np.concatenate(parts), found, atol=1e-10)
 
 
-def test_the_diagnosis_is_that_of_the_whole_record(
-    flown: tuple[Scenario, Flight], whole: Observation
-) -> None:
+def test_the_diagnosis_is_that_of_the_whole_record(flown, whole) -> None:
     s, flight = flown
     d = diagnose(model.load_packaged(), s.sheet, [flight])
     assert len(d.fitted.observations[0].record.time) * EVERY < len(flight.time)
@@ -141,20 +139,11 @@ def test_what_thinning_takes_is_counted_as_noise(flown: tuple[Scenario, Flight],
 def test_short_flights_and_slow_ones_stay_as_they_are(flown: tuple[Scenario, Flight]) -> None:
     s, flight = flown
     m = model.load_packaged()
-    short = observation.observe(_cut(flight, 25_000), s.sheet)
+    short = observation.observe(flight.part(slice(0, 25_000)), s.sheet)
     assert thinning.thin_observations(m, s.sheet, [short]) == [short]
     slow = scenario(78, duration=2200.0, rate=16.0)
     o = observation.observe(slow.simulate().flight(), slow.sheet)
     assert len(o.record.time) > 30_000 and thinning.thin_observations(m, slow.sheet, [o]) == [o]
-
-
-def _cut(flight: Flight, n: int) -> Flight:
-    return Flight(
-        flight.time[:n],
-        {k: x[:n] for k, x in flight.channels.items()},
-        {k: x[:n] for k, x in flight.outputs.items()},
-        units=flight.units,
-    )
 
 
 def test_a_motion_that_shakes_is_not_thinned(flown: tuple[Scenario, Flight]) -> None:
@@ -163,8 +152,7 @@ def test_a_motion_that_shakes_is_not_thinned(flown: tuple[Scenario, Flight]) -> 
     t = flight.time
     shake = 0.5 * np.sin(2 * np.pi * 30.0 * t) * (1 + np.sin(2 * np.pi * 0.2 * t))
     channels = {**flight.channels, "a_x": flight.channels["a_x"] + shake}
-    shaken = Flight(t, channels, flight.outputs, units=flight.units)
-    assert thinned(s.sheet, shaken).thin is None
+    assert thinned(s.sheet, replace(flight, channels=channels)).thin is None
 
 
 def test_a_flight_with_a_line_beyond_the_band_is_not_thinned(flown: tuple[Scenario, Flight]) -> None:
@@ -180,14 +168,12 @@ def test_spikes_cost_a_sample_and_a_gap_what_is_beside_it(flown: tuple[Scenario,
     outputs = {n: np.where(valid, x, np.nan) for n, x in flight.outputs.items()}
     there = (flight.time < 200.0) | (flight.time >= 203.0)  # of single samples the reader knows the motion
     channels = {n: np.where(there, x, np.nan) for n, x in flight.channels.items()}
-    o = thinned(s.sheet, Flight(flight.time, channels, outputs, valid=valid, units=flight.units))
+    o = thinned(s.sheet, replace(flight, channels=channels, outputs=outputs, valid=valid))
     assert o.thin is not None
     missing = np.flatnonzero(~o.record.valid)
     gap = (o.record.time[missing] > 199.5) & (o.record.time[missing] < 203.5)
     assert 3.0 * RATE / EVERY <= np.sum(gap) <= 3.8 * RATE / EVERY and np.sum(~gap) <= 2
-    at = LinearisationPoint(
-        model.load_packaged(), s.sheet, make_vector(model.load_packaged(), s.sheet), with_candidates=False
-    )
+    at = at_sheet(s.sheet)
     found = linearise(at, o)[-1, 0]
     expected = linearise(at, thinned(s.sheet, flight))[-1, 0]
     used = o.record.valid
@@ -196,15 +182,13 @@ def test_spikes_cost_a_sample_and_a_gap_what_is_beside_it(flown: tuple[Scenario,
     assert np.std((found - expected)[used]) < 0.01 * np.std(expected)
 
 
-def test_an_encoder_that_counts_from_zero_at_every_turn_is_thinned_as_one_that_does_not(
-    flown: tuple[Scenario, Flight],
-) -> None:
+def test_an_encoder_that_counts_from_zero_at_every_turn_is_thinned_as_one_that_does_not(flown) -> None:
     s, flight = flown
     spin = 2 * np.pi * s.sheet.spin_frequency
     found = []
     for angle in (spin * flight.time, np.mod(spin * flight.time, 2 * np.pi)):
         channels = {**flight.channels, "spin_angle": angle}
-        o = thinned(s.sheet, Flight(flight.time, channels, flight.outputs, units=flight.units))
+        o = thinned(s.sheet, replace(flight, channels=channels))
         assert o.thin is not None
         found.append(np.exp(1j * o.record.phi))
     np.testing.assert_allclose(found[0], found[1], atol=1e-9)
@@ -220,9 +204,7 @@ def long_flight() -> tuple[Scenario, Flight]:
     return s, s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
 
 
-def test_ends_whose_derivative_does_not_fit_are_not_fitted(
-    flown: tuple[Scenario, Flight], whole: Observation
-) -> None:
+def test_ends_whose_derivative_does_not_fit_are_not_fitted(flown, whole) -> None:
     n, packaged = len(whole.record.time), model.load_packaged()
     with_lag = derive.with_effects(flown[0].sheet, packaged, ["lag"])
     p = make_vector(with_lag, flown[0].instrument)
@@ -243,14 +225,12 @@ def test_segments_and_their_blocks_cover_a_flight_once(samples: int) -> None:
     assert sorted({b for b, _ in blocks}) == list(range(BLOCKS))
 
 
-def test_the_division_leaves_no_trace(
-    long_flight: tuple[Scenario, Flight], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_division_leaves_no_trace(long_flight, monkeypatch) -> None:
     """The same calibration and evidence, from one segment and from many, to rounding; with a gap, and a level that changes."""
     s, flight = long_flight
     valid = np.ones(len(flight.time), dtype=bool)
     valid[4000:4130] = False
-    flight = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
+    flight = replace(flight, valid=valid)
     o = observation.observe(flight, s.sheet)
     louder = Level((LevelFactor("time", np.array([0.0, 300.0, 600.0]), np.array([1.0, 3.0, 1.0])),))
     estimated = fitted.fit(model.load_packaged(), s.sheet, [o]).calibration.noise
@@ -285,7 +265,7 @@ def test_single_missing_samples_do_not_silence_the_demodulator(long_flight: tupl
     scattered = rng.random(len(flight.time)) > 0.01
     found = {}
     for name, valid in (("whole", np.ones(len(flight.time), dtype=bool)), ("scattered", scattered)):
-        x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
+        x = replace(flight, valid=valid)
         f = fitted.fit(
             model.load_packaged(), s.sheet, observation.observe_flights([x], s.sheet), candidates=False
         )
@@ -301,9 +281,7 @@ def test_single_missing_samples_do_not_silence_the_demodulator(long_flight: tupl
     assert found_segments[:400].all() and found_segments[560:].all()
 
 
-def test_a_long_flight_with_gaps_everywhere_has_no_means(
-    long_flight: tuple[Scenario, Flight], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_long_flight_with_gaps_everywhere_has_no_means(long_flight, monkeypatch) -> None:
     """One output sample of three, or part of the flight: the density is that of the segments, or of the means that are left."""
     s, flight = long_flight
     monkeypatch.setattr(whitening, "ROWS", 1700)
@@ -311,11 +289,9 @@ def test_a_long_flight_with_gaps_everywhere_has_no_means(
     every, third = np.zeros((2, len(flight.time)), dtype=bool)
     every[::3] = third[2400:6400] = True
     for valid, there in ((every, False), (third, True), (np.ones_like(third), True)):
-        x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
+        x = replace(flight, valid=valid)
         o = observation.observe(x, s.sheet)
-        at = LinearisationPoint(
-            model.load_packaged(), s.sheet, make_vector(model.load_packaged(), s.sheet), with_candidates=True
-        )
+        at = at_sheet(s.sheet, with_candidates=True)
         found = noise_estimate.average_residuals(at, o, NoiseModel.white(o.record.rate, len(o.series)))
         assert (found is not None) == there
         if found is not None:

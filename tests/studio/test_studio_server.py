@@ -74,9 +74,7 @@ def test_it_listens_to_this_machine_alone(server: Served) -> None:
 @pytest.mark.parametrize(
     "host", ["evil.example", "evil.example:{port}", "127.0.0.1", "127.0.0.1:1", "127.0.0.1.evil:{port}", ""]
 )
-def test_a_name_that_is_made_to_point_here_is_refused(
-    server: Served, client: httpx.Client, host: str
-) -> None:
+def test_a_name_that_is_made_to_point_here_is_refused(server, client, host) -> None:
     cookie = "; ".join(f"{k}={v}" for k, v in client.cookies.items())
     ask = f"GET /api/state HTTP/1.1\nHost: {host.format(port=server.port)}\nCookie: {cookie}\nConnection: close\n\n"
     assert raw(server.port, ask).split()[1] in ("400", "421")
@@ -93,9 +91,7 @@ def test_a_name_that_is_made_to_point_here_is_refused(
         {"sec-fetch-site": "same-site"},
     ],
 )
-def test_a_post_from_another_site_changes_nothing(
-    server: Served, client: httpx.Client, folder: Path, headers: dict[str, str]
-) -> None:
+def test_a_post_from_another_site_changes_nothing(server, client, folder, headers) -> None:
     before = load_model_dir(folder / "model").digest
     answer = client.post("/api/do/remove", json={"effect": "lag"}, headers=headers)
     assert answer.status_code == 403
@@ -146,9 +142,7 @@ def test_no_folder_beside_those_named_is_shown(client: httpx.Client, folder: Pat
     assert "may not use this folder" in answer.json()["error"]["what"]
 
 
-def test_nothing_is_opened_made_or_served_from_elsewhere(
-    client: httpx.Client, folder: Path, server: Served
-) -> None:
+def test_nothing_is_opened_made_or_served_from_elsewhere(client, folder, server) -> None:
     for body in ({"model": "/etc"}, {"flights": ["/etc/passwd"]}, {"flights": [f"{folder}/link/passwd"]}):
         assert client.post("/api/do/open", json=body).status_code == 400
     assert client.post("/api/do/new", json={"model": f"{folder}/../stolen"}).status_code == 400
@@ -164,9 +158,7 @@ def test_nothing_is_opened_made_or_served_from_elsewhere(
         assert raw(server.port, ask).split()[1] in ("403", "404")
 
 
-def test_uploads_keep_to_their_folder_their_kinds_and_their_size(
-    client: httpx.Client, folder: Path, server: Served
-) -> None:
+def test_uploads_keep_to_their_folder_their_kinds_and_their_size(client, folder, server) -> None:
     for name in ("x.exe", "", ".csv", "model.toml", "a" * 200 + ".csv", "..", "x.csv/.."):
         assert client.post("/api/upload", params={"name": name}, content=b"x").status_code == 400, name
     assert client.post("/api/upload", params={"name": "empty.csv"}, content=b"").status_code == 400
@@ -224,8 +216,8 @@ def test_what_is_drawn_is_what_the_commands_compute(client: httpx.Client) -> Non
     for what in ("residual", "left", "effect"):
         data = client.get("/api/series", params={"what": what, "effects": best, "points": 20000}).content
         mark, count, _, step, kind = struct.unpack_from("<4sIddI", data)
-        assert (mark, count, kind) == (b"RAGG", 1920, 0)
-        assert step == pytest.approx(1 / 16)
+        assert (mark, count, kind) == (b"RAGG", 960, 0)
+        assert step == pytest.approx(1 / 8)
         rms[what] = float(np.sqrt(np.mean(np.frombuffer(data[28:], "<f4").astype(float) ** 2)))
     assert rms["residual"] == pytest.approx(state["banner"]["errors"]["calibrated"]["rms_Eo"], rel=1e-5)
     assert rms["left"] == pytest.approx(preview["rms_Eo"], rel=1e-5)
@@ -250,16 +242,14 @@ def test_a_stretch_is_left_out_and_taken_back(client: httpx.Client) -> None:
         assert client.post("/api/do/leave", json=body).status_code == 400
     assert client.post("/api/do/leave", json={"flight": 0, "from": 0.0, "to": 30.0}).status_code == 202
     state = compared(client)
-    assert state["flights"][0]["valid"] == 1920 - 481
+    assert state["flights"][0]["valid"] == 960 - 241
     assert state["banner"]["errors"]["calibrated"]["rms_Eo"] != before
     assert any("left out by hand" in line for line in state["commands"])
     assert client.post("/api/do/leave", json={"flight": 0}).status_code == 202
     assert compared(client)["banner"]["errors"]["calibrated"]["rms_Eo"] == before
 
 
-def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(
-    client: httpx.Client, folder: Path
-) -> None:
+def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(client, folder) -> None:
     demo, second = folder / "demo-flight.parquet", folder / "b.parquet"
     brief(second, 4000)
     assert client.post("/api/do/open", json={"flights": [str(demo), str(second)]}).status_code == 202
@@ -278,7 +268,7 @@ def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(
     state = compared(client, "validation")
     assert "The calibration on b " in state["validation"][0]["sentences"][0]
     residual = client.get("/api/series", params={"what": "residual", "flight": 1, "points": 20000}).content
-    assert struct.unpack_from("<4sI", residual)[1] == 1920
+    assert struct.unpack_from("<4sI", residual)[1] == 960
     instrument = load_model_dir(folder / "model").instrument
     assert instrument.fixed == {"K1"}
     m = api.load(folder / "model")
@@ -289,9 +279,7 @@ def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(
     compared(client)
 
 
-def test_a_directory_that_several_change_loses_nothing(
-    server: Served, client: httpx.Client, folder: Path
-) -> None:
+def test_a_directory_that_several_change_loses_nothing(server, client, folder) -> None:
     """Work that is cancelled, a shell beside two tabs, and in the end a server that is killed at work."""
     model = folder / "model"
 
