@@ -12,9 +12,8 @@ def sheet(
     radius: str = "13.364 mm",
     lift: str = "5",
     arm: str = "0.5",
-    bias: str = "60",
 ) -> str:
-    """The sheet; ``lift`` deg, ``arm`` mm and ``bias`` mg say how sure it is of beta_x, dR and K0; a ``height`` for each or all."""
+    """The sheet; ``lift`` deg and ``arm`` mm say how sure it is of beta_x and dR; a ``height`` for each or all."""
     heights = (height,) * len(PLACES) if isinstance(height, str) else height
     text = [
         "# Four of eight MEMS accelerometers on a board, along the tangents of the circle through them: a gradiometer",
@@ -47,7 +46,7 @@ def sheet(
             f'{n} = {{ value = 0, sigma = 3, unit = "deg" }}'
             for n in ("beta_z", "vartheta_x", "vartheta_y", "vartheta_z")
         ),
-        f'K0 = {{ value = 0, sigma = {bias}, unit = "mg" }}',
+        'K0 = { value = 0, sigma = 60, unit = "mg" }',
         'K1 = { value = 1, sigma = 0.03, unit = "A/g" }',
         *(f'K{n} = {{ value = 0, sigma = 2, unit = "mg/g^2" }}' for n in (2, 4, 5, 6, 7, 8)),
         'k_VI = { value = 1, unit = "ohm" }',

@@ -80,7 +80,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         sys.exit(2)
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)
-    except click.Abort:
+    except (click.Abort, KeyboardInterrupt):
         click.echo("ragg: interrupted; nothing was changed", err=True)
         sys.exit(130)
     except click.ClickException as error:
@@ -91,9 +91,6 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except MemoryError:
         click.echo("ragg: there is not enough memory; nothing was changed", err=True)
         sys.exit(2)
-    except KeyboardInterrupt:
-        click.echo("ragg: interrupted; nothing was changed", err=True)
-        sys.exit(130)
     except OSError as error:
         click.echo(f"ragg: {refusal(error)}", err=True)
         sys.exit(2)

@@ -206,7 +206,6 @@ def show_flights(s: State) -> list[Json]:
                 "samples": len(x),
                 "valid": int(x.valid.sum()),
                 "rate_Hz": x.rate,
-                "start_s": 0.0,  # figures count from the first sample
                 "duration_s": x.duration,
                 "notes": list(x.notes),
                 "channels": list(x.channels),
@@ -375,9 +374,10 @@ def commands(s: State) -> list[str]:
     """What does the same in a shell: first, as comments, the steps that are in the model already."""
     if s.loaded is None:
         return []
-    model = shlex.quote(str(s.loaded.directory.path))
-    files = " ".join(shlex.quote(str(p)) for p in dict.fromkeys(s.paths))
-    fitted = " ".join(shlex.quote(str(p)) for p in dict.fromkeys(s.paths[: len(s.paths) - s.kept]))
+    model, first = shlex.quote(str(s.loaded.directory.path)), len(s.paths) - s.kept
+    files, fitted, kept = (
+        shlex.join(dict.fromkeys(map(str, paths))) for paths in (s.paths, s.paths[:first], s.paths[first:])
+    )
     found = []
     if s.paths:
         claims = s.diagnosed.found if s.diagnosed is not None else ()
@@ -387,7 +387,6 @@ def commands(s: State) -> list[str]:
     if s.paths:
         found.append(f"ragg calibrate {model} {fitted} --save")
     if s.kept:
-        kept = " ".join(shlex.quote(str(p)) for p in dict.fromkeys(s.paths[len(s.paths) - s.kept :]))
         found.append(f"ragg compare {model} {kept} --frozen")
     found.append(f"ragg export {model} model-c --c")
     if s.compensated is not None:

@@ -267,7 +267,7 @@ const MOST_LINES = 40; // more flights than these are chosen from a list alone
 export const flight = () => server.state && server.state.flights[view.flight];
 export const whole = () => {
   const f = flight();
-  return f ? [f.start_s, f.start_s + f.duration_s] : [0, 1];
+  return f ? [0, f.duration_s] : [0, 1]; // since the first sample
 };
 export const limits = () => {
   const [a, b] = whole();
