@@ -84,7 +84,7 @@ def test_an_unmatched_instrument_sampled_slowly_is_not_accused() -> None:
 
 
 def test_the_error_of_the_derivative_is_part_of_the_noise() -> None:
-    sheet, flight = derived(7016, 8.0, "table-v", 450.0)
+    sheet, flight = derived(7016, 8.0, "table-v", 900.0)
     c = compare(load_packaged(), sheet, [flight])
     assert c.calibrated.rms_Eo == pytest.approx(measure_noise_floor(c.fitted), rel=0.15)
     assert c.noise_floor > 3 * 2.8, "it is the largest part"
