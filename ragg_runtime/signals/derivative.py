@@ -16,8 +16,8 @@ Array = NDArray[np.float64]
 WINDOW = 25
 """Samples that enter one derivative."""
 
-BAND = 0.42
-"""End of the band for which the derivative is designed, of the Nyquist frequency."""
+BAND, EDGE_BAND = 0.65, 0.42
+"""End of the band for which the derivative is designed, of the Nyquist frequency; at an edge a wider one would multiply noise by 200."""
 
 _EDGE = 6  # samples at either end where the window is so one-sided that noise needs holding down
 _POLYNOMIAL = 4  # polynomials up to this degree are differentiated exactly
@@ -26,11 +26,11 @@ _POLYNOMIAL = 4  # polynomials up to this degree are differentiated exactly
 def differentiate(x: Array, rate: float, valid: NDArray[np.bool_] | None = None) -> Array:
     """Time derivative of ``x`` along its last axis, in units of x per second.
 
-    A window of 25 samples, weighted by least squares for motion below 42 % of the Nyquist frequency, exact
+    A window of 25 samples, weighted by least squares for motion below 65 % of the Nyquist frequency, exact
     for polynomials up to the fourth degree. Error over amplitude of the derivative, of sines up to 40 % of
-    Nyquist: below 1e-6 with six samples or more on either side; towards an end or a gap 5e-5, the last
-    sample but one 1.5e-4, the last 1e-3. White noise of ``x`` grows by 1.2 ``rate`` inside, 6 ``rate`` at the
-    last sample but one, 30 ``rate`` at the last. Above the band this is no derivative.
+    Nyquist: below 3e-6 with six samples or more on either side; towards an end or a gap 5e-5, the last
+    sample but one 1.5e-4, the last 1e-3. White noise of ``x`` grows by 1.5 ``rate`` inside, 3 ``rate`` at the
+    seventh sample, 6 ``rate`` at the last but one, 30 ``rate`` at the last. Above the band this is no derivative.
 
     Parameters
     ----------
@@ -85,9 +85,11 @@ def _derivative(x: Array) -> Array:
 def weights(window: int, at: int, band: float = BAND) -> Array:
     """Weights (window,) of the derivative, per sample, at sample ``at`` of the window.
 
-    Least squares of the relative error of the frequency response up to ``band``, plus the noise gain with a
-    small weight, under the constraint that low polynomials come out exactly.
+    Least squares of the relative error of the frequency response up to ``band``, at an edge up to :data:`EDGE_BAND`, plus the noise
+    gain with a small weight, under the constraint that low polynomials come out exactly.
     """
+    edge = min(at, window - 1 - at) < _EDGE
+    band = min(band, EDGE_BAND) if edge else band
     k = np.arange(window) - float(at)
     theta = (np.arange(2000) + 0.5) / 2000 * band * np.pi
     scale = 1 / np.maximum(theta, 0.05 * np.pi) / np.sqrt(len(theta))
@@ -101,7 +103,7 @@ def weights(window: int, at: int, band: float = BAND) -> Array:
     q, r = np.linalg.qr(moments.T, mode="complete")
     fixed = q[:, : degree + 1] @ np.linalg.solve(r[: degree + 1].T, moment)
     free = q[:, degree + 1 :]
-    damping = 3e-5 if min(at, window - 1 - at) < _EDGE else 1e-6
+    damping = 3e-5 if edge else 1e-6
     left = np.concatenate([response @ free, damping * free])
     right = np.concatenate([wanted - response @ fixed, -damping * fixed])
     weights = np.asarray(fixed + free @ np.linalg.lstsq(left, right, rcond=None)[0])
