@@ -36,7 +36,8 @@ EFFECT = Effect(
     ),
     limits=(
         "One frequency and Q for all accelerometers. A loop has u = d and v = b, a mount u = 0 and v = b, a mode a share of them. "
-        "For a resonance far above the spin rate and the motion, u and v are lag and second-order-loop. The response to gradients, a "
+        "For a resonance far above the spin rate and the motion, u and v are lag and second-order-loop; for motion slow against the spin "
+        "rate the latter is arm-stretch, but for a scale factor. The response to gradients, a "
         "millionth, is neglected, and the first seconds of a record are excluded. A diagnosis does not look for it: of 720 simulated "
         "flights five had another effect and got this name, and two had it."
     ),
@@ -48,5 +49,5 @@ EFFECT = Effect(
     transducer=transducer,
     memory="accelerometer",
     searched=False,
-    contains=("lag", "second-order-loop"),
+    contains=("arm-stretch", "lag", "second-order-loop"),
 )

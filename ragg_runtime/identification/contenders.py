@@ -50,6 +50,29 @@ def derive_with(
     return model, sheet
 
 
+SCALES = (0.4, 0.8, 1.6, 3.2)
+"""Where a fit of what has a memory begins, over the neutral value of the first of its shapes: of a resonance 2, 4, 8 and 16 Hz."""
+
+
+def choose_start(f: Fitted, model: Model, sheet: Instrument, effect: str) -> Instrument:
+    """The sheet with the shape of an effect that has a memory at which it leaves least, while the shape is held; from another a fit may
+    end in a narrow minimum. Values that the sheet has stay.
+    """
+    own = next(e for e in model.effects if e.id == effect)
+    shapes = [q for q in own.parameters if q.shape]
+    if own.memory is None or sheet.effect(effect) not in (None, EffectSetting(effect)):
+        return sheet
+    others = tuple(s for s in sheet.effects if s.id != effect)
+    held = sheet.held | {f"{effect}.{q.name}" for q in shapes}
+    found = []
+    for scale in SCALES:
+        value = RawQuantity(scale * shapes[0].default, shapes[0].unit)
+        begun = EffectSetting(effect, MappingProxyType({shapes[0].name: value}))
+        found.append(replace(sheet, effects=(*others, begun)))
+    left = [fit_contender(f, model, replace(s, held=held)).chi2 for s in found]
+    return found[int(np.argmin(left))]
+
+
 @dataclass(frozen=True)
 class ContenderFit:
     """What effects in the model leave: chi-square, with what the parameters cost, and whether the fit came to an optimum."""

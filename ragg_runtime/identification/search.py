@@ -17,7 +17,7 @@ from ragg_runtime.identification import comparison, contenders, omnibus, selecti
 from ragg_runtime.identification.claims import SECOND_ORDER, Regression, Robust, Significance
 from ragg_runtime.identification.comparison import Explained, measure_explained
 from ragg_runtime.identification.contenders import Extend
-from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.strong import AddedEffect, Stage
 from ragg_runtime.instrument.instrument import Instrument
@@ -183,6 +183,26 @@ class Evidence:
             for i, c in ((f.instrument, f.calibration), without)
         )
         return more - less
+
+    def weigh_instead(self, o: Outcome, effect: str) -> float:
+        """Log evidence by which one effect, which is not searched for, is ahead of an outcome's effects, each fitted to the same samples."""
+        if self.extend is None:
+            return -np.inf
+        f, noise = self.first.fitted, self.first.fitted.calibration.noise
+        model, sheet = contenders.derive_with(f, [effect], {}, self.extend)
+        sheet = contenders.choose_start(f, model, sheet, effect)
+        kept, sheet, instead = fitted_.calibrate_certain(model, sheet, o.target.observations, noise=noise)
+        own = [n for n, q in enumerate(instead.columns) if q.effect == effect]
+        known = len(own) - float(np.trace(instead.covariance[np.ix_(own, own)]))
+        chosen_sheet, chosen = calibrate(*self._model_with(o.effects), kept, noise=noise)
+        without = calibration.fit(f.model, f.instrument, kept, noise=noise, start=f.calibration.p).chi2
+        explained = [
+            max(0.0, without - c.chi2 - calibration.charge_wider_priors(s, c))
+            for s, c in ((sheet, instead), (chosen_sheet, chosen))
+        ]
+        evidence = log_bayes(np.array(explained), np.array([known, self.explained(o)[1]]))
+        charge = self.charge(o) + (len(o.effects) - 1) * float(np.log(self.first.field.count))
+        return float(evidence[0] - evidence[1]) + charge
 
     def _is_derived(self, o: Outcome) -> bool:
         return self.extend is not None and bool(self.steps or o.target is not self.last.fitted)

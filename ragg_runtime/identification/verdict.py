@@ -24,8 +24,8 @@ class Conclusion:
     """The verdict, the effects that are claimed, and what remains.
 
     ``open``: effects that the record speaks for, but not surely enough; ``line``, ``steady``: see ``line_rival``; ``share``: probability
-    of what the search chose against generic terms; ``rival``: these do as well; ``one``: the effect of which what it chose are special
-    cases; ``shared``: the generic term that explains as much as the one claimed effect.
+    of what the search chose against generic terms; ``rival``: these do as well; ``one``: the effect of which what it chose is a special
+    case; ``shared``: the generic term that explains as much as the one claimed effect.
     """
 
     verdict: str
@@ -63,6 +63,7 @@ class Conclusion:
             outcome, weak = less, [*weak, weakest]
             lead = _Lead.of(found, outcome, count, base)
             claimed = _choose_claims(outcome, lead, base)
+        one = one or (_find_better_kind(found, outcome) if claimed else None)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         random = _list_random(outcome, count)
         doubted = apart or outcome.explained.complaint is not None
@@ -126,7 +127,7 @@ class Conclusion:
         o = self.outcome
         terms = [f"{t.term.harmonic} x {t.term.product}" for x in self.left.searches for t in x.terms]
         if self.one:
-            cases = f"{join_names(o.effects)} would explain it together, as {self.one} may alone"
+            cases = f"{join_names(o.effects)} would explain it, but {self.one} may explain it better"
             return [Reason(f"{cases}: add {self.one} and compare")]
         if self.rival:
             generic = f"a generic term, {terms[0]}" if terms else "generic terms"
@@ -284,11 +285,22 @@ def _choose_claims(o: Outcome, lead: _Lead | None, base: Sequence[Remainder]) ->
 
 def _find_common_kind(found: Evidence, effects: Sequence[str]) -> str | None:
     """The effect of which several of these, or what cannot be told from them, are special cases: of a resonance its low frequencies."""
+    return next((k for k, cases in _count_cases(found, effects).items() if cases > 1), None)
+
+
+def _find_better_kind(found: Evidence, o: Outcome) -> str | None:
+    """The effect of which one of an outcome's effects is a special case, and which explains plainly more than all of them."""
+    kinds = (k for k, cases in _count_cases(found, o.effects).items() if cases)
+    return next((k for k in kinds if found.weigh_instead(o, k) > claims.PLAINLY), None)
+
+
+def _count_cases(found: Evidence, effects: Sequence[str]) -> dict[str, int]:
+    """How many of the effects, or what cannot be told from them, are special cases of each that is not searched for."""
     others = found.alternatives()
     groups = [{e, *others.get(e, ())} for e in effects]
     # those that are searched for have been compared themselves
     kinds = {e.id: {e.id, *e.contains} for e in found.first.fitted.model.candidates if not e.searched}
-    return next((k for k, own in kinds.items() if sum(bool(own & g) for g in groups) > 1), None)
+    return {k: sum(bool(own & g) for g in groups) for k, own in kinds.items()}
 
 
 def _find_shared_term(chi2: float, base: Sequence[Remainder]) -> ResidualTerm | None:
