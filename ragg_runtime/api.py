@@ -34,6 +34,7 @@ from ragg_runtime.estimation.scores import list_errors
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
 from ragg_runtime.identification.comparison import Comparison
+from ragg_runtime.identification.contenders import choose_start
 from ragg_runtime.identification.next_motion import LIMITS
 from ragg_runtime.identification.parameters import Estimates, ParameterValue
 from ragg_runtime.identification.quality import heed_flags
@@ -268,7 +269,9 @@ def add(
     after: Comparison | None = None
     parameters: tuple[ParameterValue, ...] = ()
     combinations: tuple[ParameterValue, ...] = ()
-    if flights:
+    if before is not None:
+        extended = choose_start(before.fitted, model, extended, effect)
+        setting = extended.effect(effect) or setting
         after = _compare.compare(model, extended, flights)
         found = Estimates.of_calibration(after.fitted).select(effect)
         parameters, combinations = found.list_parameters(), found.list_combinations()

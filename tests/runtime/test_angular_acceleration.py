@@ -33,7 +33,7 @@ def test_what_a_wide_band_gives() -> None:
     x, dx = np.sin(np.outer(t, w) + phase).sum(axis=1), (np.cos(np.outer(t, w) + phase) * w).sum(axis=1)
     derived, sure = differentiate_rate(x, RATE)
     assert np.std((derived - dx)[sure]) < 3e-6 * np.std(dx)
-    assert np.std((differentiate(x, RATE) - dx)[sure]) > 0.1 * np.std(dx)
+    assert np.std((differentiate(x, RATE) - dx)[sure]) > 0.02 * np.std(dx)
     assert np.flatnonzero(sure)[[0, -1]].tolist() == [REACH, len(t) - REACH - 1]
     x[::300] = np.nan
     derived, sure = differentiate_rate(x, RATE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from decimal import Decimal, getcontext
+from functools import partial
 from types import MappingProxyType
 
 import numpy as np
@@ -12,6 +13,8 @@ import pytest
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.observation import observe
+from ragg_runtime.identification.search import Evidence, Outcome
+from ragg_runtime.identification.strong import AddedEffect, Stage
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model import derive
@@ -72,6 +75,29 @@ def test_what_describes_a_memory_is_fitted_down_to_noise(hidden: EffectValues) -
         (value, std), true = found[name], float(np.asarray(values[name]))
         assert std < 0.2 * true
         assert abs(value - true) < 4 * std + 0.01 * true
+
+
+@pytest.mark.parametrize(
+    ("hidden", "better"),
+    [
+        (resonance("accelerometer-resonance", 3.0, 10.0, 5e-7), True),
+        (of_first("arm-stretch", "c_r", 1e-9), False),
+    ],
+)
+def test_a_resonance_is_compared_with_what_it_looks_like(hidden: EffectValues, better: bool) -> None:
+    """From 5 Hz, Q 10 its fit would end in a narrow minimum."""
+    s = scenario(76, duration=60.0)
+    extend = partial(derive.with_effects, s.sheet)
+    flight = observe(s.simulate(hidden).flight(), s.sheet)
+    first = Stage.of(fitted.fit(load.load_packaged(), s.sheet, [flight]))
+    model = extend(first.fitted.model, ["arm-stretch"])
+    target = fitted.fit(model, s.sheet, [flight], first.fitted.calibration.noise, candidates=False)
+    test = first.choice.tests["arm-stretch"]
+    step = AddedEffect("arm-stretch", test, before=first.fitted, after=target, alternatives=(), instant=None)
+    outcome = Outcome.of(target, ["arm-stretch"], ())
+    found = Evidence(first, [step], first.without_choice(), outcome, extend, spent=False)
+    ahead = found.weigh_instead(outcome, "accelerometer-resonance")
+    assert ahead > 10.0 if better else ahead < -5.0
 
 
 def test_what_slips_follows_the_force_within_its_width() -> None:

@@ -45,17 +45,18 @@ def band_limited(rng: np.random.Generator, t: np.ndarray, top: float) -> tuple[n
     return np.sin(argument) @ size, np.cos(argument) @ (size * f)
 
 
-@pytest.mark.parametrize("share", [0.01, 0.1, 0.2, 0.3, 0.4])
+@pytest.mark.parametrize("share", [0.01, 0.1, 0.2, 0.3, 0.4, 0.65])
 def test_accuracy_on_sines(share: float) -> None:
     """The figures of the docstring, at every phase."""
     w = share * np.pi * RATE
     t = np.arange(200) / RATE
     phase = np.linspace(0, 2 * np.pi, 33)[:, None]
     error = np.abs(differentiate(np.sin(w * t + phase), RATE) - w * np.cos(w * t + phase)).max(axis=0) / w
-    assert error[6:-6].max() < 1e-6
-    assert max(error[2:6].max(), error[-6:-2].max()) < 5.5e-5
-    assert max(error[1], error[-2]) < 1.5e-4
-    assert error.max() < 1.2e-3
+    assert error[6:-6].max() < (3e-6 if share < 0.5 else 2e-5)
+    if share < 0.5:
+        assert max(error[2:6].max(), error[-6:-2].max()) < 5.5e-5
+        assert max(error[1], error[-2]) < 1.5e-4
+        assert error.max() < 1.2e-3
 
 
 @settings(deadline=None)
@@ -87,7 +88,8 @@ def test_nothing_crosses_a_gap() -> None:
 def test_noise_is_not_blown_up() -> None:
     x = np.random.default_rng(5).normal(size=(4000, 2 * WINDOW))
     gain = np.std(differentiate(x, 1.0), axis=0)
-    assert gain[6:-6].max() < 1.3
+    assert gain[12:-12].max() < 1.6
+    assert gain[6:-6].max() < 3.3
     assert max(gain[1], gain[-2]) < 6.5
     assert gain.max() < 33
 
