@@ -185,7 +185,7 @@ class Evidence:
         return more - less
 
     def weigh_instead(self, o: Outcome, effect: str) -> float:
-        """Log evidence by which one effect, which is not searched for, is ahead of an outcome's effects, each fitted to the same samples."""
+        """Log evidence by which an effect that is not searched for is ahead of an outcome's effects, fitted to the same samples."""
         if self.extend is None:
             return -np.inf
         f, noise = self.first.fitted, self.first.fitted.calibration.noise
