@@ -13,7 +13,10 @@ export function loopView(main) {
   const below = h("section.unexplained", { "aria-label": "What is unexplained" });
   const columns = h("div.columns", {}, h("div.left", {}, left, noise), h("div.side", {}, right, below));
   main.replaceChildren(top, columns);
-  const empty = { known: () => (columns.hidden = !(server.state && server.state.flights.length)) };
+  const empty = { known() {
+    columns.hidden = !(server.state && server.state.flights.length);
+    below.hidden = !(server.state && server.state.banner); // nothing can be tried before it is compared
+  } };
   const parts = [empty, banner(top), figures(left), noisePane(noise), validationPane(noise), effectsPane(right), unexplainedPane(below)];
   const off = on("server", () => parts.forEach((p) => p.known && p.known()));
   parts.forEach((p) => p.known && p.known());
