@@ -60,7 +60,7 @@ def detection_limits() -> dict[str, dict[str, str]]:
     from ragg_runtime.estimation.fitted import fit
     from ragg_runtime.estimation.observation import observe_flights
     from ragg_runtime.identification.ranking import list_detectable
-    from ragg_runtime.identification.selection import list_testable, make_field
+    from ragg_runtime.identification.selection import make_problem
     from ragg_runtime.model.model import load_packaged
     from ragg_runtime.reference.auxiliaries import further
     from ragg_runtime.reference.scenario import scenario
@@ -69,7 +69,7 @@ def detection_limits() -> dict[str, dict[str, str]]:
     s = replace(s, auxiliaries={**s.auxiliaries, **further(np.random.default_rng(1))})
     f = fit(load_packaged(), s.sheet, observe_flights([s.simulate().flight()], s.sheet))
     found: dict[str, dict[str, str]] = {}
-    for x in list_detectable(f, make_field(f, list_testable(f))):
+    for x in list_detectable(f, make_problem(f)):
         found.setdefault(x.effect, {})[x.name] = f"{x.size:.2g}"
     return found
 

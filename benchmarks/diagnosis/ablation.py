@@ -128,6 +128,10 @@ def _empty(*args: Any, **kwargs: Any) -> list[Any]:
     return []
 
 
+def _true(*args: Any, **kwargs: Any) -> bool:
+    return True
+
+
 def _false(*args: Any, **kwargs: Any) -> bool:
     return False
 
@@ -232,10 +236,10 @@ RULES: tuple[Rule, ...] = (
          (Patch("identification.claims:MORE", np.inf, constant=True),)),
     Rule("claims-evidence", "the log evidence of claims is ahead of that of generic terms",
          (*OUTSIDE, ("five", "white"), ("pair", "red")),
-         (Patch("identification.verdict:_compare_with_terms", lambda *a: 1e6, acts=lambda r: r < 10.0),)),
+         (Patch("identification.verdict:GenericTerms._measure_lead", lambda *a: 1e6, acts=lambda r: r < 10.0),)),
     Rule("strong-term", "the model is fitted again beside a strong generic term, in the place of several effects",
          (*OUTSIDE, ("pair", "white"), ("strong", "white")),
-         (Patch("identification.verdict:_weigh_strong_term", lambda *a: -np.inf, acts=np.isfinite),)),
+         (Patch("identification.verdict:GenericTerms._weigh_strong_term", lambda *a: -np.inf, acts=np.isfinite),)),
     Rule("sheet-as-said", "effects beside a sheet as sure as it says compete with a sheet that is less sure",
          (*WEAK, *OFF, *quiet("white", "red")),
          (Patch("identification.strong:_with_priors_of_sheet", _nothing, acts=lambda r: r is not None),)),
@@ -259,7 +263,7 @@ RULES: tuple[Rule, ...] = (
          (Patch("identification.claims:weigh_held_out", lambda x, e: 0.0, acts=lambda r: r < -4.5),)),
     Rule("robust", "a claim is significant with the variance that its scores tell",
          (*OUTSIDE, *quiet("with-ax", "along-axes", "ramp"), ("five", "along-axes")),
-         (Patch("identification.verdict:_find_weakest", _nothing, acts=lambda r: r is not None),)),
+         (Patch("identification.verdict:_is_significant", _true, acts=lambda r: not r),)),
     Rule("spread", "beside a remainder generic terms have Gaussian coefficients of one fitted variance",
          (*OUTSIDE, ("off-sheet", "red"), ("strong", "white")),
          (Patch("identification.claims:measure_spread", lambda left: 1.0),)),
@@ -268,7 +272,7 @@ RULES: tuple[Rule, ...] = (
          (Patch("identification.search:SECOND_ORDER", np.inf, constant=True),)),
     Rule("effective-number", "effects that are alike count as fewer tests",
          (*WEAK, *quiet("ramp", "along-axes")),
-         (Patch("identification.selection:Field.effective_count", property(lambda f: float(max(f.count, 1))), constant=True),)),
+         (Patch("identification.selection:ProjectedProblem.effective_count", property(lambda f: float(max(f.count, 1))), constant=True),)),
     Rule("carrier", "the noise's spectrum is resolved at one and two turns of the disc",
          (*quiet("bump", "line"), ("ten", "bump")),
          (Patch("estimation.spectrum:_list_humps", lambda spin: [()], constant=True),)),

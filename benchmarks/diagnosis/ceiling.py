@@ -21,7 +21,7 @@ from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.observation import BLOCKS, observe
 from ragg_runtime.estimation.regressors import list_base_columns, predict_observed
 from ragg_runtime.identification import likelihood_ratio
-from ragg_runtime.identification.selection import Field
+from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.model.evaluate import make_vector
 
 Array = NDArray[np.float64]
@@ -84,11 +84,11 @@ def _normal(z: float | np.floating[Any]) -> float:
     return float(special.log_ndtr(-z))
 
 
-def _field(o: Oracle, left: Array) -> Field:
+def _field(o: Oracle, left: Array) -> ProjectedProblem:
     """All effects with columns; steps from the middle on."""
     middle = float(np.mean(o.flight.time[[0, -1]]))
     ids = [e for e, kind in o.kinds.items() if kind in ("deterministic", "step")]
     T = compute_r_factor(np.concatenate([*(o.block(e, middle) for e in ids), left[None]]))
     columns = iter(enumerate(o.columns[k] for e in ids for k in o.of(e)))
     candidates = {e: tuple(next(columns) for _ in o.of(e)) for e in ids}
-    return Field(T=T, n_base=0, candidates=candidates, rows=o.rows)
+    return ProjectedProblem(T=T, n_base=0, candidates=candidates)

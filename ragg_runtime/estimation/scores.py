@@ -174,6 +174,9 @@ class Tally:
 INDISTINGUISHABLE = 9.0
 """Chi-square by which one explanation may be worse than another and still not be told apart (3 sigma)."""
 
+DISTINGUISHABLE = INDISTINGUISHABLE / 2
+"""Difference of log evidence from which one explanation is distinguishable from another."""
+
 
 def log_sf(chi2: float, rank: int, freedom: float = np.inf) -> float:
     """Logarithm of the chi-square survival function, also where the function itself underflows.

@@ -23,7 +23,7 @@ from scipy.special import fdtri
 from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.calibration import restore_priors
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, Fitted
-from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf, log_sf_f
+from ragg_runtime.estimation.scores import log_sf, log_sf_f
 from ragg_runtime.identification.dictionary import Dictionary
 from ragg_runtime.identification.features import OUTPUT
 from ragg_runtime.identification.likelihood_ratio import TESTABLE, log_bayes
@@ -32,13 +32,9 @@ from ragg_runtime.identification.parameters import list_physical_columns
 
 Array = NDArray[np.float64]
 
-PLAINLY = INDISTINGUISHABLE / 2
-"""Difference of log evidence from which one explanation is distinguishable from another, as everywhere."""
-
 MORE = 1.5
 """Times the chi-square that claims beside a remainder must explain: all of them, of the best single generic term, as the difference of
-two explanations grows with their strength and their ratio does not; each of them, of the best generic term of the remainder. The first
-ratio was 1.5 to 16 on a real array, 0.1 to 1.4 on flights with physics outside the catalogue.
+two explanations grows with their strength and their ratio does not; each of them, of the best generic term of the remainder.
 """
 
 SEEN = 1.0 / (1.0 + TESTABLE**2)
@@ -95,16 +91,11 @@ class Regression:
             t for own in self.flights for b, t in enumerate(own) if (some is None or b in some) and np.any(t)
         ]
 
-    def fit(self, some: Sequence[int] | None = None, without: Sequence[int] = ()) -> tuple[Array, Array]:
-        """Coefficients (n,), those of columns ``without`` as they are where nothing is, and a root of their covariance (n, n)."""
-        n = len(self.centre)
-        kept, R = self._factor(some, without)
-        fixed = np.zeros(n)
-        fixed[list(without)] = self.absent[list(without)]
-        k = len(kept)
-        root = np.linalg.inv(R[:k, :k])
-        fixed[kept] = root @ R[:k, k]
-        return fixed, np.asarray(root)
+    def fit(self) -> tuple[Array, Array]:
+        """Coefficients (n,), and a root of their covariance (n, n)."""
+        kept, R = self._factor(None, ())
+        root = np.asarray(np.linalg.inv(R[: len(kept), :-1]))
+        return root @ R[: len(kept), -1], root
 
     def log_evidence(self, some: Sequence[int] | None = None, without: Sequence[int] = ()) -> float:
         """Of some blocks, but for a constant of these: log of the Gaussian integral over the coefficients that are fitted."""
@@ -240,13 +231,12 @@ SECOND_ORDER = 0.05
 
 def _weigh_terms(s: Omnibus, claimed: float, most: int, spread: float) -> list[float]:
     charge = float(np.log(max(1, s.tried)))
-
-    def explained(chi2: float, rank: int) -> float:
-        return min(chi2, claimed + rank) if chi2 < (1.0 + SECOND_ORDER) * claimed + rank else chi2
-
-    sets = enumerate(s.explained[:most], start=1)
-    found = [float(log_bayes(explained(x, n) / spread, n)) - n * charge for n, x in sets]
-    return found + [float(log_bayes(explained(t.chi2, t.rank) / spread, t.rank)) - charge for t in s.varying]
+    sets = [(chi2, n, n * charge) for n, chi2 in enumerate(s.explained[:most], start=1)]
+    sets += [(t.chi2, t.rank, charge) for t in s.varying]
+    capped = (
+        (min(x, claimed + n) if x < (1.0 + SECOND_ORDER) * claimed + n else x, n, paid) for x, n, paid in sets
+    )
+    return [weigh_claims(*c, spread) for c in capped]
 
 
 STEP = 0.01

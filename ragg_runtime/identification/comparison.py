@@ -14,12 +14,12 @@ from ragg_runtime.estimation import fitted, regressors, unknown_gradient
 from ragg_runtime.estimation.calibration import OffSheet, list_off_sheet
 from ragg_runtime.estimation.fitted import Fitted, Scored, fit, measure_noise_floor, measure_swell
 from ragg_runtime.estimation.observation import combine_output, observe_flights
-from ragg_runtime.estimation.scores import Error, demodulate_residual, list_errors
+from ragg_runtime.estimation.scores import Error, list_errors
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import selection, series, several_outputs
 from ragg_runtime.identification.dictionary import list_harmonics, make_carrier
 from ragg_runtime.identification.omnibus import Remainder, list_terms, search_residual
-from ragg_runtime.identification.selection import list_testable, make_field
+from ragg_runtime.identification.selection import make_problem
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import make_vector
@@ -30,12 +30,11 @@ from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import render_notebook
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 LOUD = 2.0
-"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say. Slow noise, most of whose
-power is below the lowest frequency at which its spectrum is estimated, is up to 1.4 times as loud as the estimate (random walks).
+"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say: slow noise may be
+1.4 times as loud as estimated.
 """
 
 
@@ -47,20 +46,42 @@ class Comparison:
     nominal: Error
     scored: Scored
     holdout: Error
-    noise_floor: float
-    adequate: bool
     remainder: Remainder
-    complaint: str | None
-    remark: str | None
-    off_sheet: tuple[OffSheet, ...]
-    explained: Explained
     grounds: tuple[str, ...]
     """Tests by which the model is not adequate, in words."""
+
+    @property
+    def adequate(self) -> bool:
+        return not (self.complaint or self.explained.complaint or self.grounds)
 
     @property
     def converged(self) -> bool:
         """Whether the calibration has converged; if not, ``complaint`` has the reason."""
         return self.complaint is None
+
+    @property
+    def complaint(self) -> str | None:
+        """What speaks against the fit, in words."""
+        return self.fitted.calibration.complaint
+
+    @cached_property
+    def remark(self) -> str | None:
+        """What is wrong with the record, or how it is disturbed, in words."""
+        return self.explained.complaint or describe_disturbance(self.fitted)
+
+    @cached_property
+    def explained(self) -> Explained:
+        return measure_explained(self.fitted, self.scored)
+
+    @cached_property
+    def noise_floor(self) -> float:
+        """rms of the noise before demodulation, Eo."""
+        return measure_noise_floor(self.fitted)
+
+    @property
+    def off_sheet(self) -> list[OffSheet]:
+        f = self.fitted
+        return list_off_sheet(f.model, f.instrument, f.calibration)
 
     @property
     def calibrated(self) -> Error:
@@ -127,7 +148,7 @@ class Comparison:
     @cached_property
     def harmonics(self) -> list[dict[str, object]]:
         """Slow error at every harmonic of the spin, Eo, largest first (see :func:`measure_harmonics`)."""
-        return measure_harmonics(self.fitted, self.fitted.vector(np.zeros(self.fitted.n_base)))
+        return measure_harmonics(self.fitted, self.residual)
 
     def terms(self) -> list[dict[str, object]]:
         """Generic terms in the calibrated residual (see :func:`list_terms`)."""
@@ -136,65 +157,32 @@ class Comparison:
     def by_time(self) -> list[dict[str, object]]:
         """Error in every block of time, Eo, largest first."""
         rows: list[dict[str, object]] = []
-        for x, blocks, k_ggi in zip(
-            self.fitted.prepared, self.scored.blocks, self.fitted.scales, strict=True
-        ):
-            time = x.observation.record.time
-            for b, volts in enumerate(blocks):
+        for x, blocks, k in zip(self.fitted.prepared, self.scored.blocks, self.fitted.scales, strict=True):
+            name, time = x.observation.name, x.observation.record.time
+            for first, last, volts in zip(x.edges, x.edges[1:], blocks, strict=False):
                 if np.isfinite(volts):
-                    rms = float(volts) / k_ggi
-                    rows.append(
-                        {
-                            "flight": x.observation.name,
-                            "from_s": float(time[x.edges[b]]),
-                            "to_s": float(time[x.edges[b + 1] - 1]),
-                            "rms_Eo": rms,
-                            "over_noise": rms / self.noise_floor,
-                        }
-                    )
+                    rms, ends = float(volts) / k, (float(time[first]), float(time[last - 1]))
+                    row = {"flight": name, "from_s": ends[0], "to_s": ends[1], "rms_Eo": rms}
+                    rows.append(row | {"over_noise": rms / self.noise_floor})
         return sorted(rows, key=lambda x: -float(str(x["rms_Eo"])))
 
 
-def measure_harmonics(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
-    """Residual demodulated at const, cos k, sin k, as the demodulator would see it, largest first."""
-    turning = any(x.observation.record.turning for x in f.prepared)
-    total = dict.fromkeys(list_harmonics() if turning else ("const",), 0.0)
-    counted = 0
-    for x, k_ggi in zip(f.prepared, f.scales, strict=True):
-        rate = x.observation.record.rate
-        if not is_demodulable(rate):
+def measure_harmonics(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:
+    """Residuals (N,), V, demodulated at const, cos k, sin k, as the demodulator would see it, largest first."""
+    turning = any(o.record.turning for o in f.observations)
+    powers: dict[str, list[float]] = {h: [] for h in (list_harmonics() if turning else ("const",))}
+    for o, e, k_ggi in zip(f.observations, residuals, f.scales, strict=True):
+        r = o.record
+        if not is_demodulable(r.rate) or len(r.time) < 2 * len(low_pass(r.rate)):
             continue
-        taps = low_pass(rate)
-        if len(x.observation.record.time) < 2 * len(taps):
-            continue
-        counted += 1
-        squares, samples = dict.fromkeys(total, 0.0), 0
-        lean, v = x.for_residuals(coefficients[None])
-        tail = np.empty((len(total), 0))
-
-        def mix(piece: Piece, v: Array = v, k_ggi: float = k_ggi) -> Array:
-            r = piece.observation.record
-            e = np.where(r.valid, piece.left(v)[0], 0.0) / k_ggi
-            return np.stack([e * make_carrier(r, h) * (1 if h == "const" else 2) for h in total])
-
-        for mixed in lean.each(mix, whitened=False):
-            mixed = np.concatenate([tail, mixed], axis=1)
-            if mixed.shape[1] >= len(taps):
-                low = convolve(mixed, taps)
-                samples += low.shape[1]
-                for h, y in zip(total, low, strict=True):
-                    squares[h] += float(y @ y)
-            tail = mixed[:, -len(taps) + 1 :]
-        for h in total:
-            total[h] += squares[h] / samples
-    power = sum(total.values())
-    if not counted:
-        return []
-    rows: list[dict[str, object]] = [
-        {"harmonic": h, "rms_Eo": float(np.sqrt(p / counted)), "share": p / power if power else 0.0}
-        for h, p in total.items()
-    ]
-    return sorted(rows, key=lambda x: -float(str(x["rms_Eo"])))
+        e = np.where(r.valid, e, 0.0) / k_ggi
+        for h, power in powers.items():
+            low = convolve(e * make_carrier(r, h) * (1 if h == "const" else 2), low_pass(r.rate))
+            power.append(float(np.mean(low**2)))
+    mean = {h: float(np.mean(power)) for h, power in powers.items() if power}
+    whole = sum(mean.values()) or 1.0
+    ordered = sorted(mean.items(), key=lambda x: -x[1])
+    return [{"harmonic": h, "rms_Eo": float(np.sqrt(p)), "share": p / whole} for h, p in ordered]
 
 
 @one_thread
@@ -202,64 +190,34 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
     observations = observe_flights(flights, instrument)
     f = fit(model, instrument, observations)
-    calibrated, half, nominal = _score_three(f)
+    calibrated, half, nominal = score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
     if calibrated.whole.rms_V > nominal.whole.rms_V:
         # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
-        noise = f.calibration.noise
-        f = fit(model, instrument, observations, noise, unweighted=True)
-        calibrated, half, nominal = _score_three(f)
+        f = fit(model, instrument, observations, f.calibration.noise, unweighted=True)
+        calibrated, half, nominal = score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
     made = conclude(f, nominal.whole, calibrated, half.held_out)
     still = tuple(q.reason for x in flights for q in x.flags if q.kind == "still")
     # an output that exceeds stationary noise, where motion was not recorded, is not explained
-    return replace(made, adequate=False, grounds=still) if made.adequate and made.remark and still else made
-
-
-def _score_three(f: Fitted) -> tuple[Scored, Scored, Scored]:
-    """As calibrated, as fitted to half of the record, and with model.toml's values as they are."""
-    calibrated, held_out, nominal = score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
-    return calibrated, held_out, nominal
+    return replace(made, grounds=still) if made.adequate and made.remark and still else made
 
 
 def score_with_nominal(f: Fitted, vectors: Sequence[Array]) -> list[Scored]:
     """How large the residuals are with these coefficients (size,), and with the nominal values (last)."""
-    p = f.sheet
-    return f.score(vectors, lambda x: compute_nominal_residual(f, p, x)[None], 1)
+    return f.score(vectors, lambda x: compute_nominal_residual(f, f.sheet, x)[None], 1)
 
 
 def conclude(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> Comparison:
-    """Search the residual, and decide whether the model is adequate."""
-    rem, available = search_residual(f), list_testable(f)
-    choice = selection.choose(make_field(f, available)) if available else None
-    complaint = f.calibration.complaint
-    noise = measure_noise_floor(f)
-    output_explained = measure_explained(f, calibrated)
-    doubt = output_explained.complaint
-    grounds = _list_grounds(exceeds_noise(f, calibrated, noise), rem, choice)
-    return Comparison(
-        fitted=f,
-        nominal=nominal,
-        scored=calibrated,
-        holdout=holdout,
-        noise_floor=noise,
-        adequate=complaint is None and doubt is None and not grounds,
-        remainder=rem,
-        complaint=complaint,
-        remark=doubt or describe_disturbance(f),
-        explained=output_explained,
-        grounds=tuple(grounds),
-        off_sheet=tuple(list_off_sheet(f.model, f.instrument, f.calibration)),
-    )
-
-
-def _list_grounds(exceeds: bool, rem: Remainder, choice: selection.Choice | None) -> list[str]:
-    """The tests by which a model is not adequate, in words."""
-    found = ["the error is larger than the noise"] if exceeds else []
+    """Search the residual: by which tests the model is not adequate."""
+    rem = search_residual(f)
+    chosen = [*selection.choose(make_problem(f))]
+    grounds = []
+    if exceeds_noise(f, calibrated, measure_noise_floor(f)):
+        grounds.append("the error is larger than the noise")
     if rem.significant:
-        p = numbers.equate_probability(rem.log_p / np.log(10.0))
-        found.append(f"test of the motion terms: p {p}")
-    if choice is not None and choice.chosen:
-        found.append(f"test of the catalogue: {choice.chosen[0]} is significant")
-    return found
+        grounds.append(f"test of the motion terms: p {numbers.equate_probability(rem.log_p / np.log(10.0))}")
+    if chosen:
+        grounds.append(f"test of the catalogue: {chosen[0]} is significant")
+    return Comparison(f, nominal, calibrated, holdout, rem, tuple(grounds))
 
 
 def exceeds_noise(f: Fitted, scored: Scored, noise: float) -> bool:
@@ -283,11 +241,6 @@ def compute_nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     predicted = regressors.predict_observed(f.model, o, p)
     (left,) = piece.observed(np.where(o.record.valid, o.data - predicted, 0.0)[None])
     return np.asarray(left)
-
-
-def demodulate_one(f: Fitted, n: int, x: Array) -> Complex:
-    """Inline + i cross (N,), Eo, of any series of an output (N,), V, of observation n; NaN where there is none."""
-    return demodulate_residual(x, f.prepared[n].observation.record, f.scales[n])
 
 
 @dataclass(frozen=True)

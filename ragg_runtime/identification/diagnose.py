@@ -10,32 +10,25 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.estimation.calibration import list_off_sheet
 from ragg_runtime.estimation.fitted import Fitted, fit, measure_noise_floor, release_held
 from ragg_runtime.estimation.observation import observe_flights
-from ragg_runtime.estimation.scores import Error
 from ragg_runtime.estimation.thinning import thin_observations
-from ragg_runtime.identification import (
-    next_motion,
-    sequential,
-)
+from ragg_runtime.identification import next_motion
 from ragg_runtime.identification.claims import Regression, Robust, add_shift
-from ragg_runtime.identification.contenders import Extend
 from ragg_runtime.identification.disagreement import are_far_apart, find_disagreement
 from ragg_runtime.identification.formula import propose_formulas
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.parameters import Estimates
 from ragg_runtime.identification.ranking import (
+    CERTAIN,
     Ranked,
     add_probability,
     list_detectable,
     list_not_testable,
+    rank_added,
     rank_effects,
-    rank_stages,
-    sort_by_choice,
     weigh_effects,
 )
 from ragg_runtime.identification.result import (
@@ -46,13 +39,12 @@ from ragg_runtime.identification.result import (
     name_verdict,
 )
 from ragg_runtime.identification.search import Evidence, Outcome, search
-from ragg_runtime.identification.strong import Stage
+from ragg_runtime.identification.sequential import ChangePoint, find_change
+from ragg_runtime.identification.strong import Extend, Stage
 from ragg_runtime.identification.verdict import Conclusion
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
-from ragg_runtime.model.model import Model, Recogniser
-
-Array = NDArray[np.float64]
+from ragg_runtime.model.model import Model
 
 
 @one_thread
@@ -81,13 +73,11 @@ def diagnose_fitted(
     limits: Mapping[str, float] = next_motion.LIMITS,
 ) -> Diagnosis:
     """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.propose_motions``."""
-    output = _find_output_effects(f, flights)
     first = Stage.of(f)
     several = len(flights) > 1
     apart = find_disagreement(first, extend) if several and are_far_apart(first) else ()
-    # before strong effects, whose columns take the place of these
-    ranked = rank_effects(first.fitted, first.field, first.choice, first.instants, output)
     evidence = search(first, extend, apart=bool(apart))
+    output = _find_output_effects(f, flights)
     found = Conclusion.of(evidence, output, apart=bool(apart))
     if several and found.remains and not apart:
         apart = find_disagreement(first, extend)
@@ -98,9 +88,9 @@ def diagnose_fitted(
         left = propose_formulas(*beside, found.left)
         if found.remains or left.significant:
             found = replace(found, verdict=name_verdict(claimed=bool(found.claims), remains=True), left=left)
-    ranking = complete_ranking(*ranked, evidence, found)
-    noise = _choose_noise(f, found.outcome.target)
-    return _make_diagnosis(evidence, found, ranking, ranked[1], noise, apart, limits)
+    certain = [Ranked.without_columns(e, CERTAIN, first.scored.whole) for e in output]
+    ranking = complete_ranking([*rank_effects(first), *certain], evidence, found)
+    return _make_diagnosis(evidence, found, ranking, _choose_noise(f, found.outcome.target), apart, limits)
 
 
 SAME = 1.05
@@ -117,44 +107,37 @@ def _make_diagnosis(
     evidence: Evidence,
     found: Conclusion,
     ranking: Sequence[Ranked],
-    before: Error,
     noise: Fitted,
     apart: tuple[Disagreement, ...],
     limits: Mapping[str, float],
 ) -> Diagnosis:
-    """What is reported; ``before``: the error without any effect, ``noise``: the fit of the noise floor, ``apart``: how flights
-    disagree.
-    """
-    first, outcome, left, target = evidence.first, found.outcome, found.left, found.outcome.target
-    credence = weigh_effects(evidence.last.field, evidence.steps).within(found.share)
-    rows = (add_probability(r, credence, first.field.candidates) for r in ranking)
+    """What is reported; ``noise``: the fit of the noise floor, ``apart``: how flights disagree."""
+    first, outcome, left = evidence.first, found.outcome, found.left
+    f, problem = first.fitted, first.problem
+    credence = weigh_effects(evidence.last.problem, evidence.steps).within(found.share)
+    chosen = [*dict.fromkeys([*found.claims, *outcome.effects])]
+    place = {e: n for n, e in enumerate(chosen)}
+    rows = (add_probability(r, credence, problem.candidates) for r in ranking)
     pairs = next_motion.list_pairs(evidence.alternatives())
     return Diagnosis(
         verdict=found.verdict,
-        fitted=first.fitted,
-        ranking=tuple(sorted(rows, key=sort_by_choice([*found.claims, *outcome.effects]))),
+        fitted=f,
+        ranking=tuple(sorted(rows, key=lambda r: (place.get(r.effect, len(place)), r.log_p, r.effect))),
         found=found.claims,
-        not_testable=tuple(list_not_testable(first.fitted, first.field)),
-        remainder=left if found.remains else _drop_terms(left),
+        not_testable=tuple(list_not_testable(f, problem)),
+        remainder=left if found.remains else left.without_terms(),
         remainder_share=_share(outcome, left) if found.remains else 0.0,
-        before=before,
-        scored=outcome.scored,
+        before=first.scored.whole,
         noise=noise,
-        sizes=tuple(list_detectable(first.fitted, first.field)),
-        target=target,
-        coefficients=outcome.coefficients,
-        next_motion=tuple(next_motion.propose_motions(first.fitted, first.field, pairs, limits)),
-        complaint=outcome.complaint,
-        remarks=tuple(found.remarks(describe_disagreement(apart), evidence.spent)),
-        reasons=tuple(found.reasons(describe_disagreement(apart), evidence.spent)),
+        sizes=tuple(list_detectable(f, problem)),
+        outcome=outcome,
+        next_motion=tuple(next_motion.propose_motions(f, problem, pairs, limits)),
+        reasons=tuple(found.reasons(describe_disagreement(apart), spent=evidence.spent)),
         disagree=apart,
-        tests=round(first.field.effective_count, 3),
-        explained=outcome.explained,
+        tests=round(problem.effective_count, 3),
         groups=group_findings(found.claims, ranking, found.steady, found.shared),
         credible_set=credence.credible,
-        holds=_find_change(target, evidence.instants, found.claims),
-        staged=bool(evidence.steps),
-        off_sheet=tuple(list_off_sheet(target.model, target.instrument, target.calibration)),
+        change=_find_change(outcome.target, evidence.instants, found.claims),
     )
 
 
@@ -165,57 +148,44 @@ def _share(o: Outcome, left: Remainder) -> float:
     return min(1.0, by_terms / max(above, by_terms, 1.0))
 
 
-def complete_ranking(
-    ranking: Sequence[Ranked], before: Error, evidence: Evidence, found: Conclusion
-) -> list[Ranked]:
-    """The effects in the order of the ranking; ``ranking`` is the first stage's, ``before`` the error without any."""
-    steps, last = evidence.steps, evidence.last
-    random = {} if found.remains else found.outcome.random
-    ranking = [*ranking, *(Ranked.without_columns(e, t, before) for e, t in random.items())]
-    if steps:
-        chosen = last.choice.chosen
-        later = (
-            rank_effects(last.fitted, last.field, last.choice, last.instants, only=chosen)[0]
-            if chosen
-            else []
-        )
-        ranking = rank_stages(steps, later, ranking, found.outcome.target)
+def complete_ranking(ranking: Sequence[Ranked], evidence: Evidence, found: Conclusion) -> list[Ranked]:
+    """The effects of the first stage's ranking, those that were derived into the model by what it leaves without and with them, and the
+    random ones.
+    """
+    o, rows = found.outcome, [*ranking]
+    if not found.remains:
+        rows += [Ranked.without_columns(e, t, evidence.first.scored.whole) for e, t in o.random.items()]
+    if evidence.steps:
+        rows += rank_effects(evidence.last, only=evidence.last.chosen)
+        free = release_held(o.target)
+        rows += [rank_added(t, free) for t in evidence.steps]
+    rows = [*{r.effect: r for r in rows}.values()]
     # beside a rival only what the recorder did is claimed, which has no columns
-    if found.verdict != "partly-explained" or found.rival:
-        return list(ranking)
+    return rows if found.verdict != "partly-explained" or found.rival else _restate_claims(rows, found)
+
+
+def _restate_claims(rows: Sequence[Ranked], found: Conclusion) -> list[Ranked]:
+    """The rows with the values as they are beside all that is claimed, and a covariance that knows of what remains."""
     o = found.outcome
     free = release_held(o.target, candidates=bool(o.given))
     given = [k for k, q in enumerate(free.candidates) if o.given and q.effect in found.claims]
     fitted = [q.label for q in (*o.target.calibration.columns, *(o.target.candidates[k] for k in o.given))]
     columns = [*free.calibration.columns, *(free.candidates[k] for k in given)]
     robust = Robust.of(Regression.of(free, given))
-    # the values as they stand beside all that is claimed, and a covariance that knows of what remains
     covariance = add_shift(robust, found.left, [q.label for q in columns], fitted)
     values = robust.value - robust.regression.absent
     claimed = Estimates(free.model, free.calibration.p, columns, values, covariance)
     return [
-        r.with_estimates(claimed.select(r.effect), r.instant) if r.effect in found.claims else r
-        for r in ranking
+        r.with_estimates(claimed.select(r.effect), r.instant) if r.effect in found.claims else r for r in rows
     ]
 
 
-def _find_change(
-    target: Fitted, instants: Sequence[tuple[str, float | None]], found: Sequence[str]
-) -> sequential.SequentialTest | None:
-    """From when on the model no longer holds; a step that is found is such an instant itself."""
+def _find_change(target: Fitted, instants: Mapping[str, float], claimed: Sequence[str]) -> ChangePoint | None:
+    """From when on the model no longer holds; a step that is claimed is such an instant itself."""
     if target.observations[0].recorded.demodulated:
         return None  # neighbouring samples of a demodulated channel are not independent
-    followed = sequential.follow_model(target)
-    for effect, instant in instants:
-        if effect in found and instant is not None:
-            name = target.observations[0].flight_name
-            change = sequential.ChangePoint(flight=name, until=instant, log_evidence=followed.limit)
-            return replace(followed, change=change)
-    return followed
-
-
-def _drop_terms(rem: Remainder) -> Remainder:
-    return Remainder(tuple(replace(s, terms=()) for s in rem.searches))
+    steps = [instant for e, instant in instants.items() if e in claimed]
+    return ChangePoint(target.observations[0].flight_name, steps[0]) if steps else find_change(target)
 
 
 def _find_output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
@@ -228,12 +198,7 @@ def _find_output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
         noise = float(np.sqrt(w.noise.power + fast))
         outputs = [n for n in x.outputs if n in f.instrument.layout.columns]
         for effect, r in f.model.recognisers.items():
-            looked_at = (columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns)
-            if any(_present(r, c, x.valid, noise) for c in looked_at):
+            looked_at = [columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns]
+            if any(r.present(c, np.isfinite(c) & x.valid, noise) for c in looked_at):
                 found.add(effect)
     return sorted(found)
-
-
-def _present(r: Recogniser, c: Array, valid: NDArray[np.bool_], noise: float) -> bool:
-    """Whether an effect of the recorder shows in a column (N,), which is not kept in memory."""
-    return r.present(c, np.isfinite(c) & valid, noise)

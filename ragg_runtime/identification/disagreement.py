@@ -15,11 +15,10 @@ from ragg_runtime.estimation.fitted import Fitted, calibrate, fit
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.scores import log_sf
-from ragg_runtime.identification.contenders import Extend, derive_with
 from ragg_runtime.identification.result import Disagreement
 from ragg_runtime.identification.search import search
-from ragg_runtime.identification.selection import Field, choose, list_testable, make_field
-from ragg_runtime.identification.strong import Stage
+from ragg_runtime.identification.selection import ProjectedProblem, choose, make_problem
+from ragg_runtime.identification.strong import Extend, Stage, derive_with
 from ragg_runtime.identification.verdict import Conclusion
 
 
@@ -28,11 +27,11 @@ def are_far_apart(first: Stage) -> bool:
     all of them, or of any; ``first`` is the stage without effects.
     """
     f = first.fitted
-    fields = [first.field, *(_make_own_field(f, own) for own in _group_by_flight(f).values())]
-    chosen = {*first.choice.chosen, *(e for x in fields[1:] for e in choose(x).chosen)}
+    problems = [first.problem, *(_make_own_problem(f, own) for own in _group_by_flight(f).values())]
+    chosen = {*first.chosen, *(e for x in problems[1:] for e in choose(x))}
     together, *alone = (
         x.chi2 - x.joint([[n for n, _ in own] for e, own in x.candidates.items() if e in chosen])[0]
-        for x in fields
+        for x in problems
     )
     return together > QUIET * max(sum(alone), f.calibration.rows)
 
@@ -100,8 +99,8 @@ def _group_by_flight(f: Fitted) -> dict[int, list[int]]:
     return flights
 
 
-def _make_own_field(f: Fitted, own: Sequence[int]) -> Field:
-    """The field of one flight, whose observations have these places."""
+def _make_own_problem(f: Fitted, own: Sequence[int]) -> ProjectedProblem:
+    """The problem of one flight, whose observations have these places."""
     noise = tuple(f.calibration.noise[n] for n in own)
     some = replace(
         f,
@@ -109,4 +108,4 @@ def _make_own_field(f: Fitted, own: Sequence[int]) -> Field:
         calibration=replace(f.calibration, noise=noise),
         r_factors=tuple(f.r_factors[n] for n in own),
     )
-    return make_field(some, list_testable(some))
+    return make_problem(some)

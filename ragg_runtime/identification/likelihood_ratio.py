@@ -55,7 +55,11 @@ class Test:
     @property
     def charge(self) -> float:
         """Logarithm of the number of variants that it was chosen from."""
-        return float(log_bayes(self.chi2 / self.inflation, self.rank)) - self.log_b
+        return self.weigh_alone(self.inflation) - self.log_b
+
+    def weigh_alone(self, inflation: float = 1.0) -> float:
+        """Log evidence of its columns, as if no others had been tried, its scores varying so much more than they should."""
+        return float(log_bayes(self.chi2 / inflation, self.rank))
 
 
 def project(T: Array, onto: int) -> Array:
@@ -63,22 +67,23 @@ def project(T: Array, onto: int) -> Array:
     return T[onto:, onto:]
 
 
+WEAKEST = 0.3
+"""Share of the floor of columns below which a direction of several is not tested."""
+
+
+def find_basis(P: Array, columns: Sequence[int], floor: Array, weakest: float = WEAKEST) -> Array:
+    """(rows, k): orthonormal directions of those of some ``columns`` of P that have a norm above ``floor``."""
+    own = [k for k in columns if np.linalg.norm(P[:, k]) > floor[k]]
+    if not own:
+        return P[:, []]
+    U, s, _ = np.linalg.svd(P[:, own], full_matrices=False)
+    return np.asarray(U[:, s > max(weakest * np.max(floor[own]), 1e-7 * s[0])])
+
+
 def measure_explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[float, int]:
     """(chi-square, rank) of the last column of P explained by ``columns`` of a norm above ``floor``."""
-    if len(columns) == 1:
-        x = np.ascontiguousarray(P[:, columns[0]])
-        square = float(x @ x)
-        return (float((x @ P[:, -1]) ** 2) / square, 1) if square > floor[columns[0]] ** 2 else (0.0, 0)
-    X = P[:, list(columns)]
-    usable = np.linalg.norm(X, axis=0) > floor[list(columns)]
-    X = X[:, usable]
-    if not X.shape[1]:
-        return 0.0, 0
-    if X.shape[1] == 1:
-        return float((X[:, 0] @ P[:, -1]) ** 2 / (X[:, 0] @ X[:, 0])), 1
-    U, s, _ = np.linalg.svd(X, full_matrices=False)
-    keep = s > max(np.max(floor[list(columns)]) * 0.3, s[0] * 1e-7)
-    return float(np.sum((U[:, keep].T @ P[:, -1]) ** 2)), int(np.sum(keep))
+    Q = find_basis(P, columns, floor)
+    return float(np.sum((Q.T @ P[:, -1]) ** 2)), Q.shape[1]
 
 
 def list_sub_blocks(columns: Sequence[tuple[int, Column]]) -> list[tuple[tuple[int, ...], int]]:
@@ -149,15 +154,12 @@ class Way:
     count: int
 
 
-def find_directions(P: Array, blocks: Sequence[tuple[tuple[int, ...], int]], floor: Array) -> list[Way]:
-    """The ways that can be tested of an effect's :func:`list_sub_blocks`."""
-    norms, found = np.linalg.norm(P, axis=0), []
-    for block, count in blocks:
-        own = [k for k in block if norms[k] > floor[k]]
-        if own:
-            U, s, _ = np.linalg.svd(P[:, own], full_matrices=False)
-            found.append(Way(U[:, s > max(np.max(floor[own]) * 0.3, s[0] * 1e-7)], count))
-    return found
+def list_ways(
+    P: Array, columns: Sequence[tuple[int, Column]], floor: Array, weakest: float = WEAKEST
+) -> list[Way]:
+    """The ways in which an effect of these columns may be present, of which each can be tested."""
+    found = [Way(find_basis(P, block, floor, weakest), count) for block, count in list_sub_blocks(columns)]
+    return [w for w in found if w.Q.shape[1]]
 
 
 def estimate_effective_number(effects: Sequence[Sequence[Way]], level: float) -> float:

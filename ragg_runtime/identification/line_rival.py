@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +19,8 @@ from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.omnibus import Remainder, ResidualTerm
 from ragg_runtime.identification.strong import AddedEffect, Stage
 from ragg_runtime.wording.numbers import join_names
+
+Array = NDArray[np.float64]
 
 SLIP = 6.6
 """Chi-square by which a line must be off the multiple: what keeps step with the disc is taken for the disc's, and seems as far
@@ -55,19 +56,10 @@ class LineAlternative:
 
     def within(self, rem: Remainder) -> Remainder:
         """A residual of which this line is the strongest term."""
-        chi2 = self.line.chi2
-        found = ResidualTerm(
-            term=Term(f"line {self.line.frequency:.5g} Hz", ()),
-            coefficient=self.line.amplitude,
-            std=self.line.amplitude / float(np.sqrt(max(chi2, 1.0))),
-            z=float(np.sqrt(chi2)),
-            chi2=chi2,
-            mean_square=self.line.amplitude**2 / 2,
-            kind="line",
-        )
+        found = ResidualTerm.of_line(self.line.frequency, self.line.amplitude, self.line.chi2)
         first, *others = rem.searches
         log_p = min(first.log_p, self.line.log_p)
-        return Remainder((replace(first, log_p=log_p, terms=(found,), chi2=chi2), *others))
+        return Remainder((replace(first, log_p=log_p, terms=(found,), chi2=found.chi2), *others))
 
 
 @dataclass(frozen=True)
@@ -104,61 +96,54 @@ def find_line_rival(
     those that are no more than one.
     """
     steady = []
-    for t in steps:
-        line = find_best_line(t.before, ())
-        if _take_place(line, t.test.chi2):
-            return LineAlternative(line=line, effects=(t.effect,), own=t.test.chi2), ()
-        steady += _find_steady(t.before, line, t.effect, t.test.chi2, t.alternatives)
-    field, choice = last.field, last.choice
-    alternatives = selection.find_alternatives(field, choice)
-    # two effects follow a line farther than one does
-    every = [choice.chosen] if len(choice.chosen) > 1 else []
-    for effects in (*every, *((e,) for e in choice.chosen)):
-        others = [o for o in choice.chosen if o not in effects]
-        beside = field.joint([choice.blocks[o] for o in others])[0] if others else 0.0
-        line = find_best_line(last.fitted, [n for o in others for n, _ in field.candidates[o]])
-        if _take_place(line, choice.chi2 - beside):
-            return LineAlternative(line=line, effects=effects, own=choice.chi2 - beside), ()
-        if len(effects) == 1:
-            steady += _find_steady(
-                last.fitted, line, effects[0], choice.chi2 - beside, alternatives[effects[0]]
-            )
+    for c in _list_contested(steps, last):
+        line = find_best_line(c.fitted, c.beside)
+        if line is None:
+            continue
+        if line.replaces(c.chi2):
+            return LineAlternative(line=line, effects=c.effects, own=c.chi2), ()
+        steady += _find_steady(c, line)
     return None, tuple(steady)
 
 
-def _take_place(line: NearLine | None, chi2: float) -> TypeGuard[NearLine]:
-    """Whether a line, plainly off the multiple, explains as much."""
-    return (
-        line is not None
-        and line.slip >= SLIP
-        and line.chi2 >= chi2 - INDISTINGUISHABLE
-        and line.log_p <= np.log(false_alarms.REMAINDER)
-    )
+@dataclass(frozen=True)
+class _Contested:
+    """Effects, the chi-square that they explain of a fit ``beside`` other candidate columns, and what would do as well."""
+
+    effects: tuple[str, ...]
+    chi2: float
+    fitted: Fitted
+    beside: Sequence[int] = ()
+    others: tuple[str, ...] = ()
 
 
-def _find_steady(
-    f: Fitted, line: NearLine | None, effect: str, chi2: float, others: Sequence[str]
-) -> list[Steady]:
+def _list_contested(steps: Sequence[AddedEffect], last: Stage) -> Iterator[_Contested]:
+    """The effects that were derived into the model, all of the last stage, as two follow a line farther than one does, and each."""
+    for t in steps:
+        yield _Contested((t.effect,), t.test.chi2, t.before, others=t.alternatives)
+    problem, chosen = last.problem, last.chosen
+    alternatives = selection.find_alternatives(problem, chosen)
+    whole, _ = problem.joint([*chosen.values()])
+    every = [tuple(chosen)] if len(chosen) > 1 else []
+    for effects in (*every, *((e,) for e in chosen)):
+        others = [o for o in chosen if o not in effects]
+        chi2 = whole - problem.joint([chosen[o] for o in others])[0]
+        beside = [n for o in others for n, _ in problem.candidates[o]]
+        yield _Contested(effects, chi2, last.fitted, beside, alternatives[effects[0]])
+
+
+def _find_steady(c: _Contested, line: NearLine) -> list[Steady]:
     """The effect, if a line at the very multiple explains as much, or all but a small part."""
-    if line is None or line.chi2 - line.slip < min(chi2 - INDISTINGUISHABLE, CONSTANT * chi2):
+    at_multiple, enough = line.chi2 - line.slip, c.chi2 - INDISTINGUISHABLE
+    if len(c.effects) > 1 or at_multiple < min(enough, CONSTANT * c.chi2):
         return []
-    as_much = line.chi2 - line.slip >= chi2 - INDISTINGUISHABLE
-    r = f.prepared[0].observation.record
+    r = c.fitted.prepared[0].observation.record
     turns = round(line.frequency / r.spin_frequency)
     # Cramer-Rao: 12 over the square of duration and of signal to noise, rad/s (Rife and Boorstyn, IEEE Trans. IT 20, 1974)
     width = 3.0 * float(np.sqrt(12.0 / line.chi2)) / (2 * np.pi * float(r.time[-1] - r.time[0]))
-    return [
-        Steady(
-            effect=effect,
-            others=tuple(others),
-            turns=turns,
-            frequency=turns * r.spin_frequency,
-            width=width if as_much else None,
-        )
-    ]
+    frequency = turns * r.spin_frequency
+    return [Steady(c.effects[0], c.others, turns, frequency, width if at_multiple >= enough else None)]
 
-
-Array = NDArray[np.float64]
 
 MULTIPLES = (1, 2, 3, 4)
 """Of the spin rate: those up to which the sensors' signatures reach."""
@@ -190,6 +175,11 @@ class NearLine:
     amplitude: float
     slip: float
     log_p: float
+
+    def replaces(self, chi2: float) -> bool:
+        """Whether it is plainly off the multiple, and explains as much as effects that explain a chi-square."""
+        explains = self.chi2 >= chi2 - INDISTINGUISHABLE and self.log_p <= np.log(false_alarms.REMAINDER)
+        return bool(self.slip >= SLIP and explains)
 
 
 def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:

@@ -35,7 +35,7 @@ from ragg_runtime.identification.next_motion import (
     whiten_motion,
 )
 from ragg_runtime.identification.parameters import find_combinations
-from ragg_runtime.identification.selection import list_testable, make_field
+from ragg_runtime.identification.selection import make_problem
 
 Array = NDArray[np.float64]
 Tone = tuple[str, float, float]
@@ -86,7 +86,7 @@ def design(
 
     ``None`` if there is nothing to separate, or no frequency within the band.
     """
-    asked = Alternatives.of(f, make_field(f, list_testable(f)), pairs, both=True)
+    asked = Alternatives.of(f, make_problem(f), pairs, both=True)
     tones = list_tones(f.instrument.spin_frequency, limits, band)
     if not asked.pairs or not tones:
         return None

@@ -18,7 +18,7 @@ from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.least_squares import compute_r_factor, orthonormalise
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
-from ragg_runtime.identification.selection import Field
+from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.io.record import is_disc_angle
 
 Array = NDArray[np.float64]
@@ -88,12 +88,11 @@ class Separation:
 
 @dataclass(frozen=True)
 class Proposal:
-    """A motion that separates two effects: so much, s, of a sinusoid about one axis, and its ``ratio`` to the spin's frequency."""
+    """A motion that separates two effects: a sinusoid about one axis, of :data:`DURATION`, and its ``ratio`` to the spin's frequency."""
 
     separation: Separation
     sinusoid: Sinusoid
     ratio: float
-    duration: float
 
     @property
     def separates(self) -> bool:
@@ -110,7 +109,7 @@ class Proposal:
             "frequency_Hz": frequency,
             "amplitude": amplitude,
             "unit": find_unit(axis),
-            "duration_s": self.duration,
+            "duration_s": DURATION,
             "separation_now": s.now,
             "separation_then": s.then,
             "separation_spread": s.spread,
@@ -141,10 +140,12 @@ class Strength:
         return float(np.sqrt(squares)), float(np.sqrt(variance / squares) / 2)
 
 
-def estimate_strength(f: Fitted, field: Field, effect: str, beside: Sequence[str] = ()) -> Strength:
+def estimate_strength(
+    f: Fitted, problem: ProjectedProblem, effect: str, beside: Sequence[str] = ()
+) -> Strength:
     """The coefficients of an effect by the flights, marginal over the model's parameters and the effects ``beside`` it."""
-    own = [f.n_base + n for n in field.testable(effect)]
-    others = [*range(f.n_base), *list_columns(f, field, beside)]
+    own = [f.n_base + n for n in problem.testable(effect)]
+    others = [*range(f.n_base), *list_columns(f, problem, beside)]
     k = len(others)
     R = _lower_block(f.whole[:, [*others, *own, -1]], k)
     U, s, V = np.linalg.svd(R[:, :-1], full_matrices=False)
@@ -166,9 +167,9 @@ def _lower_block(rows: Array, first: int) -> Array:
     return np.asarray(np.linalg.qr(rows, mode="r"))[first:, first:]
 
 
-def list_columns(f: Fitted, field: Field, effects: Sequence[str]) -> list[int]:
+def list_columns(f: Fitted, problem: ProjectedProblem, effects: Sequence[str]) -> list[int]:
     """Places among all columns of those of effects."""
-    return [f.n_base + n for e in effects for n, _ in field.candidates[e]]
+    return [f.n_base + n for e in effects for n, _ in problem.candidates[e]]
 
 
 @dataclass(frozen=True)
@@ -186,9 +187,11 @@ class Alternatives:
     strengths: Mapping[str, Strength]
 
     @staticmethod
-    def of(f: Fitted, field: Field, pairs: Sequence[tuple[str, str]], *, both: bool = False) -> Alternatives:
+    def of(
+        f: Fitted, problem: ProjectedProblem, pairs: Sequence[tuple[str, str]], *, both: bool = False
+    ) -> Alternatives:
         """Of pairs (found effect, rival); ``both``: and of (rival, effect), as it may be either."""
-        pairs = [(e, r) for e, r in pairs if e in field.candidates and r in field.candidates]
+        pairs = [(e, r) for e, r in pairs if e in problem.candidates and r in problem.candidates]
         found = dict.fromkeys(e for e, _ in pairs)
         asked = dict.fromkeys([*pairs, *((r, e) for e, r in pairs if both)])
         beside = {(e, r): [x for x in found if x not in (e, r)] for e, r in asked}
@@ -196,8 +199,8 @@ class Alternatives:
         for e, r in asked:
             if e not in strengths:
                 without = beside[e, r] if e not in found else [x for x in found if x != e]
-                strengths[e] = estimate_strength(f, field, e, without)
-        of_pair = {(e, r): list_columns(f, field, [r, *beside[e, r]]) for e, r in asked}
+                strengths[e] = estimate_strength(f, problem, e, without)
+        of_pair = {(e, r): list_columns(f, problem, [r, *beside[e, r]]) for e, r in asked}
         places = [*range(f.n_base), *sorted({k for own in of_pair.values() for k in own})]
         at = {k: n for n, k in enumerate(places)}
         nuisance = tuple((*range(f.n_base), *(at[k] for k in own)) for own in of_pair.values())
@@ -247,16 +250,11 @@ class Alternatives:
         X = np.concatenate([X[[there.index(k) for k in self.places]], directions.T @ X])
         return np.asarray(np.sqrt(duration / simulated) * compute_r_factor(X))
 
-    def promises(
-        self, motion: Sequence[Sinusoid], duration: float, some: Sequence[int] | None = None
-    ) -> list[Separation]:
-        """What so much, s, of a motion promises of pairs (all, or those at ``some`` places)."""
+    def promises(self, motion: Sequence[Sinusoid], duration: float) -> list[Separation]:
+        """What so much, s, of a motion promises of every pair."""
         then = self.separations(self.rows(motion, simulated=min(duration, LONGEST), duration=duration))
-        now = self.separations()
-        return [
-            Separation(*self.pairs[n], now=now[n][0], then=then[n][0], spread=then[n][1])
-            for n in (range(len(self.pairs)) if some is None else some)
-        ]
+        each = zip(self.pairs, self.separations(), then, strict=True)
+        return [Separation(*pair, now, later, spread) for pair, (now, _), (later, spread) in each]
 
 
 def whiten_motion(f: Fitted, at: LinearisationPoint, motion: Sequence[Sinusoid], simulated: float) -> Array:
@@ -302,10 +300,13 @@ def _continued(f: Fitted, samples: int) -> dict[str, Array]:
 
 
 def propose_motions(
-    f: Fitted, field: Field, pairs: Sequence[tuple[str, str]], limits: Mapping[str, float] = LIMITS
+    f: Fitted,
+    problem: ProjectedProblem,
+    pairs: Sequence[tuple[str, str]],
+    limits: Mapping[str, float] = LIMITS,
 ) -> list[Proposal]:
     """The best motion for every pair (effect, rival), the predicted separation next to today's."""
-    asked = Alternatives.of(f, field, pairs)
+    asked = Alternatives.of(f, problem, pairs)
     if not asked.pairs:
         return []
     first = f.prepared[0].observation.record
@@ -321,8 +322,7 @@ def propose_motions(
         best = max(range(len(motions)), key=lambda m: moving[m][n][0], default=None)
         if best is not None and moving[best][n][0] > WORTHWHILE * still[n][0]:
             ratio, sinusoid = motions[best]
-            (promise,) = asked.promises([sinusoid], DURATION, [n])
-            found.append(Proposal(promise, sinusoid, ratio, DURATION))
+            found.append(Proposal(asked.promises([sinusoid], DURATION)[n], sinusoid, ratio))
     return found
 
 

@@ -54,27 +54,12 @@ SHORTLIST = 400
 
 @dataclass(frozen=True)
 class ResidualTerm:
-    """A generic term in a residual.
+    """A generic term in a residual, and its coefficient with standard deviation, V per SI unit of the product of channels.
 
-    ``kind`` is ``steady``, ``varying`` (``coefficient`` is then the root mean square of its values in blocks of time) or ``line``
-    (the harmonic then names the frequency).
-
-    Attributes
-    ----------
-    coefficient, std
-        V per SI unit of the product of channels.
-    z
-        Its significance when it was taken, in standard deviations.
-    chi2
-        What it explained then.
-    how
-        In words, how a varying term varies.
-    mean_square
-        Of the term in the residual, V^2 (about its mean, for const terms).
-    centre
-        Means that its auxiliary channels enter less.
-    rank
-        Coefficients that ``chi2`` was explained with.
+    ``kind`` is ``steady``, ``varying`` (``coefficient`` is then the root mean square of its values in blocks of time, ``how`` how it
+    varies, in words) or ``line`` (the harmonic then names the frequency). ``z``, ``chi2``: its significance when it was taken, in standard
+    deviations, and what its ``rank`` coefficients explained then; ``mean_square``: of the term in the residual, V^2 (about its mean, for
+    const terms); ``centre``: means that its auxiliary channels enter less.
     """
 
     term: Term
@@ -88,27 +73,30 @@ class ResidualTerm:
     centre: Mapping[str, float] = field(default_factory=dict)
     rank: int = 1
 
+    @staticmethod
+    def of_line(frequency: float, amplitude: float, chi2: float) -> ResidualTerm:
+        """A line of so many Hz and V."""
+        z = float(np.sqrt(chi2))
+        return ResidualTerm(
+            term=Term(f"line {frequency:.5g} Hz", ()),
+            coefficient=amplitude,
+            std=amplitude / max(z, 1.0),
+            z=z,
+            chi2=chi2,
+            mean_square=amplitude**2 / 2,
+            kind="line",
+            rank=2,
+        )
+
 
 @dataclass(frozen=True)
 class Omnibus:
-    """The search over one flight's dictionary.
+    """The search over one flight's dictionary: ``log_p`` of the most significant finding of all tests, of ``tried`` terms.
 
-    Attributes
-    ----------
-    log_p
-        Of the most significant finding of all tests.
-    tried
-        Number of terms.
-    terms, chi2, square
-        What is left, in terms, and what these explain of the whitened residual's sum of squares.
-    steady, varying
-        The significant terms, fitted jointly, and those that come and go, each alone.
-    explained
-        Chi-square of the first 1, 2, ... of the steady terms, with the priors of the base.
-    spread
-        Mean square of all terms' scores.
-    shift
-        How far the coefficients of the projected columns move when the steady terms are fitted jointly, in scales.
+    ``terms``, ``chi2``, ``square``: what is left, in terms, and what these explain of the whitened residual's sum of squares.
+    ``steady``, ``varying``: the significant terms, fitted jointly, and those that come and go, each alone. ``explained``: chi-square of
+    the first 1, 2, ... of the steady terms, with the priors of the base; ``spread``: mean square of all terms' scores; ``shift``: how far
+    the coefficients of the projected columns move when the steady terms are fitted jointly, in scales.
     """
 
     log_p: float
@@ -311,11 +299,8 @@ def _find_line(s: Scores) -> tuple[float, ResidualTerm] | None:
         return None
     # back from the whitened residual: the noise's own density at the line
     volts2 = float(s.prepared.noise_psd(np.array([line.frequency]))[0])
-    mean_square = line.share * volts2 * s.prepared.observation.record.rate / 2
-    chi2, size = line.share * s.sums.square, float(np.sqrt(2 * mean_square))
-    z = float(np.sqrt(chi2))
-    term = Term(f"line {line.frequency:.5g} Hz", ())
-    found = ResidualTerm(term, size, size / max(z, 1.0), z, chi2, mean_square, "line", rank=2)
+    amplitude = float(np.sqrt(line.share * volts2 * s.prepared.observation.record.rate))
+    found = ResidualTerm.of_line(line.frequency, amplitude, line.share * s.sums.square)
     return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
 
 
@@ -442,16 +427,19 @@ class Remainder:
     def significant(self) -> bool:
         return bool(self.log_p < np.log(FAMILY))
 
+    def without_terms(self) -> Remainder:
+        return Remainder(tuple(replace(s, terms=()) for s in self.searches))
 
-def search_residual(f: Fitted, given: Sequence[int] = (), only: int | None = None) -> Remainder:
-    """Search the residual, or ``only`` one of its series, once base and ``given`` candidate columns are projected out."""
-    return search(f, given, {}, only)[0]
+
+def search_residual(f: Fitted, only: int | None = None) -> Remainder:
+    """Search the residual, or ``only`` one of its series, once the base columns are projected out."""
+    return search(f, (), {}, only)[0]
 
 
 def search(
     f: Fitted, given: Sequence[int], random: Mapping[str, int], only: int | None = None
 ) -> tuple[Remainder, dict[str, Variance]]:
-    """The same, and the sums of ``random`` effects, of which it has the places of their columns, in one pass."""
+    """The same with ``given`` candidate columns, and the sums of ``random`` effects, of which it has the places of their columns."""
     searches, counted = [], []
     for x, r_factors in zip(f.prepared, f.r_factors, strict=True):
         lean, projector, places = whitening.make_projector(r_factors, f.n_base, given, f.to_nominal).lean(

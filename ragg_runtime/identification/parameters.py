@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.regressors import Column, spell_name
-from ragg_runtime.instrument.layout import PAPER, Layout
+from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.evaluate import name_values
 from ragg_runtime.model.model import DerivedParameter, Model
 
@@ -90,9 +90,7 @@ def own_name(c: Column) -> str:
     return c.name.split(".", 1)[1] if c.effect else c.name
 
 
-def list_patterns(
-    columns: Sequence[Column], weight: Array, layout: Layout = PAPER
-) -> Iterator[tuple[str, Array]]:
+def list_patterns(columns: Sequence[Column], weight: Array, layout: Layout) -> Iterator[tuple[str, Array]]:
     """Name and (n,) weights of the combinations of a parameter's n columns, in its display unit; ``weight``: its :func:`gains`.
 
     Of another layout than the paper's: signs times cos and sin of n times the angle on the disc, named by their harmonic.

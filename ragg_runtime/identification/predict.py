@@ -21,7 +21,7 @@ from ragg_runtime.identification import omnibus
 from ragg_runtime.identification.dictionary import Term, list_harmonics
 from ragg_runtime.identification.omnibus import Scores
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.identification.selection import Field, make_field
+from ragg_runtime.identification.selection import ProjectedProblem, make_problem
 
 Array = NDArray[np.float64]
 
@@ -88,31 +88,35 @@ class Prediction:
         return {**asdict(self), "effects": list(self.effects)}
 
 
-def make_field_of(d: Diagnosis) -> Field:
+def make_problem_of(d: Diagnosis) -> ProjectedProblem:
     """The testable effects, steps included, on the R factors of everything."""
-    return make_field(d.fitted, [r.effect for r in d.ranking])
+    return make_problem(d.fitted, [r.effect for r in d.ranking])
 
 
-def list_columns(field: Field, effects: Sequence[str]) -> list[int]:
+def list_columns(problem: ProjectedProblem, effects: Sequence[str]) -> list[int]:
     """The testable candidate columns of some effects."""
-    return [n for e in effects if e in field.candidates for n in field.testable(e)]
+    return [n for e in effects if e in problem.candidates for n in problem.testable(e)]
 
 
-def fit_effects(f: Fitted, field: Field, effects: Sequence[str], *, held_out: bool = False) -> Array:
+def fit_effects(
+    f: Fitted, problem: ProjectedProblem, effects: Sequence[str], *, held_out: bool = False
+) -> Array:
     """(size,): fitted coefficients of all columns with these effects in."""
-    extra = list_columns(field, effects)
+    extra = list_columns(problem, effects)
     fitted, _ = f.coefficients(extra, held_out=held_out)
     return f.vector(fitted, extra)
 
 
 @one_thread
-def predict_error(f: Fitted, known: Unwhitened, field: Field, effects: Sequence[str]) -> Prediction:
+def predict_error(
+    f: Fitted, known: Unwhitened, problem: ProjectedProblem, effects: Sequence[str]
+) -> Prediction:
     """The error that the flights would leave with these effects in the model."""
-    chi2, rank = field.joint([list_columns(field, [e]) for e in effects]) if effects else (0.0, 0)
+    chi2, rank = problem.joint([list_columns(problem, [e]) for e in effects]) if effects else (0.0, 0)
     return Prediction(
         effects=tuple(effects),
-        rms_Eo=known.rms(fit_effects(f, field, effects), range(BLOCKS)) / f.k_ggi,
-        holdout_Eo=known.rms(fit_effects(f, field, effects, held_out=True), HELD_OUT_BLOCKS) / f.k_ggi,
+        rms_Eo=known.rms(fit_effects(f, problem, effects), range(BLOCKS)) / f.k_ggi,
+        holdout_Eo=known.rms(fit_effects(f, problem, effects, held_out=True), HELD_OUT_BLOCKS) / f.k_ggi,
         chi2=chi2,
         rank=rank,
     )
@@ -169,17 +173,12 @@ class Heat:
 
 
 @one_thread
-def score_terms(
-    prepared: PreparedFlight, r_factors: Sequence[Array], n_base: int, given: Sequence[int] = ()
-) -> Heat:
-    """The scores of all terms once base and ``given`` candidate columns are projected out, in one pass."""
-    prepared, projector, _ = whitening.make_projector(r_factors, n_base, given).lean(prepared)
-    scores = Scores(prepared, projector)
-    scores.collect(lambda piece, y: None)
-    return _tabulate_scores(scores)
-
-
-def _tabulate_scores(s: Scores) -> Heat:
+def score_terms(f: Fitted, flight: int, given: Sequence[int] = ()) -> Heat:
+    """The scores of all terms in one flight once base and ``given`` candidate columns are projected out, in one pass."""
+    projector = whitening.make_projector(f.r_factors[flight], f.n_base, given)
+    prepared, projector, _ = projector.lean(f.prepared[flight])
+    s = Scores(prepared, projector)
+    s.collect(lambda piece, y: None)
     norm = np.where(np.isfinite(s.norms), s.norms, np.nan)
     terms = s.dictionary.terms
     rows = list_harmonics()

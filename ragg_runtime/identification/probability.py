@@ -15,8 +15,8 @@ from itertools import chain, combinations, compress
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.identification.likelihood_ratio import list_sub_blocks, log_bayes
-from ragg_runtime.identification.selection import Field
+from ragg_runtime.identification.likelihood_ratio import list_ways, log_bayes
+from ragg_runtime.identification.selection import ProjectedProblem
 
 Array = NDArray[np.float64]
 
@@ -90,11 +90,13 @@ class _Subspace:
     weight: float
 
 
-def weigh_sets(f: Field) -> Sets:
-    """All sets of up to :data:`LARGEST` of the field's effects, weighed."""
-    norms = np.linalg.norm(f.P, axis=0)
-    seen = norms > f.floor
-    blocks = [b for e in sorted(f.candidates) for b in _list_blocks(f, e, norms, seen)]
+def weigh_sets(f: ProjectedProblem) -> Sets:
+    """All sets of up to :data:`LARGEST` of the problem's effects, weighed."""
+    blocks = [
+        _Subspace(e, w.Q, w.Q.T @ f.P[:, -1], -float(np.log(w.count)) - f.penalty.get(e, 0.0))
+        for e in sorted(f.candidates)
+        for w in list_ways(f.P, f.candidates[e], f.floor, weakest=0.0)
+    ]
     effects = tuple(dict.fromkeys(b.effect for b in blocks))
     odds = -np.log(max(1, len(effects) - 1))  # of presence, with probability 1/E
     alone = _weigh_evidence(blocks, np.arange(len(blocks), dtype=np.intp)[:, None])
@@ -124,23 +126,6 @@ def _merge_sets(holds: NDArray[np.bool_], logs: Array) -> tuple[NDArray[np.bool_
     bits = bits[order]
     new = np.concatenate([[True], np.any(bits[1:] != bits[:-1], axis=1)])
     return holds[order[new]], np.logaddexp.reduceat(logs[order], np.flatnonzero(new))
-
-
-def _list_blocks(f: Field, effect: str, norms: Array, seen: NDArray[np.bool_]) -> list[_Subspace]:
-    """The ways in which an effect may be present; of columns (of these norms) those that the record has ``seen``."""
-    made = []
-    for places, count in list_sub_blocks(f.candidates[effect]):
-        usable = [k for k in places if seen[k]]
-        if not usable:
-            continue
-        if len(usable) == 1:
-            Q = f.P[:, usable] / norms[usable]
-        else:
-            U, s, _ = np.linalg.svd(f.P[:, usable], full_matrices=False)
-            Q = U[:, s > s[0] * 1e-7]
-        weight = -float(np.log(count)) - f.penalty.get(effect, 0.0)
-        made.append(_Subspace(effect=effect, Q=Q, along=Q.T @ f.P[:, -1], weight=weight))
-    return made
 
 
 def _choose_best(blocks: Sequence[_Subspace], alone: Array) -> list[_Subspace]:

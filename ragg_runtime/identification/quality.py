@@ -10,21 +10,11 @@ from ragg_runtime.io import Flight
 
 
 def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
-    """The diagnosis with what is wrong with the records as its reason.
+    """The diagnosis of flights with what is wrong with them, their flags, as its reason.
 
-    Parameters
-    ----------
-    d
-        The verdict of the records as they are.
-    flights
-        The same records, with their flags.
-
-    Returns
-    -------
-    Diagnosis
-        Nothing is claimed of a record that holds something odd, but effects that describe just that; of one with noisy motion no
-        noise that follows the motion, as what smoothing leaves of the sensors' noise does so, too. Of one at rest, which the model
-        explains, the reason says how little that means.
+    Nothing is claimed of a record that holds something odd, but effects that describe just that; of one with noisy motion no noise that
+    follows the motion, as what smoothing leaves of the sensors' noise does so, too. Of one at rest, which the model explains, the
+    reason says how little that means.
     """
     flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind == "motion-noise"]
     # an output that exceeds stationary noise, where motion was not recorded, is not explained
@@ -35,7 +25,7 @@ def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
         little = [r for r, (_, f) in zip(noted, flags, strict=True) if f.kind == "still"]
         return replace(d, reasons=(*little, *d.reasons)) if little else d
     if any(f.kind == "motion-noise" for _, f in flags):
-        kinds = {e.id: e.kind for e in d.target.model.candidates}
+        kinds = {e.id: e.kind for e in d.fitted.model.candidates}
         d = _claim_only(d, [e for e in d.found if kinds.get(e) != "random"])
     odd = [f for _, f in flags if f.open]
     described = [e for e in d.found if all(e in f.effects for f in odd)]
@@ -47,7 +37,7 @@ def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
         if others
         else ()
     )
-    reasons = (*noted, *would, *(r for r in d.reasons if not r.is_verdict))
+    reasons = (*noted, *would, *(r for r in d.reasons if r.kind != "verdict"))
     verdict = name_verdict(claimed=bool(described), remains=True)
     return replace(_claim_only(d, described), verdict=verdict, reasons=reasons)
 

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.fitted import Fitted, release_held
+from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import Error, finite
 from ragg_runtime.identification import likelihood_ratio, probability, selection
 from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.parameters import Estimates, ParameterValue
 from ragg_runtime.identification.probability import Probabilities
-from ragg_runtime.identification.selection import Choice, Field
-from ragg_runtime.identification.strong import AddedEffect
+from ragg_runtime.identification.selection import ProjectedProblem
+from ragg_runtime.identification.strong import AddedEffect, Stage
 from ragg_runtime.model.model import DerivedEffect
 
 
@@ -91,64 +91,38 @@ class NotTestable:
     why: str
 
 
-def rank_effects(
-    f: Fitted,
-    field: Field,
-    choice: Choice,
-    instants: Mapping[str, float],
-    output: Sequence[str] = (),
-    only: Sequence[str] | None = None,
-) -> tuple[list[Ranked], Error]:
-    """Every testable effect, or ``only`` some, with the evidence for it alone, and the error without any."""
-    alternatives = selection.find_alternatives(field, choice)
-    asked = choice.tests if only is None else {e: t for e, t in choice.tests.items() if e in only}
-    tested = [(e, t, field.testable(e)) for e, t in asked.items() if t.rank]
-    fits = [f.coefficients(extra) for _, _, extra in tested]
-    vectors = [f.vector(np.zeros(f.n_base))]
-    for (_, _, extra), (c, _) in zip(tested, fits, strict=True):
-        vectors += [f.vector(c, extra), f.fit_held_out(extra)]
-    first, *scored = f.score(vectors)
-    before = first.whole
+def rank_effects(stage: Stage, only: Container[str] | None = None) -> list[Ranked]:
+    """Every testable effect of a stage, or ``only`` some, with the evidence for it alone."""
+    f, problem = stage.fitted, stage.problem
+    extras = {e: problem.testable(e) for e, t in problem.tests().items() if t.rank}
+    extras = {e: extra for e, extra in extras.items() if only is None or e in only}
+    fits = {e: f.coefficients(extra) for e, extra in extras.items()}
+    vectors = [f.vector(c, extras[e]) for e, (c, _) in fits.items()]
+    vectors += [f.fit_held_out(extra) for extra in extras.values()]
+    scored = f.score(vectors) if vectors else []
+    alternatives = selection.find_alternatives(problem, stage.chosen)
     ranked = []
-    n = f.n_base
-    for (e, t, extra), (c, covariance), whole, half_fitted in zip(
-        tested, fits, scored[::2], scored[1::2], strict=True
-    ):
-        own = dict(field.candidates[e])
-        mine = [own[k] for k in extra]
-        found = Estimates(f.model, f.calibration.p, mine, c[n:], covariance[n:, n:])
-        indistinguishable = alternatives.get(e, ())
-        for main, others in alternatives.items():
-            if e in others:
-                indistinguishable = tuple(sorted({main, *others} - {e}))
+    for n, (e, (c, covariance)) in enumerate(fits.items()):
+        alike = [alternatives.get(e, ()), *((main, *x) for main, x in alternatives.items() if e in x)]
         row = Ranked(
             effect=e,
-            test=t,
-            before=before,
-            after=whole.whole,
-            after_holdout=half_fitted.held_out,
-            indistinguishable_from=indistinguishable,
+            test=problem.tests()[e],
+            before=stage.scored.whole,
+            after=scored[n].whole,
+            after_holdout=scored[n + len(fits)].held_out,
+            indistinguishable_from=tuple(sorted({*alike[-1]} - {e})),
         )
-        ranked.append(row.with_estimates(found, instants.get(e)))
-    certain = Test(log_p=-np.inf, chi2=np.inf, rank=1, which=(), log_b=np.inf)
-    ranked += [Ranked.without_columns(e, certain, before) for e in output]
-    return ranked, before
+        columns, k = dict(problem.candidates[e]), f.n_base
+        own = [columns[k] for k in extras[e]]
+        found = Estimates(f.model, f.calibration.p, own, c[k:], covariance[k:, k:])
+        ranked.append(row.with_estimates(found, stage.instants.get(e)))
+    return ranked
 
 
-def rank_stages(
-    steps: Sequence[AddedEffect], chosen: Sequence[Ranked], others: Sequence[Ranked], target: Fitted
-) -> list[Ranked]:
-    """The ranking where effects were derived into the model: each by what the model with those before leaves without and with it;
-    the rest against the model as it was.
+def rank_added(t: AddedEffect, free: Fitted) -> Ranked:
+    """An effect that was derived into the model, by what the model leaves without and with it; ``free``: the flights with all of them, and
+    all their coefficients.
     """
-    free = release_held(target)
-    found = [_rank_added(t, free) for t in steps] + list(chosen)
-    names = {r.effect for r in found}
-    return [*found, *(r for r in others if r.effect not in names)]
-
-
-def _rank_added(t: AddedEffect, free: Fitted) -> Ranked:
-    """The row of an effect that was derived into the model; ``free``: the flights with all of them, and all their coefficients."""
     (before,) = t.before.score([np.zeros(t.before.size)])
     after, held_out = t.after.score([np.zeros(t.after.size), t.after.fit_held_out()])
     row = Ranked(
@@ -164,13 +138,11 @@ def _rank_added(t: AddedEffect, free: Fitted) -> Ranked:
     return row.with_estimates(stepped.select(t.effect), t.instant)
 
 
-def sort_by_choice(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
-    """Order of the ranking: chosen effects as they were chosen, then by significance."""
-    order = {e: n for n, e in enumerate(dict.fromkeys(chosen))}
-    return lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect)
+CERTAIN = Test(log_p=-np.inf, chi2=np.inf, rank=1, which=(), log_b=np.inf)
+"""Of what the recorder did."""
 
 
-def list_not_testable(f: Fitted, field: Field) -> list[NotTestable]:
+def list_not_testable(f: Fitted, problem: ProjectedProblem) -> list[NotTestable]:
     found = []
     for e in f.model.candidates:
         missing = sorted({c for o in f.observations for c in e.missing(o.record.recorded)})
@@ -180,8 +152,8 @@ def list_not_testable(f: Fitted, field: Field) -> list[NotTestable]:
             found.append(
                 NotTestable(e.id, f"it can look like many other effects: add it by name, ragg add ... {e.id}")
             )
-        elif e.id in field.candidates and not field.testable(e.id):
-            found.append(NotTestable(e.id, _describe_absorption(f, field, e)))
+        elif e.id in problem.candidates and not problem.testable(e.id):
+            found.append(NotTestable(e.id, _describe_absorption(f, problem, e)))
     return found
 
 
@@ -189,12 +161,12 @@ WEAK = 0.5
 """Share of a signature that the calibration leaves of one that is too weak, and not absorbed."""
 
 
-def _describe_absorption(f: Fitted, field: Field, e: DerivedEffect) -> str:
+def _describe_absorption(f: Fitted, problem: ProjectedProblem, e: DerivedEffect) -> str:
     """In words: which parameters of the model absorb an effect, or that it is too weak to be seen."""
-    columns = [n for n, _ in field.candidates[e.id]]
+    columns = [n for n, _ in problem.candidates[e.id]]
     n = f.n_base
-    whole = np.linalg.norm(field.T[:, [n + k for k in columns]], axis=0)
-    left = np.linalg.norm(field.P[:, columns], axis=0)
+    whole = np.linalg.norm(problem.T[:, [n + k for k in columns]], axis=0)
+    left = np.linalg.norm(problem.P[:, columns], axis=0)
     k = int(np.argmax(whole))
     strongest = columns[k]
     if left[k] > WEAK * whole[k] or whole[k] < likelihood_ratio.TESTABLE:
@@ -202,10 +174,10 @@ def _describe_absorption(f: Fitted, field: Field, e: DerivedEffect) -> str:
         unknown = any(map(unknown_gradient.is_unknown, f.observations))
         beside = "beside a gradient that is not recorded" if unknown else "in this flight"
         return f"not observable {beside}, even at a hundred times its plausible size"
-    solution = np.linalg.solve(field.T[:n, :n], field.T[:n, n + strongest])
+    solution = np.linalg.solve(problem.T[:n, :n], problem.T[:n, n + strongest])
     names: dict[str, float] = {}
     for c, v, norm in zip(
-        f.calibration.columns, solution, np.linalg.norm(field.T[:, :n], axis=0), strict=True
+        f.calibration.columns, solution, np.linalg.norm(problem.T[:, :n], axis=0), strict=True
     ):
         names[c.name] = names.get(c.name, 0.0) + float(np.abs(v * norm))
     most = sorted(names, key=lambda x: -names[x])[:3]
@@ -226,14 +198,14 @@ class Detectable:
         return f"{self.name} = {self.size:.3g} {self.unit}"
 
 
-def list_detectable(f: Fitted, field: Field) -> list[Detectable]:
+def list_detectable(f: Fitted, problem: ProjectedProblem) -> list[Detectable]:
     """For each parameter of each effect that is testable."""
     rows = []
-    left = np.linalg.norm(field.P, axis=0)
-    for e, columns in field.candidates.items():
+    left = np.linalg.norm(problem.P, axis=0)
+    for e, columns in problem.candidates.items():
         own = dict(columns)
         for name in dict.fromkeys(c.name for _, c in columns):
-            best = [(left[n], own[n]) for n in field.testable(e) if own[n].name == name]
+            best = [(left[n], own[n]) for n in problem.testable(e) if own[n].name == name]
             if best:
                 norm, c = max(best, key=lambda x: float(x[0]))
                 size = 3.0 / norm * c.scale / c.unit_factor
@@ -241,9 +213,9 @@ def list_detectable(f: Fitted, field: Field) -> list[Detectable]:
     return rows
 
 
-def weigh_effects(field: Field, steps: Sequence[AddedEffect]) -> Probabilities:
+def weigh_effects(problem: ProjectedProblem, steps: Sequence[AddedEffect]) -> Probabilities:
     """The probabilities of the remaining effects, and of those in the model: equivalent alternatives share there."""
-    sets = probability.weigh_sets(field)
+    sets = probability.weigh_sets(problem)
     for t in steps:
         sets = sets.with_one_of((t.effect, *t.alternatives))
     return sets.probabilities()

@@ -5,22 +5,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation.calibration import OffSheet
-from ragg_runtime.estimation.fitted import Fitted, Scored, measure_noise_floor
+from ragg_runtime.estimation.calibration import list_off_sheet
+from ragg_runtime.estimation.fitted import Fitted, measure_noise_floor
 from ragg_runtime.estimation.scores import Error
 from ragg_runtime.identification import dictionary, series
-from ragg_runtime.identification.comparison import Explained
 from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.features import find_channel_unit
 from ragg_runtime.identification.line_rival import Steady
 from ragg_runtime.identification.next_motion import Proposal
 from ragg_runtime.identification.omnibus import Remainder, ResidualTerm, list_terms
 from ragg_runtime.identification.ranking import Detectable, NotTestable, Ranked
-from ragg_runtime.identification.sequential import ChangePoint, SequentialTest
+from ragg_runtime.identification.search import Outcome
+from ragg_runtime.identification.sequential import ChangePoint
 from ragg_runtime.wording import describe
 from ragg_runtime.wording.sections import render_notebook
 
@@ -46,26 +47,20 @@ class Diagnosis:
     remainder: Remainder
     remainder_share: float
     before: Error
-    scored: Scored
     noise: Fitted
     """The fit of the noise floor."""
     sizes: tuple[Detectable, ...]
-    target: Fitted
-    coefficients: Array
+    outcome: Outcome
+    """The fit with all that was chosen, claimed or not."""
     next_motion: tuple[Proposal, ...]
-    complaint: str | None = None
-    remarks: tuple[str, ...] = ()
-    reasons: tuple[Reason, ...] = ()
-    off_sheet: tuple[OffSheet, ...] = ()
-    credible_set: tuple[tuple[str, ...], ...] = ((),)
-    holds: SequentialTest | None = None
-    explained: Explained | None = None
-    groups: tuple[Group, ...] = ()
-    disagree: tuple[Disagreement, ...] = ()
-    tests: float = 1.0
+    reasons: tuple[Reason, ...]
+    credible_set: tuple[tuple[str, ...], ...]
+    change: ChangePoint | None
+    """Where the model ceased to hold, if it held in the beginning."""
+    groups: tuple[Group, ...]
+    disagree: tuple[Disagreement, ...]
+    tests: float
     """Number of independent tests that the catalogue is on these flights: times the least p-value it is the family's."""
-    staged: bool = False
-    """Whether what was found was derived into the model one after the other."""
 
     @property
     def converged(self) -> bool:
@@ -73,9 +68,14 @@ class Diagnosis:
         return self.complaint is None
 
     @property
+    def complaint(self) -> str | None:
+        """What speaks against the fit, in words."""
+        return self.outcome.complaint
+
+    @property
     def remark(self) -> str | None:
         """What is wrong with the record, or how it is disturbed."""
-        return "; ".join(self.remarks) or None
+        return "; ".join(r.text for r in self.reasons if r.kind == "remark") or None
 
     @property
     def reason(self) -> str | None:
@@ -87,11 +87,6 @@ class Diagnosis:
         """Whether something significant remains besides what is found."""
         return self.verdict in ("unexplained", "partly-explained")
 
-    @property
-    def change(self) -> ChangePoint | None:
-        """Where the model ceased to hold, if it held in the beginning."""
-        return None if self.holds is None else self.holds.change
-
     @cached_property
     def noise_floor(self) -> float:
         """rms of the noise before demodulation, Eo."""
@@ -100,12 +95,12 @@ class Diagnosis:
     @property
     def after(self) -> Error:
         """Error with the effects chosen (claimed or not) in the model."""
-        return self.scored.whole
+        return self.outcome.scored.whole
 
     @property
     def final(self) -> Fitted | None:
         """The model with the chosen effects derived into it, if that was done."""
-        return None if self.target is self.fitted else self.target
+        return None if self.outcome.target is self.fitted else self.outcome.target
 
     @cached_property
     def residual(self) -> list[Array]:
@@ -115,11 +110,11 @@ class Diagnosis:
     @cached_property
     def residual_after(self) -> list[Array]:
         """(N,) V of every flight, with the effects chosen (claimed or not) in the model."""
-        return self.target.residuals(self.coefficients)
+        return self.outcome.target.residuals(self.outcome.coefficients)
 
     def terms(self) -> list[dict[str, object]]:
         """Generic terms in what remains (see :func:`ragg_runtime.identification.omnibus.list_terms`)."""
-        return list_terms(self.remainder, self.scored.mean_square)
+        return list_terms(self.remainder, self.outcome.scored.mean_square)
 
     def expression(self) -> str | None:
         """The strongest unexplained term as a line for ``effects`` in model.toml, under a name of one's own."""
@@ -155,13 +150,14 @@ class Diagnosis:
         return render_notebook(describe.describe_diagnosis(self.as_json()))
 
     def as_json(self) -> dict[str, object]:
+        o = self.outcome.target
         return {
             "verdict": self.verdict,
             "converged": self.converged,
             "reason": self.reason,
-            "notes": [r.text for r in self.reasons if not r.is_verdict],
+            "notes": [r.text for r in self.reasons if r.kind != "verdict"],
             "remark": self.complaint or self.remark,
-            "off_sheet": [x.as_json() for x in self.off_sheet],
+            "off_sheet": [x.as_json() for x in list_off_sheet(o.model, o.instrument, o.calibration)],
             "ranking": [{"place": n, **r.as_json()} for n, r in enumerate(self.ranking, 1)],
             "tests": self.tests,
             "found": list(self.found),
@@ -177,7 +173,7 @@ class Diagnosis:
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
             "noise_floor": series.list_noise_floor(self.noise, self.noise_floor),
-            "explained": None if self.explained is None else {"share": self.explained.share},
+            "explained": {"share": self.outcome.explained.share},
             "credible_set": [list(s) for s in self.credible_set],
             "holds_until_s": None if self.change is None else self.change.until,
             "holds_until_flight": None if self.change is None else self.change.flight,
@@ -188,10 +184,10 @@ class Diagnosis:
 
 @dataclass(frozen=True)
 class Reason:
-    """A part of the reason of a verdict; ``is_verdict``: it only repeats the verdict, as a headline does."""
+    """A part of the reason of a verdict; ``kind``: ``verdict`` only repeats it, as a headline does, ``remark`` is about the record."""
 
     text: str
-    is_verdict: bool = False
+    kind: Literal["verdict", "remark", "note"] = "note"
 
 
 @dataclass(frozen=True)

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation import calibration
+from ragg_runtime.estimation import calibration, regressors
 from ragg_runtime.estimation import fitted as fitted_
-from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.fitted import Fitted, Scored, calibrate, fit
-from ragg_runtime.identification import comparison, contenders, omnibus, selection, strong
-from ragg_runtime.identification.claims import SECOND_ORDER, Regression, Robust, Significance
+from ragg_runtime.estimation.regressors import group_by_effect
+from ragg_runtime.identification import comparison, omnibus, selection, strong
+from ragg_runtime.identification.claims import SECOND_ORDER, Regression, Robust
 from ragg_runtime.identification.comparison import Explained, measure_explained
-from ragg_runtime.identification.contenders import Extend
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.omnibus import Remainder
-from ragg_runtime.identification.strong import AddedEffect, Stage
+from ragg_runtime.identification.strong import AddedEffect, Extend, Stage
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import Model
@@ -90,10 +89,6 @@ class Outcome:
     def exceeds_noise(self) -> bool:
         return comparison.exceeds_noise(self.target, self.scored, self.noise_floor)
 
-    def significance(self, effect: str) -> Significance:
-        """Of an effect fitted jointly with the others, with the variance of its scores."""
-        return self.robust.significance(effect)
-
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
@@ -110,29 +105,29 @@ class Evidence:
     spent: bool
 
     @property
-    def instants(self) -> list[tuple[str, float | None]]:
+    def instants(self) -> dict[str, float]:
         """Of the steps among the effects, s."""
-        return [(t.effect, t.instant) for t in self.steps] + [*self.last.instants.items()]
+        return {t.effect: t.instant for t in self.steps if t.instant is not None} | dict(self.last.instants)
 
     def test(self, effect: str) -> Test:
         """The test by which an effect was chosen: a strong one by itself, any other beside all that were chosen."""
         strong_ones = {t.effect: t.test for t in self.steps}
         if effect in strong_ones:
             return strong_ones[effect]
-        return self.last.field.tests([e for e in self.last.choice.chosen if e != effect])[effect]
+        return self.last.problem.tests([e for e in self.last.chosen if e != effect])[effect]
 
     @property
     def log_p(self) -> dict[str, float]:
         """Of what the last stage has chosen, each beside the others: logarithms of p-values."""
-        return {e: self.test(e).log_p for e in self.last.choice.chosen}
+        return {e: self.test(e).log_p for e in self.last.chosen}
 
     def explained(self, o: Outcome) -> tuple[float, int]:
         """Chi-square that an outcome's effects explain of what the model leaves without them, and with how many coefficients."""
         first = self.first
-        known = [e for e in o.effects if e in first.field.candidates]
-        linear, _ = first.field.joint([self._block(e) for e in known]) if known else (0.0, 0)
-        blocks, field = self.last.choice.blocks, self.last.field
-        rank = sum(field.joint([blocks[e]])[1] if e in blocks else self.test(e).rank for e in o.effects)
+        known = [e for e in o.effects if e in first.problem.candidates]
+        linear, _ = first.problem.joint([self._block(e) for e in known])
+        chosen, problem = self.last.chosen, self.last.problem
+        rank = sum(problem.joint([chosen[e]])[1] if e in chosen else self.test(e).rank for e in o.effects)
         own = () if o.given else [e for e in o.target.model.effects if e.id in o.effects]
         remembers = any(e.memory is not None for e in own)
         if o.given or (linear < strong.STRONG and len(known) == len(o.effects) and not remembers):
@@ -140,13 +135,13 @@ class Evidence:
         # second orders of strong effects: what is left once they are derived into the model, by the noise of the model without them
         f, noise = o.target, first.fitted.calibration.noise
         left = calibration.fit(f.model, f.instrument, f.observations, noise=noise, start=f.calibration.p).chi2
-        fitted = first.field.chi2 - left
+        fitted = first.problem.chi2 - left
         return max(linear, min(fitted, (1.0 + SECOND_ORDER) * linear) if o.remains else fitted), rank
 
     def _block(self, effect: str) -> tuple[int, ...]:
         """The columns of an effect that are needed, by a linear test of the first stage."""
-        beside = {} if self.steps else self.last.choice.blocks
-        return beside.get(effect) or self.first.choice.tests[effect].which
+        beside = {} if self.steps else self.last.chosen
+        return beside.get(effect) or self.first.problem.tests()[effect].which
 
     def charge(self, o: Outcome) -> float:
         """Logarithm of the number of ways in which an outcome's effects may be present."""
@@ -156,7 +151,7 @@ class Evidence:
         """For every chosen effect those that would explain as much in its place."""
         if self.steps:
             return {t.effect: t.alternatives for t in self.steps}
-        return selection.find_alternatives(self.first.field, self.first.choice)
+        return selection.find_alternatives(self.first.problem, self.first.chosen)
 
     def without(self, o: Outcome, effect: str) -> Outcome:
         """An outcome without one of its effects, fitted again."""
@@ -189,8 +184,8 @@ class Evidence:
         if self.extend is None:
             return -np.inf
         f, noise = self.first.fitted, self.first.fitted.calibration.noise
-        model, sheet = contenders.derive_with(f, [effect], {}, self.extend)
-        sheet = contenders.choose_start(f, model, sheet, effect)
+        model, sheet = strong.derive_with(f, [effect], {}, self.extend)
+        sheet = strong.choose_start(f, model, sheet, effect)
         kept, sheet, instead = fitted_.calibrate_certain(model, sheet, o.target.observations, noise=noise)
         own = [n for n, q in enumerate(instead.columns) if q.effect == effect]
         known = len(own) - float(np.trace(instead.covariance[np.ix_(own, own)]))
@@ -201,7 +196,7 @@ class Evidence:
             for s, c in ((sheet, instead), (chosen_sheet, chosen))
         ]
         evidence = log_bayes(np.array(explained), np.array([known, self.explained(o)[1]]))
-        charge = self.charge(o) + (len(o.effects) - 1) * float(np.log(self.first.field.count))
+        charge = self.charge(o) + (len(o.effects) - 1) * float(np.log(self.first.problem.count))
         return float(evidence[0] - evidence[1]) + charge
 
     def _is_derived(self, o: Outcome) -> bool:
@@ -212,27 +207,24 @@ class Evidence:
         first, last = self.first.fitted, self.last
         if not kept or self.extend is None:
             return first.model, first.instrument
-        instants = dict(last.instants) | {t.effect: t.instant for t in self.steps if t.instant is not None}
-        held = last.fitted.instrument.held | _list_held(last, [e for e in kept if e in last.choice.blocks])
-        return contenders.derive_with(first, kept, instants, self.extend, held=held)
+        held = last.fitted.instrument.held | _list_held(last, [e for e in kept if e in last.chosen])
+        return strong.derive_with(first, kept, self.instants, self.extend, held=held)
 
 
-def _list_held(last: Stage, chosen: Sequence[str]) -> frozenset[str]:
+def _list_held(last: Stage, chosen: Iterable[str]) -> frozenset[str]:
     """Coefficients of the chosen effects that their tests do not need: free, those that a record does not determine would wander."""
-    return frozenset[str]().union(
-        *(strong.list_unneeded(last.field, e, last.choice.blocks[e]) for e in chosen)
-    )
+    return frozenset[str]().union(*(strong.list_unneeded(last.problem, e, last.chosen[e]) for e in chosen))
 
 
-def _list_given(last: Stage, chosen: Sequence[str]) -> list[int]:
+def _list_given(last: Stage, chosen: Iterable[str]) -> list[int]:
     """The candidate columns that the tests of the chosen effects need."""
-    return [n for e in chosen for n in last.choice.blocks[e]]
+    return [n for e in chosen for n in last.chosen[e]]
 
 
 def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
     """Search forward; nothing is searched in flights that are kept ``apart``, nor in an output of which the model explains nothing."""
-    budget, f = strong.Budget(), first.fitted
-    idle = apart or measure_explained(f, f.score([np.zeros(f.size)])[0]).complaint is not None
+    budget = strong.Budget()
+    idle = apart or measure_explained(first.fitted, first.scored).complaint is not None
     steps, last = ([], first.without_choice()) if idle else strong.select_strong(first, extend, budget)
     last, outcome = confirm_choice(steps, last, extend)
     return Evidence(first, steps, last, outcome, extend, budget.spent)
@@ -240,21 +232,19 @@ def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
 
 def confirm_choice(steps: Sequence[AddedEffect], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:
     """The chosen effects fitted in the model; and the last stage without those that then have an impossible size."""
-    f = last.fitted
     final = _derive_chosen(last, extend)
-    while final is not None and (wrong := strong.find_impossible(final, last.choice.chosen)):
-        kept = {e: c for e, c in last.field.candidates.items() if e not in wrong}
-        field = replace(last.field, candidates=kept)
-        last = replace(last, field=field, choice=selection.choose(field))
+    while final is not None and (wrong := strong.find_impossible(final, last.chosen)):
+        kept = {e: c for e, c in last.problem.candidates.items() if e not in wrong}
+        problem = replace(last.problem, candidates=kept)
+        last = replace(last, problem=problem, chosen=selection.choose(problem))
         final = _derive_chosen(last, extend)
-    chosen = [*(t.effect for t in steps), *last.choice.chosen]
-    given = _list_given(last, last.choice.chosen)
-    return last, Outcome.of(f, chosen, given) if final is None else Outcome.of(final, chosen, ())
+    effects = [*(t.effect for t in steps), *last.chosen]
+    return last, Outcome.of(final or last.fitted, effects, () if final else _list_given(last, last.chosen))
 
 
 def _derive_chosen(last: Stage, extend: Extend | None) -> Fitted | None:
     """The chosen effects derived into the model and everything fitted again, if that can be done."""
-    f, chosen = last.fitted, last.choice.chosen
+    f, chosen = last.fitted, [*last.chosen]
     steps = {e.id for e in f.model.candidates if e.kind == "step"}
     if not chosen or extend is None or (steps & set(chosen)):
         return None
@@ -272,7 +262,7 @@ def _start_from_linear_fit(f: Fitted, given: Sequence[int], extended: Model, ins
     before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
     value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
     p = make_vector(extended, f.instrument)
-    for c, place in design.list_base_columns(extended, instrument):
+    for c, place in regressors.list_base_columns(extended, instrument):
         p[place] = value.get(c.label, p[place])  # what but shapes the others has no linear fit
     return p
 
@@ -281,10 +271,6 @@ def _find_random_columns(f: Fitted) -> dict[str, int]:
     """The place of every random effect's column."""
     if any(o.recorded.demodulated for o in f.observations):
         return {}  # neighbouring samples of a demodulated channel are not independent
-    columns = f.candidates
-    found = {}
-    for e in f.model.candidates:
-        own = [n for n, c in enumerate(columns) if c.effect == e.id]
-        if e.kind == "random" and own:
-            found[e.id] = f.n_base + own[0]
-    return found
+    random = {e.id for e in f.model.candidates if e.kind == "random"}
+    own = group_by_effect(f.candidates)
+    return {e: f.n_base + columns[0][0] for e, columns in own.items() if e in random}

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.regressors import Column, group_by_effect
-from ragg_runtime.estimation.scores import INDISTINGUISHABLE
+from ragg_runtime.estimation.scores import DISTINGUISHABLE, INDISTINGUISHABLE
 from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.identification import likelihood_ratio, uneven
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
@@ -28,9 +28,6 @@ FURTHER = false_alarms.COMPANION
 MOST = 4
 """Most effects that are claimed at once."""
 
-DISTINGUISHABLE = INDISTINGUISHABLE / 2
-"""Difference of log evidence from which one explanation is distinguishable from another."""
-
 SWAPPED = 2.0
 """Log evidence by which another effect must be better to take the place of a chosen one; ties do not go to and fro."""
 
@@ -40,8 +37,12 @@ is no alternative.
 """
 
 
+Blocks = Mapping[str, tuple[int, ...]]
+"""Effects with the columns that each needs."""
+
+
 @dataclass(frozen=True)
-class Field:
+class ProjectedProblem:
     """An R factor [base | candidates | residual] with the prior in, and the effects in it.
 
     ``candidates`` are columns after the base, by effect; ``penalty`` the logarithm of the number of variants an effect was chosen
@@ -53,7 +54,6 @@ class Field:
     T: Array
     n_base: int
     candidates: Mapping[str, tuple[tuple[int, Column], ...]]
-    rows: int
     penalty: Mapping[str, float] = field(default_factory=dict)
     freedom: float = np.inf
     flights: tuple[PreparedFlight, ...] = ()
@@ -83,13 +83,9 @@ class Field:
 
     def onto(self, columns: Sequence[int]) -> tuple[Array, Array]:
         """P with ``columns`` projected out of all others, and the floor that then holds."""
-        X = self.P[:, list(columns)]
-        keep = np.linalg.norm(X, axis=0) > self.floor[list(columns)]
-        X = X[:, keep]
-        if not X.shape[1]:
+        U = likelihood_ratio.find_basis(self.P, columns, self.floor, weakest=0.0)
+        if not U.shape[1]:
             return self.P, self.floor
-        U, s, _ = np.linalg.svd(X, full_matrices=False)
-        U = U[:, s > s[0] * 1e-7]
         left = self.P - U @ (U.T @ self.P)
         # what a column shares with those already in may be all of it: then it cannot be tested either
         floor = np.maximum(self.floor, 1e-3 * np.linalg.norm(self.P, axis=0))
@@ -111,19 +107,16 @@ class Field:
             for e, columns in self.candidates.items()
             if e not in given
         }
-        raised = [e for e, t in found.items() if self._raises(t)]
+        # tests that say nothing stay as they are
+        raised = [e for e, t in found.items() if t.rank > 0 and t.log_p <= np.log(FAMILY)]
         if self.flights and raised:
-            others = [self.n_base + n for e in given for n, _ in self.candidates[e]]
+            known = [*range(self.n_base), *(self.n_base + n for e in given for n, _ in self.candidates[e])]
             norms = np.linalg.norm(P, axis=0)
             tested = [[self.n_base + n for n in found[e].which if norms[n] > floor[n]] for e in raised]
-            scatter = uneven.Beside(self.T, self.flights, self.n_base, others).measure_scatter(tested)
+            scatter = uneven.measure_scatter(self.T, self.flights, known, tested)
             for e, by, known in zip(raised, scatter.inflation, scatter.freedom, strict=True):
                 found[e] = uneven.temper_test(found[e], float(by), float(known), self.freedom)
         return found
-
-    def _raises(self, t: Test) -> bool:
-        """Whether a test says anything: those that do not stay as they are."""
-        return t.rank > 0 and t.log_p <= np.log(FAMILY)
 
     @cached_property
     def count(self) -> int:
@@ -133,9 +126,8 @@ class Field:
     @cached_property
     def effective_count(self) -> float:
         """Number of independent tests that err as often as these, which are alike (:func:`likelihood_ratio.estimate_effective_number`)."""
-        every = [likelihood_ratio.list_sub_blocks(c) for c in self.candidates.values()]
-        ways = [likelihood_ratio.find_directions(self.P, own, self.floor) for own in every]
-        return likelihood_ratio.estimate_effective_number([w for w in ways if w], FAMILY)
+        every = (likelihood_ratio.list_ways(self.P, c, self.floor) for c in self.candidates.values())
+        return likelihood_ratio.estimate_effective_number([ways for ways in every if ways], FAMILY)
 
     def significant(self, t: Test, family: float = FAMILY) -> bool:
         """Whether the test of an effect is significant over the family."""
@@ -149,50 +141,30 @@ class Field:
         return likelihood_ratio.measure_explained(self.P, [n for b in blocks for n in b], self.floor)
 
 
-@dataclass(frozen=True)
-class Choice:
-    """Effects that together account for what the model lacks, each with its ``blocks``; ``tests`` of single effects with nothing
-    else in, ``conditional`` ones of the rest given the chosen.
-    """
-
-    chosen: tuple[str, ...]
-    blocks: Mapping[str, tuple[int, ...]]
-    tests: Mapping[str, Test]
-    conditional: Mapping[str, Test]
-    chi2: float
-
-
 def is_significant(t: Test, count: float, family: float = FAMILY) -> bool:
     """Whether a test of one of ``count`` effects is significant over the family."""
     return bool(t.rank > 0 and t.log_p + np.log(max(count, 1.0)) < np.log(family))
 
 
-def choose(f: Field, *, beside: bool = False) -> Choice:
-    """Forward selection; after each addition every chosen effect may be swapped for a better one. ``beside``: others are in the
-    model.
+def choose(f: ProjectedProblem, *, beside: bool = False) -> Blocks:
+    """Effects that together account for what the model lacks, each with the columns that it needs, in the order of their choice.
+
+    Forward selection; after each addition every chosen effect may be swapped for a better one. ``beside``: others are in the model.
     """
-    first = f.tests()
-    chosen: list[str] = []
-    blocks: dict[str, tuple[int, ...]] = {}
-    remaining = first
+    chosen: Blocks = {}
     seen: set[frozenset[str]] = set()
     while len(chosen) < MOST and frozenset(chosen) not in seen:
         seen.add(frozenset(chosen))
         level = FURTHER if chosen or beside else FAMILY
-        best = _find_best({e: t for e, t in remaining.items() if f.significant(t, level)})
+        tests = f.tests([*chosen])
+        best = _find_best({e: t for e, t in tests.items() if f.significant(t, level)})
         if best is None:
             break
-        before = blocks
-        blocks = blocks | {best: remaining[best].which}
-        blocks = _swap(f, [*chosen, best], blocks) if chosen else blocks
-        if not set(chosen) <= set(blocks) and _weigh_blocks(f, blocks) <= _weigh_blocks(f, before):
-            blocks = before  # one that holds another as a special case, and is none the better for it
-            break
-        chosen = list(blocks)
-        remaining = f.tests(chosen)
-    blocks = _settle_blocks(f, blocks)
-    chi2 = f.joint([blocks[e] for e in chosen])[0] if chosen else 0.0
-    return Choice(chosen=tuple(chosen), blocks=blocks, tests=first, conditional=remaining, chi2=chi2)
+        more = _swap(f, {**chosen, best: tests[best].which})
+        if not chosen.keys() <= more.keys() and _weigh_blocks(f, more) <= _weigh_blocks(f, chosen):
+            break  # one that holds another as a special case, and is none the better for it
+        chosen = more
+    return _settle_blocks(f, chosen)
 
 
 def _find_best(tests: Mapping[str, Test]) -> str | None:
@@ -200,19 +172,18 @@ def _find_best(tests: Mapping[str, Test]) -> str | None:
     return min(tests, key=lambda e: (-tests[e].log_b, e), default=None)
 
 
-def _swap(f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]]) -> dict[str, tuple[int, ...]]:
-    """The columns of the chosen effects, each of which may give way to a better one."""
-    for old in tuple(chosen):
-        others = [e for e in chosen if e != old]
-        conditional = f.tests(others)
+def _swap(f: ProjectedProblem, chosen: Blocks) -> Blocks:
+    """The same, each of several effects given way to a better one."""
+    for old in tuple(chosen) if len(chosen) > 1 else ():
+        others = {e: which for e, which in chosen.items() if e != old}
+        conditional = f.tests([*others])
         best = _find_best({e: t for e, t in conditional.items() if f.significant(t)})
         if best is not None and conditional[best].log_b > conditional[old].log_b + SWAPPED:
-            chosen = [*others, best]
-            blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
-    return blocks
+            chosen = {**others, best: conditional[best].which}
+    return chosen
 
 
-def _settle_blocks(f: Field, blocks: dict[str, tuple[int, ...]]) -> dict[str, tuple[int, ...]]:
+def _settle_blocks(f: ProjectedProblem, blocks: Blocks) -> Blocks:
     """The columns of the chosen effects, each the best beside those of the others: their tests were beside all columns of these."""
     seen: set[tuple[tuple[int, ...], ...]] = set()
     while len(blocks) > 1 and (now := tuple(blocks.values())) not in seen:
@@ -220,18 +191,18 @@ def _settle_blocks(f: Field, blocks: dict[str, tuple[int, ...]]) -> dict[str, tu
         for e in blocks:
             P, floor = f.onto([n for other in blocks if other != e for n in blocks[other]])
             beside = likelihood_ratio.test(P, f.candidates[e], floor, f.penalty.get(e, 0.0), f.freedom)
-            blocks = blocks | {e: beside.which} if beside.rank else blocks
+            blocks = {**blocks, e: beside.which} if beside.rank else blocks
     return blocks
 
 
-def weigh_choice(f: Field, choice: Choice) -> float:
+def weigh_choice(f: ProjectedProblem, chosen: Blocks) -> float:
     """Log evidence of what is chosen against nothing, charged for the choice of the effects and of their columns."""
-    return _weigh_blocks(f, choice.blocks) - sum(choice.tests[e].charge for e in choice.chosen)
+    return _weigh_blocks(f, chosen) - sum(f.tests()[e].charge for e in chosen)
 
 
-def _weigh_blocks(f: Field, blocks: Mapping[str, tuple[int, ...]]) -> float:
+def _weigh_blocks(f: ProjectedProblem, blocks: Blocks) -> float:
     """Log evidence of effects together, each with these columns, charged for their choice."""
-    chi2, rank = f.joint(list(blocks.values()))
+    chi2, rank = f.joint([*blocks.values()])
     return float(log_bayes(chi2, rank)) - len(blocks) * float(np.log(max(f.count, 1)))
 
 
@@ -240,32 +211,29 @@ def are_alike(a: Test, b: Test) -> bool:
 
     Each is tempered by what its own scores vary, which is not known exactly: both are compared as the first is.
     """
-    ahead = a.log_b - float(log_bayes(b.chi2 / a.inflation, b.rank)) + b.charge
+    ahead = a.log_b - b.weigh_alone(a.inflation) + b.charge
     return (a.chi2 - b.chi2 < INDISTINGUISHABLE and ahead < AS_SURE) or ahead < DISTINGUISHABLE
 
 
-def find_alternatives(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
+def find_alternatives(f: ProjectedProblem, chosen: Blocks) -> dict[str, tuple[str, ...]]:
     """For every chosen effect those that would explain as much in its place."""
     result = {}
-    for e in choice.chosen:
-        others = [o for o in choice.chosen if o != e]
-        conditional = f.tests(others)
-        mine = conditional[e]
-        equal = (o for o, t in conditional.items() if o != e and t.rank and are_alike(mine, t))
+    for e in chosen:
+        conditional = f.tests([o for o in chosen if o != e])
+        equal = [o for o, t in conditional.items() if o != e and t.rank and are_alike(conditional[e], t)]
         result[e] = tuple(sorted(o for o in equal if e not in f.contains.get(o, ())))
     return result
 
 
-def make_field(f: Fitted, available: Sequence[str]) -> Field:
-    """The candidates among ``available`` effects, on the R factor of everything."""
-    candidates = group_by_effect(f.candidates)
-    kept = {e: tuple(c) for e, c in candidates.items() if e in available}
+def make_problem(f: Fitted, effects: Sequence[str] | None = None) -> ProjectedProblem:
+    """The candidates of some effects, or of all that are deterministic and testable, on the R factor of everything."""
+    available = list_testable(f) if effects is None else effects
+    kept = {e: tuple(c) for e, c in group_by_effect(f.candidates).items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
-    return Field(
+    return ProjectedProblem(
         T=f.whole,
         n_base=f.n_base,
         candidates=kept,
-        rows=f.calibration.rows,
         freedom=freedom,
         flights=f.prepared if any(n.uneven for n in f.calibration.noise) else (),
         contains={e.id: e.contains for e in f.model.candidates},

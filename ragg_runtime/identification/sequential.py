@@ -34,48 +34,24 @@ KNOWN = 200
 
 @dataclass(frozen=True)
 class ChangePoint:
-    """Where the model ceased to hold: ``until`` the end of the last block of time in which it held, s of the flight's ``time``;
-    ``log_evidence`` is the largest ln M.
-    """
+    """Where the model ceased to hold: ``until`` the end of the last block of time in which it held, s of the flight's ``time``."""
 
     flight: str
     until: float
-    log_evidence: float
 
 
-@dataclass(frozen=True)
-class SequentialTest:
-    """ln M (blocks,) at the ends of the blocks of time, of flights in their order; ``change`` where it passed the limit."""
-
-    flight: tuple[str, ...]
-    time: Array
-    log_m: Array
-    limit: float
-    change: ChangePoint | None
-
-
-def follow_model(f: Fitted) -> SequentialTest:
-    """Follow the model through its flights."""
-    names, times, path = [], [], []
-    log_m, since = 0.0, 0
-    found: ChangePoint | None = None
-    starts: list[tuple[str, float]] = []
+def find_change(f: Fitted) -> ChangePoint | None:
+    """Follow the model through its flights; ``None`` where it holds to the end, or never held."""
     blocks = list(_blocks(f))
-    limit = float(np.log(max(1, len(blocks)) / false_alarms.CHANGE))
+    limit = np.log(max(1, len(blocks)) / false_alarms.CHANGE)
+    log_m, since = 0.0, 0
     for n, b in enumerate(blocks):
-        starts.append((b.flight, b.start))
         if log_m <= 0.0:
             since = n
         log_m = max(0.0, log_m) + log_e(b.base, b.further)
-        names.append(b.flight)
-        times.append(b.end)
-        path.append(log_m)
-        if log_m > limit and since and (found is None or log_m > found.log_evidence):
-            place = starts[since] if found is None else (found.flight, found.until)
-            found = ChangePoint(flight=place[0], until=place[1], log_evidence=log_m)
-    return SequentialTest(
-        flight=tuple(names), time=np.array(times), log_m=np.array(path), limit=limit, change=found
-    )
+        if log_m > limit and since:
+            return ChangePoint(blocks[since].flight, blocks[since].start)
+    return None
 
 
 def log_e(*parts: Array) -> float:
@@ -93,11 +69,10 @@ def log_e(*parts: Array) -> float:
 
 @dataclass(frozen=True)
 class _TimeBlock:
-    """Innovations of a block of time, s: along the base columns, and along candidates beyond them."""
+    """Innovations of a block of time, from ``start`` on, s: along the base columns, and along candidates beyond them."""
 
     flight: str
     start: float
-    end: float
     base: Array
     further: Array
 
@@ -119,13 +94,7 @@ def _blocks(f: Fitted) -> Iterator[_TimeBlock]:
             z = _compute_innovations(known, own)
             known = compute_r_factor(np.vstack([known, own]).T)
             further = T[n:-1, -1][np.diag(T)[n:-1] != 0.0] / level
-            yield _TimeBlock(
-                flight=x.observation.name,
-                start=float(r.time[first]),
-                end=float(r.time[last - 1]),
-                base=z,
-                further=further,
-            )
+            yield _TimeBlock(x.observation.name, float(r.time[first]), base=z, further=further)
 
 
 def _compute_innovations(known: Array, own: Array) -> Array:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import series_name
 from ragg_runtime.estimation.fitted import Fitted, estimate_variance
-from ragg_runtime.estimation.observation import BLOCKS
+from ragg_runtime.estimation.observation import BLOCKS, combine_output
 from ragg_runtime.estimation.scores import finite
 from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.signals import derivative
@@ -60,9 +60,7 @@ def decimate(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POIN
 
 def compute_measured(w: PreparedFlight) -> Array:
     """(N,) V: what was observed, as G_out; zero where a sample is not valid."""
-    o = w.observation
-    pairs = zip(o.signs, o.series, strict=True)
-    return np.asarray(sum(k * np.where(o.record.valid, x, 0.0) for k, x in pairs))
+    return combine_output(w.observation, w.observation.data)
 
 
 @dataclass(frozen=True)

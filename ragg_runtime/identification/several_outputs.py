@@ -22,13 +22,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Seen:
-    """The gradient as one output saw it: time (N,) s, inline and cross (N,) Eo, and their noise, Eo."""
+    """The gradient as one output saw it: time (N,) s, inline and cross (N,) Eo, and the noise of cross, Eo: that of inline is twice."""
 
     place: int
     time: Array
     inline: Array
     cross: Array
-    inline_std: float
     cross_std: float
 
 
@@ -64,7 +63,7 @@ class Together:
         axes = []
         for s in self.seen:
             rows.extend(self.at(s))
-            std += [s.inline_std, s.cross_std]
+            std += [2 * s.cross_std, s.cross_std]
             axes.append(layout.discs[layout.outputs[s.place].disc].across)
         try:
             return tensor(axes, np.array(rows), np.array(std))
@@ -79,13 +78,14 @@ class Together:
             if layout.outputs[a.place].disc != layout.outputs[b.place].disc or not len(self.common):
                 continue
             inline, cross = (x - y for x, y in zip(self.at(a), self.at(b), strict=True))
+            expected = float(np.hypot(a.cross_std, b.cross_std) / np.sqrt(2))
             found.append(
                 {
                     "outputs": [layout.outputs[a.place].name, layout.outputs[b.place].name],
                     "inline_Eo": float(np.std(inline) / np.sqrt(2)),
                     "cross_Eo": float(np.std(cross) / np.sqrt(2)),
-                    "expected_inline_Eo": float(np.hypot(a.inline_std, b.inline_std) / np.sqrt(2)),
-                    "expected_cross_Eo": float(np.hypot(a.cross_std, b.cross_std) / np.sqrt(2)),
+                    "expected_inline_Eo": 2 * expected,
+                    "expected_cross_Eo": expected,
                 }
             )
         return found
@@ -122,7 +122,7 @@ def estimate_gradient(f: Fitted, n: int) -> Seen:
     g = ModelledOutput(f.model, o, p, (Block(slice(0, len(r.time)), p),), d).estimate_gradient()
     there = find_whole(r.valid, d)
     cross = float(np.sqrt(d.pass_power(f.prepared[n].noise_psd, 2 * abs(r.spin_frequency)))) / k_ggi
-    return Seen(o.place, r.time[there], g[there].real, g[there].imag, inline_std=2 * cross, cross_std=cross)
+    return Seen(o.place, r.time[there], g[there].real, g[there].imag, cross)
 
 
 def list_errors_of_outputs(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:

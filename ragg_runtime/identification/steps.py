@@ -13,15 +13,14 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.least_squares import compute_r_factor, fold, join, pick_columns
-from ragg_runtime.estimation.least_squares import make_prior as prior_rows
+from ragg_runtime.estimation.least_squares import compute_r_factor, fold, join, make_prior, pick_columns
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS, ROWS
 from ragg_runtime.estimation.regressors import Column, group_by_effect
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 from ragg_runtime.identification import likelihood_ratio, selection
 from ragg_runtime.identification.likelihood_ratio import Test
-from ragg_runtime.identification.selection import Field, list_testable, make_field
+from ragg_runtime.identification.selection import ProjectedProblem, list_testable, make_problem
 
 Array = NDArray[np.float64]
 
@@ -42,8 +41,8 @@ class Step:
 
 def add_steps(
     f: Fitted, known: Mapping[str, Step] = MappingProxyType({})
-) -> tuple[Field, Fitted, dict[str, float]]:
-    """The field of all candidates, the fit in which the columns of each step begin at its most likely instant, and these instants by
+) -> tuple[ProjectedProblem, Fitted, dict[str, float]]:
+    """The problem of all candidates, the fit in which the columns of each step begin at its most likely instant, and these instants by
     effect, s.
 
     Once a step is significant, and so its instant ``known``, the noise is estimated again, and everything with it.
@@ -52,30 +51,30 @@ def add_steps(
     kinds = [e.id for e in f.model.candidates if e.kind == "step"]
     columns = {e: own for e, own in group_by_effect(f.candidates).items() if e in kinds}
     if len(f.flights) != 1 or not columns:
-        return make_field(f, available), f, {}
+        return make_problem(f), f, {}
     known = {e: _sharpen(f, step, columns[e]) for e, step in known.items()}
     f = _begin_at(f, known) if known else f
-    chosen = selection.choose(_make_field(f, [*available, *known])).chosen
+    chosen = selection.choose(_make_problem(f, [*available, *known]))
     beside = [n for n, c in enumerate(f.candidates) if c.effect in chosen]
     likeliest = _scan(f, {e: own for e, own in columns.items() if e not in known}, beside)
     begun = _zero_before(f, likeliest, columns)
-    field = _make_field(begun, [*available, *columns])
+    problem = _make_problem(begun, [*available, *columns])
     # samples do not judge a step yet: one that is in the noise makes it uneven
-    found = [e for e in selection.choose(replace(field, flights=())).chosen if e in likeliest]
+    found = [e for e in selection.choose(replace(problem, flights=())) if e in likeliest]
     if found:
         refined = {e: _refine(f, likeliest[e], columns[e]) for e in found}
         known = {**known, **{e: _sharpen(f, step, columns[e]) for e, step in refined.items()}}
         return add_steps(_estimate_again(f, known), known)
     instants = _list_instants(f, {**known, **likeliest})
     prepared = tuple(x.with_steps(instants) for x in f.prepared)
-    tests = replace(field, flights=prepared if field.flights else ())
+    tests = replace(problem, flights=prepared if problem.flights else ())
     return tests, replace(begun, prepared=prepared), instants
 
 
-def _make_field(f: Fitted, effects: Sequence[str]) -> Field:
-    """The field of effects, steps among them charged for the choice of their instant."""
+def _make_problem(f: Fitted, effects: Sequence[str]) -> ProjectedProblem:
+    """The problem of effects, steps among them charged for the choice of their instant."""
     steps = [e.id for e in f.model.candidates if e.kind == "step"]
-    return replace(make_field(f, effects), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
+    return replace(make_problem(f, effects), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
 
 
 def _list_instants(f: Fitted, steps: Mapping[str, Step]) -> dict[str, float]:
@@ -116,7 +115,7 @@ def _scan(f: Fitted, columns: Columns, beside: Sequence[int]) -> dict[str, Step]
     edges = [int(k) for k in f.prepared[0].edges[1:-1]]
     best: dict[str, tuple[float, Step]] = {}
     for given in ((), tuple(beside)) if beside else ((),):
-        found = _find_best_edges(f.r_factors, edges, f.n_base, given, columns, f.to_nominal)
+        found = _find_best_edges(f, f.r_factors, edges, given, columns)
         for e, (edge, test) in found.items():
             if e not in best or test.log_p < best[e][0] - BESIDE:
                 best[e] = test.log_p, Step(edge, given)
@@ -124,23 +123,23 @@ def _scan(f: Fitted, columns: Columns, beside: Sequence[int]) -> dict[str, Step]
 
 
 def _find_best_edges(
+    f: Fitted,
     r_factors: Sequence[Sequence[Array]],
     edges: Sequence[int],
-    n_base: int,
     given: Sequence[int],
     columns: Columns,
-    prior: Array,
 ) -> dict[str, tuple[int, Test]]:
     """For each step the edge between two segments of time, each with an R factor of every output, from which on it explains most.
 
-    ``given``: places of other effects' columns among the candidates; ``prior`` (n_base,): its centre.
+    ``given``: places of other effects' columns among the candidates.
     """
+    n_base = f.n_base
     own = [c for each in columns.values() for c in each]
     k, m = n_base + len(given), len(own)
     others = [*(n_base + n for n in given), *(n_base + n for n, _ in own), -1]
     picked = [fold([pick_columns(t, n_base, others) for t in each]) for each in zip(*r_factors, strict=True)]
     # The segments after an edge count with the steps' columns, those before it without; the prior in them.
-    sheet = prior_rows(range(n_base), k + m + 1, prior)
+    sheet = make_prior(range(n_base), k + m + 1, f.to_nominal)
     after: list[Array] = [np.pad(sheet, ((0, k + m + 1 - n_base), (0, 0)))]
     for t in reversed(picked[1:]):
         after.append(fold([after[-1], t]))
@@ -177,7 +176,7 @@ def _refine(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> Ste
         low, high = _limit_search(sample, reach, length)
         edges = np.unique(np.linspace(low, high, FINE + 1).astype(np.intp))
         cuts = np.array([0, *edges, length])
-        r_factors: list[Array | None] = [None] * (len(cuts) - 1)
+        r_factors: list[Array] = [np.zeros((len(places) + 1, len(places) + 1))] * (len(cuts) - 1)
 
         def cut(piece: Piece, own: Sequence[int], cuts: NDArray[np.intp] = cuts) -> list[tuple[int, Array]]:
             X = piece.white[[*own, -1]]
@@ -187,11 +186,8 @@ def _refine(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> Ste
         for x, own in flights:
             for parts in x.each(partial(cut, own=own)):
                 for k, T in parts:
-                    before = r_factors[k]
-                    r_factors[k] = T if before is None else join([before, T])
-        empty = np.zeros((len(places) + 1, len(places) + 1))
-        whole = [[empty if t is None else t for t in r_factors]]
-        sample, _ = _find_best_edges(whole, [int(e) for e in edges], f.n_base, given, moved, f.to_nominal)[""]
+                    r_factors[k] = join([r_factors[k], T])
+        sample, _ = _find_best_edges(f, [r_factors], edges.tolist(), given, moved)[""]
         reach = int(np.max(np.diff(edges), initial=1))
     return replace(step, sample=sample)
 

@@ -5,25 +5,39 @@ A signature is first order alone; of a strong effect the second order is signifi
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import comb
 
 from ragg_runtime.estimation import calibration
-from ragg_runtime.estimation.calibration import QUIET, charge_wider_priors, restore_priors
-from ragg_runtime.estimation.fitted import Fitted, fit, prepare_evidence, release_held
+from ragg_runtime.estimation.calibration import (
+    QUIET,
+    charge_wider_priors,
+    measure_to_nominal,
+    restore_priors,
+)
+from ragg_runtime.estimation.fitted import (
+    Fitted,
+    Scored,
+    calibrate_certain,
+    fit,
+    prepare_evidence,
+    release_held,
+)
 from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
-from ragg_runtime.identification import contenders, likelihood_ratio, selection
-from ragg_runtime.identification.contenders import ContenderFit, Extend
+from ragg_runtime.identification import likelihood_ratio, selection
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.parameters import list_physical_columns
-from ragg_runtime.identification.selection import Choice, Field
+from ragg_runtime.identification.selection import Blocks, ProjectedProblem
 from ragg_runtime.identification.steps import add_steps
-from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
@@ -40,14 +54,49 @@ CONTENDERS = 3
 """Most effects that are tried in the model at each stage."""
 
 
+class Extend(Protocol):
+    """Derives a model with further effects; with ``candidates`` also the signatures of the rest.
+
+    Given by the caller: this package cannot derive.
+    """
+
+    def __call__(self, model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model: ...
+
+
+def derive_with(
+    f: Fitted,
+    ids: Sequence[str],
+    instants: Mapping[str, float],
+    extend: Extend,
+    *,
+    held: frozenset[str] = frozenset(),
+    candidates: bool = False,
+) -> tuple[Model, Instrument]:
+    """The model of some flights with further effects in it, and the priors of the sheet, with the ``instants`` of steps, s.
+
+    Coefficients labelled in ``held`` are not fitted.
+    """
+    steps = tuple(EffectSetting(e, {"t_step": RawQuantity(instants[e], "s")}) for e in ids if e in instants)
+    sheet = restore_priors(f.instrument)
+    sheet = replace(sheet, effects=(*sheet.effects, *steps), held=sheet.held | held)
+    return extend(f.model, ids, candidates=candidates), sheet
+
+
 @dataclass(frozen=True)
 class Stage:
-    """What is known with some effects in the model: the field of the rest, the flights fitted, and what is chosen."""
+    """What is known with some effects in the model: the flights fitted, the problem of the rest, the ``instants`` of steps, s, and what is
+    ``chosen``.
+    """
 
-    field: Field
+    problem: ProjectedProblem
     fitted: Fitted
     instants: Mapping[str, float]
-    choice: Choice
+    chosen: Blocks
+
+    @cached_property
+    def scored(self) -> Scored:
+        """How large the residual is."""
+        return self.fitted.score([np.zeros(self.fitted.size)])[0]
 
     @staticmethod
     def of(f: Fitted, *, beside: bool = False) -> Stage:
@@ -65,24 +114,28 @@ class Stage:
 
     @staticmethod
     def _of(f: Fitted, beside: bool) -> Stage:
-        field, fitted, instants = add_steps(f)
-        return Stage(field, fitted, instants, selection.choose(field, beside=beside))
+        problem, fitted, instants = add_steps(f)
+        return Stage(problem, fitted, instants, selection.choose(problem, beside=beside))
 
     def _deviance(self, f: Fitted) -> float:
         """Chi-square of the fit before this stage, with what wider priors cost, less twice the log evidence of what is chosen."""
-        evidence = selection.weigh_choice(self.field, self.choice)
+        evidence = selection.weigh_choice(self.problem, self.chosen)
         return f.calibration.chi2 + charge_wider_priors(f.instrument, f.calibration) - 2.0 * evidence
 
     def without_choice(self) -> Stage:
         """The same, none of the effects being what is missing."""
-        choice = replace(self.choice, chosen=(), blocks={}, conditional=self.choice.tests, chi2=0.0)
-        return replace(self, choice=choice)
+        return replace(self, chosen={})
 
     @property
     def strong(self) -> bool:
         """Whether what is chosen is too strong for a linearisation, or has a memory, which a search knows at one value only."""
         shaped = {e.id for e in self.fitted.model.candidates if e.memory is not None}
-        return any(self.choice.tests[e].chi2 > STRONG or e in shaped for e in self.choice.chosen)
+        return any(self.problem.tests()[e].chi2 > STRONG or e in shaped for e in self.chosen)
+
+    def derive(self, effect: str, extend: Extend, *, candidates: bool = False) -> tuple[Model, Instrument]:
+        """The model with an effect in it, of whose coefficients those are fitted that its test needs."""
+        held = list_unneeded(self.problem, effect, self.problem.tests()[effect].which)
+        return derive_with(self.fitted, [effect], self.instants, extend, held=held, candidates=candidates)
 
 
 @dataclass(frozen=True)
@@ -103,11 +156,11 @@ FITS = 16
 """Nonlinear fits that a search may make: a flight with strong effects of the catalogue takes two to eight."""
 
 
+@dataclass
 class Budget:
     """How many fits a search may still make."""
 
-    def __init__(self, left: int = FITS) -> None:
-        self.left = left
+    left: int = FITS
 
     @property
     def spent(self) -> bool:
@@ -139,9 +192,69 @@ def select_strong(first: Stage, extend: Extend | None, budget: Budget) -> tuple[
     return found, stage
 
 
-def list_unneeded(field: Field, effect: str, which: Sequence[int]) -> frozenset[str]:
+def list_unneeded(problem: ProjectedProblem, effect: str, which: Sequence[int]) -> frozenset[str]:
     """Labels of an effect's columns that its test does not need."""
-    return frozenset(c.label for n, c in field.candidates[effect] if n not in which)
+    return frozenset(c.label for n, c in problem.candidates[effect] if n not in which)
+
+
+@dataclass
+class Contest:
+    """Effects of a stage, each tried in the model by itself: what it leaves (:func:`score_fit`), and whether any fit came to an optimum."""
+
+    stage: Stage
+    extend: Extend
+    budget: Budget
+    left: dict[str, float] = field(default_factory=dict)
+    arrived: bool = False
+
+    def try_effects(self, ids: Sequence[str]) -> dict[str, float]:
+        """What these leave."""
+        self.budget.left -= len(ids)
+        for e in ids:
+            if e not in self.left:
+                self.left[e], converged = score_fit(self.stage.fitted, *self.stage.derive(e, self.extend))
+                self.arrived |= converged
+        return {e: self.left[e] for e in ids}
+
+
+def score_fit(f: Fitted, model: Model, sheet: Instrument) -> tuple[float, bool]:
+    """Chi-square that a nonlinear fit to the flights of a fit leaves with effects in the model, by its noise, with what the parameters
+    cost, and whether it came to an optimum.
+
+    Every parameter that only the sheet knew before, and the record does now, costs 2 (AIC).
+    """
+    _, instrument, c = calibrate_certain(model, sheet, f.observations, noise=f.calibration.noise)
+    x = -measure_to_nominal(model, instrument, c)
+    known = len(c.columns) - float(np.trace(c.covariance))
+    left_out = f.calibration.rows - c.rows  # each would have its share of the noise
+    own = x[[n for n, q in enumerate(c.columns) if q.effect is not None]]
+    # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
+    # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
+    tails = float(np.sum(np.log1p(own**2) - own**2))
+    return c.chi2 + left_out + 2.0 * known + tails + charge_wider_priors(instrument, c), c.converged
+
+
+SCALES = (0.4, 0.8, 1.6, 3.2)
+"""Where a fit of what has a memory begins, over the neutral value of the first of its shapes: of a resonance 2, 4, 8 and 16 Hz."""
+
+
+def choose_start(f: Fitted, model: Model, sheet: Instrument, effect: str) -> Instrument:
+    """The sheet with the shape of an effect that has a memory at which it leaves least, while the shape is held; from another a fit may
+    end in a narrow minimum. Values that the sheet has stay.
+    """
+    own = next(e for e in model.effects if e.id == effect)
+    shapes = [q for q in own.parameters if q.shape]
+    if own.memory is None or sheet.effect(effect) not in (None, EffectSetting(effect)):
+        return sheet
+    others = tuple(s for s in sheet.effects if s.id != effect)
+    held = sheet.held | {f"{effect}.{q.name}" for q in shapes}
+    found = []
+    for scale in SCALES:
+        value = RawQuantity(scale * shapes[0].default, shapes[0].unit)
+        begun = EffectSetting(effect, {shapes[0].name: value})
+        found.append(replace(sheet, effects=(*others, begun)))
+    left = [score_fit(f, model, replace(s, held=held))[0] for s in found]
+    return found[int(np.argmin(left))]
 
 
 def _add_strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect | None:
@@ -149,21 +262,11 @@ def _add_strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect 
 
     ``None`` where only an impossible one leaves but noise, or none of several comes to an optimum.
     """
-    f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
-
-    def entered(e: str) -> tuple[Model, Instrument]:
-        held = list_unneeded(stage.field, e, tests[e].which)
-        return contenders.derive_with(f, [e], stage.instants, extend, held=held)
-
-    def left(ids: Sequence[str]) -> dict[str, float]:
-        budget.left -= len(ids)
-        fits.update({e: contenders.fit_contender(f, *entered(e)) for e in ids if e not in fits})
-        return {e: fits[e].chi2 for e in ids}
-
-    fits: dict[str, ContenderFit] = {}
+    tests = {e: t for e, t in stage.problem.tests().items() if t.rank}
+    contest = Contest(stage, extend, budget)
     while True:
-        effect, alternatives = _choose_best(stage, tests, left)
-        if fits and not any(x.arrived for x in fits.values()):
+        effect, alternatives = _choose_best(stage.problem, tests, contest)
+        if contest.left and not contest.arrived:
             return None
         found = _add_to_model(stage, effect, alternatives, extend)
         budget.left -= 1
@@ -193,60 +296,48 @@ def find_impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
 
 
 def _choose_best(
-    stage: Stage, tests: Mapping[str, Test], score: Callable[[Sequence[str]], dict[str, float]]
+    problem: ProjectedProblem, tests: Mapping[str, Test], contest: Contest
 ) -> tuple[str, tuple[str, ...]]:
-    """The effect that leaves least by its ``score``, that of the greatest linear evidence among equals, and those equals."""
-    total = stage.field.chi2
+    """The effect that leaves least in the model, that of the greatest linear evidence among equals, and those equals."""
+    total = problem.chi2
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
-    near = sorted(near, key=lambda e: (-_weigh_evidence(tests[e], len(stage.field.candidates[e])), e))
+    near = sorted(near, key=lambda e: (-_weigh_evidence(tests[e], len(problem.candidates[e])), e))
     tried = near[:CONTENDERS]
-    left = score(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
+    left = contest.try_effects(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
     best = min(tried, key=lambda e: (left[e], e))
     # effects with the same signature are all of its group, however many they are
-    alike = [e for e in near[CONTENDERS:] if _are_alike(tests[e], tests[best])]
-    left |= score(alike) if alike else {}
-    contains = stage.field.contains
-    equal = [e for e in left if left[e] < left[best] + INDISTINGUISHABLE]
-    effect = min((e for e in equal if not {*contains.get(e, ())} & {*equal}), key=near.index)
-    as_near = [
-        e for e in left if left[e] < left[effect] + INDISTINGUISHABLE and _as_sure(tests[e], tests[effect])
-    ]
-    others = sorted({*equal, *as_near} - {effect})
-    return effect, tuple(e for e in others if effect not in contains.get(e, ()))
+    left |= contest.try_effects([e for e in near[CONTENDERS:] if _are_alike(tests[e], tests[best])])
+    equal = {e for e in left if left[e] < left[best] + INDISTINGUISHABLE}
+    effect = min((e for e in equal if equal.isdisjoint(problem.contains.get(e, ()))), key=near.index)
+    as_near = {e for e in left if left[e] < left[effect] + INDISTINGUISHABLE}
+    others = equal | {e for e in as_near if _as_sure(tests[e], tests[effect])}
+    return effect, tuple(
+        e for e in sorted(others) if e != effect and effect not in problem.contains.get(e, ())
+    )
 
 
 def _weigh_evidence(t: Test, columns: int) -> float:
     """Log evidence of an effect, charged for the choice of the coefficients that it needs from all that it has."""
-    return float(log_bayes(t.chi2, t.rank)) - float(np.log(comb(columns, min(t.rank, columns))))
+    return t.weigh_alone() - float(np.log(comb(columns, min(t.rank, columns))))
 
 
 def _add_to_model(stage: Stage, effect: str, alternatives: tuple[str, ...], extend: Extend) -> AddedEffect:
     """An effect of a stage derived into the model, with the coefficients that it needs, and everything fitted anew."""
-    f, field, test = stage.fitted, stage.field, stage.choice.tests[effect]
-    held = list_unneeded(field, effect, test.which)
-    model, instrument = contenders.derive_with(
-        f, [effect], stage.instants, extend, candidates=True, held=held
-    )
+    f, problem, test = stage.fitted, stage.problem, stage.problem.tests()[effect]
+    model, instrument = stage.derive(effect, extend, candidates=True)
     after = fit(model, instrument, f.observations)
     tests = _test_about_values(release_held(after))
     held = frozenset().union(*(unneeded for unneeded, _ in tests.values()))
     if tests and held != after.instrument.held:
         after = fit(model, replace(instrument, held=held), f.observations)
-    unneeded, about = tests.get(effect, (held, test))
-    if about.rank:
-        charge = about.charge + field.penalty.get(effect, 0.0)
+    if effect in tests and tests[effect][1].rank:
+        unneeded, about = tests[effect]
+        charge = about.charge + problem.penalty.get(effect, 0.0)
         log_b = float(log_bayes(test.chi2 / test.inflation, about.rank)) - charge
-        which = tuple(n for n, c in field.candidates[effect] if c.label not in unneeded)
+        which = tuple(n for n, c in problem.candidates[effect] if c.label not in unneeded)
         test = replace(test, rank=about.rank, log_b=log_b, which=which)
-    return AddedEffect(
-        effect=effect,
-        test=test,
-        before=f,
-        after=after,
-        alternatives=alternatives,
-        instant=stage.instants.get(effect),
-    )
+    return AddedEffect(effect, test, f, after, alternatives, stage.instants.get(effect))
 
 
 def _test_about_values(f: Fitted) -> dict[str, tuple[frozenset[str], Test]]:
@@ -274,4 +365,4 @@ def _are_alike(a: Test, b: Test) -> bool:
 
 def _as_sure(a: Test, b: Test) -> bool:
     """Whether the first is no less sure for its many coefficients."""
-    return float(log_bayes(a.chi2, a.rank) - log_bayes(b.chi2, b.rank)) > -selection.AS_SURE
+    return a.weigh_alone() - b.weigh_alone() > -selection.AS_SURE

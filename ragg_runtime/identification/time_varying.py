@@ -119,22 +119,14 @@ class BlockScores:
     def _scatter(self, d: Array, v: Array, block: NDArray[np.intp]) -> Varying:
         starts = np.flatnonzero(np.diff(block, prepend=-1))
         d, v = np.add.reduceat(d, starts, axis=0), np.add.reduceat(v, starts, axis=0)
-        chi2 = np.sum(_divide(d**2, v), axis=0)
-        k = int(np.argmax(chi2))
-        freedom = int(np.sum(v[:, k] > 0.0))
-        size2 = float(np.mean(v[v[:, k] > 0.0, k])) if freedom else np.inf
-        excess = max(0.0, float(chi2[k]) - freedom) / max(freedom, 1)
-        log_p = log_sf(float(chi2[k]), max(freedom, 1))
+        each = np.sum(_divide(d**2, v), axis=0)
+        k = int(np.argmax(each))
+        chi2, own = float(each[k]), v[v[:, k] > 0.0, k]
+        freedom = max(1, len(own))
+        size2 = float(np.mean(own)) if len(own) else np.inf
+        coefficient = float(np.sqrt(max(0.0, chi2 - freedom) / freedom / size2))
         how = "varies from block to block of time"
-        return Varying(
-            log_p=log_p,
-            place=k,
-            chi2=float(chi2[k]),
-            coefficient=float(np.sqrt(excess / size2)),
-            std=float(size2**-0.5),
-            how=how,
-            rank=max(freedom, 1),
-        )
+        return Varying(log_sf(chi2, freedom), k, chi2, coefficient, size2**-0.5, how, freedom)
 
     def _window(self, d: Array, v: Array, rows: float) -> Varying:
         # the level of a block is known from its rows alone: Student's t
@@ -172,9 +164,7 @@ class BlockScores:
         tail = float(np.log(share_beyond) if share_beyond > 0.0 else special.log_ndtr(-z))
         log_p = tail + float(np.log(2 * len(chi2)))
         std = float(np.sqrt(share[n] / max(float(variance[n, k]), 1e-300)))
-        return Varying(
-            log_p=log_p, place=int(k), chi2=float(chi2[n, k]), coefficient=std * z, std=std, how=how[n]
-        )
+        return Varying(log_p, int(k), z**2, std * z, std, how[n])
 
     def _swing(self, d: Array, v: Array) -> Varying:
         middle = (self.time[1:] + self.time[:-1]) / 2
@@ -186,18 +176,9 @@ class BlockScores:
         clear = determinant > ONE_PHASE * cc * ss
         chi2 = np.where(clear, _divide(C**2 * ss + S**2 * cc - 2 * C * S * cs, determinant), 0.0)
         n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
-        std = float(1.0 / np.sqrt(max(float(np.sum(v[:, k])), 1e-300)))
-        log_p = -float(chi2[n, k]) / 2 + float(np.log(len(CYCLES)))
-        how = f"with a period of {duration / CYCLES[n]:.3g} s"
-        return Varying(
-            log_p=log_p,
-            place=int(k),
-            chi2=float(chi2[n, k]),
-            coefficient=std * float(np.sqrt(chi2[n, k])),
-            std=std,
-            how=how,
-            rank=2,
-        )
+        std, z2 = float(max(float(np.sum(v[:, k])), 1e-300) ** -0.5), float(chi2[n, k])
+        log_p, how = float(np.log(len(CYCLES))) - z2 / 2, f"with a period of {duration / CYCLES[n]:.3g} s"
+        return Varying(log_p, int(k), z2, std * float(np.sqrt(z2)), std, how, rank=2)
 
 
 def _divide(a: Array, b: Array) -> Array:

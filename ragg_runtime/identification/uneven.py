@@ -11,7 +11,7 @@ follows Fisher's F, as one of a variance that was estimated.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,58 +46,33 @@ class Scatter:
         return Scatter(np.maximum(1.0, score / square), square**2 / fourth)
 
 
-@dataclass(frozen=True)
-class Beside:
-    """An R factor [columns | data] with what is in the model projected out, and the flights that it is of.
-
-    Attributes
-    ----------
-    T
-        The R factor of everything.
-    base, others
-        What is in the model: the first so many columns, and others.
-    B
-        (base + others, columns + 1): what these explain of every column, and of the data.
+def measure_scatter(
+    T: Array, flights: Sequence[PreparedFlight], given: Sequence[int], tests: Sequence[Sequence[int]]
+) -> Scatter:
+    """Of each of some tests, of so many columns of an R factor [columns | data], beside those ``given``: along what is fitted, beside it,
+    so that what is tested raises no doubt of itself. ``flights``: those that the R factor is of.
     """
+    # (given, columns + 1): what those given explain of every column, and of the data
+    B = np.linalg.lstsq(T[:, given], T, rcond=None)[0]
+    n, columns = len(given), sorted({k for tested in tests for k in tested})
+    along, left = np.zeros((2, n + len(columns), len(tests)))
+    for m, tested in enumerate(tests):
+        X, y = (T[:, k] - T[:, given] @ B[:, k] for k in (tested, [-1]))
+        g = np.linalg.lstsq(X, y, rcond=DIRECTIONS)[0][:, 0]
+        along[[n + columns.index(k) for k in tested], m] = g
+        along[:n, m] = -B[:, tested] @ g
+        left[:, m] = -along[:, m]
+        left[:n, m] -= B[:, -1]
+    sums = np.zeros((3, len(tests)))
+    for x in flights:
+        lean, own = x.lean([*given, *columns])
 
-    T: Array
-    flights: Sequence[PreparedFlight]
-    base: int
-    others: Sequence[int]
-    B: Array = field(init=False)
+        def of(piece: Piece, own: Sequence[int] = own) -> Array:
+            X = piece.white[own].T
+            return Scatter.of(X @ along, piece.white[-1][:, None] + X @ left)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "B", np.linalg.lstsq(self.T[:, self.given], self.T, rcond=None)[0])
-
-    @property
-    def given(self) -> list[int]:
-        return [*range(self.base), *self.others]
-
-    def fit(self, tested: Sequence[int]) -> Array:
-        """(len(tested),): the coefficients of further columns."""
-        X, y = (self.T[:, k] - self.T[:, self.given] @ self.B[:, k] for k in (tested, [-1]))
-        return np.asarray(np.linalg.lstsq(X, y, rcond=DIRECTIONS)[0][:, 0])
-
-    def measure_scatter(self, tests: Sequence[Sequence[int]]) -> Scatter:
-        """Of each of some tests, of so many columns: along what is fitted, beside it, so that what is tested raises no doubt of itself."""
-        n, columns = len(self.given), sorted({k for tested in tests for k in tested})
-        along, left = np.zeros((2, n + len(columns), len(tests)))
-        for m, tested in enumerate(tests):
-            g = self.fit(tested)
-            along[[n + columns.index(k) for k in tested], m] = g
-            along[:n, m] = -self.B[:, tested] @ g
-            left[:, m] = -along[:, m]
-            left[:n, m] -= self.B[:, -1]
-        sums = np.zeros((3, len(tests)))
-        for x in self.flights:
-            lean, own = x.lean([*self.given, *columns])
-
-            def of(piece: Piece, own: Sequence[int] = own) -> Array:
-                X = piece.white[own].T
-                return Scatter.of(X @ along, piece.white[-1][:, None] + X @ left)
-
-            sums += sum(lean.each(of))
-        return Scatter.from_sums(sums)
+        sums += sum(lean.each(of))
+    return Scatter.from_sums(sums)
 
 
 def temper_test(t: Test, by: float, known: float, freedom: float = np.inf) -> Test:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.special import expit
 
+from ragg_runtime.estimation.scores import DISTINGUISHABLE
 from ragg_runtime.identification import claims, comparison, omnibus, selection, strong
 from ragg_runtime.identification.claims import Significance
 from ragg_runtime.identification.likelihood_ratio import Test
@@ -35,10 +36,10 @@ class Conclusion:
     line: LineAlternative | None
     steady: tuple[Steady, ...]
     open: tuple[str, ...]
-    share: float = 1.0
-    rival: bool = False
-    one: str | None = None
-    shared: ResidualTerm | None = None
+    share: float
+    rival: bool
+    one: str | None
+    shared: ResidualTerm | None
 
     @property
     def remains(self) -> bool:
@@ -48,38 +49,36 @@ class Conclusion:
     def of(found: Evidence, output: Sequence[str], *, apart: bool) -> Conclusion:
         """Judge what the search has found; ``output``: what the recorder did."""
         chosen, line, steady = _without_lines(found)
-        count = found.first.field.count + len(chosen.random)
-        base = omnibus.search_residuals(found.first.fitted) if chosen.effects else []
-        before = _Lead.of(found, chosen, count, base)
+        terms = GenericTerms.of(found, chosen)
         outcome, weak = (chosen, []) if apart else _drop_unfounded(found, chosen)
         one = _find_common_kind(found, outcome.effects)
-        lead = before if outcome is chosen else _Lead.of(found, outcome, count, base)
-        claimed = _choose_claims(outcome, lead, base)
-        while not (claimed or one or outcome.remains) and len(outcome.effects) > 1:
+        before = terms.compare(chosen)
+        lead = before if outcome is chosen else terms.compare(outcome)
+        while not (lead.claims or one or outcome.remains) and len(outcome.effects) > 1:
             # generic terms do as well as all of these, but perhaps not as well as those without the weakest
-            weakest, less = _drop_weakest(found, outcome)
+            weakest, _ = _find_weakest(found, outcome)
+            less = found.without(outcome, weakest)
             if less.remains:
                 break
             outcome, weak = less, [*weak, weakest]
-            lead = _Lead.of(found, outcome, count, base)
-            claimed = _choose_claims(outcome, lead, base)
-        one = one or (_find_better_kind(found, outcome) if claimed else None)
+            lead = terms.compare(outcome)
+        one = one or (_find_better_kind(found, outcome) if lead.claims else None)
         left = outcome.remainder if line is None else line.within(outcome.remainder)
-        random = _list_random(outcome, count)
+        random = _list_random(outcome, terms.count)
         doubted = apart or outcome.explained.complaint is not None
-        claimed = () if doubted or one is not None else claimed
+        claimed = () if doubted or one is not None else lead.claims
         # noise that follows the motion grows with the motion: a random effect models just that
         exceeds = outcome.exceeds_noise and not random
         remains = line is not None or left.significant or outcome.complaint is not None or exceeds
-        rival = lead is not None and not claimed and not remains
-        if lead is not None and rival:  # generic terms do as well as what was chosen: they are what is left
-            _, left = claims.weigh_generic_terms(base, np.inf, lead.rank)
+        rival = bool(outcome.effects) and not claimed and not remains
+        if rival:  # generic terms do as well as what was chosen: they are what is left
+            _, left = claims.weigh_generic_terms(terms.base, np.inf, lead.rank)
         remains = remains or rival or doubted
         if not remains:
             claimed = (*claimed, *random[:1])
         if not doubted:  # what the recorder did is certain, whatever else is in the record
             claimed = (*claimed, *output)
-        alone = lead is not None and len(claimed) == 1 and claimed == outcome.effects
+        alone = len(claimed) == 1 and claimed == outcome.effects
         return Conclusion(
             verdict=name_verdict(claimed=bool(claimed), remains=remains),
             claims=claimed,
@@ -88,33 +87,33 @@ class Conclusion:
             line=line,
             steady=tuple(s for s in steady if s.effect in claimed),
             open=_list_unsure(found.last, weak, claimed),
-            share=1.0 if before is None else float(expit(before.ahead)),
+            share=float(expit(before.ahead)),
             rival=rival,
             one=None if claimed else one,
-            shared=_find_shared_term(lead.chi2, base) if lead is not None and alone else None,
+            shared=_find_shared_term(lead.chi2, terms.base) if alone else None,
         )
 
-    def remarks(self, apart: str | None, spent: bool) -> list[str]:
-        """What is wrong with the record, or what else than the effects found would do, or how the record is disturbed."""
-        doubt = apart or self.outcome.explained.complaint
-        if doubt is not None:
-            return [doubt]
-        disturbed = comparison.describe_disturbance(self.outcome.target)
-        said = [] if self.line is None else [self.line.words]
-        said += [s.words for s in self.steady]
-        said += [f"the search stopped after {strong.FITS} fits"] if spent and self.remains else []
-        return [*said, *([] if disturbed is None else [disturbed])]
+    def _list_remarks(self, *, spent: bool) -> list[str | None]:
+        """What else than the effects found would do, and how the record is disturbed."""
+        return [
+            None if self.line is None else self.line.words,
+            *(s.words for s in self.steady),
+            f"the search stopped after {strong.FITS} fits" if spent and self.remains else None,
+            comparison.describe_disturbance(self.outcome.target),
+        ]
 
-    def reasons(self, apart: str | None, spent: bool) -> list[Reason]:
-        """Why the verdict is not ``adequate``, and what is odd about the record."""
-        remarks = [Reason(text) for text in self.remarks(apart, spent)]
-        if self.verdict == "adequate" or apart or self.outcome.explained.complaint:
+    def reasons(self, apart: str | None, *, spent: bool) -> list[Reason]:
+        """Why the verdict is not ``adequate``, and what is odd about the record; ``apart``: how its flights disagree."""
+        doubt = apart or self.outcome.explained.complaint
+        texts = self._list_remarks(spent=spent) if doubt is None else [doubt]
+        remarks = [Reason(text, kind="remark") for text in texts if text is not None]
+        if self.verdict == "adequate" or doubt:
             return remarks
         found = []
         if self.claims:
             sure = "is certain" if len(self.claims) == 1 else "are certain"
             how = sure if self.remains else "is missing" if len(self.claims) == 1 else "are missing"
-            found.append(Reason(f"{join_names(self.claims)} {how}", is_verdict=True))
+            found.append(Reason(f"{join_names(self.claims)} {how}", kind="verdict"))
         if self.remains:
             found += self._left()
         if self.open:
@@ -135,13 +134,13 @@ class Conclusion:
         found = [] if o.complaint is None else [Reason(o.complaint)]
         if terms:
             found.append(
-                Reason(f"the residual is more than noise, mostly {terms[0]}", is_verdict=True),
+                Reason(f"the residual is more than noise, mostly {terms[0]}", kind="verdict"),
             )
         noise = "the residual is more than noise by all generic terms together, none of which stands out"
         if o.exceeds_noise:
             rms = o.scored.whole.rms_Eo
             noise = f"the residual, {rms:.3g} Eo, is more than the noise of {o.noise_floor:.3g} Eo"
-        return found or [Reason(noise, is_verdict=True)]
+        return found or [Reason(noise, kind="verdict")]
 
 
 OPEN = 0.1
@@ -170,72 +169,56 @@ def _list_random(o: Outcome, count: int) -> list[str]:
 def _drop_unfounded(found: Evidence, o: Outcome) -> tuple[Outcome, list[str]]:
     """The outcome without the effects that are not significant beside the others, and these, in the order in which they went."""
     weak: list[str] = []
-    needed: list[str] = []
-    while True:
-        e = _find_weakest(found, o, needed)
-        if e is not None and not (o.widened and e in found.log_p) and _is_needed(found, o, e):
-            needed.append(e)
-            continue
-        e = e or _find_contradicted(o, found.first) or _find_unfitted(found, o)
-        if e is None:
-            return o, weak
+    while o.effects:
+        e, log_p = _find_weakest(found, o)
+        if _is_significant(found, o, log_p):
+            other = _find_contradicted(o, found.first) or _find_unfitted(found, o)
+            if other is None:
+                break
+            e = other
         weak.append(e)
-        needed = []  # beside that effect
         o = found.without(o, e)
+    return o, weak
 
 
 def _list_unsure(last: Stage, weak: Sequence[str], claimed: Sequence[str]) -> tuple[str, ...]:
     """Effects that the record speaks for, but not surely enough: those that went, and others beside what the last stage chose."""
-    beside = last.choice.conditional
+    beside = last.problem.tests([*last.chosen])
     near = sorted((t.log_p, e) for e, t in beside.items() if t.rank and t.log_p < np.log(OPEN))
     return tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in near)) if e not in claimed))
 
 
-def _find_weakest(found: Evidence, o: Outcome, needed: Sequence[str]) -> str | None:
-    """The effect that is not significant with the variance of its own scores, the least significant of several.
+def _find_weakest(found: Evidence, o: Outcome) -> tuple[str, float]:
+    """The least significant effect, and the logarithm of its p-value."""
+    log_p, effect = max((_measure_log_p(found, o, e), e) for e in o.effects)
+    return effect, log_p
 
-    Those of the last stage were tested beside the sheet as it was then. If it proves less sure, each competes with one still less sure.
+
+def _measure_log_p(found: Evidence, o: Outcome, effect: str) -> float:
+    """Of an effect, with the variance of its own scores: by a linear test, or, where that may be wrong, by a fit without it.
+
+    Far from there a linearisation may be wrong about what it explains. The effects of the last stage were tested beside the sheet as
+    it was then: if that proves less sure, each competes with one still less sure.
     """
-    log_p, asked = found.log_p, [e for e in o.effects if e not in needed]
-    p = {
-        e: _log_p_by_fit(found, o, e)
-        if o.widened and e in log_p
-        else _log_p(o, o.significance(e), log_p.get(e))
-        for e in asked
-    }
-    weakest = max(p, key=lambda e: (p[e], e), default=None)
-    return None if weakest is None or _is_significant(found, o, p[weakest]) else weakest
+    s, log_p = o.robust.significance(effect), found.log_p.get(effect)
+    linear = 0.0
+    if not (o.widened and log_p is not None):
+        linear = _compare_with_strongest(o, s, s.log_p(log_p, doubted=o.remainder.significant))
+        if _is_significant(found, o, linear):
+            return linear
+    by_fit = replace(s, chi2=max(0.0, found.gain(o, effect)))
+    return min(linear, _compare_with_strongest(o, by_fit, by_fit.log_p(None, doubted=True)))
 
 
-def _drop_weakest(found: Evidence, o: Outcome) -> tuple[str, Outcome]:
-    """The least significant effect, and the outcome without it."""
-    p = {e: _log_p(o, o.significance(e), found.log_p.get(e)) for e in o.effects}
-    weakest = max(p, key=lambda e: (p[e], e))
-    return weakest, found.without(o, weakest)
-
-
-def _log_p(o: Outcome, s: Significance, log_p: float | None) -> float:
-    """Of an effect; 0 if it does not explain plainly more than the best generic term does of what is left."""
+def _compare_with_strongest(o: Outcome, s: Significance, log_p: float) -> float:
+    """The p-value of an effect; 0 if it does not explain plainly more than the best generic term does of what is left."""
     left = claims.find_strongest(o.remainder) if o.remainder.significant else None
-    if left is not None and s.chi2 - s.rank < claims.MORE * left.z**2:
-        return 0.0
-    return s.log_p(log_p, doubted=o.remainder.significant)
+    return 0.0 if left is not None and s.chi2 - s.rank < claims.MORE * left.z**2 else log_p
 
 
 def _is_significant(found: Evidence, o: Outcome, log_p: float) -> bool:
     level = selection.FAMILY if len(o.effects) == 1 else selection.FURTHER
-    return found.first.field.significant(Test(0.0, 1, log_p, ()), level)
-
-
-def _is_needed(found: Evidence, o: Outcome, effect: str) -> bool:
-    """Whether an effect is significant by the fit without it: far from there a linearisation may be wrong about what it explains."""
-    return _is_significant(found, o, _log_p_by_fit(found, o, effect))
-
-
-def _log_p_by_fit(found: Evidence, o: Outcome, effect: str) -> float:
-    """Of an effect, by the fit without it."""
-    by_fit = replace(o.significance(effect), chi2=max(0.0, found.gain(o, effect)))
-    return max(_log_p(o, by_fit, None), by_fit.log_p(None, doubted=True))
+    return found.first.problem.significant(Test(0.0, 1, log_p, ()), level)
 
 
 def _find_contradicted(o: Outcome, first: Stage) -> str | None:
@@ -243,7 +226,7 @@ def _find_contradicted(o: Outcome, first: Stage) -> str | None:
     instants = {e.id for e in first.fitted.model.candidates if e.kind == "step"}
     speaks = {e: claims.weigh_held_out(o.robust.regression, e) for e in o.effects if e not in instants}
     worst = min(speaks, key=lambda e: (speaks[e], e), default=None)
-    return worst if worst is not None and speaks[worst] < -claims.PLAINLY else None
+    return worst if worst is not None and speaks[worst] < -DISTINGUISHABLE else None
 
 
 def _find_unfitted(found: Evidence, o: Outcome) -> str | None:
@@ -253,34 +236,65 @@ def _find_unfitted(found: Evidence, o: Outcome) -> str | None:
 
 
 @dataclass(frozen=True)
-class _Lead:
-    """What an outcome's effects explain, a chi-square with ``rank`` coefficients, and the log evidence by which they are ahead of generic
-    terms.
+class Lead:
+    """What an outcome's effects explain, a chi-square with ``rank`` coefficients, the log evidence by which they are ahead of generic
+    terms, and those that may be claimed (``claims``).
     """
 
     chi2: float
     rank: int
     ahead: float
+    claims: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class GenericTerms:
+    """The terms that chosen effects compete with: ``base``, searches of the residual of the model without effects; ``count``: of how many
+    the effects were chosen.
+    """
+
+    found: Evidence
+    base: Sequence[Remainder]
+    count: int
 
     @staticmethod
-    def of(found: Evidence, o: Outcome, count: int, base: Sequence[Remainder]) -> _Lead | None:
-        """Against the terms of the searches ``base``; ``None`` without effects. ``count``: of how many they were chosen."""
+    def of(found: Evidence, chosen: Outcome) -> GenericTerms:
+        base = omnibus.search_residuals(found.first.fitted) if chosen.effects else []
+        return GenericTerms(found, base, found.first.problem.count + len(chosen.random))
+
+    def compare(self, o: Outcome) -> Lead:
+        """An outcome's effects with terms of as many coefficients."""
         if not o.effects:
-            return None
-        chi2, rank = found.explained(o)
-        return _Lead(chi2, rank, _compare_with_terms(found, o, chi2, rank, count, base))
+            return Lead(0.0, 0, np.inf, ())
+        chi2, rank = self.found.explained(o)
+        ahead = self._measure_lead(o, chi2, rank)
+        if o.remains:
+            more = chi2 - rank > claims.MORE * claims.find_best_single(self.base)
+            claimed = more and ahead > DISTINGUISHABLE
+        else:
+            # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
+            claimed = ahead > (-DISTINGUISHABLE if len(o.effects) == 1 else 0.0)
+        return Lead(chi2, rank, ahead, o.effects if claimed else ())
 
+    def _measure_lead(self, o: Outcome, chi2: float, rank: int) -> float:
+        """Log evidence by which an outcome's effects are ahead of the best terms."""
+        spread = max(claims.measure_spread(o.remainder), o.target.calibration.excess) if o.remains else 1.0
+        # with a cap, if nothing remains: no terms explain more than all
+        terms, _ = claims.weigh_generic_terms(self.base, np.inf if o.remains else chi2, rank, spread)
+        if not o.remains and len(o.effects) > 1:
+            terms = max(terms, self._weigh_strong_term(chi2))
+        charge = len(o.effects) * float(np.log(self.count)) + self.found.charge(o)
+        return claims.weigh_claims(chi2, rank, charge, spread) - terms
 
-def _choose_claims(o: Outcome, lead: _Lead | None, base: Sequence[Remainder]) -> tuple[str, ...]:
-    """What of an outcome's effects may be claimed (``claims``)."""
-    if lead is None:
-        return ()
-    if o.remains:
-        more = lead.chi2 - lead.rank > claims.MORE * claims.find_best_single(base)
-        return o.effects if more and lead.ahead > claims.PLAINLY else ()
-    # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
-    least = -claims.PLAINLY if len(o.effects) == 1 else 0.0
-    return o.effects if lead.ahead > least else ()
+    def _weigh_strong_term(self, chi2: float) -> float:
+        """Log evidence of the strongest term, if a linear fit is too rough for it, with the model fitted again beside it."""
+        first, (s, *more) = self.found.first, self.base[0].searches
+        if more or not s.steady or s.steady[0].chi2 < strong.STRONG:
+            return -np.inf
+        left = claims.fit_beside(first.fitted, s.steady[0])
+        if left is None:
+            return -np.inf
+        return claims.weigh_claims(min(first.problem.chi2 - left, chi2 + 1.0), 1, float(np.log(s.tried)))
 
 
 def _find_common_kind(found: Evidence, effects: Sequence[str]) -> str | None:
@@ -291,7 +305,7 @@ def _find_common_kind(found: Evidence, effects: Sequence[str]) -> str | None:
 def _find_better_kind(found: Evidence, o: Outcome) -> str | None:
     """The effect of which one of an outcome's effects is a special case, and which explains plainly more than all of them."""
     kinds = (k for k, cases in _count_cases(found, o.effects).items() if cases)
-    return next((k for k in kinds if found.weigh_instead(o, k) > claims.PLAINLY), None)
+    return next((k for k in kinds if found.weigh_instead(o, k) > DISTINGUISHABLE), None)
 
 
 def _count_cases(found: Evidence, effects: Sequence[str]) -> dict[str, int]:
@@ -311,28 +325,3 @@ def _find_shared_term(chi2: float, base: Sequence[Remainder]) -> ResidualTerm | 
         if sum(both) >= enough:
             return s.steady[0]
     return None
-
-
-def _compare_with_terms(
-    found: Evidence, o: Outcome, chi2: float, rank: int, count: int, base: Sequence[Remainder]
-) -> float:
-    """Log evidence by which an outcome's effects are ahead of the best generic terms of as many coefficients."""
-    spread = max(claims.measure_spread(o.remainder), o.target.calibration.excess) if o.remains else 1.0
-    # with a cap, if nothing remains: no terms explain more than all
-    terms, _ = claims.weigh_generic_terms(base, np.inf if o.remains else chi2, rank, spread)
-    if not o.remains and len(o.effects) > 1:
-        terms = max(terms, _weigh_strong_term(found, chi2, base))
-    charge = len(o.effects) * float(np.log(count)) + found.charge(o)
-    return claims.weigh_claims(chi2, rank, charge, spread) - terms
-
-
-def _weigh_strong_term(found: Evidence, chi2: float, base: Sequence[Remainder]) -> float:
-    """Log evidence of the strongest generic term, if a linear fit is too rough for it, with the model fitted again beside it."""
-    (s, *more) = base[0].searches
-    if more or not s.steady or s.steady[0].chi2 < strong.STRONG:
-        return -np.inf
-    left = claims.fit_beside(found.first.fitted, s.steady[0])
-    if left is None:
-        return -np.inf
-    explained = found.first.field.chi2 - left
-    return claims.weigh_claims(min(explained, chi2 + 1.0), 1, float(np.log(s.tried)))

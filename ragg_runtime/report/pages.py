@@ -83,7 +83,7 @@ def _ask_whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
 def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
     """The sections, that on where the model fails with its figures."""
     f = c.fitted
-    harmonics = panels.plot_harmonics(f, f.vector(np.zeros(f.n_base)))
+    harmonics = panels.plot_harmonics(f, c.residual)
     if any(s.title == "Where it fails" for s in sections):
         return [_with_plots(s, harmonics) if s.title == "Where it fails" else s for s in sections]
     return [*sections, *_figure("Residual by harmonic of the spin", harmonics)]
@@ -91,13 +91,13 @@ def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
 
 def write_diagnosis(d: Diagnosis, origin: Origin) -> str:
     """The report of ``diagnose``: verdict, one figure, where the model fails, the findings; everything else is folded."""
-    f, said = d.target, describe.describe_diagnosis(d.as_json())
+    f, said = d.outcome.target, describe.describe_diagnosis(d.as_json())
     lines = panels.pair_lines(d.residual, d.residual_after if d.found else None)
     main = panels.plot_spectrum(f, lines) or panels.plot_blocks(d.fitted, lines)
     parts = {s.title: s for s in said[1:]}
     open_ = []
     if d.verdict in ("unexplained", "partly-explained"):
-        harmonics = panels.plot_harmonics(f, d.coefficients)
+        harmonics = panels.plot_harmonics(f, d.residual_after)
         rest = parts.pop("Not explained", Section(title="Not explained"))
         open_.append(_with_plots(rest, harmonics))
     open_ += [parts.pop(name) for name in ("Values", "Next motion") if name in parts]

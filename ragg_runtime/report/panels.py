@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.estimation.unknown_gradient import is_unknown
 from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.identification import budget, comparison, series
@@ -109,7 +110,7 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
     axes = []
     for n, w, k, name in _list_worst(f, lines[-1][1]):
         r = w.observation.record
-        made = [(label, comparison.demodulate_one(f, n, x[n])) for label, x in lines]
+        made = [(label, demodulate_residual(x[n], r, f.scales[n])) for label, x in lines]
         if not np.isfinite(made[0][1]).any():
             continue
         # four samples a cycle of the low-pass's edge draw the whole of it
@@ -162,11 +163,9 @@ def plot_measured(f: Fitted, residual: Residuals) -> Curves:
     return Curves("measured", caption, axes, SECONDS, height=1.5)
 
 
-def plot_harmonics(f: Fitted, coefficients: Array) -> Bars | None:
+def plot_harmonics(f: Fitted, residuals: Sequence[Array]) -> Bars | None:
     """The slow error at every harmonic of the spin, with what noise alone gives."""
-    rows = {
-        str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.measure_harmonics(f, coefficients)
-    }
+    rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.measure_harmonics(f, residuals)}
     noise = series.predict_harmonic_noise(f, rows)
     # four times the relative uncertainty of the rms of noise in the demodulator's bandwidth
     seconds = sum(float(w.observation.record.time[-1]) for w in f.prepared)

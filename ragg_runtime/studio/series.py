@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.calibrate import information, invert_root
-from ragg_runtime.identification import comparison, predict
+from ragg_runtime.estimation.scores import demodulate_residual
+from ragg_runtime.identification import predict
 from ragg_runtime.identification import series as reported
 from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.report import panels, parameters, whiteness
@@ -172,7 +173,7 @@ class View:
             raise UserError("disc not spinning: no demodulation")
         if len(x) < len(r.time):
             raise UserError("in so long a flight the signature of an effect is drawn in V or Eo only")
-        g = comparison.demodulate_one(self.f, self.n, x)
+        g = demodulate_residual(x, self.record, self.f.scales[self.n])
         if not np.isfinite(g).any():
             where = self.prepared.observation.name
             raise UserError("the flight is too short to be demodulated", where=where)
@@ -186,7 +187,7 @@ class View:
         rows = predict.choose_rows(d.fitted, self.n, (a.first, a.last))
 
         def make() -> tuple[slice, Array]:
-            v = predict.fit_effects(d.fitted, predict.make_field_of(d), a.effects)
+            v = predict.fit_effects(d.fitted, predict.make_problem_of(d), a.effects)
             return predict.compute_signature(d.fitted, self.n, v, rows)
 
         found: tuple[slice, Array] = self.remember(("signature", a.effects, rows.start, rows.stop), make)
@@ -244,8 +245,8 @@ class View:
         if self.kept:
             d, effects = None, ()
         f = self.f if d is None else d.fitted
-        given = [] if d is None else predict.list_columns(predict.make_field_of(d), effects)
-        make = lambda: predict.score_terms(f.prepared[self.n], f.r_factors[self.n], f.n_base, given)  # noqa: E731
+        given = [] if d is None else predict.list_columns(predict.make_problem_of(d), effects)
+        make = lambda: predict.score_terms(f, self.n, given)  # noqa: E731
         found: predict.Heat = self.remember(("heat", effects, d is None), make)
         return found
 
@@ -284,7 +285,7 @@ class View:
 def predict_error(s: State, a: Asked) -> dict[str, Any]:
     """The error that the ticked effects would leave, and that without them."""
     d, unwhitened = s.require("diagnosed"), s.require("unwhitened")
-    known = predict.make_field_of(d)
+    known = predict.make_problem_of(d)
 
     def predicted(*effects: str) -> predict.Prediction:
         make = lambda: predict.predict_error(d.fitted, unwhitened, known, effects)  # noqa: E731

@@ -151,14 +151,14 @@ def test_a_step_is_found_in_several_outputs(hidden: str | None, values: dict[str
     effects: EffectValues = {} if hidden is None else {hidden: {**values, "t_step": AT}}
     flight = flown_by(sheet, 120.0, effects)
     stage = Stage.of(fit(model, sheet, observe_flights([flight], sheet)))
-    assert stage.choice.chosen == (() if hidden is None else (hidden,))
+    assert [*stage.chosen] == ([] if hidden is None else [hidden])
     if hidden is None:
         return
     assert stage.instants[hidden] == pytest.approx(AT, abs=0.25)  # of some tens of sigma
     (given,) = values.values()
-    own = [n for n, _ in stage.field.candidates[hidden]]
+    own = [n for n, _ in stage.problem.candidates[hidden]]
     found, covariance = stage.fitted.coefficients(own)
-    scale = np.array([c.scale for _, c in stage.field.candidates[hidden]])
+    scale = np.array([c.scale for _, c in stage.problem.candidates[hidden]])
     size, spread = found[-len(own) :] * scale, scale[:, None] * covariance[-len(own) :, -len(own) :] * scale
     off = np.ravel(given) - size
     assert off @ np.linalg.solve(spread, off) < 30.0  # chi-square of at most eight

@@ -12,7 +12,7 @@ from benchmarks.diagnosis import fly, plan, records
 from benchmarks.diagnosis.strength import NEVER, Oracle
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.regressors import LinearisationPoint, group_by_effect, linearise
-from ragg_runtime.identification.selection import Field, choose, find_alternatives
+from ragg_runtime.identification.selection import ProjectedProblem, choose, find_alternatives
 from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import load_packaged
 
@@ -40,20 +40,19 @@ class WhitenedFlight:
     R: Array
     noise: Array
 
-    def field(self, y: Array) -> Field:
+    def field(self, y: Array) -> ProjectedProblem:
         """That of a residual (rows,), whitened."""
         o, size = self.oracle, len(self.R)
         padded = np.concatenate([np.zeros(o.n), y])
         T = np.zeros((size + 1, size + 1))
         T[:size, :size], T[:size, -1] = self.R, self.Q.T @ padded
         T[-1, -1] = np.sqrt(max(padded @ padded - T[:size, -1] @ T[:size, -1], 0.0))
-        return Field(
+        return ProjectedProblem(
             T=T,
             n_base=o.n,
             candidates={
                 e: tuple(c) for e, c in group_by_effect(o.columns).items() if e in (*SEARCHED, *ABSORBED)
             },
-            rows=len(y),
             contains={e.id: e.contains for e in o.model.candidates},
         )
 
@@ -84,6 +83,6 @@ def test_it_is_named_first_or_one_that_is_stated_to_be_like_it(flight: WhitenedF
     )
     residual = linearise(known, observe(sim.flight(), flight.world.known))[-1]
     field = flight.field(o.whitened(residual[None])[0] + flight.noise)
-    choice = choose(field)
-    first = choice.chosen[0]
-    assert effect in (first, *find_alternatives(field, choice)[first])
+    chosen = choose(field)
+    first = next(iter(chosen))
+    assert effect in (first, *find_alternatives(field, chosen)[first])

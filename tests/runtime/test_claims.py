@@ -12,6 +12,7 @@ from ragg_runtime.estimation import calibration, whitening
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, fit
 from ragg_runtime.estimation.observation import BLOCKS, observe_flights
 from ragg_runtime.estimation.regressors import Column, list_base_columns
+from ragg_runtime.estimation.scores import DISTINGUISHABLE
 from ragg_runtime.identification import claims, likelihood_ratio, omnibus
 from ragg_runtime.identification.claims import Regression, Robust
 from ragg_runtime.identification.likelihood_ratio import log_bayes
@@ -71,7 +72,7 @@ def test_held_out_blocks_speak_for_what_is_there_and_against_what_is_not() -> No
     fitted = np.isin(np.arange(BLOCKS), FITTED_BLOCKS)
     assert claims.weigh_held_out(regression(np.full(BLOCKS, 2.0)), "e") > 5.0
     assert claims.weigh_held_out(regression(np.where(fitted, 2.0, -2.0)), "e") < -20.0
-    assert abs(claims.weigh_held_out(regression(np.zeros(BLOCKS)), "e")) < claims.PLAINLY
+    assert abs(claims.weigh_held_out(regression(np.zeros(BLOCKS)), "e")) < DISTINGUISHABLE
 
 
 def test_coefficients_that_nothing_excites_cost_a_claim_nothing() -> None:

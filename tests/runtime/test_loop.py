@@ -19,7 +19,7 @@ from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe, observe_flights
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.estimation.unknown_gradient import make_windows, take_out
-from ragg_runtime.identification import contenders, selection
+from ragg_runtime.identification import selection, strong
 from ragg_runtime.identification.comparison import compare, compute_nominal_residual
 from ragg_runtime.identification.diagnose import complete_ranking, diagnose
 from ragg_runtime.identification.dictionary import Term
@@ -123,9 +123,7 @@ def named_flight(s: Scenario, name: str, hidden: dict[str, Any] | None = None) -
 
 
 def test_flights_of_two_instruments_are_told_apart_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(
-        contenders, "fit_contender", lambda *arguments: pytest.fail("no effect is to be tried")
-    )
+    monkeypatch.setattr(strong, "score_fit", lambda *arguments: pytest.fail("no effect is to be tried"))
     one, other, third = (scenario(k, duration=100.0, rate=RATE) for k in (57, 58, 59))
     again = dataclasses.replace(third, instrument=one.instrument)
     d = diagnosed(
@@ -196,7 +194,7 @@ def test_of_a_constant_gradient_it_leaves_nothing_and_the_report_says_why() -> N
     f = fitted.fit(
         load.load_packaged(), s.sheet, [observe(s.simulate(record_gradient=False).flight(), s.sheet)]
     )
-    why = {x.effect: x.why for x in list_not_testable(f, selection.make_field(f, selection.list_testable(f)))}
+    why = {x.effect: x.why for x in list_not_testable(f, selection.make_problem(f))}
     assert "a gradient that is not recorded" in why["gradient-offset"]
 
 
@@ -211,7 +209,7 @@ def test_an_output_in_which_nothing_follows_the_motion_is_not_adequate() -> None
     d = diagnose(load_packaged(), sheet, [replace(x, outputs={"G_out": shuffled})])
     assert (d.verdict, d.found) == ("unexplained", ())
     assert "the output does not follow the motion" in str(d.as_json()["reason"])
-    assert d.explained is not None and d.explained.share < 0.5
+    assert d.outcome.explained.share < 0.5
 
 
 def test_noise_that_follows_the_motion_is_said_and_accuses_nothing() -> None:
@@ -284,9 +282,11 @@ def test_an_effect_is_tested_with_the_channels_that_are_there(lost, testable) ->
 def test_what_the_recorder_did_is_claimed_where_generic_terms_do_as_well_as_effects() -> None:
     """What remains is then that of the model without effects, which has other columns than the last fit."""
     evidence: Any = SimpleNamespace(steps=(), last=None)
-    rival: Any = SimpleNamespace(verdict="partly-explained", rival=True, remains=True, claims=("saturation",))
+    rival: Any = SimpleNamespace(
+        verdict="partly-explained", rival=True, remains=True, claims=("saturation",), outcome=None
+    )
     row: Any = SimpleNamespace(effect="saturation")
-    assert complete_ranking([row], 0.0, evidence, rival) == [row]  # type: ignore[arg-type]
+    assert complete_ranking([row], evidence, rival) == [row]
 
 
 def test_the_low_frequencies_of_an_accelerometers_resonance_are_not_two_effects() -> None:

@@ -92,7 +92,7 @@ def test_a_resonance_is_compared_with_what_it_looks_like(hidden: EffectValues, b
     first = Stage.of(fitted.fit(load.load_packaged(), s.sheet, [flight]))
     model = extend(first.fitted.model, ["arm-stretch"])
     target = fitted.fit(model, s.sheet, [flight], first.fitted.calibration.noise, candidates=False)
-    test = first.choice.tests["arm-stretch"]
+    test = first.problem.tests()["arm-stretch"]
     step = AddedEffect("arm-stretch", test, before=first.fitted, after=target, alternatives=(), instant=None)
     outcome = Outcome.of(target, ["arm-stretch"], ())
     found = Evidence(first, [step], first.without_choice(), outcome, extend, spent=False)

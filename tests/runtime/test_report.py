@@ -196,7 +196,12 @@ def test_missing_effect_is_named_with_its_size(cubic: Case) -> None:
 @pytest.mark.usefixtures("no_figures")
 def test_unexplained_remainder_is_not_given_a_name(cubic: Case) -> None:
     d = replace(cubic.diagnosis, verdict="unexplained", found=(), remainder=cubic.comparison.remainder)
-    d = replace(d, target=d.fitted, coefficients=np.zeros(d.fitted.size), scored=cubic.comparison.scored)
+    d = replace(
+        d,
+        outcome=replace(
+            d.outcome, target=d.fitted, coefficients=np.zeros(d.fitted.size), scored=cubic.comparison.scored
+        ),
+    )
     assert d.remainder.significant
     said = Page(write_diagnosis(d, ORIGIN)).text
     assert "no effect of the catalogue accounts for" in said

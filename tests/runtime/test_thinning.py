@@ -22,7 +22,7 @@ from ragg_runtime.estimation.observation import (
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.identification import formula, omnibus, selection
 from ragg_runtime.identification.diagnose import diagnose
-from ragg_runtime.identification.selection import make_field
+from ragg_runtime.identification.selection import make_problem
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive, model
@@ -119,7 +119,7 @@ def test_the_diagnosis_is_that_of_the_whole_record(flown, whole) -> None:
     assert d.before.rms_V == pytest.approx(before.whole.rms_V, rel=1e-3)
     assert d.before.rms_Eo == pytest.approx(before.whole.rms_Eo, rel=1e-3)
     assert d.before.inline_Eo == pytest.approx(before.whole.inline_Eo, rel=0.03)
-    chi2 = make_field(f, ["thermal-scale"]).tests()["thermal-scale"].chi2
+    chi2 = make_problem(f, ["thermal-scale"]).tests()["thermal-scale"].chi2
     assert d.ranking[0].test.chi2 == pytest.approx(chi2, rel=0.1)  # the slow noise is known to some per cent
 
 
@@ -243,7 +243,7 @@ def test_the_division_leaves_no_trace(long_flight, monkeypatch) -> None:
     moved = (parts.calibration.p - whole.calibration.p)[whole.calibration.index] / scale
     assert np.max(np.abs(moved)) < 1e-5  # along what the record hardly sees; nothing in the figures
     effects = selection.list_testable(whole)
-    expected, found = (make_field(f, effects).tests() for f in (whole, parts))
+    expected, found = (make_problem(f, effects).tests() for f in (whole, parts))
     for e in effects:
         # of an effect that the calibration absorbs nearly whole rounding leaves seven digits at one place, six between two
         assert found[e].chi2 == pytest.approx(expected[e].chi2, rel=1e-5, abs=1e-6)

@@ -21,7 +21,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification import predict
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.identification.selection import make_field
+from ragg_runtime.identification.selection import make_problem
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import write_flight
 from ragg_runtime.model.directory import HistoryStep
@@ -50,7 +50,7 @@ def diagnosis(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
 )
 def test_what_is_predicted_is_what_a_pass_over_the_flight_finds(diagnosis, effects) -> None:
     f = diagnosis.fitted
-    field = make_field(f, [r.effect for r in diagnosis.ranking])
+    field = make_problem(f, [r.effect for r in diagnosis.ranking])
     found = predict.predict_error(f, predict.pass_unwhitened(f), field, effects)
     vectors = [predict.fit_effects(f, field, effects, held_out=h) for h in (False, True)]
     whole, half = f.score(vectors)
@@ -60,7 +60,7 @@ def test_what_is_predicted_is_what_a_pass_over_the_flight_finds(diagnosis, effec
 
 def test_a_signature_is_the_residual_that_goes(diagnosis: Diagnosis) -> None:
     f = diagnosis.fitted
-    v = predict.fit_effects(f, make_field(f, ["thermal-scale"]), ["thermal-scale"])
+    v = predict.fit_effects(f, make_problem(f, ["thermal-scale"]), ["thermal-scale"])
     rows, taken = predict.compute_signature(f, 0, v)
     assert rows == slice(0, 960)
     before, after = (f.residuals(x)[0] for x in (np.zeros(f.size), v))
@@ -71,15 +71,13 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
     from ragg_runtime.identification import omnibus
 
     f = diagnosis.fitted
-    h = predict.score_terms(f.prepared[0], f.r_factors[0], f.n_base)
+    h = predict.score_terms(f, 0)
     best = omnibus.search_residual(f).searches[0].terms[0]
     at = h.harmonics.index(best.term.harmonic), h.products.index(best.term.product)
     assert h.z[at] == pytest.approx(best.z, rel=1e-6)
     assert abs(best.z) > h.level
     found = list(diagnosis.found)
-    given = predict.score_terms(
-        f.prepared[0], f.r_factors[0], f.n_base, predict.list_columns(make_field(f, found), found)
-    )
+    given = predict.score_terms(f, 0, predict.list_columns(make_problem(f, found), found))
     assert np.nanmax(np.abs(given.z)) < h.level
     # of the output as the model predicts it
     squared = predict.compute_term(f.prepared[0], "const", "G_out*G_out", 1.0)
