@@ -134,7 +134,7 @@ def derive_acceleration(x: Flight, lost: Mask | None = None) -> Flight:
     lacking = (nowhere if x.lacking is None else x.lacking) | (nowhere if lost is None else lost)
     gap = np.zeros_like(lacking)
     for run in runs(lacking):
-        gap[run] = run.stop - run.start > WIDEST_SPIKE
+        gap[run] = run.stop - run.start > WIDEST_SPIKE or run.start == 0 or run.stop == len(x)
     bridged = (predict_missing(x.channels[n], ~lacking) for n in ANGULAR_RATE)
     rates = [np.where(gap, np.nan, v) for v in bridged]
     slopes, sure = derive_accelerations(rates, x.time)

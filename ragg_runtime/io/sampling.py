@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at, count
 from ragg_runtime.io.record import Array
+from ragg_runtime.signals.derivative import runs
 
 JITTER_NOTED = 1e-3
 """Deviation from uniform sampling, in steps, that is worth a note."""
@@ -56,6 +57,10 @@ microcontrollers have 32 bits)."""
 NEAR_END = 0.01
 """Part of such a period within which the stamps about its end lie, where some are missing there."""
 
+SLEW_PARTS, SLEWED = 64, 8.0
+"""Parts of a record whose clock rates are compared, and times their usual difference from the median by which a clock was slewed: NTP
+does so by 500 ppm until it is right."""
+
 MOST_SET = 20
 """Places at which a clock may have been set in a record; more of them are jitter."""
 
@@ -69,13 +74,22 @@ _BY_COUNT = "if sampling continued, give the times by the sample count: time = r
 class ClockStep:
     """A place where the stamps move on by ``size``, s, more than the samples: before ``row``, at ``time``, s.
 
-    ``part``, s, of it is no whole number of steps; 0 where samples may just be missing.
+    ``part``, s, of it is no whole number of steps; 0 where samples may just be missing. ``until``: the row up to which the clock was
+    slewed by it; 0: it was set at once.
     """
 
     row: int
     time: float
     size: float
     part: float
+    until: int = 0
+    ends: float = 0.0
+
+    def __str__(self) -> str:
+        where = (
+            f"from t = {self.time:.10g} to {self.ends:.10g} s" if self.until else f"at t = {self.time:.10g} s"
+        )
+        return f"by {self.size:.4g} s {where}"
 
 
 @dataclass(frozen=True)
@@ -293,7 +307,27 @@ def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]
         if part or lacking:
             row = int(rows[k + 1])
             found.append(ClockStep(row, float(time[row]), (part + lacking) * step, part * step))
+    if len(found) <= MOST_SET:
+        late = step * phase - np.sum([c.part * (rows >= c.row) for c in found], axis=0)
+        found += _find_slews(time, rows, late, step)
     return found if len(found) <= MOST_SET else []
+
+
+def _find_slews(time: Array, rows: NDArray[np.int64], late: Array, step: float) -> list[ClockStep]:
+    """Stretches in which stamps are ``late``, s, (rows,), by more from row to row, or less, than in most, by ``SET`` steps in all."""
+    parts = np.array_split(np.arange(len(rows)), SLEW_PARTS)
+    if len(parts[-1]) < BESIDE:
+        return []
+    at, mean = (np.array([np.mean(x[k]) for k in parts]) for x in (rows, late))
+    apart = np.diff(at)
+    off = np.diff(mean) / apart
+    off -= np.median(off)
+    found = []
+    for r in runs(np.abs(off) > SLEWED * np.median(np.abs(off))):
+        a, b, size = int(at[r.start]), int(at[r.stop]), float(np.sum((off * apart)[r]))
+        if abs(size) > SET * step:
+            found.append(ClockStep(a, float(time[a]), size, size, b, float(time[b])))
+    return found
 
 
 def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, float, Array]:
@@ -309,9 +343,10 @@ def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, floa
     float, float, (N,) array
         First instant and interval, s; by how much, s, the clock of each stamp had been set, by other than whole intervals.
     """
-    k, every = np.flatnonzero(present), np.arange(len(time))
-    places = [np.ones(len(time))]
-    places += [(every >= c.row).astype(np.float64) for c in find_clock_steps(time, present) if c.part]
+    every, steps = np.arange(len(time)), [c for c in find_clock_steps(time, present) if c.part]
+    slewed = np.any([(every >= c.row) & (every < c.until) for c in steps], axis=0)
+    k = np.flatnonzero(present & ~slewed)
+    places = [np.ones(len(time)), *((every >= c.row).astype(np.float64) for c in steps)]
     whole = np.stack([every, *places], axis=1)
     X, t = whole[k], time[k] - time[0]
     fitted = np.linalg.lstsq(X, t, rcond=None)[0]
@@ -342,10 +377,7 @@ def _describe_jitter(time: Array, jumps: NDArray[np.int64], off: Array, step: fl
         return []
     was_set = [] if np.any(jumps > 1) else find_clock_steps(time, np.ones(len(time), dtype=np.bool_))
     if was_set:
-        return [
-            f"the time stamps jump by {c.size:.4g} s at t = {c.time:.10g} s: was the clock adjusted?"
-            for c in was_set[:3]
-        ]
+        return [f"the time stamps jump {c}: was the clock adjusted?" for c in was_set[:3]]
     return [
         f"sampling jitters by up to {off[worst]:.2g} of the step of {step:.6g} s (after t = {time[worst]:.10g} s); "
         "samples are used at their own instants, derivatives and spectra on the even grid"
@@ -356,7 +388,7 @@ def _refuse_uneven(time: Array, steps: Array, step: float, off: Array, where: st
     row, present = int(np.argmax(off)), np.ones(len(time), dtype=np.bool_)
     what, remedy = "the record is not uniformly sampled", "resample the record to a constant rate"
     if was_set := find_clock_steps(time, present):
-        jumps = ", ".join(f"by {c.size:.4g} s at t = {c.time:.10g} s" for c in was_set[:3])
+        jumps = ", ".join(str(c) for c in was_set[:3])
         what = f"the time stamps jump {jumps}: was the clock adjusted?"
         step = fit_even_clock(time, present)[1]
         remedy = _BY_COUNT.format(rate=1 / step)

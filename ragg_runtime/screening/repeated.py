@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import minimum_filter1d
-from scipy.signal import periodogram
+from scipy.ndimage import binary_dilation, minimum_filter1d
 
 from ragg_runtime.base.errors import count
 from ragg_runtime.io import Flight
@@ -21,7 +20,7 @@ from ragg_runtime.io.record import (
     Flag,
     is_disc_angle,
 )
-from ragg_runtime.signals.derivative import bridge_gaps, runs
+from ragg_runtime.signals.derivative import REACH, bridge_gaps, runs
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
@@ -52,10 +51,6 @@ SUDDEN = 5.0
 """Times the usual move of a column by which it leaps to an end of its range and back in a drop-out. In saturation it moves there: of
 1,374 clipped series, white to smooth, none did so by more than 4.8 into and out of a run."""
 
-LOST = 2e-3
-"""Relative error of a derivative from which what was recorded is not enough. The power in the highest quarter of the recorded band is
-that of the error, within 0.6 and 1.5 times its size on 400 spectra (90 %)."""
-
 LOCAL = 64
 """Pairs of neighbours in whose median move the resolution of a column is seen: it stands still in parts."""
 
@@ -76,8 +71,9 @@ def leave_out_repeated(flight: Flight) -> Flight:
     Flight
         Motion is interpolated between what was recorded, and an angular acceleration that was derived is derived anew.
     """
+    flight = _take_recorded_rate(flight)
     outputs, channels = dict(flight.outputs), dict(flight.channels)
-    valid, found = np.array(flight.valid), []
+    valid, found, known = np.array(flight.valid), [], _find_known(flight)
     angles = [n for n in flight.channels if is_disc_angle(n)]
     for name in (
         *flight.outputs,
@@ -87,7 +83,7 @@ def leave_out_repeated(flight: Flight) -> Flight:
         x = flight.outputs.get(name, flight.channels.get(name))
         if x is None:
             continue
-        there = np.isfinite(x) & flight.valid
+        there = np.isfinite(x) & known
         r = _repeated(np.array(x), there, turning=name in angles)
         if r is None:
             continue
@@ -116,6 +112,35 @@ def leave_out_repeated(flight: Flight) -> Flight:
         all_lost = [r.left_out for r in rates if r.how in ("stuck", "not renewed")]
         changed = derive_acceleration(changed, np.any(all_lost or [np.zeros_like(valid)], axis=0))
     return changed.flagged(_flags(found, flight))
+
+
+def _find_known(flight: Flight) -> Mask:
+    """(N,): samples with all columns; next to an end or a gap too, where a derivative is not relied upon."""
+    if flight.lacking is None:
+        return flight.valid
+    return flight.valid | (
+        binary_dilation(flight.lacking, iterations=REACH, border_value=1) & ~flight.lacking
+    )
+
+
+def _take_recorded_rate(flight: Flight) -> Flight:
+    """The flight at the lower rate at which its angular rates are recorded, if their derivative follows from them.
+
+    Between rates that are held it is known nowhere, and of every other sample no spectrum is: at 8 Hz of 16 Hz three of seven
+    effect-free flights had a false ``imu-filter``.
+    """
+    names = [n for n in ANGULAR_RATE if n in flight.written]
+    if not names or ANGULAR_ACCELERATION[0] in flight.written:
+        return flight
+    known = _find_known(flight)
+    slower = [r for n in names if (r := _repeated(np.array(flight.channels[n]), known)) and r.every]
+    kept = np.flatnonzero(known & ~np.any([r.left_out for r in slower], axis=0))
+    every = int(max((r.every for r in slower), default=0))
+    if not slower or not len(kept) or np.any((kept - kept[0]) % every):
+        return flight
+    text = f"the motion is recorded every {every / flight.rate:.4g} s and {slower[0].how} in between; the record is used at that rate"
+    taken = flight.part(slice(int(kept[0]) % every, None, every))
+    return derive_acceleration(replace(taken, valid=_find_known(taken))).flagged([Flag(tuple(names), text)])
 
 
 @dataclass(frozen=True)
@@ -259,12 +284,14 @@ def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]
     """One flag for all columns of which the same is to be said."""
     groups: dict[str, dict[str, bool]] = {}
     for name, r in found:
-        groups.setdefault(_describe(r, flight), {})[name] = _is_lost(name, r, flight)
+        groups.setdefault(_describe(r, flight), {})[name] = bool(
+            r.every and name in ANGULAR_RATE and ANGULAR_ACCELERATION[0] not in flight.written
+        )
     flags = []
     for text, columns in groups.items():
         lost = any(columns.values())
         if lost:
-            text += "; the angular acceleration, which is derived from it, changes faster than that"
+            text += "; the angular acceleration, which is derived from it, is not known so"
         flags.append(Flag(tuple(columns), f"{', '.join(columns)}: {text}", open=lost))
     return flags
 
@@ -285,11 +312,3 @@ def _describe(r: _Repeated, flight: Flight) -> str:
     return (
         f"recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
     )
-
-
-def _is_lost(name: str, r: _Repeated, flight: Flight) -> bool:
-    """Whether an angular rate was recorded too seldom for its derivative: that has power near the highest frequency."""
-    if r.every == 0.0 or name not in ANGULAR_RATE or ANGULAR_ACCELERATION[0] in flight.written:
-        return False
-    power = periodogram(np.diff(flight.channels[name][~r.left_out]), window="hann")[1]
-    return bool(np.sum(power[-len(power) // 4 :]) > LOST**2 * np.sum(power))

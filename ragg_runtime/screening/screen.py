@@ -173,13 +173,13 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
         default=(0.0, 0),
     )
     if INDEPENDENT * gain > CLOCK:
-        where = ", ".join(f"by {c.size:.4g} s at t = {c.time:.6g} s" for c in several[-k][:3])
+        where = ", ".join(str(c) for c in several[-k][:3])
         text = (
             f"the time stamps jump {where} (was the clock adjusted?), but sampling continued: times are taken from the sample"
             f" count ({np.exp(gain):.3g} times less remains unexplained)"
         )
         return derive_acceleration(_by_count(x, several[-k])).flagged([Flag(("time",), text)])
-    x = x.flagged([_pause(c, abs(INDEPENDENT * gain) < CLOCK) for c in steps if c.part])
+    x = x.flagged([_pause(c, abs(INDEPENDENT * gain) < CLOCK) for c in steps if c.part and not c.until])
     if worst <= EVEN or not _is_even(model, s, make_sampler(even, instrument, inputs, s.place), own.p):
         return x
     text = (
@@ -224,7 +224,7 @@ def _by_count(x: Flight, steps: Sequence[ClockStep]) -> Flight:
 
 
 def _pause(c: ClockStep, undecided: bool) -> Flag:
-    text = f"the time stamps jump by {c.size:.4g} s at t = {c.time:.6g} s, not a whole number of samples: treated as a pause"
+    text = f"the time stamps jump {c}, not a whole number of samples: treated as a pause"
     if undecided:
         text += "; whether the clock was set instead is hidden by what the model leaves unexplained"
     return Flag(("time",), text)

@@ -247,7 +247,7 @@ def _describe_jump(s: Sampler, at: int, jump: float) -> tuple[str, str]:
     gaps = [c for c in near if abs((c.size + lost + turn / 2) % turn - turn / 2) < 2 / x.rate]
     if gaps:
         return (
-            f"the time stamps jump by {gaps[0].size:.4g} s at t = {gaps[0].time:.6g} s, while sampling continued: was the clock adjusted?",
+            f"the time stamps jump {gaps[0]}, while sampling continued: was the clock adjusted?",
             f"give the times by the sample count: time = row / {x.rate:.6g} Hz",
         )
     rows = round(lost * x.rate)

@@ -113,8 +113,13 @@ def weights(window: int, at: int, band: float = BAND) -> Array:
     return weights
 
 
+BRIDGE, FAR = 7, 16
+"""Of the spline over gaps, and gap, in usual distances, that is too wide for it. Of three samples of flights at 16 Hz it misses 3e-5 to
+1e-4 of the standard deviation, a cubic one 4e-3 to 1e-2; between rates held for two samples a cubic one left 600 Eo."""
+
+
 def bridge_gaps(x: Array, there: NDArray[np.bool_], *, smooth: bool = False, turning: bool = False) -> Array:
-    """A series (N,) between the samples that are there (N,): linearly, or by a spline.
+    """A series (N,) between the samples that are there (N,): linearly, or by a spline where gaps are not too wide.
 
     The angle of a disc is ``turning``: whole turns may be missing in it, and it turns on beyond the ends.
     """
@@ -124,10 +129,12 @@ def bridge_gaps(x: Array, there: NDArray[np.bool_], *, smooth: bool = False, tur
     known = np.unwrap(x[at]) if turning else x[at]
     turn = np.polyfit(at, known, 1) if turning else np.zeros(1)
     off = known - np.polyval(turn, at)
-    if smooth:
-        made = interpolate.CubicSpline(at, off)(np.clip(k, at[0], at[-1]))
-    else:
-        made = np.interp(k, at, off)
+    made, apart = np.interp(k, at, off), np.diff(at)
+    wide = np.flatnonzero(apart > FAR * np.median(apart if len(apart) else 1)) + 1
+    for some in np.split(np.arange(len(at)), wide) if smooth else ():
+        if len(some) > 1:
+            inside, degree = slice(at[some[0]], at[some[-1]] + 1), min(BRIDGE, len(some) // 2 * 2 - 1)
+            made[inside] = interpolate.make_interp_spline(at[some], off[some], degree)(k[inside])
     return np.where(there, x, made + np.polyval(turn, k))
 
 

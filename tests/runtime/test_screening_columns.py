@@ -25,6 +25,7 @@ ALL = np.ones(N, dtype=bool)
 TIME = np.arange(N) / 16
 PLACES = np.sort(RNG.choice(np.arange(20, N - 20, 3), 96, replace=False))
 SMOOTH = np.sin(TIME) + 0.3 * np.sin(3.3 * TIME) + 0.05 * np.sin(2 * np.pi * 2.1 * TIME)
+SLOPE = np.cos(TIME) + 0.99 * np.cos(3.3 * TIME) + 0.21 * np.pi * np.cos(2 * np.pi * 2.1 * TIME)
 
 
 def screened(x: np.ndarray, name: str = "G_out") -> Flight:
@@ -55,13 +56,22 @@ def test_motion_that_is_held_at_another_rate_is_interpolated() -> None:
     assert found.flags[0].columns == ("a_x",) and not found.flags[0].open
 
 
-@pytest.mark.parametrize("fast", [False, True])
-def test_an_angular_acceleration_faster_than_the_held_rate_is_said(fast: bool) -> None:
-    x = (SMOOTH + 0.1 * NOISE * fast)[np.arange(N) // 2 * 2]
-    columns = dict.fromkeys(ANGULAR_RATE, x) | dict.fromkeys(ANGULAR_ACCELERATION, np.gradient(x, 1 / 16))
-    flight = Flight(time=TIME, channels=columns, outputs={}, written=dict.fromkeys(ANGULAR_RATE, "rad/s"))
-    (flag,) = leave_out_repeated(flight).flags
-    assert flag.open == fast and ("derived from it, changes faster" in flag.reason) == fast
+@pytest.mark.parametrize("every", [2, 3.2])
+def test_rates_that_are_held_are_used_at_their_own_rate(every: float) -> None:
+    """Where they do not come evenly their derivative is not known, and nothing is claimed of it."""
+    k = np.rint(np.floor(np.arange(N) / every) * every).astype(int)
+    columns = dict.fromkeys(ANGULAR_RATE, SMOOTH[k]) | dict.fromkeys(ANGULAR_ACCELERATION, SMOOTH[k])
+    given, nowhere = dict.fromkeys(ANGULAR_RATE, "rad/s"), np.zeros(N, dtype=bool)
+    flight = derive_acceleration(Flight(TIME, columns, {}, written=given, lacking=nowhere))
+    found = leave_out_repeated(flight)
+    (flag,) = found.flags
+    wrong = found.channels["omegadot_x"] - np.interp(found.time, TIME, SLOPE)
+    if every == 2:
+        assert found.rate == pytest.approx(8) and found.valid.sum() == N // 2 - 2 * 64
+        assert "recorded every 0.125 s" in flag.reason and not flag.open
+        assert np.max(np.abs(wrong[found.valid])) < 1e-5
+    else:
+        assert "derived from it, is not known" in flag.reason and flag.open
 
 
 def test_an_angular_acceleration_is_not_derived_across_a_gap() -> None:
@@ -296,6 +306,18 @@ def test_a_step_of_the_clock_is_found_with_its_time(size: float, digits: int) ->
     assert fit_even_clock(g.time, valid)[1] == pytest.approx(1 / 16, rel=1e-7)
     with pytest.raises(UserError, match=r"jump back by 10 s at t = 125 s: was the clock adjusted"):
         make_grid(TIME - 10.0 * (TIME > 125), None)
+
+
+@pytest.mark.parametrize("rate", [5e-4, -5e-5])
+def test_a_clock_that_was_slewed_is_found_with_its_times(rate: float) -> None:
+    stamps = TIME + rate * np.clip(TIME - 200, 0, 100) + 0.02 * (TIME > 450)
+    jump, slew = find_clock_steps(stamps, ALL)
+    assert (slew.time, slew.ends) == pytest.approx((200, 300), abs=20) and " to " in str(slew)
+    assert (slew.size, jump.size) == pytest.approx((100 * rate, 0.02), abs=1e-3)
+    _, step, set_by = fit_even_clock(stamps, ALL)
+    assert step == pytest.approx(1 / 16, rel=1e-9) and set_by[-1] == pytest.approx(
+        100 * rate + 0.02, rel=1e-3
+    )
 
 
 def test_steps_that_cannot_be_followed_are_named_with_the_rate_between_them() -> None:
