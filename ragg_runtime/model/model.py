@@ -158,9 +158,13 @@ class Model:
         return next((e for e in (*self.effects, *self.candidates) if e.id == identifier), None)
 
 
-@cache
 def load_packaged(kinematics: str = "platform") -> Model:
     """The model of the paper, without further effects, as derived and committed; or that of full kinematics."""
+    return _load_once(kinematics)  # one model, whether the default is spelt out or not
+
+
+@cache
+def _load_once(kinematics: str) -> Model:
     package = importlib.import_module("generated" if kinematics == "platform" else "generated.full")
     root = resources.files(package)
     manifest = json.loads(root.joinpath("manifest.json").read_text("utf-8"))
