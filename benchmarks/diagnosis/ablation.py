@@ -256,7 +256,7 @@ RULES: tuple[Rule, ...] = (
          (*OUTSIDE, ("ten", "white"), ("pair", "white")),
          (Patch("identification.verdict:_find_common_kind", _nothing, acts=lambda r: r is not None),)),
     Rule("better-kind", "an effect that only its name adds, and that explains more than its special case, is named",
-         (("outside", "white"), ("outside", "4-Hz"), ("outside", "ramp"), ("strong", "white"), ("ten", "white")),
+         (("outside", "white"), ("outside", "ramp")),
          (Patch("identification.verdict:_find_better_kind", _nothing, acts=lambda r: r is not None),)),
     Rule("held-out", "held-out blocks do not speak against a claim",
          (*OUTSIDE, ("five", "white"), ("quiet", "ramp")),

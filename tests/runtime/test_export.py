@@ -40,7 +40,7 @@ STRICT = f"{WARNED} -fsanitize=undefined,address -fno-sanitize-recover=all"
 
 def make_strictly(folder: Path, target: str) -> str:
     """With every warning an error, and for the sanitizers."""
-    words = ["make", "-C", folder, STRICT, target]
+    words = ["make", "-C", str(folder), STRICT, target]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
@@ -117,7 +117,9 @@ def test_the_program_gives_what_python_gives(which: str, request: pytest.Fixture
 
 
 @pytest.mark.parametrize("which", ["base", "extended"])
-def test_the_angular_acceleration_is_derived_as_python_does_it(which, request, tmp_path) -> None:
+def test_the_angular_acceleration_is_derived_as_python_does_it(
+    which: str, request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
     """From a file with neither omegadot nor all of its rows: beside gaps and ends too, wherever Python has a value."""
     model, folder, flight = request.getfixturevalue(which)
     table = [line.split(",") for line in flight.read_text().splitlines()]
@@ -279,7 +281,9 @@ def test_a_folder_with_other_things_is_left_alone(base: tuple[Path, Path, Path],
         api.export(api.load(base[0]), tmp_path / "x", "fortran")
 
 
-def test_a_calibration_of_another_model_is_not_exported(base, tmp_path) -> None:
+def test_a_calibration_of_another_model_is_not_exported(
+    base: tuple[Path, Path, Path], tmp_path: Path
+) -> None:
     model, _, _ = base
     copy = new_model(tmp_path)
     text = (model / "calibration.json").read_text().replace('"effects": []', '"effects": ["lag"]')
@@ -408,7 +412,9 @@ def test_the_c_is_the_same_filter(walk: float, gap: float, base: tuple[Path, Pat
     assert np.max(np.abs(p - f.parameters()[0])[f.index] / f.scale) < 1e-4
 
 
-def test_the_command_follows_a_flight_within_its_uncertainty(base, tmp_path) -> None:
+def test_the_command_follows_a_flight_within_its_uncertainty(
+    base: tuple[Path, Path, Path], tmp_path: Path
+) -> None:
     model, _, _ = base
     flight = flights()[1].part(slice(0, 3200))
     write_flight(flight, tmp_path / "two.parquet")
