@@ -126,8 +126,7 @@ class Evidence:
         first = self.first
         known = [e for e in o.effects if e in first.problem.candidates]
         linear, _ = first.problem.joint([self._block(e) for e in known])
-        chosen, problem = self.last.chosen, self.last.problem
-        rank = sum(problem.joint([chosen[e]])[1] if e in chosen else self.test(e).rank for e in o.effects)
+        rank = self._count_coefficients(o)
         own = () if o.given else [e for e in o.target.model.effects if e.id in o.effects]
         remembers = any(e.memory is not None for e in own)
         if o.given or (linear < strong.STRONG and len(known) == len(o.effects) and not remembers):
@@ -137,6 +136,11 @@ class Evidence:
         left = calibration.fit(f.model, f.instrument, f.observations, noise=noise, start=f.calibration.p).chi2
         fitted = first.problem.chi2 - left
         return max(linear, min(fitted, (1.0 + SECOND_ORDER) * linear) if o.remains else fitted), rank
+
+    def _count_coefficients(self, o: Outcome) -> int:
+        """How many coefficients of an outcome's effects their tests need."""
+        chosen, problem = self.last.chosen, self.last.problem
+        return sum(problem.joint([chosen[e]])[1] if e in chosen else self.test(e).rank for e in o.effects)
 
     def _block(self, effect: str) -> tuple[int, ...]:
         """The columns of an effect that are needed, by a linear test of the first stage."""
@@ -195,7 +199,7 @@ class Evidence:
             max(0.0, without - c.chi2 - calibration.charge_wider_priors(s, c))
             for s, c in ((sheet, instead), (chosen_sheet, chosen))
         ]
-        evidence = log_bayes(np.array(explained), np.array([known, self.explained(o)[1]]))
+        evidence = log_bayes(np.array(explained), np.array([known, self._count_coefficients(o)]))
         charge = self.charge(o) + (len(o.effects) - 1) * float(np.log(self.first.problem.count))
         return float(evidence[0] - evidence[1]) + charge
 

@@ -165,7 +165,7 @@ def predict_missing(x: Array, there: NDArray[np.bool_]) -> Array:
 
 
 SPLINE = 9
-"""Degree of the spline that interpolates: at 42 % of the Nyquist frequency it is as good as the derivative, 2e-6."""
+"""Degree of the spline that interpolates: at 42 % of the Nyquist frequency it errs by 4e-6 of the amplitude, at 65 % by 1e-3."""
 
 
 def interpolate_even(x: Sequence[Array], at: Array, *, integral: bool = False) -> Array:
