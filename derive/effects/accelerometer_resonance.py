@@ -38,8 +38,9 @@ EFFECT = Effect(
         "One frequency and Q for all accelerometers. A loop has u = d and v = b, a mount u = 0 and v = b, a mode a share of them. "
         "For a resonance far above the spin rate and the motion, u and v are lag and second-order-loop; for motion slow against the spin "
         "rate the latter is arm-stretch, but for a scale factor. The response to gradients, a "
-        "millionth, is neglected, and the first seconds of a record are excluded. A diagnosis does not look for it: of 720 simulated "
-        "flights five had another effect and got this name, and two had it."
+        "millionth, is neglected, and the first seconds of a record are excluded. A diagnosis does not look for it (of 720 "
+        "simulated flights five had another effect and got this name, two had it), but compares it with its special cases where one is "
+        "claimed."
     ),
     parameters=(
         EffectParameter("u", "u", "s", "first order of what the resonance takes away", 1e-8),
