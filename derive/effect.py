@@ -12,16 +12,31 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal, TypeAlias
 
 import sympy as sp
+from sympy import Expr
 
+from derive.context import Context
 from derive.names import EXPECTED, is_name, parameter_in_code
 from derive.stages import Geometry, Kinematics, Motion, Order, SensedForce
 from derive.symbols import symbol
 
-if TYPE_CHECKING:
-    from derive.context import Context
+__all__ = [
+    "Context",
+    "Effect",
+    "EffectParameter",
+    "Expr",
+    "Geometry",
+    "Motion",
+    "Parameters",
+    "SensedForce",
+    "Values",
+    "shared_components",
+]
+
+Parameters: TypeAlias = Mapping[str, Expr]
+"""Parameters of an accelerometer by name: K0, K1, dR, vartheta_y ..."""
 
 STAGES = ("sensing", "disc_angle", "geometry", "field", "instrument", "second_order", "transducer")
 """Those that an effect may change, in their order."""
@@ -193,7 +208,7 @@ class Effect:
     disc_angle: Callable[[Values, Context], sp.Expr] | None = None
     geometry: Callable[[Geometry, Values, Context], Geometry] | None = None
     field: Callable[[sp.Matrix, Values, Context], sp.Matrix] | None = None
-    instrument: Callable[[Mapping[str, sp.Expr], Values, Context], Mapping[str, sp.Expr]] | None = None
+    instrument: Callable[[Parameters, Values, Context], Parameters] | None = None
     second_order: Callable[[SensedForce, SensedForce, Values, Context], SensedForce] | None = None
     transducer: Callable[[sp.Expr, SensedForce, Values, Context], sp.Expr] | None = None
     switches: bool = False

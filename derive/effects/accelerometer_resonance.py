@@ -1,11 +1,8 @@
-"""An accelerometer whose mount or loop resonates."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, SensedForce, Values
 from derive.memory import RESONANCE, response
-from derive.stages import NOMINAL_TRIAD, SensedForce
+from derive.stages import NOMINAL_TRIAD
 from derive.symbols import COS_J, SIN_J
 
 

@@ -1,10 +1,6 @@
-"""Unrecorded angular jitter of the platform: its squares are a centrifugal gradient."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, Values, shared_components
-from derive.stages import Motion
+from derive.effect import Context, Effect, Motion, Values, shared_components
 from derive.symbols import COMPONENTS, symmetric
 
 

@@ -1,13 +1,7 @@
-"""A pendulum whose moments of inertia differ, on a case that turns."""
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import SensedForce
+from derive.effect import Context, Effect, EffectParameter, Expr, SensedForce, Values
 
 
-def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+def transducer(i: Expr, f: SensedForce, p: Values, c: Context) -> Expr:
     rate = c.case.omega
     return i + p.K_ip * rate.dot(c.geometry.tau[0, :]) * rate.dot(c.geometry.tau[2, :])
 

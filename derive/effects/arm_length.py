@@ -1,14 +1,7 @@
-"""The radius of the circle on which the accelerometers sit."""
-
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Parameters, Values
 
 
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     return {"dR": k["dR"] + p.delta_R}
 
 

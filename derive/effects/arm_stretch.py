@@ -1,14 +1,7 @@
-"""Radius proportional to the radial specific force."""
-
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Parameters, Values
 
 
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     return {"dR": k["dR"] + p.c_r * c.force.y}
 
 

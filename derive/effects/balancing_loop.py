@@ -1,14 +1,7 @@
-"""Scale factors and second-order coefficients that loops of the instrument keep balanced."""
-
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Parameters, Values
 
 
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     return {
         "K1": k["K1"] * (1 + p.dK1_di * c.channel("balance_current")),
         "K2": k["K2"] + p.dK2_di * c.channel("second_order_current"),

@@ -1,10 +1,7 @@
-"""Run-out of the spin bearing: the disc's centre wanders with the turn."""
-
 import sympy as sp
 
 from derive import stages
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Values
 
 HARMONICS = (1, 2)
 

@@ -1,15 +1,8 @@
-"""Null bias that follows the force slowly."""
-
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Parameters, Values
 from derive.memory import RELAXATION, remembered_force, response
 
 
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     i, o, p_axis = remembered_force("creep", p, c, RELAXATION)
     start = response("creep_start", p, c, RELAXATION)
     return {"K0": k["K0"] + p.c_i * i + p.c_o * o + p.c_p * p_axis + p.c_0 * start}

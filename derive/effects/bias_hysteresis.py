@@ -1,15 +1,8 @@
-"""Null bias that depends on from where the force has come."""
-
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Parameters, Values
 from derive.memory import SLIP, remembered_force
 
 
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     i, o, p_axis = remembered_force("slip", p, c, SLIP)
     return {"K0": k["K0"] + p.h_i * i + p.h_o * o + p.h_p * p_axis}
 

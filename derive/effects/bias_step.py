@@ -1,5 +1,3 @@
-"""A null bias, or an offset of the output, that jumps at an unknown instant."""
-
 from derive.effect import Effect, EffectParameter
 from derive.following import begun, following
 

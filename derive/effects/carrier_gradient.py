@@ -1,10 +1,7 @@
-"""Gradient of the carrier's masses and fuel, at any attitude."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, Values, shared_components
-from derive.stages import Motion, turn
+from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.stages import turn
 from derive.symbols import TRACELESS, traceless
 
 

@@ -1,8 +1,4 @@
-"""The clock of the motion record runs at another rate than that of the output."""
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import Motion
+from derive.effect import Context, Effect, EffectParameter, Motion, Values
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

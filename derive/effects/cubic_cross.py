@@ -1,10 +1,6 @@
-"""Third-order terms of the force across the input axis, and mixed ones."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import SensedForce
+from derive.effect import Context, Effect, EffectParameter, SensedForce, Values
 
 MONOMIALS: tuple[str, ...] = ("iio", "iip", "ioo", "iop", "ipp", "ooo", "oop", "opp", "ppp")
 """All monomials of third degree in f_i, f_o, f_p but f_i^3, which is the effect ``cubic-input``."""

@@ -1,9 +1,6 @@
-"""The accelerometers ride on the disc, which turns against the platform."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Values
 from derive.stages import spin_gradient
 
 

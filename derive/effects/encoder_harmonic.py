@@ -1,9 +1,6 @@
-"""Disc angle off by harmonics of itself."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Values
 
 HARMONICS = (1, 2, 3, 4)
 

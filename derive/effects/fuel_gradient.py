@@ -1,8 +1,4 @@
-"""Gradient of fuel that is burnt."""
-
-from derive.context import Context
-from derive.effect import Effect, Values, shared_components
-from derive.stages import Motion
+from derive.effect import Context, Effect, Motion, Values, shared_components
 from derive.symbols import TRACELESS, traceless
 
 

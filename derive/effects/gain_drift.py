@@ -1,5 +1,3 @@
-"""Scale factor linear in time."""
-
 from derive.effect import Effect, EffectParameter
 from derive.following import elapsed, following
 

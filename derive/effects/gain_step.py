@@ -1,5 +1,3 @@
-"""A scale factor that jumps at an unknown instant."""
-
 from derive.effect import Effect, EffectParameter
 from derive.following import begun, following
 

@@ -1,14 +1,8 @@
-"""Gyroscopes sampled earlier or later than the accelerometers of the motion sensor."""
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import Motion
+from derive.effect import Context, Effect, EffectParameter, Expr, Motion, Values
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
-    def rate(e: sp.Expr) -> sp.Expr:
+    def rate(e: Expr) -> Expr:
         # The recorded acceleration is the rate of the recorded one only where both are equally late.
         change = c.rate(e)
         return e + p.delta_w * change + (p.delta_w * p.delta_d - p.delta_w**2 / 2) * c.rate(change)

@@ -1,11 +1,7 @@
-"""Axes of the gyroscopes that are not at right angles."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, shared_components
 from derive.effects.imu_acceleration_misalignment import PAIRS
-from derive.stages import Motion
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

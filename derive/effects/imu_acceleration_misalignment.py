@@ -1,10 +1,6 @@
-"""Axes of the motion sensor's accelerometers that are not at right angles."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, Values, shared_components
-from derive.stages import Motion
+from derive.effect import Context, Effect, Motion, Values, shared_components
 
 PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
 

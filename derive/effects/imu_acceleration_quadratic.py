@@ -1,10 +1,6 @@
-"""Curved characteristic of the motion sensor's accelerometers."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, Values, shared_components
-from derive.stages import Motion
+from derive.effect import Context, Effect, Motion, Values, shared_components
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

@@ -1,10 +1,6 @@
-"""Low-pass of the motion sensor, or a resonance between it and the disc."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import Motion
+from derive.effect import Context, Effect, EffectParameter, Motion, Values
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

@@ -1,11 +1,7 @@
-"""The motion sensor is turned."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, shared_components
 from derive.rotation import small_rotation
-from derive.stages import Motion
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

@@ -1,5 +1,3 @@
-"""Saturation of the motion sensors."""
-
 from __future__ import annotations
 
 import numpy as np

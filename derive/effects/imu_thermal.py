@@ -1,11 +1,7 @@
-"""Temperature coefficients of the motion sensor's accelerometers."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Motion, Values
 from derive.following import REFERENCE_KELVIN
-from derive.stages import Motion
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

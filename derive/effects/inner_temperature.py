@@ -1,15 +1,8 @@
-"""Bias and scale factor that follow the torquer's own heat."""
-
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Parameters, Values
 from derive.memory import HEAT, response, warmth
 
 
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     heat, start = warmth(p, c), response("heat_start", p, c, HEAT)
     return {
         "K0": k["K0"] + p.b * heat + p.b_0 * start,

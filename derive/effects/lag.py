@@ -1,13 +1,7 @@
-"""First-order lag of the accelerometer's rebalance loop."""
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import SensedForce
+from derive.effect import Context, Effect, EffectParameter, Expr, SensedForce, Values
 
 
-def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+def transducer(i: Expr, f: SensedForce, p: Values, c: Context) -> Expr:
     # 1/(1 + tau s) = 1 - tau s + tau^2 s^2 - ...
     first = c.rate(f.i)
     return i - p.tau * first + p.tau**2 * c.rate(first)

@@ -1,11 +1,7 @@
-"""Null bias proportional to the magnetic field along the spin axis."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, SensedForce, Values
 from derive.effects.magnetic_bias import FIELD
-from derive.stages import SensedForce
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:

@@ -1,10 +1,7 @@
-"""Null bias proportional to the magnetic field along the input axis."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import SensedForce, misalignment_matrix
+from derive.effect import Context, Effect, EffectParameter, SensedForce, Values
+from derive.stages import misalignment_matrix
 
 FIELD = ("B_x", "B_y", "B_z")
 

@@ -1,5 +1,3 @@
-"""Misalignment angles linear in time."""
-
 from derive.effect import Effect, EffectParameter
 from derive.following import elapsed, following
 

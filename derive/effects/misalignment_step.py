@@ -1,5 +1,3 @@
-"""A misalignment that jumps at an unknown instant."""
-
 from derive.effect import Effect, EffectParameter
 from derive.following import begun, following
 

@@ -1,14 +1,7 @@
-"""Misalignment angles proportional to specific force."""
-
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Parameters, Values
 
 
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     f = c.force
     return {
         f"vartheta_{a}": k[f"vartheta_{a}"] + p[f"c_{a}x"] * f.x + p[f"c_{a}y"] * f.y + p[f"c_{a}z"] * f.z

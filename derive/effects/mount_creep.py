@@ -1,15 +1,8 @@
-"""Misalignment angles that follow the force slowly."""
-
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Parameters, Values
 from derive.memory import RELAXATION, remembered_force, response
 
 
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     x, _, z = remembered_force("flow", p, c, RELAXATION)
     start = response("flow_start", p, c, RELAXATION)
     return {

@@ -1,15 +1,8 @@
-"""Misalignment angles that depend on from where the force has come."""
-
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Parameters, Values
 from derive.memory import SLIP, remembered_force
 
 
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     x, _, z = remembered_force("play", p, c, SLIP)
     return {
         "vartheta_y": k["vartheta_y"] + p.e_yx * x + p.e_yz * z,

@@ -1,11 +1,7 @@
-"""A mount between motion sensor and disc that resonates."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Motion, Values
 from derive.memory import RESONANCE, response
-from derive.stages import Motion
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

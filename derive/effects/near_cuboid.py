@@ -1,10 +1,6 @@
-"""Cuboid beside the instrument that moves with recorded channels."""
-
 from derive.attraction import CHANNELS, MASS, PLACE, gradient_of_cuboid, gradient_of_point
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Motion, Values
 from derive.effects.near_sphere import field
-from derive.stages import Motion
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

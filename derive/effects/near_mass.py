@@ -1,11 +1,8 @@
-"""Third-order gravity tensor of a near mass."""
-
 from functools import cache
 
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, Values, shared_components
+from derive.effect import Context, Effect, Values, shared_components
 
 INDEPENDENT = ("xxx", "xxy", "xxz", "xyy", "xyz", "yyy", "yyz")
 FOURTH = ("xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz")

@@ -1,10 +1,7 @@
-"""Sphere, or point, beside the instrument that moves with recorded channels."""
-
 import sympy as sp
 
 from derive.attraction import CHANNELS, MASS, PLACE, of_point
-from derive.context import Context
-from derive.effect import Effect, Values
+from derive.effect import Context, Effect, Values
 
 
 def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:

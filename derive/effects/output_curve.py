@@ -1,13 +1,7 @@
-"""Curve of the converter that reads the output."""
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import SensedForce
+from derive.effect import Context, Effect, EffectParameter, Expr, SensedForce, Values
 
 
-def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+def transducer(i: Expr, f: SensedForce, p: Values, c: Context) -> Expr:
     # a factor common to all voltages is a factor of their sum
     reading = c.channel("G_out")
     return i / (1 + p.c_2 * reading + p.c_3 * reading**2)

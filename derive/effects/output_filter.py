@@ -1,13 +1,7 @@
-"""Droop of the filter that the output passes before it is recorded."""
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import SensedForce
+from derive.effect import Context, Effect, EffectParameter, Expr, SensedForce, Values
 
 
-def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+def transducer(i: Expr, f: SensedForce, p: Values, c: Context) -> Expr:
     return i + p.b * c.rate(c.rate(i))
 
 

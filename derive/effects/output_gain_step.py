@@ -1,10 +1,6 @@
-"""A gain of the output channel that jumps at an unknown instant."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import SensedForce
+from derive.effect import Context, Effect, EffectParameter, SensedForce, Values
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:

@@ -1,5 +1,3 @@
-"""Null bias proportional to air pressure."""
-
 from derive.effect import Effect, EffectParameter
 from derive.following import following, overpressure
 

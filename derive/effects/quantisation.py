@@ -1,5 +1,3 @@
-"""Quantisation of the output channel."""
-
 from __future__ import annotations
 
 import numpy as np

@@ -1,5 +1,3 @@
-"""Saturation of the output channel."""
-
 from __future__ import annotations
 
 from collections.abc import Iterator

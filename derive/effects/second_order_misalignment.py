@@ -1,8 +1,4 @@
-"""Second-order terms along the accelerometer's true axes (Eq. 5a and 5b)."""
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import SensedForce
+from derive.effect import Context, Effect, EffectParameter, SensedForce, Values
 
 
 def second_order(q: SensedForce, f: SensedForce, p: Values, c: Context) -> SensedForce:

@@ -1,5 +1,3 @@
-"""A second-order coefficient that jumps at an unknown instant."""
-
 from derive.effect import Effect, EffectParameter
 from derive.following import begun, following
 

@@ -1,10 +1,6 @@
-"""Gradient of the platform's own masses as it turns."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import Motion
+from derive.effect import Context, Effect, EffectParameter, Motion, Values
 from derive.symbols import TRACELESS, traceless
 
 ATTITUDE = ("roll", "pitch")

@@ -1,10 +1,6 @@
-"""Gradient of the carrier's masses as it turns about the vertical around the instrument."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import Motion
+from derive.effect import Context, Effect, EffectParameter, Motion, Values
 
 _MEANING = {
     "G_d": "half of the difference of xx and yy",
@@ -38,12 +34,7 @@ EFFECT = Effect(
     channels=("yaw",),
     parameters=tuple(
         EffectParameter(
-            name,
-            f"G_{{{name[2:]}}}",
-            "Eo",
-            f"gradient of the carrier at yaw 0: {meaning}",
-            30.0,
-            shared=True,
+            name, f"G_{{{name[2:]}}}", "Eo", f"gradient of the carrier at yaw 0: {meaning}", 30.0, shared=True
         )
         for name, meaning in _MEANING.items()
     ),

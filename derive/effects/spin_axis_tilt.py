@@ -1,11 +1,7 @@
-"""The spin axis leans constantly in the measurement frame."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Motion, Values
 from derive.rotation import small_rotation
-from derive.stages import Motion
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

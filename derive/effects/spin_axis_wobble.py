@@ -1,11 +1,7 @@
-"""The spin axis leans about axes that turn with the disc."""
-
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Effect, Values, shared_components
+from derive.effect import Context, Effect, Geometry, Values, shared_components
 from derive.rotation import lean
-from derive.stages import Geometry
 
 
 def geometry(g: Geometry, p: Values, c: Context) -> Geometry:

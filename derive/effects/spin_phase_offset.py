@@ -1,12 +1,7 @@
-"""Disc angle off by a constant."""
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Expr, Values
 
 
-def disc_angle(p: Values, c: Context) -> sp.Expr:
+def disc_angle(p: Values, c: Context) -> Expr:
     return p.phi_0
 
 

@@ -1,15 +1,8 @@
-"""Null bias that depends on from where the temperature has come."""
-
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Parameters, Values
 from derive.memory import THERMAL_SLIP, response
 
 
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     return {"K0": k["K0"] + p.h * response("cycle_temperature", p, c, THERMAL_SLIP)}
 
 

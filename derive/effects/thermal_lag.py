@@ -1,14 +1,7 @@
-"""Bias and scale factor that follow the rate of the temperature."""
-
-from collections.abc import Mapping
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Parameters, Values
 
 
-def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     warming = c.channel("d_temperature")
     return {"K0": k["K0"] + p.dK0_dTdot * warming, "K1": k["K1"] * (1 + p.dK1_dTdot * warming)}
 

@@ -1,5 +1,3 @@
-"""Misalignment angles proportional to temperature."""
-
 from derive.effect import Effect, EffectParameter
 from derive.following import following, warmth
 

@@ -1,5 +1,3 @@
-"""Scale factor proportional to temperature."""
-
 from derive.effect import Effect, EffectParameter
 from derive.following import following, warmth
 

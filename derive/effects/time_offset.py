@@ -1,8 +1,4 @@
-"""Motion record and output misaligned in time."""
-
-from derive.context import Context
-from derive.effect import Effect, EffectParameter, Values
-from derive.stages import Motion
+from derive.effect import Context, Effect, EffectParameter, Motion, Values
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

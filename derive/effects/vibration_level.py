@@ -1,15 +1,9 @@
-"""Unrecorded vibration whose level is recorded, rectified by the second-order coefficients."""
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, Values, shared_components
+from derive.effect import Context, Effect, Expr, SensedForce, Values, shared_components
 from derive.rectified import rectified
-from derive.stages import SensedForce
 from derive.symbols import COMPONENTS, symmetric
 
 
-def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+def transducer(i: Expr, f: SensedForce, p: Values, c: Context) -> Expr:
     level = c.channel("vibration_rms")
     L = symmetric(p, "L")
     return i + level**2 * rectified(L, c)

@@ -1,15 +1,9 @@
-"""Unrecorded vibration, rectified by the second-order coefficients."""
-
-import sympy as sp
-
-from derive.context import Context
-from derive.effect import Effect, Values, shared_components
+from derive.effect import Context, Effect, Expr, SensedForce, Values, shared_components
 from derive.rectified import rectified
-from derive.stages import SensedForce
 from derive.symbols import COMPONENTS, symmetric
 
 
-def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+def transducer(i: Expr, f: SensedForce, p: Values, c: Context) -> Expr:
     P = symmetric(p, "P")
     return i + rectified(P, c)
 
