@@ -237,7 +237,7 @@ def calibrate(
     default="self",
     show_default=True,
     help="frozen: as `ragg calibrate --save` saved it; self: fitted to these flights; crossed: each block of time fitted to "
-    "all others; smoothed: drifting from block to block; online: sample by sample, the filter of `export --c`.",
+    "all others; smoothed: drifting from block to block; online: sample by sample.",
 )
 @click.option("--frozen", is_flag=True, help="The same as --calibration frozen.")
 @click.option(

@@ -269,11 +269,11 @@ def _filter(
             evidence -= float(np.sum(whole[n:, -1] ** 2)) / 2
         found.append(known if before else R)
         if k < len(hours):
-            R = _walk(R, walk * np.sqrt(max(hours[k], 1e-6)))
+            R = walk_on(R, walk * np.sqrt(max(hours[k], 1e-6)))
     return found, evidence
 
 
-def _walk(R: Array, step: Array) -> Array:
+def walk_on(R: Array, step: Array) -> Array:
     """The R factor after a step of the walk, of these standard deviations (n,): the parameters before it are eliminated."""
     moving = np.flatnonzero(step)
     m, n = len(moving), len(step)

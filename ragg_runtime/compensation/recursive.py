@@ -9,22 +9,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import linalg
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread, split_range
 from ragg_runtime.compensation.channel import Quality
 from ragg_runtime.compensation.compensate import Compensation, find_seeing, leave_out_gradients
+from ragg_runtime.compensation.drift import walk_on
 from ragg_runtime.compensation.saved import Saved, saved_calibration
 from ragg_runtime.estimation.least_squares import marginalise
 from ragg_runtime.estimation.observation import ROWS, Observation, combine_output, observe_flights
 from ragg_runtime.estimation.regressors import (
-    Column,
     LinearisationPoint,
     linearise,
     list_base_columns,
@@ -61,8 +60,8 @@ UNKNOWN_EO = 1e4
 class Tuning:
     """How an online filter works.
 
-    ``noise``: standard deviation of a sample of G_out, V. ``walk``: of the cross channel, Eo/sqrt(s), the inline one
-    twice as much; 0: they are constant. ``forget``: time constant, s, with which parameters forget the flight.
+    ``noise``: density of the cross channel near twice the spin rate, Eo/sqrt(Hz). ``walk``: of the cross channel, Eo/sqrt(s), the
+    inline one twice as much; 0: they are constant. ``forget``: time constant, s, with which parameters forget the flight.
     Infinite: never.
     """
 
@@ -71,134 +70,95 @@ class Tuning:
     forget: float = float("inf")
 
 
-class Followed(NamedTuple):
-    """What a filter had found at some instants: (k,) each; channels in Eo."""
-
-    time: Array
-    inline: Array
-    cross: Array
-    inline_std: Array
-    cross_std: Array
-
-
 class Online:
-    """The filter. Samples are fed in order of time, in parts of any length; NaN and gaps are passed over."""
+    """The filter, from a saved calibration, else from the sheet."""
 
     def __init__(
-        self,
-        model: Model,
-        instrument: Instrument,
-        tuning: Tuning,
-        p: Array | None = None,
-        root: Array | None = None,
-        place: int = 0,
+        self, model: Model, instrument: Instrument, tuning: Tuning, saved: Saved | None = None, place: int = 0
     ) -> None:
-        """Begin at parameters ``p`` (size,) with ``root`` (all, all) of the information in scales, else at the sheet."""
         self.model, self.instrument, self.tuning, self.place = model, instrument, tuning, place
-        nominal = make_vector(model, instrument)
-        self.p = nominal.copy() if p is None else p.copy()
-        every = list_base_columns(model, instrument)
+        nominal, every = make_vector(model, instrument), list_base_columns(model, instrument)
         self.own = list_own_columns([c for c, _ in every], instrument, place)
-        self.columns: tuple[Column, ...] = tuple(every[k][0] for k in self.own)
-        self.index = np.array([every[k][1] for k in self.own], dtype=np.intp)
-        self.scale = np.array([c.scale for c in self.columns])
-        self.to_nominal = (nominal[self.index] - self.p[self.index]) / self.scale
+        self.columns = [every[k][0] for k in self.own]
+        self.p = nominal if saved is None else saved.p
         self.k_ggi = scale_factor(model, self.p, place)
-        n = len(self.columns)
-        self.R = np.zeros((n + 2, n + 3))
-        self.R[:n, :n] = np.eye(n) if root is None else marginalise(root, self.own)
-        self.R[n:, n : n + 2] = np.eye(2) / UNKNOWN_EO
-        self._waiting: list[Array] = []
-        self._before: float | None = None
-        self._waited = self._faded = 0.0
+        n, index = len(self.own), [every[k][1] for k in self.own]
+        scale = np.array([c.scale for c in self.columns])
+        self.about, to_nominal = self.p[index] / scale, (nominal[index] - self.p[index]) / scale
+        known = np.diag([1.0] * n + [1.0 / UNKNOWN_EO] * 2)
+        self.sheet = np.column_stack([known, [*to_nominal, 0.0, 0.0]])
+        self.R = np.column_stack([known, np.zeros(n + 2)])
+        if saved is not None:
+            self.R[:n, :n] = marginalise(saved.information, self.own)
 
-    def feed(self, o: Observation) -> Followed:
-        """Take a flight, or the next part of it (recorded gradients are not looked at); what was found on the way."""
-        rows, known = self._rows(o), []
-        for t, row, valid in zip(o.record.time, rows, o.record.valid, strict=True):
-            dt = 0.0 if self._before is None else float(t) - self._before
-            self._before = float(t)
-            self._waited += dt
-            self._faded += dt
-            stepped = self._waited >= UPDATE
-            if stepped:
-                self._fold()
-                self._walk()
-            if self._faded >= FADE:
-                self._fold()
-                self._fade()
-            if valid and np.isfinite(row).all():
-                self._waiting.append(row)
-            if stepped:
-                self._fold()
-                known.append((float(t), *self.gradient()))
-        self._fold()
-        return Followed(*np.array(known).reshape(-1, 5).T)
+    def feed(self, o: Observation) -> Array:
+        """Take a flight (recorded gradients are not looked at): (6, k), of every instant at which the gradient takes a step of its
+        walk time, inline, cross, their standard deviations, Eo, and quality.
+        """
+        step = self.tuning.walk * np.array([0.0] * len(self.own) + [STEEPER, 1.0])
+        before = walked = faded = float(o.record.time[0])
+        found, flag = [], 0
+        waiting: list[Array] = []
+        for some in split_range(len(o.record.time), ROWS):
+            part = o.part(some)
+            for t, row, valid in zip(part.record.time, self.make_rows(part), part.record.valid, strict=True):
+                stepped = t - walked >= UPDATE
+                if stepped:
+                    self._fold(waiting)
+                    self.R = walk_on(self.R, step * np.sqrt(t - walked))
+                    walked = t
+                if t - faded >= FADE:
+                    self._fold(waiting)
+                    self._fade(t - faded)
+                    faded = t
+                whole = valid and bool(np.isfinite(row).all())
+                if whole:
+                    waiting.append(row)
+                if not whole or t - before > 1.5 / o.record.rate:
+                    flag = int(Quality.BRIDGED)
+                before = t
+                if stepped:
+                    self._fold(waiting)
+                    found.append((t, *self.find_gradient(), flag))
+                    flag = 0
+            self._fold(waiting)
+            progress.step(float(some.stop - some.start))
+        return np.array(found).reshape(-1, 6).T
 
-    def _rows(self, o: Observation) -> Array:
+    def make_rows(self, o: Observation) -> Array:
         """(N, n + 3): every sample as a row of the least squares, over the noise."""
         r = o.record
-        wide = {name: x for name, x in r.wide.items() if name not in GRADIENT}
-        bare = replace(o, record=replace(r, wide=wide))
+        bare = replace(o, record=replace(r, wide={n: x for n, x in r.wide.items() if n not in GRADIENT}))
         columns = combine_output(
             bare, linearise(LinearisationPoint(self.model, self.instrument, self.p, False), bare)
         )
-        columns = columns[[*self.own, len(columns) - 1]]
         zero, one = np.zeros(len(r.time)), np.ones(len(r.time))
-        gradient = np.stack(
-            [put_on_carriers(one, zero, r, self.k_ggi), put_on_carriers(zero, one, r, self.k_ggi)]
-        )
-        return np.asarray(np.concatenate([columns[:-1], gradient, columns[-1:]]).T / self.tuning.noise)
+        gradient = [put_on_carriers(*x, r, self.k_ggi) for x in ((one, zero), (zero, one))]
+        noise = self.tuning.noise / np.sqrt(2.0) * self.k_ggi * np.sqrt(r.rate / 2)
+        return np.asarray(np.vstack([columns[self.own], *gradient, columns[-1:]]).T / noise)
 
-    def _fold(self) -> None:
-        if self._waiting:
-            self.R = _eliminate(np.vstack([self.R, *self._waiting]))[: len(self.R)]
-            self._waiting.clear()
+    def _fold(self, rows: list[Array]) -> None:
+        """Take rows, which are used up."""
+        if rows:
+            self.R = np.asarray(np.linalg.qr(np.vstack([self.R, *rows]), mode="r"))[: len(self.R)]
+            rows.clear()
 
-    def _walk(self) -> None:
-        """The gradient takes a step: g' = g + w, w of variance walk^2 t; w is eliminated."""
-        t, self._waited = self._waited, 0.0
-        if self.tuning.walk == 0.0:
-            return
-        n = len(self.columns)
-        whole = np.zeros((n + 4, n + 5))
-        whole[:2, :2] = np.diag([1.0 / STEEPER, 1.0]) / (self.tuning.walk * np.sqrt(t))
-        whole[2:, :2] = -self.R[:, n : n + 2]
-        whole[2:, 2:] = self.R
-        self.R = _eliminate(whole)[2:, 2:]
-
-    def _fade(self) -> None:
-        t, self._faded = self._faded, 0.0
+    def _fade(self, t: float) -> None:
+        """Forget of what flights said as much as fades within t, s; what the sheet says comes back."""
         kept = float(np.exp(-t / self.tuning.forget))
-        if kept == 1.0:
-            return
-        n = len(self.columns)
-        before = np.diag([1.0] * n + [1.0 / UNKNOWN_EO] * 2)
-        known = np.column_stack([before, np.append(self.to_nominal, np.zeros(2))])
-        whole = np.vstack([np.sqrt(kept) * self.R, np.sqrt(1.0 - kept) * known])
-        self.R = _eliminate(whole)[: n + 2]
+        if kept < 1.0:
+            self.R = np.sqrt(kept) * self.R
+            self._fold([np.sqrt(1.0 - kept) * self.sheet])
 
-    def gradient(self) -> tuple[float, float, float, float]:
-        """inline, cross, and their standard deviations, Eo, marginal over the parameters."""
-        n = len(self.columns)
-        inverse = np.linalg.inv(self.R[n:, n : n + 2])
-        inline, cross = inverse @ self.R[n:, -1]
-        std = np.linalg.norm(inverse, axis=1)
-        return float(inline), float(cross), float(std[0]), float(std[1])
+    def find_gradient(self) -> Array:
+        """(4,) Eo: inline, cross, and their standard deviations, marginal over the parameters."""
+        root = np.linalg.inv(self.R[-2:, -3:-1])
+        return np.concatenate([root @ self.R[-2:, -1], np.linalg.norm(root, axis=1)])
 
-    def parameters(self) -> tuple[Array, Array]:
-        """Parameter vector (size,), SI, and root (n, n) of the information of the fitted ones, in scales."""
-        self._fold()
-        n = len(self.columns)
-        x = linalg.solve_triangular(self.R[:, : n + 2], self.R[:, -1])
-        p = self.p.copy()
-        p[self.index] += x[:n] * self.scale
-        return p, marginalise(self.R[:, : n + 2], range(n))
-
-
-def _eliminate(rows: Array) -> Array:
-    """The R factor of rows."""
-    return np.asarray(np.linalg.qr(rows, mode="r"))
+    def find_parameters(self) -> tuple[Array, Array]:
+        """The fitted parameters (n,) and their covariance (n, n), in scales."""
+        root = np.linalg.inv(self.R[:, :-1])[:-2]
+        return self.about + np.linalg.solve(self.R[:, :-1], self.R[:, -1])[:-2], root @ root.T
 
 
 # --- the command ---------------------------------------------------------------------------------------
@@ -222,14 +182,12 @@ def follow(
     UserError
         If the noise is not known, or a flight holds no output before demodulation.
     """
-    name, model, instrument = m.name, m.model, m.instrument
     saved = None if m.directory.calibration is None else saved_calibration(m)
-    density = _known_noise(name, saved) if noise is None else noise
+    density = _known_noise(m.name, saved) if noise is None else noise
     wander = float(density / np.sqrt(2.0) * 2 * np.pi * CUTOFF) if walk is None else walk
-    tuning = Tuning(noise=density, walk=wander, forget=forget)
     series, entries = [], []
     for k, x in enumerate(flights, 1):
-        columns, said = _follow_flight(model, instrument, leave_out_gradients(x), saved, tuning)
+        columns, said = _follow_flight(m, leave_out_gradients(x), saved, Tuning(density, wander, forget))
         if len(flights) > 1:
             columns["flight"] = np.full(len(columns["time"]), k, dtype=np.int64)
         series.append(columns)
@@ -241,10 +199,10 @@ def follow(
         "walk_Eo_per_rts": wander,
         "follows_within_s": density / (np.sqrt(2.0) * wander) if wander > 0.0 else None,
         "forget_s": forget if np.isfinite(forget) else None,
-        "effects": [e.id for e in model.effects],
+        "effects": [e.id for e in m.model.effects],
         "flights": entries,
     }
-    return Compensation.of(name, result, series)
+    return Compensation.of(m.name, result, series)
 
 
 def _known_noise(name: str, saved: Saved | None) -> float:
@@ -263,15 +221,14 @@ def _known_noise(name: str, saved: Saved | None) -> float:
 
 
 def _follow_flight(
-    model: Model, instrument: Instrument, x: Flight, saved: Saved | None, tuning: Tuning
+    m: Loaded, x: Flight, saved: Saved | None, tuning: Tuning
 ) -> tuple[dict[str, NDArray[Any]], list[dict[str, Any]]]:
-    """The columns of a flight, and the state of each output's filter at its end; ``tuning.noise`` is a density."""
-    endings = column_endings(instrument.layout.output_names)
-    p, root = (make_vector(model, instrument), None) if saved is None else (saved.p, saved.information)
+    """The columns of a flight, and the state of each output's filter at its end."""
+    endings = column_endings(m.instrument.layout.output_names)
     columns: dict[str, NDArray[Any]] = {}
     said = []
-    observations = observe_flights([x], instrument)
-    for o in (observations[k] for k in find_seeing(instrument, observations)):
+    observations = observe_flights([x], m.instrument)
+    for o in (observations[k] for k in find_seeing(m.instrument, observations)):
         if o.recorded.demodulated:
             raise UserError(
                 "the filter needs the output before demodulation",
@@ -279,31 +236,13 @@ def _follow_flight(
                 found="inline and cross",
                 expected=o.output.name,
             )
-        volts = tuning.noise / np.sqrt(2.0) * scale_factor(model, p, o.place) * np.sqrt(o.record.rate / 2)
-        f = Online(model, instrument, replace(tuning, noise=float(volts)), p, root, o.place)
-        parts = []
-        for rows in split_range(len(o.record.time), ROWS):
-            parts.append(f.feed(o.part(rows)))
-            progress.step(float(rows.stop - rows.start))
-        got, end = Followed(*np.hstack(parts)), endings[o.place]
-        columns["time"] = got.time + float(x.time[0])
-        columns |= {f"{n}{end}": v for n, v in zip(("inline", "cross"), got[1:3], strict=True)}
-        columns |= {f"{n}{end}_std": v for n, v in zip(("inline", "cross"), got[3:], strict=True)}
-        columns[f"quality{end}"] = _flag_bridged(got.time, o)
-        said.append({"flight": o.name, "samples": len(o.record.time), "parameters": _parameters_json(f)})
+        f = Online(m.model, m.instrument, tuning, saved, o.place)
+        time, *channels, quality = f.feed(o)
+        columns["time"] = time + float(x.time[0])
+        names = (n.format(endings[o.place]) for n in ("inline{}", "cross{}", "inline{}_std", "cross{}_std"))
+        columns |= dict(zip(names, channels, strict=True))
+        columns[f"quality{endings[o.place]}"] = quality.astype(np.int64)
+        values = list_parameter_values(f.columns, *f.find_parameters())
+        each = [{**q.as_json(), "name": c.name} for q, c in zip(values, f.columns, strict=True)]
+        said.append({"flight": o.name, "samples": len(o.record.time), "parameters": each})
     return columns, said
-
-
-def _flag_bridged(time: Array, o: Observation) -> NDArray[np.int64]:
-    """Of every instant: bridged where one of the samples since the instant before is missing."""
-    step = 1.0 / o.record.rate
-    count = np.searchsorted(o.record.time[o.record.valid], time, "right")
-    due = np.rint(np.diff(time, prepend=o.record.time[0] - step) / step)
-    return np.where(np.diff(count, prepend=0) < due, int(Quality.BRIDGED), 0)
-
-
-def _parameters_json(f: Online) -> list[dict[str, Any]]:
-    p, root = f.parameters()
-    inverse = np.linalg.inv(root)
-    values = list_parameter_values(f.columns, p[f.index] / f.scale, inverse @ inverse.T)
-    return [{**q.as_json(), "name": c.name} for q, c in zip(values, f.columns, strict=True)]

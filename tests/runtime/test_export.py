@@ -16,12 +16,9 @@ from numpy.typing import NDArray
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import split_range
-from ragg_runtime.compensation.export.program import format_csv
-from ragg_runtime.compensation.recursive import UNKNOWN_EO, UPDATE, Online, Tuning
+from ragg_runtime.compensation.recursive import UPDATE, Online, Tuning
 from ragg_runtime.estimation.observation import Observation, observe
 from ragg_runtime.io import read_flight, write_flight
-from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import evaluate_output, make_vector, scale_factor
 from ragg_runtime.model.record import record
@@ -309,43 +306,33 @@ def observed(duration: float = 450.0, gradient: float = 0.0) -> tuple[Scenario, 
     return s, observe(s.simulate({}).flight(), s.sheet)
 
 
-def noise_of(s: Scenario) -> float:
-    """Of a sample of G_out, V: white, of the density of the scenario in the cross channel (see eotvos_noise)."""
-    return float(DENSITY / np.sqrt(2) * s.sheet.scale_factor * 1e-9 * np.sqrt(RATE / 2))
-
-
 def test_with_nothing_forgotten_it_is_the_batch_fit_to_rounding() -> None:
     s, o = observed()
-    f = Online(load.load_packaged(), s.sheet, Tuning(noise=noise_of(s)))
-    rows = f._rows(o)
-    n = len(f.columns)
-    prior = np.zeros((n + 2, n + 3))
-    prior[:n, :n] = np.eye(n)
-    prior[n:, n : n + 2] = np.eye(2) / UNKNOWN_EO
-    batch = np.asarray(np.linalg.qr(np.vstack([prior, rows]), mode="r"))
+    f = Online(load.load_packaged(), s.sheet, Tuning(DENSITY))
+    n, rows = len(f.columns), f.make_rows(o)
+    batch = np.asarray(np.linalg.qr(np.vstack([f.sheet, rows]), mode="r"))
     x = np.linalg.solve(batch[:-1, :-1], batch[:-1, -1])
-    for part in split_range(len(o.record.time), 388):  # in parts of any length
-        f.feed(o.part(part))
-    found = np.linalg.solve(f.R[:, :-1], f.R[:, -1])
+    f.feed(o)
+    values, covariance = f.find_parameters()
     # in standard deviations: eps times a dynamic of 1e11
+    found = np.linalg.solve(f.R[:, :-1], f.R[:, -1])
     assert np.linalg.norm(batch[:-1, :-1] @ (found - x)) < 1e-3
-    p, root = f.parameters()
-    assert np.max(np.abs(p[f.index] - f.p[f.index] - found[:n] * f.scale) / f.scale) < 1e-9
+    assert np.max(np.abs(values - f.about - found[:n])) < 1e-9
     # the information of the parameters is what is left whatever the gradient may be
-    std, whole = (np.linalg.norm(np.linalg.inv(R), axis=1) for R in (root, batch[:-1, :-1]))
-    assert std == pytest.approx(whole[:n], rel=1e-4)
+    whole = np.linalg.norm(np.linalg.inv(batch[:-1, :-1]), axis=1)
+    assert np.sqrt(np.diag(covariance)) == pytest.approx(whole[:n], rel=1e-4)
 
 
 def test_a_drift_is_followed_with_the_stated_lag() -> None:
     """A scale factor that grows steadily: what the filter believes lags by the time constant of its memory."""
     s, o = observed(700.0)
     forget, rate = 100.0, 1e-8  # s; of A1's own, a second
-    model = load.load_packaged()
-    filters = [Online(model, s.sheet, Tuning(noise=noise_of(s), walk=0.3, forget=forget)) for _ in range(2)]
-    rows = filters[0]._rows(o)
+    filters = [Online(load.load_packaged(), s.sheet, Tuning(DENSITY, 0.3, forget)) for _ in range(2)]
+    rows = filters[0].make_rows(o)
     k = next(n for n, q in enumerate(filters[0].columns) if q.label == "K1[1]")
     step = rate * s.sheet.accelerometers["K1"][0] / filters[0].columns[k].scale  # scales a second
-    drift = o.record.time * step * rows[:, k] * noise_of(s)
+    volts = DENSITY / np.sqrt(2) * filters[0].k_ggi * np.sqrt(RATE / 2)  # of a sample's noise
+    drift = o.record.time * step * rows[:, k] * volts
     filters[0].feed(o)
     filters[1].feed(dataclasses.replace(o, series=(o.series[0] + drift,)))
     a, b = (np.linalg.solve(f.R[:, :-1], f.R[:, -1]) for f in filters)
@@ -364,52 +351,14 @@ def test_gaps_and_missing_samples_are_passed_over() -> None:
     valid = r.valid.copy()
     valid[50:55] = valid[1000:2000] = False
     holed = dataclasses.replace(o, record=dataclasses.replace(r, valid=valid), series=(G,))
-    f = Online(load.load_packaged(), s.sheet, Tuning(noise=noise_of(s), walk=0.5))
-    got = f.feed(holed)
-    assert np.isfinite(got.inline).all()
-    inside, ahead = (np.searchsorted(got.time, r.time[i]) for i in (1999, 999))
-    assert got.inline_std[inside] > 3 * got.inline_std[ahead]  # it wanders meanwhile
-    whole = Online(load.load_packaged(), s.sheet, Tuning(noise=noise_of(s), walk=0.5)).feed(o)
-    last = np.abs(got.inline[-1] - whole.inline[-1]) / whole.inline_std[-1]
-    assert last < 3
-
-
-def samples(o: Observation, G: Array) -> str:
-    """A record as CSV in SI units."""
-    r = o.record
-    columns = {"time": r.time, **{n: x for n, x in r.channels.items() if n in SI_UNITS}, "G_out": G}
-    return format_csv({f"{n} [{SI_UNITS[n]}]": x for n, x in columns.items()})
-
-
-@pytest.mark.parametrize(("walk", "gap"), [(0.0, 0.0), (1.0, 1e6)])
-def test_the_c_is_the_same_filter(walk: float, gap: float, base: tuple[Path, Path, Path]) -> None:
-    """Also beyond a gap so long that nothing of what the flight said is left."""
-    model, folder, _ = base
-    m = api.load(model)
-    x = api.read_for_compensation(m, [flights()[1].part(slice(0, 600))])[0]
-    o = observe(x, m.instrument)
-    valid = o.record.valid.copy()
-    valid[150:250] = False
-    time = o.record.time + np.where(np.arange(600) < 400, 0.0, gap)
-    o = dataclasses.replace(o, record=dataclasses.replace(o.record, valid=valid, time=time))
-    c = api.contents(m)
-    sigma, forget = 4 * c.outputs()[0].scale_factor, 60.0
-    done = subprocess.run(
-        [folder / "ragg_online", f"{sigma:.17g}", str(walk), str(forget)],
-        input=samples(o, np.where(valid, o.series[0], np.nan)), capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    lines = done.stdout.splitlines()
-    found = np.array([[float(y) for y in line.split(",")] for line in lines[1:] if line[0] != "#"])
-    assert c.saved is not None
-    f = Online(m.model, m.instrument, Tuning(noise=sigma, walk=walk, forget=forget), c.p, c.saved.information)
-    got = f.feed(o)
-    assert np.array_equal(found[:, 0], got.time)
-    assert np.max(np.abs(found[:, 1] - got.inline) / got.inline_std) < 1e-4
-    assert np.max(np.abs(found[:, 2] - got.cross) / got.cross_std) < 1e-4
-    assert found[:, 3] == pytest.approx(got.inline_std, rel=1e-6)
-    p = np.array([float(line[2:]) for line in lines if line[0] == "#"])
-    assert np.max(np.abs(p - f.parameters()[0])[f.index] / f.scale) < 1e-4
+    (time, inline, _, std, _, quality), whole = (
+        Online(load.load_packaged(), s.sheet, Tuning(DENSITY, 0.5)).feed(x) for x in (holed, o)
+    )
+    assert np.isfinite(inline).all()
+    inside, ahead = (np.searchsorted(time, r.time[i]) for i in (1999, 999))
+    assert std[inside] > 3 * std[ahead]  # it wanders meanwhile
+    assert np.all(quality[ahead + 1 : inside])
+    assert np.abs(inline[-1] - whole[1, -1]) / whole[3, -1] < 3
 
 
 def test_the_command_follows_a_flight_within_its_uncertainty(

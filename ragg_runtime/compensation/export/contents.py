@@ -13,14 +13,13 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import column_endings, gain, sees
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS, is_disc_angle
 from ragg_runtime.model.evaluate import name_values, scale_factor
 from ragg_runtime.model.memory import list_late
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import SPIN, Record, measure_phase
+from ragg_runtime.model.record import SPIN, Record
 from ragg_runtime.signals.derivative import differentiate_rate
 
 Array = NDArray[np.float64]
@@ -50,9 +49,7 @@ class ExportedOutput:
     """An output of the model.
 
     ``formula``: what it is of the voltages. ``members``: its accelerometers, counted from 0, ``signs`` how each counts.
-    ``spin``: place of the disc's rate in the parameter vector. ``scale_factor``: k_ggi, V/Eo. ``phase``, rad: a
-    gradient shows as k_ggi (inline/2 sin(2 phi + phase) - cross cos(2 phi + phase)). ``sees``: whether it sees a
-    gradient, on a disc that turns. ``ending``: of its columns among what is found.
+    ``spin``: place of the disc's rate in the parameter vector. ``scale_factor``: k_ggi, V/Eo.
     """
 
     name: str
@@ -62,9 +59,6 @@ class ExportedOutput:
     angle_column: str
     spin: int
     scale_factor: float
-    phase: float
-    sees: bool
-    ending: str
 
 
 @dataclass(frozen=True)
@@ -86,8 +80,7 @@ class Contents:
 
     def outputs(self) -> list[ExportedOutput]:
         """In the order of model.toml."""
-        layout, values = self.instrument.layout, name_values(self.model.chain, self.p)
-        k1, R = values["k_VI"] * values["K1"], values["radius"] + values["dR"]
+        layout = self.instrument.layout
         return [
             ExportedOutput(
                 name=o.name,
@@ -97,13 +90,8 @@ class Contents:
                 angle_column=layout.discs[o.disc].angle_column,
                 spin=1 if layout.like_paper else layout.size + o.members[0],
                 scale_factor=scale_factor(self.model, self.p, k),
-                phase=measure_phase(gain(o, k1, R)),
-                sees=sees(o, k1, R) and layout.discs[o.disc].spin_frequency != 0.0,
-                ending=ending,
             )
-            for k, (o, ending) in enumerate(
-                zip(layout.outputs, column_endings(layout.output_names), strict=True)
-            )
+            for k, o in enumerate(layout.outputs)
         ]
 
     def parameters(self) -> list[Json]:

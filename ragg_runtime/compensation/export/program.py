@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
@@ -15,11 +15,8 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
 from ragg_runtime.base.names import in_comment
 from ragg_runtime.base.templates import make_environment
-from ragg_runtime.compensation.export.contents import DISC, Contents, ExportedOutput, unit_of
-from ragg_runtime.estimation.least_squares import marginalise
-from ragg_runtime.estimation.regressors import Column, list_base_columns, list_own_columns
+from ragg_runtime.compensation.export.contents import DISC, Contents, unit_of
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT
-from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
 from ragg_runtime.signals.derivative import DEGREES, REACH, WINDOW, weights, wide_weights
 
@@ -27,7 +24,6 @@ TOLERANCE_EO = 1e-6
 """Largest difference of C and Python, Eo, that `make check` allows."""
 
 PROGRAM = ("main.c", "record.c", "record.h", "derivative.h")
-ONLINE = ("online.h", "online.c", "online_main.c")
 
 SPELLINGS: Mapping[str, str] = {
     "m/s^2": "m/s^2|m/s2|m/s**2|m s^-2",
@@ -43,16 +39,13 @@ def make_program(c: Contents) -> dict[str, str]:
     """File name -> text of everything that `make` needs."""
     model = next(n.removesuffix(".c") for n in c.sources if n.endswith(".c"))
     outputs = c.outputs()
-    online = [(k, o) for k, o in enumerate(outputs) if o.sees]
     tolerance = TOLERANCE_EO * min(abs(o.scale_factor) for o in outputs)
     makefile = _packaged("Makefile").replace("@MODEL@", model).replace("@TOLERANCE@", f"{tolerance:.3g}")
     needed = [f"{n} [{unit_of(n)}]" for n in c.columns() if _is_needed(n)]
     return {
-        "Makefile": makefile.replace("@PROGRAMS@", "ragg_model ragg_online" if online else "ragg_model"),
-        "README.txt": _render("README.txt", c=c, outputs=outputs, needed=needed, online=online),
-        **{n: _packaged(n) for n in (*PROGRAM, *(ONLINE if online else ()))},
-        **({"online_values.h": write_online_values(c, online)} if online else {}),
-        **{n: c.model.sources[n] for n in ("chain.c", "chain.h")},
+        "Makefile": makefile,
+        "README.txt": _render("README.txt", c=c, outputs=outputs, needed=needed),
+        **{n: _packaged(n) for n in PROGRAM},
         **c.sources,
         "values.h": write_values(c, model),
     }
@@ -109,45 +102,6 @@ def write_values(c: Contents, name: str) -> str:
         spin_most=HALO,
         degrees=DEGREES,
     )
-
-
-def write_online_values(c: Contents, outputs: Sequence[tuple[int, ExportedOutput]]) -> str:
-    """online_values.h: the point about which the model is linearised, what is fitted, what is known of it."""
-    columns = list_base_columns(c.model, c.instrument)
-    owned = [list_own_columns([q for q, _ in columns], c.instrument, k) for k, _ in outputs]
-    most = max(map(len, owned))
-    return _render(
-        "online_values.h",
-        c=c,
-        outputs=outputs,
-        most=most,
-        spans=[(min(o.members), max(o.members) + 1 - min(o.members)) for _, o in outputs],
-        fitted=[
-            _list_fitted(c, o, [columns[k] for k in own]) for (_, o), own in zip(outputs, owned, strict=True)
-        ],
-        starts=[_find_start(c, own, most) for own in owned],
-    )
-
-
-def _list_fitted(
-    c: Contents, o: ExportedOutput, columns: Sequence[tuple[Column, int]]
-) -> list[tuple[int, int, int, float, float, str]]:
-    """What an output's filter fits: row of the derivatives, member, place, scale, the sheet's value, label."""
-    rows = {name: k for k, (name, _) in enumerate(c.model.chain.ROWS)}
-    nominal = make_vector(c.model, c.instrument)
-    found = []
-    for q, at in columns:
-        j = -1 if q.accelerometer is None else o.members.index(q.accelerometer - 1)
-        found.append((rows[q.name], j, at, q.scale, float((nominal[at] - c.p[at]) / q.scale), q.label))
-    return found
-
-
-def _find_start(c: Contents, own: Sequence[int], size: int) -> NDArray[np.float64]:
-    """Root of what is known of an output's parameters at the beginning, further ones of unit information."""
-    whole = np.eye(size)
-    if c.saved is not None:
-        whole[: len(own), : len(own)] = marginalise(c.saved.information, own)
-    return np.asarray(whole[np.triu_indices(size)])
 
 
 # --- all forms ---------------------------------------------------------------------------------------
