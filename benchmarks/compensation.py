@@ -24,9 +24,8 @@ from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual
 from ragg_runtime.estimation.scores import demodulate_residual
-from ragg_runtime.identification import motion_design, next_motion
-from ragg_runtime.identification.motion_design import Information
-from ragg_runtime.identification.next_motion import Sinusoid
+from ragg_runtime.identification import next_motion
+from ragg_runtime.identification.next_motion import ChannelVariance, Sinusoid
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
@@ -115,27 +114,27 @@ def calibrate_by_runs(seed: int) -> list[tuple[str, float, Array, Array]]:
     flight = sim.flight()
     (clean,) = observe_flights([dataclasses.replace(flight, outputs=dict(sim.outputs_noise_free))], s.sheet)
 
-    def fitted(*flights: Flight) -> Information:
-        return Information.of(
-            fit(load_packaged(), s.sheet, observe_flights(flights, s.sheet), candidates=False)
-        )
+    def fitted(*flights: Flight) -> ChannelVariance:
+        observed = observe_flights(flights, s.sheet)
+        return ChannelVariance.of(fit(load_packaged(), s.sheet, observed, candidates=False))
 
     first, band = fitted(flight), (0.0, next_motion.HIGHEST * s.rate)
-    plan = motion_design.design_calibration(first.f, next_motion.LIMITS, duration=RUN, band=band)
-    tones = motion_design.list_tones(s.sheet.spin_frequency, next_motion.LIMITS, band)
-    even = motion_design.multisine(tones, motion_design.share_evenly(tones))
-    runs = [("none", (), 0.0), ("designed", plan.sinusoids, RUN)]
+    tones = next_motion.list_tones(s.sheet.spin_frequency, next_motion.LIMITS, band)
+    designed = next_motion.find_motion(first.known, first.worth, tones, RUN)
+    even = next_motion.share_evenly(tones)
+    runs: list[tuple[str, Sequence[Sinusoid], float]] = [("none", (), 0.0), ("designed", designed, RUN)]
     runs += [("even", even, times * RUN) for times in (1, 2, 4)]
     found = []
     for name, motion, duration in runs:
         c = fitted(flight, fly_sinusoids(s, motion, duration)) if duration else first
-        at = LinearisationPoint(c.f.model, s.sheet, c.f.calibration.p, False)
+        f = c.known.f
+        at = LinearisationPoint(f.model, s.sheet, f.calibration.p, False)
         left = compute_residual(at, clean)  # of what has no noise: what the parameters are wrong by
         r = clean.record
-        g = demodulate_residual(left[0], r, c.f.k_ggi)
+        g = demodulate_residual(left[0], r, f.k_ggi)
         g = g[np.isfinite(g)]
         error = [np.sqrt(np.mean(x**2)) for x in (g.real, g.imag)]
-        found.append((name, duration, np.array(c.channels(c.inverse(c.root))), np.array(error)))
+        found.append((name, duration, np.array(c.rms(c.known.root)), np.array(error)))
     return found
 
 

@@ -17,25 +17,21 @@ from ragg_runtime.base.files import read_text
 from ragg_runtime.base.templates import make_environment
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe_flights
-from ragg_runtime.identification.motion_design import (
-    Criterion,
-    Design,
-    Information,
-    design,
-    design_calibration,
-    list_tones,
-    multisine,
-    share_evenly,
-)
 from ragg_runtime.identification.next_motion import (
     AXES,
     HIGHEST,
     MASS,
+    Alternatives,
+    ChannelVariance,
+    Sinusoid,
+    find_motion,
     find_unit,
-    list_axes,
+    list_tones,
     move_channels,
+    share_evenly,
 )
-from ragg_runtime.io import Flight, write_flight
+from ragg_runtime.identification.selection import make_problem
+from ragg_runtime.io import Flight
 
 Array = NDArray[np.float64]
 Json = Mapping[str, Any]
@@ -45,9 +41,10 @@ CHANNELS = ("inline_Eo", "cross_Eo")
 
 @dataclass(frozen=True)
 class NextFlight:
-    """A multisine about the mean of the flights; ``body``: what is moved beside the instrument, in words."""
+    """Sinusoids about the mean of the flights, and what they promise; ``body``: what is moved beside the instrument, in words."""
 
-    design: Design
+    sinusoids: Sequence[Sinusoid]
+    promise: Json
     mean: Mapping[str, float]
     duration: float
     rate: float
@@ -58,28 +55,18 @@ class NextFlight:
         time = np.arange(round(self.duration * self.rate)) / self.rate
         channels: dict[str, Array] = {n: np.full(len(time), v) for n, v in self.mean.items()}
         channels |= {f"omegadot_{k}": np.zeros(len(time)) for k in "xyz"}
-        return Flight(
-            time=time,
-            channels=channels | move_channels(channels, self.design.sinusoids, time),
-            outputs={},
-            name="next motion",
-        )
+        channels |= move_channels(channels, self.sinusoids, time)
+        return Flight(time=time, channels=channels, outputs={}, name="next motion")
 
     def as_json(self) -> dict[str, object]:
+        names = ("axis", "frequency_Hz", "amplitude", "phase_rad")
         return {
             "duration_s": self.duration,
             "rate_Hz": self.rate,
             "sinusoids": [
-                {
-                    "axis": axis,
-                    "frequency_Hz": frequency,
-                    "amplitude": amplitude,
-                    "unit": find_unit(axis),
-                    "phase_rad": phase,
-                }
-                for axis, frequency, amplitude, phase in self.design.sinusoids
+                dict(zip(names, s, strict=True)) | {"unit": find_unit(s[0])} for s in self.sinusoids
             ],
-            **self.design.as_json(),
+            **self.promise,
         }
 
 
@@ -92,28 +79,32 @@ def next_flight(
     rate: float | None = None,
     band: tuple[float, float] | None = None,
     purpose: Literal["effects", "calibration"] = "effects",
-    criterion: Criterion = "A",
 ) -> NextFlight:
-    """The multisine that separates the alternatives left, or that calibrates best for motion such as that of the flights.
+    """The motion that separates the alternatives left, or that calibrates best for motion such as that of the flights.
 
-    ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold; ``criterion``: of a calibration.
+    ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold.
     """
-    rate, band = _possible(m, flights, limits, rate, band)
-    body = _name_body(m) if len(list_axes(limits)) > len(AXES) else ""
-    made: Design | None
-    if purpose == "calibration":
-        f = fit(m.model, m.instrument, observe_flights(flights, m.instrument), candidates=False)
-        made = design_calibration(f, limits, duration=duration, band=band, criterion=criterion)
-    else:
-        d = diagnose(m, flights)
-        pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
-        made = design(d.fitted, pairs, limits, duration=duration, band=band)
-    tones = list_tones(m.instrument.spin_frequency, limits, band)
-    made = made or Design(multisine(tones, share_evenly(tones)), ())
+    rate = flights[0].rate if rate is None else rate
+    tones = _list_possible(m, limits, rate, band)
+    body = _name_body(m) if {t[0] for t in tones} & set(MASS) else ""
     mean = {n: float(np.mean([np.mean(x.channels[n][x.valid]) for x in flights])) for n in AXES}
     if body:
         mean |= dict.fromkeys(MASS, 0.0)
-    return NextFlight(made, mean, duration, rate, body)
+    promise: dict[str, Any] = {"separations": []}
+    if purpose == "calibration":
+        f = fit(m.model, m.instrument, observe_flights(flights, m.instrument), candidates=False)
+        wanted = ChannelVariance.of(f)
+        motion = find_motion(wanted.known, wanted.worth, tones, duration)
+        promise |= wanted.promise(motion, duration)
+    else:
+        d = diagnose(m, flights)
+        pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
+        asked = Alternatives.of(d.fitted, make_problem(d.fitted), pairs, both=True)
+        motion = share_evenly(tones)
+        if asked.pairs:
+            motion = find_motion(asked.known, asked.worth, tones, duration)
+            promise = {"separations": [s.as_json() for s in asked.promise(motion, duration)]}
+    return NextFlight(motion, promise, mean, duration, rate, body)
 
 
 def _name_body(m: Loaded) -> str:
@@ -130,17 +121,13 @@ def _name_body(m: Loaded) -> str:
     )
 
 
-def _possible(
-    m: Loaded,
-    flights: Sequence[Flight],
-    limits: Mapping[str, float],
-    rate: float | None,
-    band: tuple[float, float] | None,
-) -> tuple[float, tuple[float, float]]:
-    """Rate and band, Hz, of a motion; UserError if nothing can be made of them."""
-    rate = flights[0].rate if rate is None else rate
+def _list_possible(
+    m: Loaded, limits: Mapping[str, float], rate: float, band: tuple[float, float] | None
+) -> list[Sinusoid]:
+    """The sinusoids that limits, rate and band, Hz, let be; UserError if there are none."""
     band = (0.0, HIGHEST * rate) if band is None else band
-    if not list_tones(m.instrument.spin_frequency, limits, band) or band[1] > HIGHEST * rate:
+    tones = list_tones(m.instrument.spin_frequency, limits, band)
+    if not tones or band[1] > HIGHEST * rate:
         raise UserError(
             "no motion is possible with these frequencies",
             where="--band",
@@ -148,16 +135,16 @@ def _possible(
             expected=f"multiples of the spin frequency among them, none above {HIGHEST * rate:g} Hz",
             remedy="give a wider band or a higher --rate",
         )
-    return rate, band
+    return tones
 
 
 def write_run_sheet(x: NextFlight) -> str:
     """What whoever flies it reads, as Markdown; the plan by which the calibration is certified afterwards."""
     channels = x.motion().channels
-    peaks = {s[0]: float(np.max(np.abs(channels[s[0]] - x.mean[s[0]]))) for s in x.design.sinusoids}
+    peaks = {s[0]: float(np.max(np.abs(channels[s[0]] - x.mean[s[0]]))) for s in x.sinusoids}
     filters = {"unit": find_unit, "degrees": lambda phase: np.degrees(phase) % 360}
     env = make_environment("ragg_runtime", filters)
-    return env.get_template("run_sheet.md.j2").render(flight=x, plan=x.design, peaks=peaks)
+    return env.get_template("run_sheet.md.j2").render(flight=x, plan=x.promise, peaks=peaks)
 
 
 def read_plan(path: Path) -> Json:
@@ -189,8 +176,8 @@ def certify(plan: Json, f: Fitted, calibration: Json) -> dict[str, Any]:
     both = [*calibration["combinations"], *calibration["parameters"]]
     full = [f"{q['effect']}.{q['name']}" if q.get("effect") else q["name"] for q in both]
     found = {(name, q.get("accelerometer")): q for name, q in zip(full, both, strict=True)}
-    reached = Information.of(f)
-    then = dict(zip(CHANNELS, reached.channels(reached.inverse(reached.root)), strict=True))
+    reached = ChannelVariance.of(f)
+    then = dict(zip(CHANNELS, reached.rms(reached.known.root), strict=True))
     now, planned = (plan["channels"][when] for when in ("now", "planned"))
     channels = {n: {"before": now[n], "planned": planned[n], "reached": then[n]} for n in CHANNELS}
     return {
@@ -222,8 +209,3 @@ def _certify_one(x: Json, found: Mapping[Any, Json]) -> dict[str, Any]:
 
 REACHED = 1.1
 """A standard deviation within so much of the planned one counts as reached: noise is known to some per cent."""
-
-
-def write_motion(found: NextFlight, path: Path) -> None:
-    """Write the motion as a flight file without output, which `ragg simulate --motion` flies."""
-    write_flight(found.motion(), path)

@@ -165,8 +165,6 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
 @click.option("--rate", type=click.FloatRange(1.0, 1000.0), default=None, help="Hz (default: the flights').")
 @click.option("--for", "purpose", type=click.Choice(["effects", "calibration"]), default="effects", show_default=True,
               help="Separate effects, or calibrate what the channels need.")  # fmt: skip
-@click.option("--criterion", type=click.Choice(["A", "D"]), default="A", show_default=True,
-              help="calibration: A: least mean variance of the channels; D: least volume.")  # fmt: skip
 @click.option("--run-sheet", type=OutputFile(), metavar="FILE.md",
               help="calibration: instructions for the crew.")  # fmt: skip
 @mapping_option
@@ -183,6 +181,8 @@ def next_motion(
 
     The motion separates effects that these flights cannot distinguish, or calibrates best.
     """
+    from ragg_runtime.io import write_flight
+
     if run_sheet is not None and options["purpose"] != "calibration":
         raise UserError(
             "a run sheet needs --for calibration", where="--run-sheet", expected="--for calibration"
@@ -192,7 +192,7 @@ def next_motion(
     found = next_flight.next_flight(m, records, most, **options)
     if run_sheet is not None:
         write_text(Path(run_sheet), next_flight.write_run_sheet(found))
-    next_flight.write_motion(found, Path(output))
+    write_flight(found.motion(), Path(output))
     said = describe_other.describe_next_motion(found.as_json(), output)
     page = lambda origin: pages.write_info(said, [found.motion()], origin, "The next motion")  # noqa: E731
     conclude(found.as_json(), said, source_of(m, records), page)

@@ -1,4 +1,9 @@
-"""Which motion to fly next: for every pair of alternatives the sinusoid about one axis, within limits, that separates them best.
+"""Which motion to fly next: sinusoids about the axes, within limits, that separate what the flights cannot, or that calibrate best.
+
+A motion adds rows to the R factor of the flights, from which both criteria are read (A. Atkinson, A. Donev, R. Tobias, Optimum
+Experimental Designs, 2007, ch. 10 and 21): how far effects are separated (D_s-optimal, compound over all pairs), or what the
+parameters add to the variance of the compensated channels (A-optimal). Its frequencies are found by exchange, one axis after the
+other (R. Meyer and C. Nachtsheim, Technometrics 37, 1995).
 
 Separation is what of one effect's signal neither the model nor the other effect can imitate, in standard deviations: the root mean
 square over the posterior of the effect's coefficients. Their prior is Gaussian, of one variance that the evidence of the flights
@@ -7,25 +12,33 @@ fixes (D. MacKay, Neural Computation 4, 1992); directions that the flights do no
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import linalg
 
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.least_squares import compute_r_factor, orthonormalise
-from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
+from ragg_runtime.estimation.observation import combine_output
+from ragg_runtime.estimation.regressors import linearise
+from ragg_runtime.estimation.scores import demodulate_residual
+from ragg_runtime.estimation.whitening import Piece
+from ragg_runtime.identification.parameters import find_combinations
 from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.io.record import is_disc_angle
 
 Array = NDArray[np.float64]
+Json = dict[str, Any]
 Sinusoid = tuple[str, float, float, float]
 """Axis, frequency, Hz, amplitude, SI, and phase, rad."""
 
-RATIOS = (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
+RATIOS = (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0)
 """Frequencies that are tried, over the spin frequency."""
 
 HIGHEST = 0.2
@@ -42,14 +55,20 @@ MASS = ("mass_x", "mass_y", "mass_z")
 LIMITS: Mapping[str, float] = {"a": 0.49, "omega": 2.4e-3}
 """Largest amplitudes, m/s^2 and rad/s: 50 mg and 500 deg/h, what a stabilised platform lets through."""
 
+SLOPES = {"a": "jerk", "omega": "alpha", "mass": "speed"}
+"""The limit of the rate of change of each kind of motion, m/s^3, rad/s^2 and m/s; where it is not given there is none."""
+
 SIMULATED = 96.0
 """Length of the motion that is computed while the best one is sought, s."""
 
 DURATION = 600.0
-"""Length of the motion that is proposed, s; information grows with it."""
+"""Length of the motion that a diagnosis proposes, s; information grows with it."""
 
 LONGEST = 1800.0
-"""Length of the motion for which separations are predicted, s; those of a longer one grow with the root of its length."""
+"""Most of a motion that is computed for what it promises, s; of a longer one uncertainties fall with the root of its length."""
+
+SWEEPS = 2
+"""In which frequencies are exchanged; further ones change little."""
 
 AT_REST = 0.25
 """What counts as the spin frequency of a disc that does not turn, Hz: the paper's."""
@@ -68,6 +87,151 @@ STRENGTHS = np.logspace(0.0, 12.0, 49)
 """Prior variances of the coefficients that are tried, over the variance with which flights determine the best direction."""
 
 
+# --- motions -------------------------------------------------------------------------------------------
+
+
+def find_unit(axis: str) -> str:
+    """SI unit of the motion about an axis."""
+    return {"a": "m/s^2", "omega": "rad/s", "mass": "m"}[axis.partition("_")[0]]
+
+
+def find_limit(limits: Mapping[str, float], kind: str, k: str) -> float:
+    """A limit of an axis, x, y or z: its own, or that of all axes."""
+    return limits.get(f"{kind}_{k}", limits.get(kind, np.inf))
+
+
+def list_tones(spin: float, limits: Mapping[str, float], band: tuple[float, float]) -> list[Sinusoid]:
+    """The sinusoids of multiples of the spin frequency within a band, Hz, each as large as the limits let it be."""
+    found = []
+    for axis in (*AXES, *MASS):
+        kind, _, k = axis.partition("_")
+        most, steepest = find_limit(limits, kind, k), find_limit(limits, SLOPES[kind], k)
+        if axis in MASS and most == np.inf:
+            continue
+        for ratio in RATIOS:
+            frequency = ratio * (abs(spin) or AT_REST)
+            if band[0] <= frequency <= band[1]:
+                found.append((axis, frequency, float(min(most, steepest / (2 * np.pi * frequency))), 0.0))
+    return found
+
+
+def share_evenly(tones: Sequence[Sinusoid]) -> list[Sinusoid]:
+    """All sinusoids together, of as large a share of the limits about an axis each, with phases that keep the peaks low.
+
+    References
+    ----------
+    M. Schroeder, IEEE Trans. Inf. Theory 16, 1970.
+    """
+    found: list[Sinusoid] = []
+    for axis in dict.fromkeys(t[0] for t in tones):
+        own = [t for t in tones if t[0] == axis]
+        n = len(own)
+        found += [(axis, f, a / n, -np.pi * k * (k + 1) / n) for k, (_, f, a, _) in enumerate(own)]
+    return found
+
+
+def move_channels(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: Array) -> dict[str, Array]:
+    """The channels (N,) that sinusoids move, and their angular accelerations, added to their means."""
+    found: dict[str, Array] = {}
+    for axis, frequency, amplitude, phase in motion:
+        w = 2 * np.pi * frequency
+        found[axis] = found.get(axis, calm.get(axis, np.zeros(len(time)))) + amplitude * np.sin(
+            w * time + phase
+        )
+        if axis.startswith("omega_"):
+            name = axis.replace("omega_", "omegadot_")
+            found[name] = found.get(name, calm[name]) + amplitude * w * np.cos(w * time + phase)
+    return found
+
+
+def _continue_channels(f: Fitted, samples: int) -> dict[str, Array]:
+    """Channels (samples,) without the motion that is sought: those of the motion at their mean; others, such as a temperature, do
+    what they did from the beginning of the first flight, and then stay.
+    """
+    r = f.prepared[0].observation.record
+    first = r.part(slice(0, min(len(r.time), samples)))
+    found = {}
+    for name, x in first.channels.items():
+        if is_disc_angle(name) or name in MASS:  # a body is where it was put up
+            continue
+        if name.partition("_")[0] in ("a", "omega", "omegadot", "Gamma"):
+            found[name] = np.full(samples, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
+        else:
+            found[name] = np.pad(x, (0, samples - len(x)), mode="edge")
+    return found
+
+
+@dataclass(frozen=True)
+class Knowledge:
+    """What flights know of the base columns and of some ``candidates`` (columns of these), to which a motion adds.
+
+    ``root`` (k, k): the R factor of these columns, the prior in it.
+    """
+
+    f: Fitted
+    candidates: tuple[int, ...]
+    root: Array
+
+    @staticmethod
+    def of(f: Fitted, candidates: Sequence[int] = ()) -> Knowledge:
+        """Of the flights of a fit."""
+        columns = [*range(f.n_base), *(f.n_base + k for k in candidates)]
+        return Knowledge(f, tuple(candidates), np.asarray(np.linalg.qr(f.whole[:, columns], mode="r")))
+
+    def fly(self, motion: Sequence[Sinusoid], duration: float, longest: float = SIMULATED) -> Array:
+        """(k, k): the R factor once so much, s, of a motion has been flown as well; up to ``longest`` s of it are computed."""
+        simulated = min(duration, longest)
+        R = np.sqrt(duration / simulated) * compute_r_factor(self._whiten(motion, simulated))
+        return np.asarray(np.linalg.qr(np.vstack([self.root, R]), mode="r"))
+
+    def _whiten(self, motion: Sequence[Sinusoid], seconds: float) -> Array:
+        """(k, samples): the columns in a motion, whitened with the noise of the first flight.
+
+        Where that flight's gradient was not recorded it will not be known in the motion either, and is projected out.
+        """
+        x = self.f.prepared[0]
+        o, only = x.observation, x.at.only
+        n = int(seconds * o.record.rate)
+        time = np.arange(n) / o.record.rate
+        channels = _continue_channels(self.f, n)
+        channels |= move_channels(channels, motion, time)
+        r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
+        r = replace(r, reading=None if r.reading is None else np.zeros(n))  # the model names it
+        made = replace(o, record=r, series=(np.zeros(n),) * len(o.series), name="motion", thin=None)
+        at = replace(x.at, only=tuple(k if only is None else only[k] for k in self.candidates))
+
+        white = x.noise.whiten(linearise(at, made)[:-1])
+        if not unknown_gradient.is_unknown(o):
+            return white
+        gradient = unknown_gradient.make_splines(time, *r.carriers)[:, None] * o.signs[:, None]
+        Q = orthonormalise(x.noise.whiten(gradient))
+        return white - (white @ Q) @ Q.T
+
+
+@one_thread
+def find_motion(
+    known: Knowledge, worth: Callable[[Array], float], tones: Sequence[Sinusoid], duration: float
+) -> list[Sinusoid]:
+    """One sinusoid about each axis: those whose R factor, once they have been flown for ``duration`` s, is worth most together."""
+
+    def weigh(motion: Sequence[Sinusoid]) -> float:
+        return worth(known.fly(motion, duration))
+
+    of_axis = {axis: [t for t in tones if t[0] == axis] for axis in dict.fromkeys(t[0] for t in tones)}
+    chosen = {axis: max(own, key=lambda t: weigh([t])) for axis, own in of_axis.items()}
+    for _ in range(SWEEPS):
+        before = dict(chosen)
+        for axis, own in of_axis.items():
+            others = [t for other, t in chosen.items() if other != axis]
+            chosen[axis] = max(own, key=lambda t: weigh([*others, t]))
+        if chosen == before:
+            break
+    return [*chosen.values()]
+
+
+# --- the motion that separates effects -----------------------------------------------------------------
+
+
 @dataclass(frozen=True)
 class Separation:
     """By how many standard deviations ``rival`` is ruled out if ``effect`` is present.
@@ -82,46 +246,37 @@ class Separation:
     then: float
     spread: float
 
-    def as_json(self) -> dict[str, object]:
+    def as_json(self) -> Json:
+        """As the file of the command holds it."""
         return asdict(self)
 
 
 @dataclass(frozen=True)
 class Proposal:
-    """A motion that separates two effects: a sinusoid about one axis, of :data:`DURATION`, and its ``ratio`` to the spin's frequency."""
+    """The best sinusoid for two effects: about one axis, of :data:`DURATION`; ``frequency_over_spin`` is its ratio to the spin's."""
 
-    separation: Separation
-    sinusoid: Sinusoid
-    ratio: float
+    effect: str
+    rival: str
+    axis: str
+    frequency_over_spin: float
+    frequency_Hz: float
+    amplitude: float
+    unit: str
+    duration_s: float
+    separation_now: float
+    separation_then: float
+    separation_spread: float
 
-    @property
-    def separates(self) -> bool:
-        """Whether the motion would separate the two."""
-        return self.separation.then > APART
-
-    def as_json(self) -> dict[str, object]:
-        s, (axis, frequency, amplitude, _) = self.separation, self.sinusoid
-        return {
-            "effect": s.effect,
-            "rival": s.rival,
-            "axis": axis,
-            "frequency_over_spin": self.ratio,
-            "frequency_Hz": frequency,
-            "amplitude": amplitude,
-            "unit": find_unit(axis),
-            "duration_s": DURATION,
-            "separation_now": s.now,
-            "separation_then": s.then,
-            "separation_spread": s.spread,
-            "separates": self.separates,
-        }
+    def as_json(self) -> Json:
+        """As the diagnosis states it; ``separates``: whether the motion would."""
+        return asdict(self) | {"separates": self.separation_then > APART}
 
 
 @dataclass(frozen=True)
 class Strength:
     """Posterior of an effect's coefficients along the directions that flights determine.
 
-    ``directions`` (size, d): coefficients of all columns along each; ``mean``, ``std`` (d,): the posterior, independent along them.
+    ``directions`` (columns, d): coefficients along each; ``mean``, ``std`` (d,): the posterior, independent along them.
     """
 
     directions: Array
@@ -140,23 +295,18 @@ class Strength:
         return float(np.sqrt(squares)), float(np.sqrt(variance / squares) / 2)
 
 
-def estimate_strength(
-    f: Fitted, problem: ProjectedProblem, effect: str, beside: Sequence[str] = ()
-) -> Strength:
-    """The coefficients of an effect by the flights, marginal over the model's parameters and the effects ``beside`` it."""
-    own = [f.n_base + n for n in problem.testable(effect)]
-    others = [*range(f.n_base), *list_columns(f, problem, beside)]
-    k = len(others)
-    R = _lower_block(f.whole[:, [*others, *own, -1]], k)
+def estimate_strength(T: Array, own: Sequence[int], others: Sequence[int]) -> Strength:
+    """The coefficients of the columns ``own`` of an R factor T [columns | residual], marginal over the ``others``."""
+    R = _lower_block(T[:, [*others, *own, -1]], len(others))
     U, s, V = np.linalg.svd(R[:, :-1], full_matrices=False)
     if not len(s) or not s[0] > 0.0:
-        return Strength(np.zeros((f.size, 0)), np.zeros(0), np.zeros(0))
+        return Strength(np.zeros((T.shape[1] - 1, 0)), np.zeros(0), np.zeros(0))
     y = U.T @ R[:, -1]
     gain = np.outer(STRENGTHS, (s / s[0]) ** 2)  # information over the prior's, (strengths, directions)
     evidence = np.sum(y**2 * gain / (1 + gain) - np.log1p(gain), axis=1) / 2
     gain = gain[int(np.argmax(evidence))]
     some = gain > DETERMINED
-    directions = np.zeros((f.size, int(np.sum(some))))
+    directions = np.zeros((T.shape[1] - 1, int(np.sum(some))))
     directions[own] = V[some].T
     shrunk = (gain / (1 + gain))[some]
     return Strength(directions, shrunk * y[some] / s[some], np.sqrt(shrunk) / s[some])
@@ -167,24 +317,17 @@ def _lower_block(rows: Array, first: int) -> Array:
     return np.asarray(np.linalg.qr(rows, mode="r"))[first:, first:]
 
 
-def list_columns(f: Fitted, problem: ProjectedProblem, effects: Sequence[str]) -> list[int]:
-    """Places among all columns of those of effects."""
-    return [f.n_base + n for e in effects for n, _ in problem.candidates[e]]
+def list_pairs(groups: Mapping[str, Sequence[str]]) -> list[tuple[str, str]]:
+    """(effect, rival) of groups that the record cannot split."""
+    return [(e, r) for e, alternatives in groups.items() for r in alternatives[:ALTERNATIVES]]
 
 
 @dataclass(frozen=True)
 class Alternatives:
-    """Pairs (effect, rival) that flights do not separate, and what is known of each effect.
+    """Pairs (effect, rival) that flights do not separate, and of each what is known of the effect and which columns may absorb it."""
 
-    ``places``: among all columns of the model's, then the alternatives' and those of effects beside a pair.
-    ``nuisance``: of each pair the columns, counted in ``places``, that may absorb the effect.
-    """
-
-    f: Fitted
-    pairs: tuple[tuple[str, str], ...]
-    places: tuple[int, ...]
-    nuisance: tuple[tuple[int, ...], ...]
-    strengths: Mapping[str, Strength]
+    known: Knowledge
+    pairs: Mapping[tuple[str, str], tuple[Strength, tuple[int, ...]]]
 
     @staticmethod
     def of(
@@ -194,109 +337,41 @@ class Alternatives:
         pairs = [(e, r) for e, r in pairs if e in problem.candidates and r in problem.candidates]
         found = dict.fromkeys(e for e, _ in pairs)
         asked = dict.fromkeys([*pairs, *((r, e) for e, r in pairs if both)])
-        beside = {(e, r): [x for x in found if x not in (e, r)] for e, r in asked}
-        strengths = {}
+        named = {e: [n for n, _ in problem.candidates[e]] for pair in asked for e in pair}
+        needed = sorted({n for own in named.values() for n in own})
+        known = Knowledge.of(f, needed)
+        place = {n: f.n_base + k for k, n in enumerate(needed)}
+        T = f.whole[:, [*range(f.n_base), *(f.n_base + n for n in needed), -1]]
+
+        def nuisance(effects: Sequence[str]) -> list[int]:
+            return [*range(f.n_base), *(place[n] for e in effects for n in named[e])]
+
+        made = {}
         for e, r in asked:
-            if e not in strengths:
-                without = beside[e, r] if e not in found else [x for x in found if x != e]
-                strengths[e] = estimate_strength(f, problem, e, without)
-        of_pair = {(e, r): list_columns(f, problem, [r, *beside[e, r]]) for e, r in asked}
-        places = [*range(f.n_base), *sorted({k for own in of_pair.values() for k in own})]
-        at = {k: n for n, k in enumerate(places)}
-        nuisance = tuple((*range(f.n_base), *(at[k] for k in own)) for own in of_pair.values())
-        return Alternatives(f, tuple(asked), tuple(places), nuisance, strengths)
+            # a rival takes the place of the effect that was found, beside what else was found
+            without = [x for x in found if x != e and (e in found or x != r)]
+            own = [place[n] for n in problem.testable(e)]
+            strength = estimate_strength(T, own, nuisance(without))
+            others = nuisance([r, *(x for x in found if x not in (e, r))])
+            made[e, r] = strength, tuple(others)
+        return Alternatives(known, made)
 
-    @cached_property
-    def root(self) -> Array:
-        """(k, k): R factor of [places | directions] of the flights, the prior in it."""
-        signals = [self.f.whole[:, :-1] @ s.directions for s in self.strengths.values()]
-        return np.asarray(np.linalg.qr(np.hstack([self.f.whole[:, list(self.places)], *signals]), mode="r"))
+    def separations(self, R: Array) -> list[tuple[float, float]]:
+        """Of every pair its separation and the spread, by an R factor of the known columns."""
+        return [
+            strength.separation(_lower_block(np.hstack([R[:, others], R @ strength.directions]), len(others)))
+            for strength, others in self.pairs.values()
+        ]
 
-    def separations(self, *further: Array) -> list[tuple[float, float]]:
-        """Of every pair its separation and the spread, with further rows (n, k) added to the flights."""
-        rows = np.vstack([self.root, *further])
-        own, start = {}, len(self.places)
-        for e, s in self.strengths.items():
-            own[e] = range(start, start + len(s.mean))
-            start += len(s.mean)
-        found = []
-        for (e, _), nuisance in zip(self.pairs, self.nuisance, strict=True):
-            R = _lower_block(rows[:, [*nuisance, *own[e]]], len(nuisance))
-            found.append(self.strengths[e].separation(R))
-        return found
+    def worth(self, R: Array) -> float:
+        """Compound D_s-criterion."""
+        return float(np.sum(np.log1p([then**2 for then, _ in self.separations(R)])))
 
-    @cached_property
-    def needed(self) -> list[int]:
-        """The columns of candidates without which no separation is known."""
-        signals = {
-            int(k) for s in self.strengths.values() for k in np.flatnonzero(np.any(s.directions, axis=1))
-        }
-        return sorted({*self.places[self.f.n_base :], *signals})
-
-    @cached_property
-    def at(self) -> LinearisationPoint:
-        """About what motions are linearised: of the candidates no columns but those that are needed."""
-        at, n = self.f.prepared[0].at, self.f.n_base
-        known = range(len(at.candidates)) if at.only is None else at.only
-        return replace(at, only=tuple(known[k - n] for k in self.needed))
-
-    def rows(
-        self, motion: Sequence[Sinusoid], *, simulated: float = SIMULATED, duration: float = DURATION
-    ) -> Array:
-        """R factor (k, k) of [places | directions] of a motion, ``simulated`` s of it, weighted for ``duration``, whitened."""
-        X = whiten_motion(self.f, self.at, motion, simulated)
-        there = [*range(self.f.n_base), *self.needed]
-        directions = np.hstack([s.directions for s in self.strengths.values()])[there]
-        X = np.concatenate([X[[there.index(k) for k in self.places]], directions.T @ X])
-        return np.asarray(np.sqrt(duration / simulated) * compute_r_factor(X))
-
-    def promises(self, motion: Sequence[Sinusoid], duration: float) -> list[Separation]:
+    def promise(self, motion: Sequence[Sinusoid], duration: float) -> list[Separation]:
         """What so much, s, of a motion promises of every pair."""
-        then = self.separations(self.rows(motion, simulated=min(duration, LONGEST), duration=duration))
-        each = zip(self.pairs, self.separations(), then, strict=True)
-        return [Separation(*pair, now, later, spread) for pair, (now, _), (later, spread) in each]
-
-
-def whiten_motion(f: Fitted, at: LinearisationPoint, motion: Sequence[Sinusoid], simulated: float) -> Array:
-    """(columns, samples): the columns at a point of so many seconds of a motion, whitened with the noise of the first flight.
-
-    Where that flight's gradient was not recorded it will not be known in the motion either, and is projected out.
-    """
-    prepared = f.prepared[0]
-    o, noise = prepared.observation, prepared.noise
-    n = int(simulated * o.record.rate)
-    time = np.arange(n) / o.record.rate
-    channels = _continued(f, n)
-    channels |= move_channels(channels, motion, time)
-    r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
-    r = replace(r, reading=None if r.reading is None else np.zeros(n))  # the model names it
-    series = (np.zeros(n),) * len(o.series)
-    made = replace(o, record=r, series=series, name="motion", thin=None)
-
-    white = noise.whiten(linearise(at, made)[:-1])
-    if not unknown_gradient.is_unknown(o):
-        return white
-    cosine, sine = r.carriers
-    gradient = unknown_gradient.make_splines(time, cosine, sine)[:, None] * o.signs[:, None]
-    Q = orthonormalise(noise.whiten(gradient))
-    return white - (white @ Q) @ Q.T
-
-
-def _continued(f: Fitted, samples: int) -> dict[str, Array]:
-    """Channels (samples,) without the motion that is sought: those of the motion at their mean; others, such as a temperature, do
-    what they did from the beginning of the first flight, and then stay.
-    """
-    r = f.prepared[0].observation.record
-    first = r.part(slice(0, min(len(r.time), samples)))
-    found = {}
-    for name, x in first.channels.items():
-        if is_disc_angle(name) or name in MASS:  # a body is where it was put up
-            continue
-        if name.partition("_")[0] in ("a", "omega", "omegadot", "Gamma"):
-            found[name] = np.full(samples, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
-        else:
-            found[name] = np.pad(x, (0, samples - len(x)), mode="edge")
-    return found
+        now = self.separations(self.known.root)
+        then = self.separations(self.known.fly(motion, duration, LONGEST))
+        return [Separation(*p, before, *s) for p, (before, _), s in zip(self.pairs, now, then, strict=True)]
 
 
 def propose_motions(
@@ -305,62 +380,93 @@ def propose_motions(
     pairs: Sequence[tuple[str, str]],
     limits: Mapping[str, float] = LIMITS,
 ) -> list[Proposal]:
-    """The best motion for every pair (effect, rival), the predicted separation next to today's."""
+    """The best sinusoid for every pair (effect, rival), the predicted separation next to today's."""
     asked = Alternatives.of(f, problem, pairs)
     if not asked.pairs:
         return []
     first = f.prepared[0].observation.record
     spin = abs(first.spin_frequency) or AT_REST
-    ratios = [x for x in RATIOS if x * spin <= HIGHEST * first.rate]
-    motions = [
-        (ratio, (axis, ratio * spin, find_limit(limits, axis), 0.0)) for axis in AXES for ratio in ratios
-    ]
-    still = asked.separations(asked.rows(()))
-    moving = [asked.separations(asked.rows([sinusoid])) for _, sinusoid in motions]
+    tones = list_tones(spin, limits, (0.0, HIGHEST * first.rate))
+    still, *moving = (asked.separations(asked.known.fly(t, DURATION)) for t in ([], *([t] for t in tones)))
     found = []
     for n in range(len(asked.pairs)):
-        best = max(range(len(motions)), key=lambda m: moving[m][n][0], default=None)
+        best = max(range(len(tones)), key=lambda m: moving[m][n][0], default=None)
         if best is not None and moving[best][n][0] > WORTHWHILE * still[n][0]:
-            ratio, sinusoid = motions[best]
-            found.append(Proposal(asked.promises([sinusoid], DURATION)[n], sinusoid, ratio))
+            axis, frequency, amplitude, _ = tones[best]
+            s, unit = asked.promise([tones[best]], DURATION)[n], find_unit(axis)
+            motion = (axis, frequency / spin, frequency, amplitude, unit, DURATION)
+            found.append(Proposal(s.effect, s.rival, *motion, s.now, s.then, s.spread))
     return found
 
 
-def move_channels(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: Array) -> dict[str, Array]:
-    """The channels (N,) that sinusoids move, and their angular accelerations, added to their means."""
-    found: dict[str, Array] = {}
-    for axis, frequency, amplitude, phase in motion:
-        w = 2 * np.pi * frequency
-        found[axis] = found.get(axis, calm.get(axis, np.zeros(len(time)))) + amplitude * np.sin(
-            w * time + phase
-        )
-        if axis.startswith("omega_"):
-            name = axis.replace("omega_", "omegadot_")
-            found[name] = found.get(name, calm[name]) + amplitude * w * np.cos(w * time + phase)
-    return found
+# --- the motion that calibrates ------------------------------------------------------------------------
 
 
-def find_unit(axis: str) -> str:
-    """SI unit of the motion about an axis."""
-    return {"a": "m/s^2", "omega": "rad/s", "mass": "m"}[axis.partition("_")[0]]
+@dataclass(frozen=True)
+class ChannelVariance:
+    """How uncertain parameters show in the compensated channels of the motion of the flights.
+
+    ``shown`` (2, n, n): R factors of the mean product of the changes of inline, and of cross, Eo, by a scale of each parameter.
+    """
+
+    known: Knowledge
+    shown: Array
+
+    @staticmethod
+    def of(f: Fitted) -> ChannelVariance:
+        """Of the first flight of a fit; UserError if it has no channels."""
+        x, n, k_ggi = f.prepared[0], f.n_base, f.scales[0]
+
+        def changes(piece: Piece) -> Array:
+            o = piece.observation
+            volts = combine_output(o, piece.columns[:n])
+            g = np.array([demodulate_residual(e, o.record, k_ggi) for e in volts])
+            return np.stack([g.real, g.imag], axis=1)[:, :, np.isfinite(g[0])]
+
+        found = np.concatenate([*x.each(changes, whitened=False)], axis=2)  # (n, 2, instants)
+        if not found.shape[2]:
+            raise UserError(
+                "no motion can be designed: the flight is too short to demodulate, or its disc does not turn",
+                where=x.observation.name,
+                remedy="give a longer flight of the motion that is to be compensated",
+            )
+        shown = np.stack([compute_r_factor(found[:, k]) for k in range(2)]) / np.sqrt(found.shape[2])
+        return ChannelVariance(Knowledge.of(f), np.asarray(shown))
+
+    def rms(self, R: Array) -> tuple[float, float]:
+        """What the parameters of an R factor add to inline and cross, Eo."""
+        inline, cross = (float(np.linalg.norm(G @ _invert(R))) for G in self.shown)
+        return inline, cross
+
+    def worth(self, R: Array) -> float:
+        """A-criterion."""
+        return -sum(x**2 for x in self.rms(R))
+
+    def promise(self, motion: Sequence[Sinusoid], duration: float) -> Json:
+        """What so much, s, of a motion promises of the channels, of the parameters, and of combinations of accelerometers."""
+        f, R = self.known.f, {"now": self.known.root, "then": self.known.fly(motion, duration, LONGEST)}
+        root, columns = {when: _invert(x) for when, x in R.items()}, f.calibration.columns
+
+        def std(w: Array, when: str = "then") -> float:
+            return float(np.linalg.norm(w @ root[when]))
+
+        def describe(name: str, accelerometer: int | None, unit: str, w: Array) -> Json:
+            known = {"name": name, "accelerometer": accelerometer, "unit": unit}
+            return known | {when: std(w, when) for when in R}
+
+        alone = np.diag([q.scale / q.unit_factor for q in columns])
+        channels = {"now": self.rms(R["now"]), "planned": self.rms(R["then"])}
+        return {
+            "channels": {k: {"inline_Eo": x, "cross_Eo": y} for k, (x, y) in channels.items()},
+            "parameters": [
+                describe(q.name, q.accelerometer, q.unit, w) for q, w in zip(columns, alone, strict=True)
+            ],
+            "combinations": [
+                describe(q.name, None, q.unit, q.weights)
+                for q in find_combinations(f.model, f.calibration.p, columns, std)
+            ],
+        }
 
 
-SLOPES = {"a": "jerk", "omega": "alpha", "mass": "speed"}
-"""The limit of the rate of change of each kind of motion, m/s^3, rad/s^2 and m/s; where it is not given there is none."""
-
-
-def find_limit(limits: Mapping[str, float], axis: str, *, slope: bool = False) -> float:
-    """The largest amplitude about an axis, or of its rate of change: its own, or that of all axes."""
-    kind, _, k = axis.partition("_")
-    name = SLOPES[kind] if slope else kind
-    return limits.get(f"{name}_{k}", limits.get(name, np.inf))
-
-
-def list_axes(limits: Mapping[str, float]) -> tuple[str, ...]:
-    """Those of the platform, and of a body that is moved."""
-    return (*AXES, *(n for n in MASS if find_limit(limits, n) < np.inf))
-
-
-def list_pairs(groups: Mapping[str, Sequence[str]]) -> list[tuple[str, str]]:
-    """(effect, rival) of groups that the record cannot split."""
-    return [(e, r) for e, alternatives in groups.items() for r in alternatives[:ALTERNATIVES]]
+def _invert(R: Array) -> Array:
+    return np.asarray(linalg.solve_triangular(R, np.eye(len(R))))

@@ -16,11 +16,12 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.fitted import Fitted, fit, prepare_evidence
 from ragg_runtime.estimation.observation import Observation, observe_flights
 from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual, group_by_effect
-from ragg_runtime.identification import motion_design, next_motion
+from ragg_runtime.identification import next_motion
+from ragg_runtime.identification.next_motion import Alternatives, ChannelVariance, Sinusoid
 from ragg_runtime.identification.selection import ProjectedProblem, make_problem
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model.model import load_packaged
-from ragg_runtime.next_flight import next_flight, write_motion, write_run_sheet
+from ragg_runtime.next_flight import next_flight, write_run_sheet
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -35,9 +36,7 @@ def fitted(s: Scenario, *flights: Flight) -> Fitted:
     return fit(load_packaged(), s.sheet, observe_flights(flights, s.sheet))
 
 
-def flown(
-    s: Scenario, sinusoids: Sequence[tuple[str, float, float, float]], effects: EffectValues
-) -> Callable[[str], float]:
+def flown(s: Scenario, sinusoids: Sequence[Sinusoid], effects: EffectValues) -> Callable[[str], float]:
     """Fly sinusoids about the mean of a flight; of a rival, how many sigma it is ruled out by both flights.
 
     The mean significance: what the reference's own effect (the output with it less that without, noise left out), whitened with
@@ -88,21 +87,21 @@ def weak() -> tuple[Scenario, Fitted, ProjectedProblem]:
 def test_promises_are_kept_when_the_motion_is_flown(weak: tuple[Scenario, Fitted, ProjectedProblem]) -> None:
     """By the multisine, which separates all pairs in both directions and better than the best sinusoid."""
     s, f, field = weak
-    made = motion_design.design(f, PAIRS, next_motion.LIMITS, duration=300.0, band=(0.0, 1.0))
-    assert made is not None
-    promised = {(p.effect, p.rival): p for p in made.separations}
+    asked = Alternatives.of(f, field, PAIRS, both=True)
+    tones = next_motion.list_tones(0.25, next_motion.LIMITS, (0.0, 1.0))
+    motion = next_motion.find_motion(asked.known, asked.worth, tones, 300.0)
+    promised = {(p.effect, p.rival): p for p in asked.promise(motion, 300.0)}
     assert list(promised) == [*PAIRS, *((r, e) for e, r in PAIRS)]
-    shown = flown(s, made.sinusoids, LAG)
+    shown = flown(s, motion, LAG)
     p = promised["lag", "time-offset"]
     assert shown(p.rival) == pytest.approx(p.then, rel=0.3)
     assert p.then > max(6.0, p.now)
     assert 0.0 < p.spread < p.then
     assert max(shown("arm-stretch"), promised["lag", "arm-stretch"].then) < 3.0, "they act alike"
-    sinusoids = {p.separation.rival: p for p in next_motion.propose_motions(f, field, PAIRS)}
-    best = sinusoids["time-offset"]
-    alone = flown(s, [best.sinusoid], LAG)
-    then = best.separation.then
-    assert alone("time-offset") == pytest.approx(then * np.sqrt(s.duration / next_motion.DURATION), rel=0.3)
+    best = {p.rival: p for p in next_motion.propose_motions(f, field, PAIRS)}["time-offset"]
+    alone = flown(s, [(best.axis, best.frequency_Hz, best.amplitude, 0.0)], LAG)
+    then = best.separation_then * np.sqrt(s.duration / next_motion.DURATION)
+    assert alone("time-offset") == pytest.approx(then, rel=0.3)
 
 
 def test_what_the_flight_does_not_determine_is_not_promised(
@@ -110,15 +109,13 @@ def test_what_the_flight_does_not_determine_is_not_promised(
 ) -> None:
     """Nothing is known of an effect that is not there: a motion to which it could answer promises nothing but noise."""
     _, f, field = weak
-    (p,) = next_motion.Alternatives.of(f, field, [("arm-sag", "lag")]).promises(
-        [("a_z", 0.5, 0.49, 0.0)], 600.0
-    )
+    (p,) = Alternatives.of(f, field, [("arm-sag", "lag")]).promise([("a_z", 0.5, 0.49, 0.0)], 600.0)
     assert p.then < 6.0
     s = scenario(53, duration=300.0, rate=RATE)
     g = fitted(s, s.simulate({"cubic-input": {"K_iii": [4e-8, 0, 0, 0]}}).flight())
     # K_iii of one accelerometer and K_ooo of its neighbour weigh the same force: no motion separates them
     for q in next_motion.propose_motions(g, make_problem(g), [("cubic-input", "cubic-cross")]):
-        assert not q.separates
+        assert not q.as_json()["separates"]
 
 
 def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None:
@@ -127,9 +124,9 @@ def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None
     x = simulate_flight(m.instrument, [], seed=8, duration=120.0)
     limits = api.parse_limits(m, ["a=30mg", "a_z=3mg", "jerk=1m/s^3", "alpha=1deg/s^2"])
     n = next_flight(m, [x], limits, duration=60.0, band=(0.1, 2.0))
-    assert n.design.separations == ()
-    assert {axis for axis, *_ in n.design.sinusoids} == set(next_motion.AXES)
-    write_motion(n, tmp_path / "motion.csv")
+    assert n.promise == {"separations": []}
+    assert {axis for axis, *_ in n.sinusoids} == set(next_motion.AXES)
+    write_flight(n.motion(), tmp_path / "motion.csv")
     motion = simulate_flight(m.instrument, [], motion=tmp_path / "motion.csv")
     assert len(motion) == 60 * 16
     for axis in "xyz":
@@ -149,12 +146,12 @@ def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None
 
 
 def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
-    """Through the commands, and in half the time that an even multisine of the same size takes."""
+    """Through the commands, and in half the time that all sinusoids together take."""
     m = api.new(tmp_path / "m")
     write_flight(simulate_flight(m.instrument, [], seed=3, duration=150.0, rate=RATE), tmp_path / "x.parquet")
     names = ("m", "x.parquet", "motion.csv", "y.parquet", "sheet.md", "plan.json", "c.json")
     files = {n: str(tmp_path / n) for n in names}
-    words = ["--for", "calibration", "--criterion", "D", "--duration", 300]
+    words = ["--for", "calibration", "--duration", 300]
     told = ["--run-sheet", files["sheet.md"], "--json", files["plan.json"]]
     ragg("next-motion", files["m"], files["x.parquet"], "-o", files["motion.csv"], *words, *told)
     plan = json.loads((tmp_path / "plan.json").read_text())
@@ -176,11 +173,10 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     assert all(x["reached"] == pytest.approx(x["planned"], rel=0.1) for x in channels.values())
     assert all(f"| {q['name']} |" in (tmp_path / "sheet.md").read_text() for q in combinations)
     f = fit(m.model, m.instrument, observe_flights(api.read_flights(m, [files["x.parquet"]]), m.instrument))
-    made = motion_design.design_calibration(f, next_motion.LIMITS, duration=600.0, band=(0.0, 3.2))
-    known = motion_design.Information.of(f)
-    tones = motion_design.list_tones(0.25, next_motion.LIMITS, (0.0, 3.2))
-    even = motion_design.multisine(tones, motion_design.share_evenly(tones))
-    assert made.then < known.channels(known.with_motion(even, 600.0, 1200.0))
+    wanted, tones = ChannelVariance.of(f), next_motion.list_tones(0.25, next_motion.LIMITS, (0.0, 3.2))
+    best = next_motion.find_motion(wanted.known, wanted.worth, tones, 600.0)
+    even = next_motion.share_evenly(tones)
+    assert wanted.rms(wanted.known.fly(best, 600.0)) < wanted.rms(wanted.known.fly(even, 1200.0))
 
 
 def test_a_body_that_is_moved_is_weighed_as_planned(tmp_path: Path) -> None:
@@ -201,8 +197,8 @@ def test_a_body_that_is_moved_is_weighed_as_planned(tmp_path: Path) -> None:
     limits = api.parse_limits(m, ["mass_x=0.3m", "speed=0.1m/s"])
     n = next_flight(m, [x], limits, duration=300.0, purpose="calibration")
     assert "near-sphere, x = 1.0 m" in write_run_sheet(n) and "| mass_x |" in write_run_sheet(n)
-    n = replace(n, design=replace(n.design, sinusoids=(("mass_x", 0.05, 0.3, 0.0), ("a_z", 0.1, 0.3, 0.0))))
-    write_motion(n, tmp_path / "motion.csv")
+    n = replace(n, sinusoids=(("mass_x", 0.05, 0.3, 0.0), ("a_z", 0.1, 0.3, 0.0)))
+    write_flight(n.motion(), tmp_path / "motion.csv")
     run = ["near-sphere:M=500,x=1,y=0,z=0"]
     y = simulate_flight(m.instrument, run, seed=3, motion=tmp_path / "motion.csv")
     assert y.channels["mass_x"] == pytest.approx(0.3 * np.sin(0.1 * np.pi * y.time), abs=1e-3)
@@ -211,9 +207,9 @@ def test_a_body_that_is_moved_is_weighed_as_planned(tmp_path: Path) -> None:
         for some in ([x], [x, y])
     )
     (k,) = (k for k, q in enumerate(first.calibration.columns) if q.name == "near-sphere.M")
-    planned = motion_design.Information.of(first).with_motion(n.design.sinusoids, 300.0, 300.0)[k]
+    planned = ChannelVariance.of(first).promise(n.sinusoids, 300.0)["parameters"][k]
     q, c = both.calibration.columns[k], both.calibration
     std = float(np.sqrt(c.covariance[k, k])) * q.scale
-    assert np.linalg.norm(planned) * q.scale == pytest.approx(std, rel=0.2)
+    assert planned["then"] * q.unit_factor == pytest.approx(std, rel=0.2)
     assert std < 50.0
     assert c.p[c.index[k]] == pytest.approx(500.0, abs=4 * std)
