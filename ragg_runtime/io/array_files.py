@@ -7,6 +7,7 @@ nothing that is in another file. What a library raises for a damaged file become
 from __future__ import annotations
 
 import contextlib
+import itertools
 import json
 import math
 import pickletools
@@ -60,7 +61,7 @@ def report_damage(path: Path, kind: str) -> Iterator[None]:
             where=path,
             found=(str(error) or type(error).__name__).splitlines()[0][:200],
             expected=f"a whole {kind} file",
-            remedy="copy it again, or save it once more",
+            remedy="copy it again, or save it once more, compressed by nothing but gzip",
         ) from None
 
 
@@ -101,7 +102,12 @@ def _read_json(text: bytes) -> dict[str, Any]:
 def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any] | None:
     """Numbers, texts or instants of a column of Arrow; ``None`` for anything else. Its own ``to_numpy`` may load pandas."""
     kind = column.type.value_type if pa.types.is_dictionary(column.type) else column.type
-    if pa.types.is_string(kind) or pa.types.is_large_string(kind) or pa.types.is_time(kind):
+    if (
+        pa.types.is_string(kind)
+        or pa.types.is_large_string(kind)
+        or pa.types.is_binary(kind)
+        or pa.types.is_time(kind)
+    ):
         return np.array([write_cell(t) for t in column.to_pylist()], dtype=object)
     if pa.types.is_timestamp(kind) or pa.types.is_date(kind):
         return np.asarray(column.cast(pa.timestamp("ns")).to_numpy(), dtype="datetime64[ns]")
@@ -158,13 +164,13 @@ def read_hdf5(path: Path) -> list[DataTable]:
 
 
 def _find_groups(file: h5py.File) -> Iterator[tuple[str, h5py.Group, dict[str, h5py.Dataset]]]:
-    """Every group once, with its datasets: not MATLAB's own, nor links to elsewhere in this file or to another."""
+    """Every group once, with its datasets: not MATLAB's and PyTables' own, nor links to elsewhere in this file or to another."""
     import h5py
 
     found: list[tuple[str, h5py.Group]] = [("", file)]
     file.visititems(lambda n, x: found.append((f"/{n}", x)) if isinstance(x, h5py.Group) else None)
     for place, group in found:
-        if "/#" not in place:
+        if "/#" not in place and "/_i_" not in place:
             own = {n: group[n] for n in group if isinstance(group.get(n, getlink=True), h5py.HardLink)}
             yield (
                 place,
@@ -200,12 +206,30 @@ def _read_group(
     line = own or place.rsplit("/", 1)[-1]
     units = group.get("units")
     given = {n: read_matlab_text(x) for n, x in units.items()} if hasattr(units, "items") else {}
-    plain = [(n, d[()], read_attributes(d)) for n, d in arrays.items() if d.dtype.names is None]
-    if plain:
-        yield make_table(plain, given, line=line, part=place)
+    plain = {n: d for n, d in arrays.items() if d.dtype.names is None}
+    if "axis1" in plain and "block0_items" in plain:
+        yield _read_blocks(plain, line=line, part=place)
+    elif plain:
+        found = [(n, d[()], read_attributes(d)) for n, d in plain.items()]
+        yield make_table(found, given, line=line, part=place)
     for name, data in arrays.items():
         if data.dtype.names is not None:
-            yield make_table(_read_records(data), index=INDEX, line=line, part=f"{place}/{name}")
+            about = _read_pickled_names(group.attrs.get("info"))
+            index = next((b for a, b in itertools.pairwise(about) if a == "index_name"), INDEX)
+            records = [(index if n == INDEX else n, *x) for n, *x in _read_records(data)]
+            yield make_table(records, index=read_heading(index)[0], line=line, part=f"{place}/{name}")
+
+
+def _read_blocks(arrays: Mapping[str, h5py.Dataset], **about: Any) -> DataTable:
+    """A DataFrame in the fixed format of pandas: its index, and blocks of columns beside their titles."""
+    index = write_cell(arrays["axis1"].attrs.get("name"))
+    index = INDEX if index in ("", "N.") else index  # a pickled None
+    found = []
+    for name in ("axis1", *(n for n in arrays if n.endswith("_values"))):
+        own, titles = read_attributes(arrays[name]), arrays[name.replace("_values", "_items")][()]
+        values = _read_instants(arrays[name][()], own.get("kind", own.get("value_type")))
+        found.append((index if name == "axis1" else name, values, {"columns": titles}))
+    return make_table(found, index=read_heading(index)[0], **about)
 
 
 def _read_records(data: h5py.Dataset) -> list[tuple[str, Any, Attributes]]:
@@ -219,18 +243,20 @@ def _read_records(data: h5py.Dataset) -> list[tuple[str, Any, Attributes]]:
         unit = next((write_cell(folded[n]) for n in keys if n in folded), "")
         unit = write_cell(listed[k]) if len(listed) == len(whole.dtype.names) else unit
         values, kind = whole[name], attributes.get(f"{name}_kind")
-        written = write_cell(kind)
-        if name == INDEX and written.startswith(
-            ("datetime64", "timedelta64")
-        ):  # whole numbers, of ns by default
-            step = written[written.index("[") + 1 : -1] if written.endswith("]") else "ns"
-            values = values.astype(np.int64).view(f"{'M8' if written[0] == 'd' else 'm8'}[{step}]")
         titles = [] if name == INDEX else _read_pickled_names(kind)
-        if values.ndim == 2 and values.shape[1] == len(titles):
-            found += [(n, x, {"units": unit}) for n, x in zip(titles, values.T, strict=True)]
-        else:
-            found.append((titles[0] if len(titles) == 1 else name, values, {"units": unit}))
+        values = _read_instants(values, kind if name == INDEX else attributes.get(f"{name}_dtype"))
+        title = titles[0] if len(titles) == 1 and values.ndim == 1 else name
+        found.append((title, values, {"units": unit, "columns": titles}))
     return found
+
+
+def _read_instants(values: NDArray[Any], kind: object) -> NDArray[Any]:
+    """Whole numbers of which pandas says that they are instants or durations, of ns by default."""
+    written = write_cell(kind)
+    if not written.startswith(("datetime64", "timedelta64")):
+        return values
+    step = written[written.index("[") + 1 : -1] if written.endswith("]") else "ns"
+    return values.astype(np.int64).view(f"{'M8' if written[0] == 'd' else 'm8'}[{step}]")
 
 
 def _read_pickled_names(value: object) -> list[str]:

@@ -20,6 +20,7 @@ from ragg_runtime.io.instants import WAYS, Stamps, are_packed, count_seconds_sin
 from ragg_runtime.io.mapping import Entry, Mapped, Null, TimeEntry
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.tables import (
+    INDEX,
     MISSING,
     DataColumn,
     DataTable,
@@ -126,6 +127,8 @@ def _read_plain(table: DataTable) -> DataTable:
         and (not index.is_number or units(9.8).fits(index.unit or "1", "s"))
     ):
         time = index
+    elif time is None and index is not None and index.name == INDEX:
+        notes.append("skipped, the index: numbers without a unit; if it is the time, name it time [s]")
     found: dict[str, DataColumn] = {}
     for c in table.columns:
         if c is time or c is index:

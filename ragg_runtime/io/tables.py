@@ -12,8 +12,9 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
+from numbers import Number
 from pathlib import Path
-from typing import Any
+from typing import Any, SupportsFloat
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +27,8 @@ from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 MOST_LINES = 20_000
 """Lines of a file, beyond which the column does not name lines: the largest surveys have some thousands."""
 
-WIDEST = 16
-"""Columns of one array that are taken apart: accelerations along three axes, voltages of a few discs."""
+WIDEST = 64
+"""Columns of one array that are taken apart: accelerations along three axes, voltages of a few discs, a whole flight."""
 
 INDEX = "index"
 """Name of a column that labels the rows and has none."""
@@ -173,7 +174,7 @@ def is_unit(text: str) -> bool:
 
 def write_cell(cell: Any) -> str:
     """A cell as text: dates in ISO 8601, 1010 for 1010.0, nothing for ``None`` and NaN."""
-    if cell is None or cell != cell:
+    if str(cell) in ("None", "nan", "NaT", "<NA>"):
         return ""
     if isinstance(cell, bytes):
         cell = cell.decode("utf-8", "replace")
@@ -228,7 +229,8 @@ def make_table(
         said = [
             t for k, v in attributes.items() if k.casefold() in ("units", "unit") and (t := _read_text(v))
         ]
-        said = said or [unit or ("1" if x.dtype == np.bool_ else "")]
+        logical = x.dtype == np.bool_ or attributes.get("MATLAB_class") == b"logical"
+        said = said or [unit or "1" * logical]
         for own, unit, part in _spread(title, values, length, {**lists, **attributes}):
             unit_of = given.get(own) or given.get(name) or given.get(title) or unit or said[0]
             columns.append(DataColumn(own, unit_of.strip(), part))
@@ -268,7 +270,7 @@ def _spread(
     lists = {
         k.casefold(): [write_cell(t) for t in np.ravel(v)]
         for k, v in attributes.items()
-        if np.size(v) == width > 1
+        if np.ndim(v) and np.size(v) == width
     }
     plain = [name if width == 1 else f"{name}_{k}" for k in axes]
     titles = [read_heading(t) for t in next((lists[k] for k in _TITLES if k in lists), plain)]
@@ -296,6 +298,8 @@ def decode_values(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArra
     kind = values.dtype.kind
     if kind in "mM":
         return values.astype(f"{'datetime' if kind == 'M' else 'timedelta'}64[ns]")
+    if kind == "i" and _read_text(attributes.get("_Unsigned")) == "true":  # NetCDF 3 has no unsigned numbers
+        values, kind = values.view(values.dtype.str.replace("i", "u")), "u"
     if kind in "OSUT":
         return _decode_objects(values)
     if kind not in "biuf":
@@ -330,11 +334,10 @@ def decode_values(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArra
 def _decode_objects(values: NDArray[Any]) -> NDArray[Any] | None:
     """Texts; numbers and dates in an array of objects as such."""
     cells = values.tolist()
-    there = [c for c in cells if c is not None and c != "" and c == c]
-    number = (int, float, np.number)
-    if there and all(isinstance(c, number) for c in there):
-        return np.array([float(c) if isinstance(c, number) else np.nan for c in cells])
-    if not all(isinstance(c, (str, bytes, *number)) or hasattr(c, "isoformat") for c in there):
+    there = [c for c in cells if write_cell(c)]
+    if there and all(isinstance(c, Number) for c in there):
+        return np.array([float(c) if isinstance(c, SupportsFloat) else np.nan for c in cells])
+    if not all(isinstance(c, str | bytes | Number) or hasattr(c, "isoformat") for c in there):
         return None
     return np.array([write_cell(c) for c in cells], dtype=object)
 
@@ -405,7 +408,8 @@ def _read_series(series: Any) -> tuple[Any, Attributes]:
         series = series.dt.tz_convert("UTC").dt.tz_localize(None)
     if str(dtype) == "category":
         series = series.astype(object)
-    numeric = getattr(dtype, "kind", "O") in "iufb"
+    series = series.infer_objects()
+    numeric = getattr(series.dtype, "kind", "O") in "iufb"
     values = series.to_numpy(dtype=np.float64, na_value=np.nan) if numeric else series.to_numpy()
     return values if values.dtype.kind != "T" else values.astype(object), series.attrs
 
@@ -528,26 +532,43 @@ def join_groups(tables: Sequence[DataTable]) -> list[DataTable]:
             or around == place
             or len(outer) != len(t)
             or {*outer.names} & {*t.names}
-            or {*SPECIFIC_FORCE, *ANGULAR_RATE} <= {*outer.names}
+            or ({*SPECIFIC_FORCE, *ANGULAR_RATE} <= {*outer.names} and "[" not in place)
         ):
             found[place] = t
             continue
-        stem = place.removeprefix(around).strip("/").replace("/", "_")
-        own = (replace(c, name=f"{stem}_{c.name}") for c in t.columns)
+        stem = place.removeprefix(around).strip("/")
+        own = (_name_inside(stem, c, outer.names) for c in t.columns)
         found[around] = replace(outer, columns=(*outer.columns, *own), notes=(*outer.notes, *t.notes))
     return _join_channels(list(found.values()))
 
 
+def _name_inside(stem: str, c: DataColumn, taken: Sequence[str]) -> DataColumn:
+    """A column of a group that belongs to a record: behind the group's name, unless its own is the contract's and free. Of a name such as
+    ``omega_x [deg/h]`` HDF5 makes a group.
+    """
+    if c.name in SI_UNITS and c.name not in taken:
+        return c
+    if "[" not in stem:
+        return replace(c, name=f"{stem}_{c.name}".replace("/", "_"))
+    name, unit = read_heading(f"{stem}/{c.name}")
+    return replace(c, name=name, unit=unit)
+
+
 def _join_channels(tables: list[DataTable]) -> list[DataTable]:
-    """Tables of a time and one channel, all of the same instants, as one: each is called as its group."""
-    pairs = [sorted(t.columns, key=lambda c: c.name.casefold() not in ("time", "t")) for t in tables]
-    if len(tables) < 2 or any(len(p) != 2 or p[0].name.casefold() not in ("time", "t") for p in pairs):
+    """Tables of the same instants, without other names in common, as one: a single channel is called as its group."""
+    times = [next((c for c in t.columns if c.name.casefold() in ("time", "t")), None) for t in tables]
+    first = times[0] if len(times) > 1 else None
+    if first is None or not all(c is not None and np.array_equal(c.values, first.values) for c in times):
         return tables
-    time = pairs[0][0]
-    if not all(np.array_equal(p[0].values, time.values) for p in pairs):
+    own = [
+        replace(c, name=t.part.rpartition("/")[2]) if len(t.columns) == 2 and c.name not in SI_UNITS else c
+        for t, time in zip(tables, times, strict=True)
+        for c in t.columns
+        if c is not time
+    ]
+    if len({c.name for c in own}) < len(own):
         return tables
-    own = (replace(p[1], name=t.part.rpartition("/")[2]) for p, t in zip(pairs, tables, strict=True))
-    return [replace(tables[0], columns=(replace(time, name="time"), *own), line=None, part="")]
+    return [replace(tables[0], columns=(replace(first, name="time"), *own), line=None, part="")]
 
 
 # --- memory --------------------------------------------------------------------------------------------

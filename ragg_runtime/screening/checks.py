@@ -133,10 +133,10 @@ def _still(flight: Flight) -> list[Flag]:
 
 
 def _overflown(flight: Flight) -> list[Flag]:
-    """Motion columns that leap from one end of their range to the other and move on there, as whole numbers do that overflow."""
-    found = []
-    for name in (n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE) if n in flight.channels):
-        x, valid = flight.channels[name], flight.valid
+    """Columns that leap from one end of their range to the other and move on there, as whole numbers do that overflow."""
+    found, columns = [], {**flight.channels, **flight.outputs}
+    for name in (n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE, *flight.outputs) if n in columns):
+        x, valid = columns[name], flight.valid
         pairs = valid[1:] & valid[:-1]  # over a gap it moves on unseen
         steps = np.where(pairs, np.diff(x), 0.0)
         usual, span = (

@@ -145,7 +145,7 @@ def test_parquet_of_other_tools(tmp_path: Path) -> None:
 
     save(
         a_x=pa.array([None if k == 4 else float(k) for k in range(50)]),
-        a_y=pa.array(counts.astype(np.float32)),
+        a_y=pa.array([str(k).encode() for k in counts]),
         tags=pa.array([["a", "b"]] * 50),
         switch=pa.array([True] * 50),
     )
@@ -177,6 +177,7 @@ def test_netcdf_of_other_tools(tmp_path: Path, classic: bool) -> None:
     variables |= {
         "a_x": ("t", packed, about),
         "crs": ((), np.int32(4326), {}),
+        "count": ("t", np.full(50, -2, np.int16), {"units": "1", "_Unsigned": "true"}),
         "line": ("k", np.arange(2.0), {}),
     }
 
@@ -199,7 +200,7 @@ def test_netcdf_of_other_tools(tmp_path: Path, classic: bool) -> None:
 
     save()
     found = read_flight(path, G0)
-    assert found.instants
+    assert found.instants and found.channels["count"][0] == 65534
     assert found.time == pytest.approx(x.time - x.time[0])
     there = np.setdiff1d(np.arange(50), [3, 11] if classic else [3, 9, 11])
     assert found.channels["a_x"][there[:3]] == pytest.approx(G0 * (0.5 * packed[there[:3]] + 1.0))
@@ -239,10 +240,20 @@ def test_tables_of_records_in_hdf5(tmp_path: Path) -> None:
         file["df/table"] = block
         file["df/table"].attrs["values_block_0_kind"] = np.bytes_(pickled)
         file["df/table"].attrs["index_kind"] = np.bytes_("timedelta64")
+        file["df/_i_table/index/sorted"] = np.arange(60)  # of PyTables itself
+    with h5py.File(tmp_path / "d.h5", "w") as file:  # pandas, fixed format
+        file["df/axis0"] = file["df/block0_items"] = np.array(titles, "S")
+        file["df/axis1"], file["df/block0_values"] = block["index"], block["values_block_0"]
+        file["df/axis1"].attrs.update({"kind": np.bytes_("timedelta64[ns]"), "name": np.bytes_("N.")})
+        file["df/block1_items"], file["df/block1_values"] = np.array(["n [1]"], "S"), np.ones((60, 1))
+    with h5py.File(tmp_path / "e.h5", "w") as file:  # HDF5 makes groups of "omega_x [deg/h]"
+        file["time [s]"] = x.time
+        for title, v in zip(titles, values, strict=True):
+            file[title] = v
     with h5py.File(tmp_path / "c.h5", "w") as file:
         file["all"] = np.stack([x.time, *values], axis=1)
         file["all"].attrs.update({"columns": ["time", *names], "units": ["s", *units]})
-    for name, instants in (("a", False), ("b", False), ("c", False)):
+    for name, instants in (("a", False), ("b", False), ("c", False), ("d", False), ("e", False)):
         found = read_flight(tmp_path / f"{name}.h5", G0)
         assert found.instants == instants
         assert np.diff(found.time) == pytest.approx(np.diff(x.time), abs=1e-9)
@@ -279,6 +290,10 @@ def test_structures_in_a_record_belong_to_it(tmp_path: Path) -> None:
     log["imu"] = {"gyro": {k: x.channels[f"omega_{k}"] for k in "xyz"}, "late": {"t": x.time}}
     savemat(tmp_path / "x.mat", {"log": log})
     first, *rest = files.read_tables(tmp_path / "x.mat")
+    both = {"imu": {"time": x.time, **x.channels}, "ggi": {"time": x.time, **x.outputs}}
+    savemat(tmp_path / "two.mat", both)
+    (table,) = files.read_tables(tmp_path / "two.mat")
+    assert table.names == ("time", *x.channels, *x.outputs)
     axes = [f"{n}_{k}" for n in ("acc", "imu_gyro") for k in "xyz"]
     assert first.names == ("t", *axes) and [t.part for t in rest] == ["log/set", "log/imu/late"]
 

@@ -253,8 +253,12 @@ def test_short_drop_outs_beside_a_long_one_are_left_out_as_well() -> None:
 def test_numbers_that_overflow_are_said() -> None:
     full = 0.9 * np.max(SMOOTH)
     wrapped = (SMOOTH + full) % (2 * full) - full
-    (flag,) = _overflown(Flight(TIME, {"a_x": wrapped}, {}))
-    assert flag.open and flag.columns == ("a_x",) and "did the numbers of a converter overflow" in flag.reason
+    for name, x in (
+        ("a_x", Flight(TIME, {"a_x": wrapped}, {})),
+        ("G_out", Flight(TIME, {}, {"G_out": wrapped})),
+    ):
+        (flag,) = _overflown(x)
+        assert flag.open and flag.columns == (name,) and "converter overflow" in flag.reason
     spiked = np.where(np.arange(N) % 1000 == 7, -9.0, SMOOTH)
     for x in (SMOOTH, spiked, NOISE, np.sign(np.sin(TIME / 7)) + 0.01 * NOISE):
         assert _overflown(Flight(TIME, {"a_x": x}, {})) == []

@@ -6,6 +6,7 @@ import gzip
 import os
 import sys
 from datetime import datetime, timedelta
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -336,6 +337,9 @@ def test_flights_in_memory() -> None:
         (dated.tz_localize("UTC").rename_axis("time"), True),
         (two, False),
         (pd.DataFrame(plain).astype("Float64"), False),
+        (pd.DataFrame(plain).map(lambda v: Decimal(repr(v))), False),
+        (pd.DataFrame(plain).map(lambda v: repr(v).replace(".", ",")).astype("category"), False),
+        (pd.DataFrame(plain).assign(covariance=[np.eye(3)] * N, **{"n [1]": [pd.NA, *range(N - 1)]}), False),
         (pd.DataFrame(plain).assign(line="A").set_index(["line", HEADER[0]]), False),
         (attributes, True),
         (seconds, False),
