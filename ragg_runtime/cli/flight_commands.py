@@ -340,10 +340,10 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
 def survey(model_dir: Path, flights: Sequence[Path], table_file: str | None, **options: Any) -> None:
     """Diagnose many flights, one by one."""
     from ragg_runtime.survey.result import make_parquet
-    from ragg_runtime.survey.run import show_progress
+    from ragg_runtime.survey.run import tell_progress
 
     m = load(model_dir)
-    s = api.survey(m, flights, progress=show_progress(), **options)
+    s = api.survey(m, flights, progress=tell_progress, **options)
     source = api.source_of_survey(m, s, command_line())
     if table_file is not None:
         write_bytes(Path(table_file), make_parquet(s.records))

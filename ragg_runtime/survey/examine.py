@@ -5,31 +5,27 @@ A job is text and numbers only, so that it can be sent to any process; the recor
 
 from __future__ import annotations
 
-import platform
+import json
 import socket
 import traceback
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import lru_cache, partial
-from importlib import metadata
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.provenance import digest_sources
+from ragg_runtime.base.provenance import digest_sources, versions
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe_flights
-from ragg_runtime.estimation.scores import finite
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.diagnose import diagnose_fitted
 from ragg_runtime.identification.parameters import SEEN, Estimates
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.files import read_recordings
@@ -37,8 +33,6 @@ from ragg_runtime.io.mapping import Mapped, parse_mapping
 from ragg_runtime.io.record import content
 from ragg_runtime.model import derive
 from ragg_runtime.screening import screen
-
-Array = NDArray[np.float64]
 
 Record = dict[str, Any]
 """What a survey keeps of a flight: JSON."""
@@ -53,6 +47,12 @@ BETWEEN = "::"
 """Between the file and the line of a flight."""
 
 
+def fingerprint() -> tuple[tuple[str, str], ...]:
+    """(name, version) of everything that figures depend on, with a digest of the program's own text."""
+    text = digest_sources("derive", "generated", "ragg_runtime")
+    return (("ragg", text[:16]), *((n, versions()[n]) for n in ("python", "numpy", "scipy", "sympy")))
+
+
 @dataclass(frozen=True)
 class Job:
     """The model that flights are compared with: model.toml, where it is, and the mapping (text, place, whether it is the model's
@@ -61,30 +61,15 @@ class Job:
 
     text: str
     path: str
-    mapping: tuple[str, str, bool] | None
-    program: tuple[tuple[str, str], ...]
+    mapping: tuple[str, str, bool] | None = None
     cluster: bool = False
+    program: tuple[tuple[str, str], ...] = field(default_factory=fingerprint)
 
     def mapped(self) -> Mapped | None:
         if self.mapping is None:
             return None
         text, path, kept = self.mapping
         return replace(parse_mapping(text, Path(path)), kept=kept)
-
-
-def make_job(
-    text: str, path: Path, *, cluster: bool = False, mapping: tuple[str, str, bool] | None = None
-) -> Job:
-    """The job of this program."""
-    return Job(str(text), str(path.resolve()), mapping, fingerprint(), cluster)
-
-
-def fingerprint() -> tuple[tuple[str, str], ...]:
-    """(name, version) of everything that figures depend on, with a digest of the program's own text."""
-    python = ".".join(platform.python_version_tuple()[:2])
-    versions = [(n, metadata.version(n)) for n in ("numpy", "scipy", "sympy")]
-    text = digest_sources("derive", "generated", "ragg_runtime")
-    return (("python", python), ("ragg", text[:16]), *versions)
 
 
 def expand_lines(job: Job, files: Sequence[str]) -> list[str]:
@@ -134,16 +119,11 @@ def _diagnose_file(job: Job, file: str) -> Record:
             expected="a file system that all workers share, under the same path",
             remedy="put the flights where every worker can read them, or survey without --scheduler",
         )
-    instrument = _parse(job.text, job.path)
+    instrument = parse_instrument(job.text, Path(job.path))
     model = derive.load_model(instrument)
     read = read_flight(path, instrument.g0, accelerometers=instrument.layout, mapping=job.mapped(), line=line)
     flight = screen(model, instrument, read)
     return _make_record(fit(model, instrument, observe_flights([flight], instrument)), flight)
-
-
-@lru_cache(maxsize=8)
-def _parse(text: str, path: str) -> Instrument:
-    return parse_instrument(text, Path(path))
 
 
 def _require_same_program(job: Job) -> None:
@@ -164,10 +144,6 @@ def _make_record(f: Fitted, flight: Flight) -> Record:
     extend = partial(derive.with_effects, f.instrument)
     d = heed_flags(diagnose_fitted(f, [flight], extend), [flight])
     held = held_out.held_out.as_json()
-    ranking = [
-        {"effect": r.effect, "log10_p": finite(r.log_p / np.log(10.0)), "delta_bic": finite(r.delta_bic)}
-        for r in d.ranking[:RANKED]
-    ]
     record: Record = {
         "sha256": flight.digest,
         CONTENT: content(flight),
@@ -180,7 +156,10 @@ def _make_record(f: Fitted, flight: Flight) -> Record:
         "indistinguishable": {
             r.effect: list(r.indistinguishable_from) for r in d.ranking if r.effect in d.found
         },
-        "ranking": ranking,
+        "ranking": [
+            {"effect": r.effect, "log10_p": r.log_p / np.log(10.0), "delta_bic": r.delta_bic}
+            for r in d.ranking[:RANKED]
+        ],
         "not_testable": [n.effect for n in d.not_testable],
         "error": {
             "nominal": nominal.whole.as_json(),
@@ -194,8 +173,9 @@ def _make_record(f: Fitted, flight: Flight) -> Record:
     }
     if d.remains:
         record["terms"] = d.terms()
-    # floats of Python print and read back exactly: the same figures whichever way a record takes
-    return {key: _plain(value) for key, value in record.items()}
+    # numbers print and read back exactly: the same figures whichever way a record takes; what is no number is null
+    text = json.dumps(record, default=lambda x: x.item())
+    return dict(json.loads(text, parse_constant=lambda _: None))
 
 
 def _after_holdout(d: Diagnosis, held: Mapping[str, Any]) -> Mapping[str, Any] | None:
@@ -217,16 +197,3 @@ def _visible_parameters(d: Diagnosis) -> list[Record]:
     if d.final is None:
         found += [(r.effect, p) for r in d.ranking if r.effect in d.found for p in r.parameters]
     return [p.as_json() | {"name": f"{e}.{p.name}" if e else p.name} for e, p in found]
-
-
-def _plain(x: Any) -> Any:
-    """The same in types of JSON alone."""
-    if isinstance(x, Mapping):
-        return {str(k): _plain(v) for k, v in x.items()}
-    if isinstance(x, (list, tuple)):
-        return [_plain(v) for v in x]
-    if isinstance(x, (bool, str)) or x is None:
-        return x
-    if isinstance(x, (int, np.integer)):
-        return int(x)
-    return finite(x)

@@ -230,36 +230,20 @@ def _find_trend(seen: Mapping[int, tuple[float, float]], count: int) -> Record:
 
 # --- the table -----------------------------------------------------------------------------------------
 
-_TEXT, _NUMBER, _COUNT = pa.string(), pa.float64(), pa.int64()
-
-
-def _lists_of(**fields: pa.DataType) -> pa.DataType:
-    return pa.list_(pa.struct(fields))
-
-
-_SCHEMA = pa.schema(
-    dict.fromkeys(("flight", "file", "sha256", "verdict", "error"), _TEXT)
-    | {"samples": _COUNT, "duration_s": _NUMBER, "rate_Hz": _NUMBER, "found": pa.list_(_TEXT)}
-    | dict.fromkeys((f"{n}_Eo" for n in (*ERRORS, "noise_floor")), _NUMBER)
-    | {
-        "ranking": _lists_of(effect=_TEXT, log10_p=_NUMBER, delta_bic=_NUMBER),
-        "parameters": _lists_of(name=_TEXT, accelerometer=_COUNT, unit=_TEXT, value=_NUMBER, std=_NUMBER),
-        "terms": _lists_of(harmonic=_TEXT, term=_TEXT),
-        "notes": pa.list_(_TEXT),
-    }
-)
+KEPT = ("flight", "file", "sha256", "verdict", "error", "samples", "duration_s", "rate_Hz", "found", "ranking",
+        "parameters", "terms", "notes")  # fmt: skip
+"""Of a record, as they are, columns of the table."""
 
 
 def make_parquet(records: Sequence[Record]) -> bytes:
     """The table as the bytes of a Parquet file; the same records give the same bytes."""
     stream = io.BytesIO()
-    pq.write_table(pa.Table.from_pylist([*map(_row, records)], schema=_SCHEMA), stream, compression="zstd")
+    pq.write_table(pa.Table.from_pylist([*map(_row, records)]), stream, compression="zstd")
     return stream.getvalue()
 
 
 def _row(r: Record) -> Record:
-    row = {name: r.get(name) for name in _SCHEMA.names}
-    if "verdict" not in r:
-        return row | {"error": r["error"]["message"]}
-    scored = {f"{n}_Eo": r["error"][n]["rms_Eo"] if r["error"][n] else None for n in ERRORS}
-    return row | scored | {"error": None, "noise_floor_Eo": r["noise_floor"]["rms_Eo"]}
+    done = "verdict" in r
+    errors = {**r["error"], "noise_floor": r["noise_floor"]} if done else {}
+    scored = {f"{n}_Eo": (errors.get(n) or {}).get("rms_Eo") for n in (*ERRORS, "noise_floor")}
+    return {n: r.get(n) for n in KEPT} | {"error": None if done else r["error"]["message"]} | scored

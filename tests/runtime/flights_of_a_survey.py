@@ -38,7 +38,7 @@ def without_effect(paths: list[Path]) -> list[Path]:
     return [p for p in paths if p.name not in WITH_EFFECT]
 
 
-def in_process(job: Job, files: Sequence[str], jobs: int) -> Iterator[tuple[str, Record]]:
+def in_process(job: Job, files: Sequence[str], *_: object) -> Iterator[tuple[str, Record]]:
     """Stands in for a pool, whose processes would import everything anew: for what is not about the pool."""
     return ((f, examine(job, f)) for f in files)
 

@@ -228,7 +228,7 @@ def test_other_records_are_others(short_flight: Flight) -> None:
 
 
 def test_a_survey_counts_one_record_once(loaded, short_flight, tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(run, "examine_here", in_process)
+    monkeypatch.setattr(run, "examine_all", in_process)
     write_flight(short_flight, tmp_path / "a.parquet")
     write_flight(short_flight, tmp_path / "b.csv")
     kept = tmp_path / "kept.jsonl"

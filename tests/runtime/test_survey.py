@@ -13,6 +13,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -28,9 +29,9 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.survey import run
-from ragg_runtime.survey.examine import Job, Record, examine, expand_lines, make_job, split_line
+from ragg_runtime.survey.examine import Job, Record, examine, expand_lines, split_line
 from ragg_runtime.survey.result import Survey, make_parquet
-from ragg_runtime.survey.run import digest_file, name_flights, order_files
+from ragg_runtime.survey.run import digest_file, name_flights
 from ragg_runtime.wording.sections import render_text
 from tests.runtime.foreign_files import write
 
@@ -46,7 +47,7 @@ def flights(tmp_path_factory: pytest.TempPathFactory) -> Flights:
 def whole(flights: Flights) -> Survey:
     """What this process says; that a pool says the same is seen where one is cut short."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(run, "examine_here", in_process)
+        patch.setattr(run, "examine_all", in_process)
         return api.survey(api.load(flights[0]), flights[1])
 
 
@@ -57,7 +58,7 @@ def of_some(whole: Survey, files: list[Path]) -> Survey:
 
 @pytest.fixture
 def here(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(run, "examine_here", in_process)
+    monkeypatch.setattr(run, "examine_all", in_process)
 
 
 def started(*arguments: object, **options: Any) -> subprocess.Popen[str]:
@@ -100,7 +101,7 @@ def test_a_flight_that_kills_every_worker_is_given_up(flights, monkeypatch) -> N
     # ours imports the program, which takes a second each time
     monkeypatch.setattr(run, "_begin", dying.begin)
     files = [str(p) for p in flights[1]]
-    found = dict(run.examine_here(None, files, 1))  # type: ignore[arg-type]
+    found = dict(run.examine_all(None, files, partial(run.open_processes, 1)))  # type: ignore[arg-type]
     assert sorted(found) == sorted(files)
     failed = {Path(f).name: r["error"] for f, r in found.items() if "error" in r}
     assert sorted(failed) == ["flight-1.parquet", "flight-2.parquet"]
@@ -164,20 +165,18 @@ def test_results_of_something_else_are_refused(flights: Flights, whole: Survey, 
     kept.write_text(json.dumps(head) + "\n")
     with pytest.raises(UserError, match=r"another model\.toml"):
         api.survey(m, flights[1], jobs=1, resume=kept)
-    with pytest.raises(UserError, match="cannot be written"):
-        api.survey(m, flights[1], jobs=1, resume=tmp_path / "no-folder" / "x.jsonl")
 
 
 def test_only_flights_that_have_not_changed_are_taken_from_the_results(
     flights: Flights, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def glance(_: Job, files: Sequence[str], jobs: int) -> Iterator[tuple[str, Record]]:
+    def glance(_: Job, files: Sequence[str], pool: object) -> Iterator[tuple[str, Record]]:
         """Stands in for a diagnosis, to which a file that is cut off is an error."""
         for f in files:
             done = record("", {}) if Path(f).stat().st_size > 5000 else {"error": {"message": "damaged"}}
             yield f, done | {"file": f, "sha256": digest_file(f)}
 
-    monkeypatch.setattr(run, "examine_here", glance)
+    monkeypatch.setattr(run, "examine_all", glance)
     m = api.load(flights[0])
     kept, one, two = (tmp_path / n for n in ("kept.jsonl", "a/line.parquet", "b/line.parquet"))
     one.parent.mkdir()
@@ -203,8 +202,6 @@ def test_bad_use_is_one_message(flights: Flights) -> None:
         api.survey(m, [])
     with pytest.raises(UserError, match="or on a cluster"):
         api.survey(m, flights[1], jobs=1, scheduler="tcp://127.0.0.1:1")
-    with pytest.raises(UserError, match="needs a worker"):
-        api.survey(m, flights[1], jobs=0)
 
 
 def record(name: str, found: dict[str, list[str]], value: float = 1.0, log10_p: float = -5.0) -> Record:
@@ -234,7 +231,7 @@ def test_the_table_has_a_row_a_flight_and_the_figures_of_the_json(whole: Survey)
         assert row["calibrated_Eo"] == r["error"]["calibrated"]["rms_Eo"]
         assert row["noise_floor_Eo"] == r["noise_floor"]["rms_Eo"]
         assert row["found"] == r["found"]
-        assert row["parameters"] == [{k: p[k] for k in row["parameters"][0]} for p in r["parameters"]]
+        assert row["parameters"] == [{k: p.get(k) for k in row["parameters"][0]} for p in r["parameters"]]
         assert row["ranking"] == r["ranking"]
 
 
@@ -305,7 +302,7 @@ def made(tmp_path: Path) -> tuple[Path, str, Path]:
 
 def test_lines_are_flights(tmp_path: Path) -> None:
     path, text, toml = made(tmp_path)
-    given = make_job(toml.read_text(), toml, mapping=(text, "mapping.toml", False))
+    given = Job(toml.read_text(), str(toml), mapping=(text, "mapping.toml", False))
     files = expand_lines(given, [str(path), str(tmp_path / "none.csv")])
     assert files == [f"{path}::10", f"{path}::20", str(tmp_path / "none.csv")]
     assert split_line(files[0]) == (path, "10")
@@ -314,14 +311,14 @@ def test_lines_are_flights(tmp_path: Path) -> None:
     assert record["verdict"] == "adequate"
     assert record["sha256"] == digest_file(files[1]) == digest_file(str(path))
     assert "several lines" in examine(given, str(path))["error"]["message"]
-    assert "the columns time, a_x" in examine(make_job(toml.read_text(), toml), files[0])["error"]["message"]
+    assert "the columns time, a_x" in examine(Job(toml.read_text(), str(toml)), files[0])["error"]["message"]
 
 
 def test_flights_of_one_file_name_are_named_with_their_folders_and_in_order() -> None:
     days = [f"/s/day-{d}/line-{n}.csv" for d in (1, 0) for n in (1, 0)]
     # the days follow one another, and so does what drifts
-    assert order_files([*days, days[0]]) == sorted(days)
-    assert order_files(["/s/b/1.csv", "/s/a/2.csv"]) == ["/s/b/1.csv", "/s/a/2.csv"]
+    assert list(name_flights([*days, days[0]])) == sorted(days)
+    assert list(name_flights(["/s/a/2.csv", "/s/b/1.csv"])) == ["/s/b/1.csv", "/s/a/2.csv"]
     files = ["/s/01/flight.csv", "/s/02/flight.csv", "/t/02/flight.csv", "/s/other.csv", "/none/s.csv::20"]
     assert name_flights(files) == dict(
         zip(
@@ -439,7 +436,7 @@ def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(flights
 
 def test_a_record_of_another_program_is_not_taken(flights: Flights) -> None:
     toml = flights[0] / "model.toml"
-    asked = replace(make_job(toml.read_text(), toml), program=(("numpy", "1.0"),))
+    asked = replace(Job(toml.read_text(), str(toml)), program=(("numpy", "1.0"),))
     record = examine(asked, str(flights[1][0]))
     assert "another version of the program" in record["error"]["message"]
 
@@ -454,9 +451,3 @@ def test_a_scheduler_that_is_not_there_is_one_message(flights, address, monkeypa
     monkeypatch.setattr(run, "PATIENCE", 1.0)
     with pytest.raises(UserError, match="cannot be reached"):
         api.survey(api.load(flights[0]), flights[1], scheduler=address)
-
-
-def test_without_the_extra_it_is_one_message(flights: Flights, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(UserError, match=r"ragg\[cluster\]"):
-        api.survey(api.load(flights[0]), flights[1], scheduler=f"tcp://{HERE}:8786")
