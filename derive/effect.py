@@ -64,6 +64,8 @@ class EffectParameter:
         False for what is set (or scanned), not calibrated by least squares.
     physical
         The only physically possible value besides the neutral one, used where no value is given (``None``: any).
+    largest
+        Size, in ``unit``, above which anybody would see it without a model (``None``: none): no diagnosis claims a larger one.
     like
         Parameter of the accelerometers (``K1`` ...) that shows the grade of the sensors: where a sheet gives it a sigma
         larger than is plausible of a navigation instrument, what is plausible here is as many times larger.
@@ -87,6 +89,7 @@ class EffectParameter:
     channel: str | None = None
     fitted: bool = True
     physical: float | None = None
+    largest: float | None = None
     like: str | None = None
     late: tuple[str, ...] = ()
     growing: bool = False

@@ -251,7 +251,12 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
                 "channel": q.channel,
                 "fitted": q.fitted,
                 **_given(
-                    physical=q.physical, like=q.like, late=list(q.late), growing=q.growing, shape=q.shape
+                    physical=q.physical,
+                    largest=q.largest,
+                    like=q.like,
+                    late=list(q.late),
+                    growing=q.growing,
+                    shape=q.shape,
                 ),
             }
             for q in e.parameters

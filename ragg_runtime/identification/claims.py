@@ -28,7 +28,7 @@ from ragg_runtime.identification.dictionary import Dictionary
 from ragg_runtime.identification.features import OUTPUT
 from ragg_runtime.identification.likelihood_ratio import TESTABLE, log_bayes
 from ragg_runtime.identification.omnibus import Omnibus, Remainder, ResidualTerm
-from ragg_runtime.identification.parameters import list_physical_columns
+from ragg_runtime.identification.parameters import list_bounded_columns
 
 Array = NDArray[np.float64]
 
@@ -117,7 +117,7 @@ class Regression:
 def _find_absent(f: Fitted) -> Array:
     """(n_base,): how far the neutral values of effects, and the nominal ones of the instrument, are from the calibrated, in scales."""
     found = f.to_nominal.copy()
-    for n, c, q in list_physical_columns(f):
+    for n, c, q in list_bounded_columns(f):
         found[n] = ((q.neutral or 0.0) * c.unit_factor - f.calibration.p[f.calibration.index[n]]) / c.scale
     return found
 

@@ -195,7 +195,8 @@ class Estimates:
         )
 
 
-def list_physical_columns(f: Fitted) -> list[tuple[int, Column, DerivedParameter]]:
-    """The fitted columns of effects whose parameter has one physical size, each with its place and that parameter."""
-    sizes = {f"{e.id}.{q.name}": q for e in f.model.effects for q in e.parameters if q.physical is not None}
-    return [(n, c, sizes[c.name]) for n, c in enumerate(f.calibration.columns) if c.name in sizes]
+def list_bounded_columns(f: Fitted) -> list[tuple[int, Column, DerivedParameter]]:
+    """The fitted columns of effects whose parameter cannot have any size, each with its place and that parameter."""
+    own = {f"{e.id}.{q.name}": q for e in f.model.effects for q in e.parameters}
+    bounded = {name for name, q in own.items() if q.physical is not None or q.largest is not None}
+    return [(n, c, own[c.name]) for n, c in enumerate(f.calibration.columns) if c.name in bounded]

@@ -33,7 +33,7 @@ from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.identification import likelihood_ratio, selection
 from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
-from ragg_runtime.identification.parameters import list_physical_columns
+from ragg_runtime.identification.parameters import list_bounded_columns
 from ragg_runtime.identification.selection import Blocks, ProjectedProblem
 from ragg_runtime.identification.steps import add_steps
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -278,19 +278,20 @@ def _add_strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect 
 
 
 CERTAIN = 5.0
-"""Standard deviations from the only physical value at which an estimate excludes it."""
+"""Standard deviations from the values that are possible at which an estimate is impossible."""
 
 ROOM = 0.1
-"""What an estimate may be off besides, as a share of that value: by what else the model leaves out."""
+"""What an estimate may be off besides, as a share of the only physical value: by what else the model leaves out."""
 
 
 def find_impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
     """Those of the effects, all in the fitted model, whose parameter has a size that it cannot have."""
     calibration, found = f.calibration, []
-    for n, c, q in list_physical_columns(f):
-        true = float(q.physical or 0.0) * c.unit_factor
-        off = abs(float(calibration.p[calibration.index[n]]) - true)
-        if off > CERTAIN * c.scale * np.sqrt(calibration.covariance[n, n]) + ROOM * abs(true):
+    for n, c, q in list_bounded_columns(f):
+        true = q.physical or 0.0
+        room = ROOM * abs(true) if q.largest is None else q.largest
+        off = abs(float(calibration.p[calibration.index[n]]) - true * c.unit_factor)
+        if off > room * c.unit_factor + CERTAIN * c.scale * np.sqrt(calibration.covariance[n, n]):
             found.append(c.effect)
     return tuple(e for e in dict.fromkeys(effects) if e in found)
 

@@ -35,7 +35,8 @@ class Recogniser(Protocol):
 class DerivedParameter:
     """A parameter of an effect; ``unit`` is for display, ``symbol`` its name in the parameter vector.
 
-    ``physical`` is the only possible value besides the neutral one (``None``: any). ``plausible`` is of a
+    ``physical`` is the only possible value besides the neutral one, ``largest`` a size above which anybody would see it without a
+    model (``None``: any). ``plausible`` is of a
     navigation instrument; of another it grows with the sigma that the sheet gives the accelerometers' parameter ``like``.
     ``late``, ``growing``: which quantities of the motion it makes late (:mod:`ragg_runtime.model.memory`). ``shape``: it does
     nothing while the others are neutral.
@@ -52,6 +53,7 @@ class DerivedParameter:
     channel: str | None
     fitted: bool
     physical: float | None = None
+    largest: float | None = None
     like: str | None = None
     late: tuple[str, ...] = ()
     growing: bool = False

@@ -52,6 +52,13 @@ def test_an_effect_that_a_sheet_with_larger_errors_would_absorb_is_found() -> No
     assert (d.verdict, d.found) == ("missing-effect", ("spin-phase-offset",))
 
 
+@pytest.mark.parametrize(("size", "claimed"), [(0.002, True), (0.1, False)])
+def test_a_size_that_anybody_would_see_is_not_claimed(size: float, *, claimed: bool) -> None:
+    s = scenario(5, duration=250.0, rate=4.0)
+    d = diagnosed(s, s.simulate({"imu-acceleration-scale": {"s_y": size}}).flight())
+    assert ("imu-acceleration-scale" in d.found) is claimed
+
+
 def test_a_strong_effect_keeps_no_coefficients_that_its_second_order_seemed_to_need() -> None:
     s = scenario(5, duration=200.0, rate=RATE)
     d = diagnosed(s, s.simulate({"gain-drift": {"dK1_dt": [0.0, 0.0, 0.0, 3e-9]}}).flight())
