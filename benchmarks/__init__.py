@@ -2,9 +2,9 @@
 
 A benchmark of speed is a module of this package with a function ``run() -> list[Row]``; nothing is registered.
 
-``python -m benchmarks [NAME ...]`` runs all or those named, each in a process of its own, prints tables and keeps
-``build/bench.json``; a run of all writes the tables of ``docs/contributors/benchmarks.md`` too. A row should be a time or a rate,
-and beside it the *ratio to something fixed, measured interleaved in the same run*, since machines and their load differ.
+``python -m benchmarks [NAME ...]`` runs all or those named, each in a process of its own, and prints tables; a run of all writes those
+of ``docs/contributors/benchmarks.md``. A row should be a time or a rate, and beside it the *ratio to something fixed, measured
+interleaved in the same run*, since machines and their load differ.
 """
 
 from __future__ import annotations

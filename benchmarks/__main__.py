@@ -1,10 +1,9 @@
-"""Run the benchmarks of this package: all, or those named; tables, ``build/bench.json``, ``docs/contributors/benchmarks.md``."""
+"""Run the benchmarks of speed: all, or those named; a run of all writes the tables of ``docs/contributors/benchmarks.md``."""
 
 from __future__ import annotations
 
 import argparse
 import importlib
-import json
 import math
 import multiprocessing
 import os
@@ -14,17 +13,14 @@ import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict
 from importlib import metadata
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 import benchmarks
 from benchmarks import Row
 
 ROOT = Path(__file__).resolve().parents[1]
-RESULTS = ROOT / "build" / "bench.json"
 PAGE = ROOT / "docs" / "contributors" / "benchmarks.md"
 TABLES = "Measured on: "
 """Where the tables begin on the page; what is above is written by hand."""
@@ -37,36 +33,20 @@ def find_benchmarks() -> Mapping[str, ModuleType]:
     return {name: module for name, module in found.items() if callable(getattr(module, "run", None))}
 
 
-def measure(module: ModuleType) -> dict[str, Any]:
-    """One benchmark in a process of its own: its rows, or how it failed."""
-    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
-        try:
-            return {"rows": [asdict(r) for r in pool.submit(module.run).result()]}
-        except Exception as error:
-            return {"failed": f"{type(error).__name__}: {error}", "rows": []}
-
-
-def describe_machine() -> dict[str, str]:
+def describe_machine() -> str:
     """Commit, processor, cores, vector instructions, system, Python and packages; nothing that names a host."""
-    try:
-        lines = Path("/proc/cpuinfo").read_text("utf-8").split("\n\n", 1)[0].splitlines()
-    except OSError:
-        lines = []
+    info = Path("/proc/cpuinfo")
+    lines = info.read_text("utf-8").split("\n\n", 1)[0].splitlines() if info.exists() else []
     cpu = {key.strip(): value.strip() for key, _, value in (line.partition(":") for line in lines)}
     flags = cpu.get("flags", cpu.get("Features", "")).split()
     words = ["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]
-    return {
-        "commit": subprocess.run(words, capture_output=True, text=True, check=False).stdout.strip(),
-        "processor": cpu.get("model name", platform.machine()),
-        "cores": str(os.cpu_count()),
-        "vector instructions": " ".join(
-            v for v in ("avx512f", "avx2", "avx", "sse4_2", "asimd", "sve") if v in flags
-        ),
-        "clock": f"{float(cpu.get('cpu MHz', 'nan')) / 1e3:.2f} GHz",
-        "system": f"{platform.system()} {platform.machine()}",
-        "Python": platform.python_version(),
-        **{name: metadata.version(name) for name in ("numpy", "scipy", "sympy")},
-    }
+    versions = " ".join(f"{name} {metadata.version(name)}" for name in ("numpy", "scipy", "sympy"))
+    return (
+        f"commit {subprocess.run(words, capture_output=True, text=True, check=False).stdout.strip()}; "
+        f"processor {cpu.get('model name', platform.machine())}; cores {os.cpu_count()}; vector instructions "
+        f"{' '.join(v for v in ('avx512f', 'avx2', 'avx', 'sse4_2', 'asimd', 'sve') if v in flags)}; "
+        f"system {platform.system()} {platform.machine()}; Python {platform.python_version()}; {versions}."
+    )
 
 
 def number(value: float) -> str:
@@ -77,29 +57,24 @@ def number(value: float) -> str:
     return f"{value:,.{digits}f}" if digits <= 8 else f"{value:.2e}"
 
 
-def text(rows: Sequence[Row]) -> str:
-    """Rows as lines for a terminal."""
-    width = max((len(r.name) for r in rows), default=0)
-    lines = []
+def write_table(rows: Sequence[Row]) -> str:
+    """Rows in Markdown: value, quartiles, what it is held against, a note."""
+    lines = ["| what | value | quartiles | target | |", "|---|---:|---|---|---|"]
     for r in rows:
-        spread = "" if math.isnan(r.low) else f"{number(r.low)} ... {number(r.high)}"
-        extra = "; ".join(p for p in (spread, r.note, r.target) if p)
-        lines.append(f"  {r.name:<{width}}  {number(r.value):>10} {r.unit:<9} {extra}".rstrip())
+        spread = "" if math.isnan(r.low) else f"{number(r.low)} to {number(r.high)}"
+        lines.append(f"| {r.name} | {number(r.value)} {r.unit} | {spread} | {r.target} | {r.note} |")
     return "\n".join(lines)
 
 
-def page(everything: Mapping[str, Any], titles: Mapping[str, str]) -> str:
-    """The tables of the documentation: values and targets; spreads and notes are in the JSON."""
-    lines = [TABLES + "; ".join(f"{k} {v}" for k, v in everything["machine"].items()) + ".", ""]
-    for name, result in everything["results"].items():
-        lines += [f"### {name}", "", titles.get(name, ""), ""]
-        if "failed" in result:
-            lines += [f"Failed: {result['failed']}.", ""]
-            continue
-        rows = [Row(**x) for x in result["rows"]]
-        lines += ["| what | value | target |", "|---|---:|---|"]
-        lines += [*(f"| {r.name} | {number(r.value)} {r.unit} | {r.target} |" for r in rows), ""]
-    return "\n".join(lines)
+def measure(name: str, module: ModuleType) -> str:
+    """The section of a benchmark, which runs in a process of its own."""
+    title = (module.__doc__ or name).splitlines()[0]
+    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+        try:
+            found = write_table(pool.submit(module.run).result())
+        except Exception as error:
+            found = f"Failed: {type(error).__name__}: {error}."
+    return f"### {name}\n\n{title}\n\n{found}\n"
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -110,24 +85,15 @@ def main(arguments: Sequence[str]) -> int:
     if unknown := [a for a in names if a not in known]:
         print(f"unknown benchmark: {', '.join(unknown)}; known: {', '.join(known)}", file=sys.stderr)
         return 2
-    results: dict[str, Any] = {}
-    if RESULTS.exists():
-        results = {n: r for n, r in json.loads(RESULTS.read_text("utf-8"))["results"].items() if n in known}
+    sections = []
     for name in names or known:
-        print(f"... {name}", file=sys.stderr, flush=True)
-        results[name] = measure(known[name])
-        print(f"{name}\n{text([Row(**r) for r in results[name]['rows']])}\n", flush=True)
-    RESULTS.parent.mkdir(exist_ok=True)
-    everything = {"machine": describe_machine(), "results": dict(sorted(results.items()))}
-    RESULTS.write_text(json.dumps(everything, indent=1) + "\n", "utf-8")
+        sections.append(measure(name, known[name]))
+        print(sections[-1], flush=True)
     if not names:
-        titles = {n: (m.__doc__ or n).splitlines()[0] for n, m in known.items()}
         by_hand = PAGE.read_text("utf-8").partition(TABLES)[0]
-        PAGE.write_text(by_hand + page(everything, titles), "utf-8")
+        PAGE.write_text("\n".join([by_hand + TABLES + describe_machine(), "", *sections]), "utf-8")
         print(f"written: {PAGE.relative_to(ROOT)}", file=sys.stderr)
-    failed = [f"{n}: {results[n]['failed']}" for n in names or known if "failed" in results[n]]
-    print(*failed, sep="\n", file=sys.stderr)
-    return 1 if failed else 0
+    return int(any("\nFailed: " in s for s in sections))
 
 
 if __name__ == "__main__":

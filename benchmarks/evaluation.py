@@ -3,7 +3,6 @@
 A million samples, all fifteen channels as series ("streaming": everything comes from memory), and some thousand again and again
 ("in cache"). Processor time of a process held to one core, calls from Python included; all get series that begin at multiples
 of 64 bytes. What each yields is compared with the 50-digit value first: heyoka forms omega t in float64 and loses there.
-Generated C of other instruments and orders is timed against the paper's.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ import math
 import os
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
@@ -25,12 +24,7 @@ from benchmarks.rivals import Rival, aligned, heyoka, memory_traffic
 SIZES = {"streaming": (1_000_000, 1), "in cache": (16_000, 20)}
 """Samples, and calls in a row."""
 START, RATE = 1e4, 100.0  # s, Hz
-OURS, OURS_NUMPY, HEYOKA, PAPER = (
-    "generated C, compiled",
-    "generated NumPy",
-    "heyoka cfunc",
-    "the paper's model",
-)
+OURS, OURS_NUMPY, HEYOKA = "generated C, compiled", "generated NumPy", "heyoka cfunc"
 ROUNDS, FEW = 25, 5
 """Rounds; NumPy, a hundred times slower, has fewer."""
 FASTER = {"streaming": 1.4, "in cache": 2.2}
@@ -120,46 +114,8 @@ def errors(p: NDArray[np.float64], functions: Mapping[str, Rival]) -> dict[str, 
     return found
 
 
-def layouts(p: Any) -> Iterator[tuple[str, Any, Any, float]]:
-    """Name, evaluator, parameters and the largest ratio to the paper's model aimed at; the paper's first."""
-    from ragg_runtime.instrument.form import PRESETS, Form
-    from ragg_runtime.instrument.read_toml import parse_instrument
-    from ragg_runtime.model import derive
-    from ragg_runtime.model.evaluate import make_vector
-    from ragg_runtime.model.model import load_packaged
-    from tests.layouts import sheets
-
-    exact = Form(kinematics="full", **dict(PRESETS["exact"]))  # type: ignore[arg-type]
-    yield PAPER, load_packaged().compiled(), p, 1.0
-    yield "full kinematics", load_packaged("full").compiled(), p, 1.3
-    yield "full kinematics and exact order", derive.derived((), (), exact)[0].compiled(), p, 2.0
-    for name, discs, count in (
-        ("two complements on a disc, an output", sheets.complements(), 8),
-        ("an umbrella of three discs, an output", sheets.umbrella(), 12),
-    ):
-        i = parse_instrument(sheets.sheet(discs, count))
-        model = derive.derived((), (), i.form, i.layout)[0]
-        yield name, model.compiled(), make_vector(model, i), 1.3
-
-
-def layout_rows(t: Any, x: Any, p: Any) -> list[Row]:
-    """Ratios of other instruments; an output of four accelerometers each, so a ratio a sample is one an accelerometer."""
-    turning = np.stack([np.full(len(t), 2 * np.pi * p[1]), np.zeros(len(t))])
-    wide, models = np.vstack([x, turning]), list(layouts(p))
-    found = []
-    for label, (n, inner) in SIZES.items():
-        s, y = aligned(t[:n]), aligned(wide[:, :n])
-        calls = {name: partial(e.output, s, y[: len(e.inputs)], q) for name, e, q, _ in models}
-        times = interleave(calls, 15, inner)
-        found += [
-            Row.of(f"{name} / {PAPER}, {label}", times[name] / times[PAPER], RATIO, limit=limit)
-            for name, _, _, limit in models[1:]
-        ]
-    return found
-
-
 def run() -> list[Row]:
-    """Accuracy, times streaming and in cache, ratios, the memory's bound, other instruments."""
+    """Accuracy, times streaming and in cache, ratios, the memory's bound."""
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:1])
     t, x, p = instrument_and_motion(SIZES["streaming"][0])
@@ -190,4 +146,4 @@ def run() -> list[Row]:
         )
         near = 1.3 if inner == 1 else None
         rows.append(Row.of(f"{OURS} / memory bound, {label}", ours / bound, RATIO, limit=near))
-    return [*rows, *layout_rows(t, x, p)]
+    return rows

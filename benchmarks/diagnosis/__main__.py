@@ -1,9 +1,8 @@
 """Fly the benchmark of the diagnosis, or the ablation, with progress and resumably; print the tables, write files.
 
-python -m benchmarks.diagnosis [--seed N ...] [--jobs N] [--only KIND] [--real FOLDER] [--save FILE] [--against FILE]
+python -m benchmarks.diagnosis [--seed N ...] [--jobs N] [--only KIND] [--save FILE] [--against FILE]
+python -m benchmarks.diagnosis --array [--real FOLDER]     questions asked of the real array
 python -m benchmarks.diagnosis --ablate [--rule ID ...] [--jobs N]
-python -m benchmarks.diagnosis --catalogue [--jobs N]      each effect in turn, 30 sigma
-python -m benchmarks.diagnosis --grammar [--jobs N]        terms drawn from a grammar
 python -m benchmarks.diagnosis --record KIND ... [--count N] [--seed N]      nothing hidden, one kind of record
 python -m benchmarks.diagnosis --ceiling [--jobs N]        what an oracle finds of weak effects
 python -m benchmarks.diagnosis --flight ID      one flight, shown
@@ -18,9 +17,8 @@ import json
 import multiprocessing
 import subprocess
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import nullcontext, suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -29,31 +27,21 @@ from benchmarks.diagnosis import ablation, array, ceiling, plan, records, score,
 from benchmarks.diagnosis.fly import fly
 from benchmarks.diagnosis.plan import Spec
 from benchmarks.diagnosis.score import Row
-from benchmarks.diagnosis.strength import NEVER
-from ragg_runtime.model.model import load_packaged
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CACHE = ROOT / "build" / "bench-diagnosis.jsonl"
-RESULTS = {n: HERE / f"{n}.csv" for n in ("reference", "ceiling", "grammar", "ablation", "array")}
+RESULTS = {n: HERE / f"{n}.csv" for n in ("reference", "ceiling", "ablation", "array")}
 
-ASIDE = ("report", "studio", "cli", "wording", "survey", "experiments", "compensation")
-"""Of the runtime: what no diagnosis depends on; a change there flies nothing anew."""
-
-OWN = ("plan", "records", "strength", "outside", "fly")
+SOURCES = ("generated", "derive", "ragg_runtime", "benchmarks/diagnosis")
+"""What the result of a flight depends on."""
 
 
-def source_digest(root: Path = ROOT) -> str:
-    """Of the sources that a flight's result depends on."""
-    paths = [root / "generated" / "manifest.json", *(root / "derive").rglob("*.py")]
-    paths += (root / "ragg_runtime").glob("*.py")
-    for package in sorted((root / "ragg_runtime").iterdir()):
-        if package.is_dir() and package.name not in ASIDE:
-            paths += package.rglob("*.py")
-    paths += [root / "benchmarks" / "diagnosis" / f"{n}.py" for n in OWN]
+def source_digest() -> str:
+    """Of the sources."""
     digest = hashlib.sha256()
-    for path in sorted(paths):
-        digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    for path in sorted(p for folder in SOURCES for p in (ROOT / folder).rglob("*.py")):
+        digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()[:12]
 
 
@@ -89,32 +77,19 @@ class Cache:
 Task = Callable[[], dict[str, Any]]
 
 
-def run(tasks: dict[str, Task], cache: Cache, pool: Executor | None = None) -> None:
+def _carry_out(task: tuple[str, Task]) -> tuple[str, dict[str, Any]]:
+    return task[0], task[1]()
+
+
+def run(tasks: dict[str, Task], cache: Cache, jobs: int) -> None:
     """Do what is not done yet; an interruption loses only what is in the air."""
-    missing = {k: t for k, t in tasks.items() if k not in cache.lines}
+    missing = [(k, t) for k, t in tasks.items() if k not in cache.lines]
     at = {"commit": commit()}
-    flying = {} if pool is None else {pool.submit(t): k for k, t in missing.items()}
-    results = ((k, t()) for k, t in missing.items())
-    if flying:
-        results = ((flying[future], future.result()) for future in as_completed(flying))
-    try:
+    with multiprocessing.get_context("spawn").Pool(jobs) if jobs > 1 else nullcontext() as pool:
+        results = map(_carry_out, missing) if pool is None else pool.imap_unordered(_carry_out, missing)
         for n, (key, result) in enumerate(results):
             cache.add(key, at | result)
             print(f"\r{n + 1} of {len(missing)} of {len(tasks)}: {key}\033[K", end="", file=sys.stderr)
-    except BaseException:
-        for future in flying:
-            future.cancel()
-        raise
-
-
-@contextmanager
-def pool_of(jobs: int) -> Iterator[Executor | None]:
-    """So many processes; none for one."""
-    if jobs == 1:
-        yield None
-        return
-    with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
-        yield pool
 
 
 def read_rows(path: Path) -> list[Row]:
@@ -133,71 +108,47 @@ def write_rows(rows: Iterable[Row], path: Path) -> None:
 
 def committed_page() -> str:
     """The page of the site, from the results that are committed."""
-    return table.page({n: read_rows(p) for n, p in RESULTS.items() if p.exists()})
+    return table.page({n: read_rows(p) for n, p in RESULTS.items()})
 
 
-Rows = Callable[[str, dict[str, Any]], list[Row]]
-"""What is kept of a line of the cache, with its key."""
-
-
-def _keep_flight(key: str, line: dict[str, Any]) -> list[Row]:
-    return [score.row(line)]
-
-
-def _keep_all(key: str, line: dict[str, Any]) -> list[Row]:
-    return [{n: str(v) for n, v in line.items() if n not in ("key", "source")}]
-
-
-MODES: dict[str, tuple[str, Rows, Callable[[Sequence[Row]], list[str]]]] = {
-    "flights": ("which flights of the plan are diagnosed rightly", _keep_flight, table.flights),
-    "catalogue": ("hide each effect of the catalogue in turn", _keep_flight, table.catalogue),
-    "grammar": ("hide terms drawn from a grammar", _keep_flight, table.grammar),
-    "record": ("one kind of record, nothing hidden", _keep_flight, table.quiet_records),
-    "ceiling": ("what an oracle that knows the noise finds of weak effects", _keep_all, table.ceiling),
-    "array": ("ask the real array instead", array.rows, table.array),
-}
-"""What can be run: in words, what is kept of a result, and the table of all."""
-
-
-def _list_tasks(o: argparse.Namespace) -> dict[str, Task]:
-    """What a mode has to do, by key."""
+def _run_mode(o: argparse.Namespace, cache: Cache) -> list[Row]:
+    """Carry out a mode, print its table."""
     seeds = o.seed or plan.REFERENCE
     if o.mode == "array":
-        return {f"{r}/{c}": partial(array.asked, path, c) for r, path, c in array.cases(o.real)}
-    if o.mode == "ceiling":
+        tasks: dict[str, Task] = {f"{r}/{c}": partial(array.asked, p, c) for r, p, c in array.cases(o.real)}
+    elif o.mode == "ceiling":
         weak = [s for n in seeds for s in plan.specs(n) if s.kind in ("five", "ten")]
-        return {s.id: partial(ceiling.tested, s) for s in weak}
-    if o.mode == "catalogue":
-        searched = [e.id for e in load_packaged().candidates if e.searched and e.id not in NEVER]
-        specs = plan.catalogue(len(searched))
-    elif o.mode == "grammar":
-        specs = plan.grammar()
+        tasks = {s.id: partial(ceiling.tested, s) for s in weak}
     elif o.mode == "record":
         own = o.seed or [plan.RECORDS]
-        specs = [s for r in o.record for n in own for s in plan.of_record(r, o.count, n)]
+        specs = [Spec("quiet", r, k, n) for r in o.record for n in own for k in range(o.count)]
+        tasks = {s.id: partial(fly, s) for s in specs}
     else:
         specs = [s for n in seeds for s in plan.specs(n) if not o.only or s.kind in o.only]
-    return {s.id: partial(fly, s) for s in specs}
-
-
-def _run_mode(o: argparse.Namespace, cache: Cache, pool: Executor | None) -> list[Row]:
-    _, keep, show = MODES[o.mode]
-    tasks = _list_tasks(o)
-    run(tasks, cache, pool)
-    rows = [row for key in tasks for row in keep(key, cache.lines[key])]
+        tasks = {s.id: partial(fly, s) for s in specs}
+    run(tasks, cache, o.jobs)
+    found = [(key, cache.lines[key]) for key in tasks]
+    if o.mode == "array":
+        rows, show = [row for key, line in found for row in array.rows(key, line)], table.array
+    elif o.mode == "ceiling":
+        rows = [{n: str(v) for n, v in line.items() if n not in ("key", "source")} for _, line in found]
+        show = table.ceiling
+    else:
+        rows = [score.row(line) for _, line in found]
+        show = table.quiet_records if o.mode == "record" else table.flights
     print("\n" + "\n".join(show(rows)))
     if o.against is not None:
         print("\n".join(table.against(rows, read_rows(o.against))))
     return rows
 
 
-def _ablate(o: argparse.Namespace, cache: Cache, pool: Executor | None) -> list[Row]:
+def _ablate(o: argparse.Namespace, cache: Cache) -> list[Row]:
     rows = []
     for r in (r for r in ablation.RULES if not o.rule or r.id in o.rule):
         flights = ablation.flights(r)
-        run({f"/{s.id}": partial(ablation.watched, s) for s in flights}, cache, pool)
+        run({f"/{s.id}": partial(ablation.watched, s) for s in flights}, cache, o.jobs)
         acting = [s for s in flights if ablation.acts(r, cache.lines[f"/{s.id}"])]
-        run({f"{r.id}/{s.id}": partial(ablation.without, r.id, s) for s in acting}, cache, pool)
+        run({f"{r.id}/{s.id}": partial(ablation.without, r.id, s) for s in acting}, cache, o.jobs)
         rows.append(ablation.row(r, flights, cache.lines))
         print("\n" + "\n".join(table.ablation(rows[-1:])), flush=True)
     print("\n".join(table.ablation(rows)))
@@ -210,18 +161,13 @@ def main(arguments: Sequence[str]) -> int:
     ask("--seed", type=int, action="append", help="which flights (default: the reference's)")
     ask("--only", action="append", choices=list(plan.COUNTS), help="kinds of flights")
     ask("--flight", action="append", default=[], metavar="ID", help="show one flight")
-    for name in ("array", "catalogue", "ceiling", "grammar"):
-        ask(f"--{name}", action="store_const", dest="mode", const=name, help=MODES[name][0])
-    ask("--record", action="append", choices=list(records.KINDS), help=MODES["record"][0])
+    mode = partial(ask, action="store_const", dest="mode")
+    mode("--array", const="array", help="ask the real array instead")
+    mode("--ceiling", const="ceiling", help="what an oracle that knows the noise finds of weak effects")
+    mode("--ablate", const="ablation", help="without one rule after the other")
+    ask("--record", action="append", choices=list(records.KINDS), help="one kind of record, nothing hidden")
     ask("--count", type=int, default=40, help="flights of each of these")
     ask("--real", type=Path, metavar="FOLDER", help="its recordings, *.bin.gz (default: what is shipped)")
-    ask(
-        "--ablate",
-        action="store_const",
-        dest="mode",
-        const="ablation",
-        help="without one rule after the other",
-    )
     ask("--rule", action="append", choices=[r.id for r in ablation.RULES], help="of the ablation")
     ask("--jobs", type=int, default=1, help="processes")
     ask("--cache", type=Path, default=CACHE, help="results, a JSON line each")
@@ -234,15 +180,14 @@ def main(arguments: Sequence[str]) -> int:
     if o.flight:
         return 0
     o.mode = o.mode or ("record" if o.record else "flights")
-    cache = o.cache if o.mode in ("flights", "record") else o.cache.with_stem(f"{o.cache.stem}-{o.mode}")
+    path = o.cache if o.mode in ("flights", "record") else o.cache.with_stem(f"{o.cache.stem}-{o.mode}")
     try:
-        with pool_of(o.jobs) as pool:
-            rows = (_ablate if o.mode == "ablation" else _run_mode)(o, Cache(cache, source_digest()), pool)
-        if o.save is not None:
-            write_rows(rows, o.save)
+        rows = (_ablate if o.mode == "ablation" else _run_mode)(o, Cache(path, source_digest()))
     except KeyboardInterrupt:
         print("interrupted: run it again to go on", file=sys.stderr)
         return 130
+    if o.save is not None:
+        write_rows(rows, o.save)
     return 0
 
 

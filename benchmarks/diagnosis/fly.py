@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 import ragg
 from benchmarks.diagnosis import outside, plan, records
-from benchmarks.diagnosis.outside import Outside
+from benchmarks.diagnosis.outside import Outside, Surroundings
 from benchmarks.diagnosis.plan import Spec, World
 from benchmarks.diagnosis.records import CleanOutput, Loudness, Table
 from benchmarks.diagnosis.strength import Hidden, Oracle
@@ -28,7 +28,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.reference.effects import EffectValues, resolve
 from ragg_runtime.reference.effects.output import record_output
-from ragg_runtime.reference.simulate import Simulation, combine, simulate
+from ragg_runtime.reference.simulate import Simulation, combine
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.fir import convolve
 
@@ -40,9 +40,6 @@ LONGEST = 90.0
 TRIES = 60
 
 STRONG = (300.0, 3000.0)
-
-EACH = 30.0
-"""Sigmas of each effect of the catalogue in turn."""
 
 
 @dataclass(frozen=True)
@@ -70,8 +67,6 @@ def fly(spec: Spec) -> dict[str, Any]:
             ready = time.process_time()
             found |= diagnosed(p)
             found["cpu"] = round(time.process_time() - ready, 2)
-            if p.term is not None and p.oracle is not None and not found["found"]:
-                found["formula"] = outside.share_explained(p.oracle, p.term.change, found["terms"])
     except Exception:
         found["crash"] = traceback.format_exc()
     found["seconds"] = round(time.perf_counter() - begin, 2)
@@ -111,20 +106,8 @@ def prepared(spec: Spec) -> Prepared:
         flight = plain.flight("plain", voltages=w.output == "voltages")
         oracle = Oracle(w, flight, noise_rms, lost, spec.catalogue)
         hidden = _hidden(spec, oracle)
-        if spec.kind in ("outside", "grammar"):
-            at = outside.Surroundings(
-                time=plain.time,
-                phi=2 * np.pi * w.scenario.sheet.spin_frequency * plain.time,
-                channels=plain.channels,
-                output=plain.G_out_noise_free,
-                rate=w.scenario.rate,
-                duration=w.scenario.duration,
-                scenario=w.scenario,
-            )
-            if spec.kind == "grammar":
-                term = outside.drawn_from_grammar(oracle, at, 10.0, spec.rng(5))
-            else:
-                term = outside.drawn(oracle, at, outside.name_of(spec), 10.0)
+        if spec.kind == "outside":
+            term = outside.drawn(oracle, Surroundings(plain, w.scenario), outside.name_of(spec), 10.0)
     values = {h.effect: h.values for h in hidden}
     recorder = {e: values.pop(e) for e in ("output-curve", "quantisation", "saturation") if e in values}
     sim = _simulated(w, values) if values else plain
@@ -132,20 +115,7 @@ def prepared(spec: Spec) -> Prepared:
 
 
 def _simulated(w: World, effects: EffectValues) -> Simulation:
-    s = w.scenario
-    return simulate(
-        s.instrument,
-        s.motion,
-        s.duration,
-        s.rate,
-        start=w.start,
-        gravity=s.gravity,
-        record_gradient=w.gradient,
-        rotations=s.rotations,
-        effects=effects,
-        seed=s.seed,
-        auxiliaries=s.auxiliaries,
-    )
+    return w.scenario.simulate(effects, record_gradient=w.gradient, start=w.start)
 
 
 def _table(sim: Simulation, voltages: Array) -> Table:
@@ -197,12 +167,8 @@ def _hidden(spec: Spec, o: Oracle) -> tuple[Hidden, ...]:
     known = list(o.kinds)
     if spec.kind == "pair":
         return _pair(spec, o, rng)
-    if spec.kind in ("outside", "grammar") or (spec.kind == "off-sheet" and spec.index % 3 == 2):
+    if spec.kind == "outside" or (spec.kind == "off-sheet" and spec.index % 3 == 2):
         return ()
-    if spec.kind == "each":
-        effect = sorted(e.id for e in o.model.candidates if e.searched and e.id in o.kinds)[spec.index]
-        drawn = (o.drawn(effect, EACH, rng) for _ in range(TRIES))
-        return tuple(h for h in [next((h for h in drawn if h is not None), None)] if h is not None)
     low, high = {"five": (5.0, 5.0), "ten": (10.0, 10.0), "strong": STRONG}.get(spec.kind, (10.0, 1000.0))
     strength = min(high, float(np.exp(rng.uniform(np.log(low), np.log(high)))))  # to rounding
     order = np.random.default_rng(list(plan.COUNTS).index(spec.kind)).permutation(len(known))

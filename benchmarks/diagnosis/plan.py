@@ -6,6 +6,7 @@ import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,12 +31,6 @@ HELD = (4411, 4412, 4413)
 
 ABLATION = 4420
 """Seed of the flights of the ablation."""
-
-CATALOGUE = 4430
-"""Seed of the flights with each effect of the catalogue in turn."""
-
-GRAMMAR = 4440
-"""Seed of the flights with terms drawn from a grammar."""
 
 RECORDS = 5501
 """Seed of the flights of one kind of record."""
@@ -149,14 +144,17 @@ class World:
 def world(s: Spec) -> World:
     """The world of a flight."""
     rng = s.rng(0)
-    options: Mapping[str, object] = records.KINDS[s.record].world
-    elsewhere = bool(options.get("elsewhere"))
-    rate = float(str(options.get("rate", RATE)))
-    duration = float(str(options.get("duration", QUIET_DURATION if s.kind == "quiet" else DURATION)))
-    sheet, true, known, loud = _elsewhere(rng) if elsewhere else _paper(s, rng)
+    options: Mapping[str, Any] = records.KINDS[s.record].world
+    rate = options.get("rate", RATE)
+    duration = options.get("duration", QUIET_DURATION if s.kind == "quiet" else DURATION)
+    sheet, true, known, loud = _elsewhere(rng) if options.get("elsewhere") else _paper(s, rng)
     if "spin_off" in options:
-        off = 1.0 + float(str(options["spin_off"])) * float(rng.choice([-1.0, 1.0]))
-        true = replaced_spin(true, true.layout.discs[0].spin_frequency * off)
+        spin = true.layout.discs[0].spin_frequency * (
+            1.0 + options["spin_off"] * float(rng.choice([-1.0, 1.0]))
+        )
+        true = Instrument.build(
+            radius=true.radius, spin_frequency=spin, g0=true.g0, accelerometers=true.accelerometers
+        )
     motion = draw_motion(
         rng,
         duration,
@@ -170,14 +168,14 @@ def world(s: Spec) -> World:
     auxiliaries = {**plausible(rng), **further(rng)}
     if s.catalogue is not None:
         del auxiliaries["balance_current"], auxiliaries["second_order_current"]
-    start = float(str(options.get("start", 0.0)))
+    start = options.get("start", 0.0)
     if start:
         motion = MotionSignals(*(_later(part, start) for part in (motion.a, motion.omega)))
         tensor = gravity.tensor
         gravity = Gradient(lambda time: tensor(time - start))
         auxiliaries = {n: (lambda time, f=f: f(time - start)) for n, f in auxiliaries.items()}
     density = loud * float(rng.choice([1.0, 2.0, 5.0])) * 1e-9
-    density *= float(str(options.get("density", 1.0)))
+    density *= options.get("density", 1.0)
     scenario = Scenario(
         sheet=sheet,
         instrument=true,
@@ -194,8 +192,8 @@ def world(s: Spec) -> World:
         scenario=scenario,
         known=known,
         density=eotvos_noise(density, sheet.radius).omega_T,
-        output=str(options.get("output", "G_out")),
-        gradient=bool(options.get("gradient", True)),
+        output=options.get("output", "G_out"),
+        gradient=options.get("gradient", True),
         start=start,
     )
 
@@ -275,26 +273,6 @@ def _elsewhere(rng: np.random.Generator) -> tuple[Instrument, Instrument, Instru
 
     true = {**values, **drawn}
     return of(values, stated), of(true, {}), of(true, stated), (1.0, 10.0, 1e4)[grade]
-
-
-def replaced_spin(i: Instrument, f: float) -> Instrument:
-    """An instrument of the paper's layout whose disc turns at f Hz."""
-    return Instrument.build(radius=i.radius, spin_frequency=f, g0=i.g0, accelerometers=i.accelerometers)
-
-
-def catalogue(count: int) -> list[Spec]:
-    """A flight for each of so many effects, kinds of record in turn."""
-    return [Spec("each", records.KNOWN[n % len(records.KNOWN)], n, CATALOGUE) for n in range(count)]
-
-
-def of_record(record: str, count: int, sample: int) -> list[Spec]:
-    """So many flights of one kind of record in which nothing is hidden."""
-    return [Spec("quiet", record, n, sample) for n in range(count)]
-
-
-def grammar(count: int = 20) -> list[Spec]:
-    """So many flights with terms drawn from a grammar."""
-    return [Spec("grammar", records.KNOWN[n % len(records.KNOWN)], n, GRAMMAR) for n in range(count)]
 
 
 def ablation(kinds: Sequence[tuple[str, str]], count: int) -> Iterator[Spec]:

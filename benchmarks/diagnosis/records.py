@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -347,11 +348,11 @@ class RecordKind:
     tame: bool = False
     allowed: frozenset[str] = frozenset()
     nothing: bool = False
-    world: Mapping[str, object] = field(default_factory=dict)
+    world: Mapping[str, Any] = field(default_factory=dict)
     by_name: bool = False
 
 
-def _tame(noise: NoiseKind = white, **world: object) -> RecordKind:
+def _tame(noise: NoiseKind = white, **world: Any) -> RecordKind:
     return RecordKind(noise, known=True, tame=True, world=world)
 
 

@@ -8,7 +8,7 @@
 - Nothing hidden: *right* if ``adequate``, or if nothing is claimed but what was done to the record (``allowed``); *said* if the
   verdict is ``unexplained``, or the record refused, with a remark that says what is wrong with it; *unexplained* without one.
   Of records in which nothing follows the motion ``unexplained`` and refused are *right*, all else *wrong*.
-- Outside the catalogue, by hand or from a grammar: any claim is *wrong*, but of a term that has become an effect since; *right* is
+- Outside the catalogue: any claim is *wrong*, but of a term that has become an effect since; *right* is
   ``unexplained``; ``adequate`` is *silent*, a refused record *said*.
 - A false alarm is, of a tame record, any verdict but ``adequate`` or a claim of what is allowed.
 """
@@ -89,7 +89,7 @@ def outcome(x: Line) -> str:
         return "crash"
     kind = records.KINDS[x["record"]]
     silent = x["verdict"] == "adequate"
-    if x["kind"] in ("outside", "grammar"):
+    if x["kind"] == "outside":
         since = SINCE.get(x["outside"][0].replace(";", ","), "")
         if x["found"]:
             return "right" if len(x["found"]) == 1 and since in group(x, x["found"][0]) else "wrong"
@@ -133,7 +133,7 @@ Row = dict[str, str]
 """What is kept of a flight in a file of results, as text."""
 
 COLUMNS = ("id", "kind", "record", "outcome", "verdict", "hidden", "found", "alarm")
-COLUMNS += ("p_effects", "p_terms", "p", "probability", "credible", "formula", "cpu", "commit")
+COLUMNS += ("p_effects", "p_terms", "p", "probability", "credible", "cpu", "commit")
 
 
 def row(x: Line) -> Row:
@@ -142,8 +142,6 @@ def row(x: Line) -> Row:
     found |= {"outcome": outcome(x), "hidden": "+".join(truths(x)) if "hidden" in x else ""}
     if x.get("outside"):
         found["hidden"] = str(x["outside"][0]).replace(",", ";")
-    if x.get("formula"):
-        found["formula"] = "{} {:.2f}".format(*x["formula"]).replace(",", ";")
     found["found"] = "+".join(x.get("found", ()))
     if x["kind"] == "quiet":
         found["alarm"] = int(alarm(x))

@@ -118,12 +118,6 @@ def ablation(rows: Sequence[Row]) -> list[str]:
     return [*_table(RULE.values(), [[r[n] for n in RULE] for r in rows]), "", *details]
 
 
-def catalogue(rows: Sequence[Row]) -> list[str]:
-    """A line for each effect."""
-    heads = ("hidden", "record", "outcome", "verdict", "found", "probability")
-    return _table(heads, [[r[n] for n in heads] for r in rows])
-
-
 def quiet_records(rows: Sequence[Row]) -> list[str]:
     """A line for each kind of record without effects: how many are accused of one, and how many are unexplained."""
     lines = []
@@ -134,23 +128,6 @@ def quiet_records(rows: Sequence[Row]) -> list[str]:
         rest = share(own, lambda r: r["alarm"] == "1" and r["outcome"] != "wrong")
         lines.append((name, Share(accused.total(), len(own)), told, rest.hits))
     return _table(("nothing hidden, noise", "accused", "of", "unexplained"), lines)
-
-
-EXPLAINED = 0.8
-"""Share of what is hidden from which a formula counts as that of it."""
-
-
-def grammar(rows: Sequence[Row]) -> list[str]:
-    """Wrong claims, and how well the first proposed formula explains what is hidden where nothing is claimed."""
-    silent = [r for r in rows if not r["found"]]
-    explained = share(silent, lambda r: float(r["formula"].rpartition(" ")[2] or 0.0) >= EXPLAINED)
-    heads = ("hidden", "record", "outcome", "verdict", "found", "formula")
-    return [
-        f"A claim is wrong: {share(rows, lambda r: r['outcome'] == 'wrong')}. Where nothing is claimed, the first formula explains "
-        f"{100 * EXPLAINED:.0f} % of what is hidden: {explained}.",
-        "",
-        *_table(heads, [[r[n].replace("|", "/") for n in heads] for r in rows]),
-    ]
 
 
 def ceiling(rows: Sequence[Row]) -> list[str]:
@@ -186,8 +163,6 @@ The tables are made from `benchmarks/diagnosis/*.csv`.
 
     python -m benchmarks.diagnosis --jobs 2 --against benchmarks/diagnosis/reference.csv
     python -m benchmarks.diagnosis --array --real FOLDER
-    python -m benchmarks.diagnosis --catalogue
-    python -m benchmarks.diagnosis --grammar
     python -m benchmarks.diagnosis --ceiling
     python -m benchmarks.diagnosis --ablate --jobs 2
 """
@@ -205,15 +180,6 @@ An oracle that knows the noise and the true instrument tests the effect that is 
         "Questions asked of real sensors",
         array,
         "\n`python -m examples.mimu.elsewhere RAW.bin.gz` prints the questions and answers.\n",
-    ),
-    "grammar": (
-        "Terms drawn from a grammar",
-        grammar,
-        """
-`python -m benchmarks.diagnosis --grammar`: harmonic x stage x product x memory at random (`outside.py`), 10 sigma beyond all effects
-together; terms of which effects make more than all but 0.3 are drawn again. The share is that of the hidden signal beside the
-calibration that the strongest steady generic term takes, without noise.
-""",
     ),
     "ablation": (
         "Rules, each switched off",

@@ -19,6 +19,7 @@ import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +27,17 @@ from numpy.typing import NDArray
 from examples.mimu import record
 from examples.mimu.record import FRONT, RATE, Array
 from examples.mimu.sheet import sheet
-from examples.mimu.story import HERE, MISREAD, RADIUS, SHORT, diagnosed_of, flights, sure_of_angles
+from examples.mimu.story import (
+    FLAT,
+    HERE,
+    MISREAD,
+    SHORT,
+    UNLIFTED,
+    diagnosed_of,
+    flights,
+    short_arm,
+    sure_of_angles,
+)
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.read_toml import parse_instrument
@@ -56,31 +67,26 @@ WORTH = 5.0
 """Sigmas below which an effect of known size need not be found."""
 
 FOUNDED = frozenset(
-    {
-        *TURNS,
-        "gyro-delay",
-        "imu-lever-arm",
-        "imu-acceleration-bias",
-        "gyro-scale",
-        "arm-length",
-        "imu-saturation",
-    }
+    {*TURNS, "gyro-delay", "imu-lever-arm", "imu-acceleration-bias"}
+    | {"gyro-scale", "arm-length", "imu-saturation"}
 )
 """Effects for which the survey of the array gives evidence."""
 
-CASES = (
-    "page",
-    "first half",
-    "second half",
-    "later",
-    "half of the rests",
-    "back",
-    "mixed",
-    "half rate",
-    "noise",
-)
+CASES: Mapping[str, Mapping[str, Any]] = {
+    "page": {},
+    "first half": {"seconds": (0.0, record.LENGTH / 2)},
+    "second half": {"seconds": (record.LENGTH / 2, record.LENGTH)},
+    "later": {"seconds": (record.LENGTH, 2 * record.LENGTH)},
+    "half of the rests": {"rested": 0.5},
+    "back": {"picked": BACK},
+    "mixed": {"picked": MIXED},
+    "half rate": {"thin": THINNED},
+    "noise": {"noise": NOISE},
+}
+"""Cases of a recording: what of it is taken, and how."""
+
 SHIPPED = ("page", "first half", "second half", "half rate")
-"""Cases of a recording, and those that can be made of what is shipped."""
+"""Those that can be made of what is shipped."""
 
 
 @dataclass(frozen=True)
@@ -145,15 +151,8 @@ def cases(path: Path | None) -> Iterator[SensorSet]:
         yield from _shipped()
         return
     raw = Raw.of(path)
-    yield raw.case("page")
-    yield raw.case("first half", seconds=(0.0, record.LENGTH / 2))
-    yield raw.case("second half", seconds=(record.LENGTH / 2, record.LENGTH))
-    yield raw.case("later", seconds=(record.LENGTH, 2 * record.LENGTH))
-    yield raw.case("half of the rests", rested=0.5)
-    yield raw.case("back", BACK)
-    yield raw.case("mixed", MIXED)
-    yield raw.case("half rate", thin=THINNED)
-    yield raw.case("noise", noise=NOISE)
+    for name, how in CASES.items():
+        yield raw.case(name, **how)
 
 
 def _shipped() -> Iterator[SensorSet]:
@@ -187,13 +186,11 @@ class Answer:
 def questions(c: SensorSet) -> Iterator[Answer]:
     """What is asked, and the answers."""
     own = [f"{x:.4g} mm" for x in c.lifts]
-    flat = sheet(height="0 mm", lift="10")
     same = bool(np.ptp(c.lifts) == 0.0)
     if same:
-        d = ask(c, sheet(height="0 mm", lift="0.3"))
-        yield agrees("lever arm", d, "imu-lever-arm", {"l_z": -1e-3 * c.lifts.mean()}, 0.2e-3)
-    free = flat if same else sheet(height=own, lift="10")
-    short = sheet(height="0 mm" if same else own, lift="10", radius=f"{RADIUS - SHORT:.5g} mm", arm="0.02")
+        yield agrees("lever arm", ask(c, FLAT), "imu-lever-arm", {"l_z": -1e-3 * c.lifts.mean()}, 0.2e-3)
+    free = UNLIFTED if same else sheet(height=own, lift="10")
+    short = short_arm("0 mm" if same else own)
     yield agrees("arm length", ask(c, short), "arm-length", {"delta_R": SHORT}, SCATTER)
     d = ask(c, free, MISREAD)
     yield agrees("gyro scale", d, "gyro-scale", {"s_x": 0.03, "s_y": 0.03}, 0.0)

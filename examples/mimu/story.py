@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import numpy as np
-import pyarrow.parquet as pq
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
 
-from examples.mimu.record import G0
 from examples.mimu.sheet import sheet
-from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.result import Diagnosis
@@ -32,44 +28,27 @@ HERE = Path(__file__).parent
 RADIUS = 13.364
 """mm."""
 
-
-@dataclass(frozen=True)
-class RestCalibration:
-    """A calibration on rests and motion.
-
-    ``rms`` of the rests' and of the motion's G_out, m/s^2; ``arm`` and ``lift`` values and uncertainties (2, 4), mm;
-    ``effect`` parameter -> value and uncertainty, in its display unit.
-    """
-
-    fitted: Fitted
-    rms: tuple[float, ...]
-    arm: Array
-    lift: Array
-    effect: dict[str, tuple[float, float]]
-
-
 UNLIFTED = sheet(height="0 mm", lift="10")
 """A sheet that knows nothing of the 2 mm between the two sides of the board, and not that it does not."""
+
+FLAT = sheet(height="0 mm", lift="0.3")
+"""One that is sure, to 0.3 degrees, that they are in one plane."""
+
+SHORT = 1.4
+"""mm by which a sheet that is sure of its radius (to 0.02 mm) has it too small."""
+
+MISREAD = 1.03
+"""Factor on all rates, as of one who takes 15.9 counts per deg/s where the chip gives 16.4."""
+
+
+def short_arm(height: str | Sequence[str] = "0 mm") -> str:
+    """A sheet whose radius is too small by :data:`SHORT`."""
+    return sheet(height=height, lift="10", radius=f"{RADIUS - SHORT:.5g} mm", arm="0.02")
 
 
 def sure_of_angles(text: str) -> str:
     """A sheet that is sure of its angles to 0.02 degrees."""
     return re.sub(r"((?:beta_z|vartheta_.) = .*?sigma = )3", r"\g<1>0.02", text)
-
-
-SHORT = 1.4
-"""mm by which a sheet that is sure of its radius (to 0.02 mm) has it too small."""
-
-LEFT_OUT: Mapping[str, str] = {
-    "lever arm": sheet(height="0 mm", lift="0.3"),
-    "arm length": sheet(height="0 mm", lift="10", radius=f"{RADIUS - SHORT:.5g} mm", arm="0.02"),
-    "misalignments": sure_of_angles(UNLIFTED),
-    "gyro scale": UNLIFTED,
-}
-"""Sheets in which something is left out, and that are sure of it. With the last the rates are read with :data:`MISREAD`."""
-
-MISREAD = 1.03
-"""Factor on all rates, as of one who takes 15.9 counts per deg/s where the chip gives 16.4."""
 
 
 def flights(
@@ -85,14 +64,12 @@ def flights(
     ]
 
 
-def calibrated(
-    text: str, effects: tuple[str, ...] = (), motion: Path = HERE / "motion.parquet", misread: float = 1.0
-) -> RestCalibration:
-    """Calibrate a sheet, with these effects in the model beside its own."""
+def calibrated(text: str, *effects: str) -> tuple[Array, Array]:
+    """Arms and lifts, each values and uncertainties (2, 4), mm, of a calibration with these effects in the model beside its own."""
     i = parse_instrument(text)
-    i = dataclasses.replace(i, effects=(*i.effects, *(EffectSetting(e) for e in effects)))
+    i = replace(i, effects=(*i.effects, *(EffectSetting(e) for e in effects)))
     model = derive.derive_without_signatures(i, i.form)
-    f = fit(model, i, observe_flights(flights(i, motion, misread), i))
+    f = fit(model, i, observe_flights(flights(i, HERE / "motion.parquet"), i))
     c = f.calibration
     std = np.sqrt(np.diag(c.covariance)) * np.array([q.scale for q in c.columns])
 
@@ -100,63 +77,18 @@ def calibrated(
         at = [n for n, q in enumerate(c.columns) if q.name == name]
         return factor * np.array([c.p[c.index[at]], std[at]])
 
-    own = [n for n, q in enumerate(c.columns) if q.effect]
-    (scored,) = f.score([np.zeros(f.size)])
-    return RestCalibration(
-        fitted=f,
-        rms=tuple(G0 * float(np.sqrt(x)) for x in scored.mean_square),
-        arm=of("dR", 1e3) + np.array([[f.instrument.radius * 1e3], [0.0]]),
-        lift=of("beta_x", RADIUS),
-        effect={
-            c.columns[n].name: (
-                float(c.p[c.index[n]] / c.columns[n].unit_factor),
-                float(std[n] / c.columns[n].unit_factor),
-            )
-            for n in own
-        },
-    )
+    return of("dR", 1e3) + np.array([[f.instrument.radius * 1e3], [0.0]]), of("beta_x", RADIUS)
 
 
-def diagnosed(text: str, misread: float = 1.0, motion: Path = HERE / "motion.parquet") -> Diagnosis:
+def diagnosed(text: str) -> Diagnosis:
     """What ``ragg diagnose`` says of rests and motion."""
     i = parse_instrument(text)
-    return diagnosed_of(i, flights(i, motion, misread))
+    return diagnosed_of(i, flights(i, HERE / "motion.parquet"))
 
 
 def diagnosed_of(i: Instrument, both: Sequence[Flight]) -> Diagnosis:
     """The same of any flights of the array."""
     return diagnose(derive.load_model(i), i, both, partial(derive.with_effects, i))
-
-
-TOLERANCE = 0.03
-"""Of a chip's scale by its data sheet (InvenSense MPU-9150, initial calibration), relative."""
-
-CHIPS = 4
-"""Whose mean is the specific force of the record, along each axis."""
-
-
-def gravity() -> tuple[float, float, float]:
-    """g, m/s^2, by the rests: the mean of three axes, what the data sheet leaves open of it, and the scatter of the axes.
-
-    The rests tell the scale of the axes against each other and their biases (an ellipsoid becomes a sphere); how long
-    its radius is in m/s^2, the chips' scale alone says.
-    """
-    table = pq.read_table(HERE / "rests.parquet")
-    force = np.stack([table[f"a_{k}"].to_numpy() for k in "xyz"], axis=1)
-    force = force[np.isfinite(np.stack([table[f"V_{j}"].to_numpy() for j in range(1, 5)])).all(axis=0)]
-
-    def off(p: Array) -> Array:
-        shape = np.array([[p[3], p[6], p[7]], [0.0, p[4], p[8]], [0.0, 0.0, p[5]]])
-        return np.asarray(np.linalg.norm((force - p[:3]) @ shape.T, axis=1) - G0)
-
-    gains = least_squares(off, np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0])).x[3:6]
-    axes = G0 / gains
-    g = float(np.mean(axes))
-    return g, g * TOLERANCE / float(np.sqrt(3 * CHIPS)), float(np.std(axes, ddof=1))
-
-
-def pm(value: float, std: float, digits: int = 2) -> str:
-    return f"{value:.{digits}f} ± {std:.{digits}f}"
 
 
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
@@ -165,20 +97,19 @@ def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
-def known(unlifted: RestCalibration, delayed: RestCalibration) -> str:
+def known() -> str:
     """What is known from elsewhere, beside what the fit says."""
 
     def four(x: Array) -> str:
-        return ", ".join(pm(v, s) for v, s in x.T) + " mm"
+        return ", ".join(f"{v:.2f} ± {s:.2f}" for v, s in x.T) + " mm"
 
-    g, open_, scatter = gravity()
+    (arm, lift), (later, _) = calibrated(UNLIFTED), calibrated(UNLIFTED, "gyro-delay")
     return table(
         ("quantity", "found", "known"),
         (
-            ("arms A1 ... A4, sheet 13.364 ± 0.5 mm", four(unlifted.arm), "13.364 mm (survey)"),
-            ("the same, `gyro-delay` in the model", four(delayed.arm), "13.364 mm"),
-            ("front above back, as height of each (sheet: 0)", four(unlifted.lift), "2.00 mm"),
-            ("g, from the rests", f"{pm(g, open_)} m/s² (axes scatter by {scatter:.2f})", "9.82 m/s²"),
+            ("arms A1 ... A4, sheet 13.364 ± 0.5 mm", four(arm), "13.364 mm (survey)"),
+            ("the same, `gyro-delay` in the model", four(later), "13.364 mm"),
+            ("front above back, as height of each (sheet: 0)", four(lift), "2.00 mm"),
         ),
     )
 

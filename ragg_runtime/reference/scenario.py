@@ -124,13 +124,16 @@ class Scenario:
     rotations: Rotations
     seed: int
 
-    def simulate(self, effects: EffectValues | None = None, *, record_gradient: bool = True) -> Simulation:
-        """Fly it, with hidden effects ``{id: {parameter: value or four values, SI}}``."""
+    def simulate(
+        self, effects: EffectValues | None = None, *, record_gradient: bool = True, start: float = 0.0
+    ) -> Simulation:
+        """Fly it, from ``start`` s on, with hidden effects ``{id: {parameter: value or four values, SI}}``."""
         return simulate(
             self.instrument,
             self.motion,
             self.duration,
             self.rate,
+            start=start,
             gravity=self.gravity,
             record_gradient=record_gradient,
             noise=self.noise,

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.regressors import list_base_columns, spell_name
 from ragg_runtime.identification.comparison import compare
@@ -19,27 +18,8 @@ from ragg_runtime.model import derive
 from ragg_runtime.wording.describe import write_parameter
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by
-from tests.layouts.test_layouts_physics import LAYOUTS, instrument
 
 FOUR = sheets.sheet([sheets.disc("A", sheets.four("A", "G_out"))], 4)
-
-
-@pytest.mark.parametrize("name", LAYOUTS)
-def test_written_and_read_again(name: str) -> None:
-    i = instrument(name, sheets.FULL)
-    again = parse_instrument(model_text(i))
-    assert again.layout.names == i.layout.names
-    assert again.layout.output_names == i.layout.output_names
-    assert again.layout.like_paper == i.layout.like_paper
-    for a, b in zip(again.layout.places, i.layout.places, strict=True):
-        assert (a.disc, a.sign, a.output) == (b.disc, b.sign, b.output)
-        assert [a.angle, a.radius, a.height, *a.direction] == pytest.approx(
-            [b.angle, b.radius, b.height, *b.direction]
-        )
-    for p, q in zip(again.layout.discs, i.layout.discs, strict=True):
-        assert [*p.axis, *p.zero] == pytest.approx([*q.axis, *q.zero], abs=1e-15)
-    for parameter, values in i.accelerometers.items():
-        assert np.array_equal(again.accelerometers[parameter], values)
 
 
 def test_the_papers_four_written_as_discs_are_the_papers_instrument() -> None:

@@ -12,6 +12,8 @@ import pytest
 from benchmarks.diagnosis import __main__ as command
 from benchmarks.diagnosis import ablation, ceiling, fly, outside, plan, records, score, strength
 from benchmarks.diagnosis.plan import Spec
+from benchmarks.sheet import model_text
+from ragg_runtime.instrument.read_toml import parse_instrument
 
 
 def prepared(record: str) -> tuple[plan.World, Any, strength.Oracle, records.Loudness]:
@@ -61,22 +63,18 @@ def test_the_oracle_finds_what_is_in_the_recorded_motion() -> None:
 
 def test_what_is_outside_keeps_its_strength_beyond_the_catalogue() -> None:
     w, plain, oracle, _ = prepared("white")
-    phi = 0.5 * np.pi * plain.time
-    at = outside.Surroundings(plain.time, phi, plain.channels, plain.G_out, 16.0, 400.0, w.scenario)
-    term = outside.drawn(oracle, at, "resonance at 3 Hz", 10.0)
+    term = outside.drawn(oracle, outside.Surroundings(plain, w.scenario), "resonance at 3 Hz", 10.0)
     assert oracle.beyond_all(term.change) == pytest.approx(10.0, rel=1e-6)
     assert term.with_mimics >= 10.0
-    grown = outside.drawn_from_grammar(oracle, at, 10.0, np.random.default_rng(3))
-    assert oracle.beyond_all(grown.change) == pytest.approx(10.0, rel=1e-6)
-    assert grown.with_mimics <= 10.0 / outside.LEAST_BEYOND
-    assert grown.name == outside.drawn_from_grammar(oracle, at, 10.0, np.random.default_rng(3)).name
-    of_one = outside.drawn(oracle, at, "a_x omega_y", 10.0)
-    said = {"harmonic": "const", "term": "a_x*omega_y", "kind": "steady", "z": 9.0}
-    assert outside.share_explained(oracle, of_one.change, [said]) == (
-        "const: a_x*omega_y",
-        pytest.approx(1.0),
-    )
-    assert outside.share_explained(oracle, of_one.change, []) is None
+
+
+@pytest.mark.parametrize("spec", [Spec("quiet", "elsewhere", 3, 4403), Spec("off-sheet", "red", 2, 4401)])
+def test_the_sheet_in_the_file_is_that_of_the_flight(spec: Spec) -> None:
+    sheet = plan.world(spec).scenario.sheet
+    read = parse_instrument(model_text(sheet))
+    assert (read.radius, read.spin_frequency, read.g0) == (sheet.radius, sheet.spin_frequency, sheet.g0)
+    for own, other in ((read.accelerometers, sheet.accelerometers), (read.sigmas, sheet.sigmas)):
+        assert {n: x.tolist() for n, x in own.items()} == {n: x.tolist() for n, x in other.items()}
 
 
 def line(kind: str, verdict: str, found: list[str], hidden: list[str], **more: Any) -> dict[str, Any]:

@@ -62,7 +62,7 @@ def flight() -> WhitenedFlight:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(plan, "DURATION", 200.0)
         patch.setattr(plan, "RATE", 8.0)
-        spec = plan.Spec("each", "white", 0, plan.CATALOGUE)
+        spec = plan.Spec("each", "white", 0, 4430)
         world = plan.world(spec)
     plain = fly._simulated(world, {})
     loudness = records.KINDS["white"].noise(fly._table(plain, plain.voltages_noise_free), spec.rng(2))

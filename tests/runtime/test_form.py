@@ -10,7 +10,6 @@ import pytest
 from commands import ragg
 from scipy.signal import savgol_filter
 
-from benchmarks.sheet import model_text
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.form import PAPER, PRESETS, Form
@@ -49,10 +48,9 @@ def sheet(model: str) -> str:
         ),
     ],
 )
-def test_forms_are_read_and_written(table: str, form: Form) -> None:
+def test_forms_are_read(table: str, form: Form) -> None:
     instrument = parse_instrument(sheet(table))
     assert instrument.form == form
-    assert parse_instrument(model_text(instrument)).form == form
     assert (form.preset is None) == (form.order not in PRESETS.values())
 
 
@@ -213,9 +211,10 @@ def test_instants_count_from_the_first_sample_and_the_sheet_may_say_otherwise() 
     assert abs(record(x, replace(S.sheet, angle_origin="zero")).phi[0]) == pytest.approx(np.pi)
     late = replace(S.sheet, angle_origin="first-sample")
     assert record(flown(10.0), late).phi[0] == 0.0
-    assert parse_instrument(model_text(late)).angle_origin == "first-sample"
+    said = sheet('[model]\nangle_origin = "first-sample"')
+    assert parse_instrument(said).angle_origin == "first-sample"
     with pytest.raises(UserError, match="angle_origin"):
-        parse_instrument(model_text(late).replace("first-sample", "first"))
+        parse_instrument(said.replace("first-sample", "first"))
 
 
 def test_where_the_sheet_speaks_against_it_the_user_is_asked() -> None:

@@ -7,15 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import tomlkit
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_parameters
-from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity
@@ -191,28 +187,6 @@ def test_effects_are_added_to_any_form_of_the_list(head: str, tail: str) -> None
     assert [e.id for e in parse_instrument(remove_effect(added, "lag")).effects] == before
 
 
-@settings(deadline=None, max_examples=8)
-@given(
-    st.sampled_from([9.8, 9.80665]),
-    st.lists(st.floats(-1e3, 1e3), min_size=4, max_size=4),
-    st.floats(1e-4, 1e-2),
-)
-def test_written_instruments_read_back(g0: float, values: list[float], k1: float) -> None:
-    made = Instrument.build(
-        0.1, 0.25, g0, {"K0": np.array(values) * 1e-6, "dR": np.array(values) * 1e-6, "K1": k1, "k_VI": 1e9}
-    )
-    found = parse_instrument(model_text(made))
-    for name, vector in made.accelerometers.items():
-        assert found.accelerometers[name] == pytest.approx(vector, rel=4e-16, abs=0.0)
-
-
-def test_written_numbers_are_those_of_the_sheet() -> None:
-    """30 um stays 30, not 30.000000000000004."""
-    written = tomlkit.parse(model_text(parse_instrument(TEXT)))["accelerometers"]
-    assert written["dR"]["value"] == [0, 30, 35, 25]
-    assert written["K1"]["value"] == [10, 10.001, 10.0015, 10.002]
-
-
 def sure(sigma: str) -> str:
     return TEXT.replace('unit = "mA/g"', f'unit = "mA/g", sigma = {sigma}')
 
@@ -224,8 +198,6 @@ def test_the_sheet_can_say_how_sure_it_is(sigma: str, four: list[float]) -> None
     known = parse_instrument(sure(sigma))
     np.testing.assert_allclose(known.sigma("K1"), np.array(four) * 1e-3 / 9.8, rtol=1e-14)
     np.testing.assert_allclose(known.sigma("K2"), 20e-6 / 9.8, rtol=1e-14)  # as sure as is plausible
-    again = parse_instrument(model_text(known))
-    np.testing.assert_allclose(again.sigma("K1"), known.sigma("K1"), rtol=1e-12)
     kept = parse_instrument(set_parameters(sure(sigma), {"K1": RawQuantity(10.5, "mA/g")}))
     np.testing.assert_array_equal(kept.sigma("K1"), known.sigma("K1"))
 
