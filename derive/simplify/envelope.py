@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, lru_cache
 from typing import Any
@@ -49,12 +49,6 @@ class Envelope:
         Whose rotation the accelerometers sense; in ``full`` kinematics the spin is part of the motion.
     spin_acceleration
         Of the disc angle, rad/s^2; 0: the spin is steady.
-
-    Raises
-    ------
-    ValueError
-        If a bound is negative or not finite, or the instrument has no scale factor to divide by
-        (imbalance >= 1, dR >= radius).
     """
 
     a: Vector
@@ -80,23 +74,6 @@ class Envelope:
     allotted: float = 0.1
     kinematics: Kinematics = "platform"
     spin_acceleration: float = 0.0
-
-    def __post_init__(self) -> None:
-        for f in fields(self):
-            value = getattr(self, f.name)
-            if isinstance(value, str):
-                continue
-            for v in value if isinstance(value, tuple) else (value,):
-                if not (math.isfinite(v) and v >= 0):
-                    raise ValueError(
-                        f"the bound {f.name} of the envelope is {value!r}; its largest magnitude is expected,"
-                        " finite numbers, zero or positive"
-                    )
-        if self.imbalance >= 1 or self.dR >= self.radius:
-            raise ValueError(
-                "the envelope holds an instrument without a scale factor: imbalance < 1 and dR < radius are expected,"
-                f" not imbalance {self.imbalance} and dR {self.dR} m of radius {self.radius} m"
-            )
 
     def parameter(self, name: str) -> Fraction:
         """Bound of one of the :data:`COEFFICIENT_PARAMETERS`; of k1 in units of its nominal value."""
@@ -139,14 +116,6 @@ class Envelope:
     def motion(self) -> Mapping[str, Fraction]:
         """Bounds of a, T and S (:data:`MOTION_NUMBERS`) over the envelope, through Eq. 16."""
         return _ranges(tuple(self.channel(n) for n in _channels(self.kinematics)), self.kinematics)
-
-    def scaled(self, names: Sequence[str], factor: float) -> Envelope:
-        """The envelope with these bounds multiplied by a factor."""
-        changed: dict[str, Any] = {}
-        for n in names:
-            value = getattr(self, n)
-            changed[n] = tuple(v * factor for v in value) if isinstance(value, tuple) else value * factor
-        return replace(self, **changed)
 
 
 def ranges(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import Any
 
 from derive.emit.render import number, render_page
@@ -61,7 +60,7 @@ def _context() -> dict[str, Any]:
         ],
         "more": str(len(in_dynamic) - len(kept)),
         "bounds": [(title, *_bound(e, m)) for title, e, m in models],
-        "paper_bound": number(certified_bound(PAPER_ENVELOPE, simplified()).exact),
+        "paper_bound": number(sum(certified_bound(PAPER_ENVELOPE, simplified()).values())),
         "conditions": [r for c in critical_conditions(PAPER_ENVELOPE) for r in _condition(c)],
     }
 
@@ -121,8 +120,8 @@ def _bound_text(value: float | tuple[float, ...], unit: float) -> str:
 
 
 def _bound(envelope: Envelope, model: Collected) -> Row:
-    certificate = certified_bound(envelope, model)
-    return (*(number(certificate.harmonics.get(n, Fraction(0))) for n in range(5)), number(certificate.exact))
+    shares = certified_bound(envelope, model)
+    return (*(number(shares.get(n, 0.0)) for n in range(5)), number(sum(shares.values())))
 
 
 def _condition(c: Condition) -> list[Row]:

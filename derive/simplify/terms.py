@@ -108,29 +108,11 @@ def _select(generic: Generic, chosen: set[Product]) -> Generic:
     return {key: terms for key, terms in reduced.items() if key[0] in present}
 
 
-@dataclass(frozen=True)
-class Certificate:
-    """Upper bound of |G_full - G_model| / k_ggi over a whole envelope, at any disc angle.
+def certified_bound(envelope: Envelope, model: Collected) -> Mapping[int, Fraction]:
+    """Upper bound of |G_full - G_model| / k_ggi over a whole envelope, at any disc angle: the share of each harmonic of the disc, Eo.
 
-    ``harmonics`` gives the share of each harmonic of the disc, in Eo, exactly; the bound is their sum. It
-    holds for the models as formulas: rounding in their evaluation comes on top.
+    The bound is their sum. It holds for the models as formulas: rounding in their evaluation comes on top.
     """
-
-    harmonics: Mapping[int, Fraction]
-
-    @property
-    def exact(self) -> Fraction:
-        """The bound in Eo."""
-        return sum(self.harmonics.values(), Fraction(0))
-
-    @property
-    def eotvos(self) -> float:
-        """The bound in Eo: the least float that is not below it."""
-        return round_up(self.exact)
-
-
-def certified_bound(envelope: Envelope, model: Collected) -> Certificate:
-    """What ``model`` may miss of the analytical model anywhere in an envelope."""
     amplitudes: dict[tuple[int, Powers, Powers], Fraction] = {}
     for (n, _), terms in dropped(model).items():
         for motion, coefficient in terms.items():
@@ -148,7 +130,7 @@ def certified_bound(envelope: Envelope, model: Collected) -> Certificate:
         else:
             size *= product(largest, p)
         harmonics[n] = harmonics.get(n, Fraction(0)) + size / envelope.least_scale_factor / EOTVOS
-    return Certificate(dict(sorted(harmonics.items())))
+    return dict(sorted(harmonics.items()))
 
 
 def root_up(square: Fraction, digits: int = 20) -> Fraction:
@@ -157,9 +139,3 @@ def root_up(square: Fraction, digits: int = 20) -> Fraction:
     radicand = square.numerator * square.denominator * scale**2
     root = math.isqrt(radicand)
     return Fraction(root + (root * root != radicand), square.denominator * scale)
-
-
-def round_up(x: Fraction) -> float:
-    """The least float at or above ``x``."""
-    nearest = float(x)
-    return nearest if Fraction(nearest) >= x else math.nextafter(nearest, math.inf)

@@ -11,10 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import scipy.optimize
 import sympy as sp
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from derive.chain import accelerometer
@@ -31,7 +28,7 @@ from derive.simplify.envelope import DYNAMIC_EXPERIMENT, PAPER_ENVELOPE, Envelop
 from derive.simplify.page import Condition, critical_conditions
 from derive.simplify.terms import certified_bound, simplified, sizes
 from derive.stages import Kinematics
-from derive.symbols import ANGLES, MOTION, QUARTER_TURNS, SECOND_ORDER, SIGNS, SPIN_ACCELERATION, SPIN_RATE
+from derive.symbols import MOTION, QUARTER_TURNS, SECOND_ORDER, SIGNS, SPIN_ACCELERATION, SPIN_RATE
 from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.instruments import table_v
@@ -61,6 +58,11 @@ BARE = dataclasses.replace(DYNAMIC_EXPERIMENT, vartheta_x=1e-3, allotted=1e3, Ga
 """A rough flight with so large an error allotted that angles, imbalances and K a a go."""
 FULL = dataclasses.replace(PAPER_ENVELOPE, kinematics="full", spin_acceleration=1e-3)
 ENVELOPES = {"paper": PAPER_ENVELOPE, "quiet": QUIET, "bare": BARE, "full": FULL}
+
+
+def bound_of(envelope: Envelope, model: Collected) -> float:
+    """The certified bound, Eo."""
+    return float(sum(certified_bound(envelope, model).values()))
 
 
 @cache
@@ -127,7 +129,7 @@ class Discrepancy:
         return (full - kept) / np.sum(k1 * R, axis=0) * 1e9
 
 
-def climb(error: Discrepancy, start: Array) -> tuple[float, Array]:
+def climb(error: Discrepancy, start: Array) -> float:
     """From corner to corner: the best single change of sign (or other disc angle), until none helps."""
     point, best = start, abs(float(error(start)))
     n = len(start)
@@ -141,40 +143,25 @@ def climb(error: Discrepancy, start: Array) -> tuple[float, Array]:
         values = np.abs(error(tried))
         k = int(np.argmax(values))
         if values[k] <= best * (1 + 1e-9):
-            return best, point
+            return best
         point, best = tried[k], float(values[k])
 
 
 def worst(error: Discrepancy, rng: np.random.Generator, starts: int) -> float:
-    """The largest error found: corners climbed from many starts, the best then refined inside the box."""
-    n = len(NAMES) + 1
+    """The largest error found: corners climbed from many starts."""
     found = []
     for _ in range(starts):
-        start = rng.choice([-1.0, 1.0], n)
+        start = rng.choice([-1.0, 1.0], len(NAMES) + 1)
         start[-1] = rng.uniform(-1, 1)
         found.append(climb(error, start))
-    found.sort(key=lambda f: -f[0])
-    best, step = found[0][0], 1e-6
-
-    def gradient(x: Array) -> Array:
-        shifts = np.concatenate([x + step * np.eye(n), x - step * np.eye(n)])
-        up, down = np.split(np.abs(error(shifts)), 2)
-        return -(up - down) / (2 * step)
-
-    inside = [*(f[1] for f in found[:2]), rng.uniform(-1, 1, n)]
-    for start in inside:
-        r = scipy.optimize.minimize(
-            lambda x: -abs(float(error(x))), start, jac=gradient, bounds=[(-1, 1)] * n, method="L-BFGS-B"
-        )
-        best = max(best, -float(r.fun))
-    return best
+    return max(found)
 
 
 @pytest.mark.parametrize("name", ENVELOPES)
 def test_no_search_exceeds_the_bound_and_it_is_not_loose(name: str) -> None:
     envelope = ENVELOPES[name]
     model = simplified(envelope)
-    bound = certified_bound(envelope, model).eotvos
+    bound = bound_of(envelope, model)
     error = Discrepancy(envelope, model)
     rng = np.random.default_rng(20240607)
     at_random = float(np.max(np.abs(error(rng.uniform(-1, 1, (1000, len(NAMES) + 1))))))
@@ -191,35 +178,8 @@ def test_the_search_notices_a_missing_term() -> None:
     del generic[0, "c"][a_z_squared]
     error = Discrepancy(PAPER_ENVELOPE, from_generic(generic))
     found = worst(error, np.random.default_rng(1), starts=1)
-    assert found > 100 * certified_bound(PAPER_ENVELOPE, model).eotvos
-    assert found <= certified_bound(PAPER_ENVELOPE, from_generic(generic)).eotvos
-
-
-def test_the_analytical_model_leaves_nothing_out() -> None:
-    assert certified_bound(DYNAMIC_EXPERIMENT, collect()).exact == 0
-    error = Discrepancy(DYNAMIC_EXPERIMENT, collect())
-    rng = np.random.default_rng(3)
-    assert np.max(np.abs(error(rng.uniform(-1, 1, (500, len(NAMES) + 1))))) < 1e-5
-
-
-def test_the_bound_is_attained_where_one_term_is_dropped() -> None:
-    """Only K_0 errs: four biases, all at their bound and each with its own sign, are the worst case."""
-    nothing = {
-        f.name: 0.0 for f in dataclasses.fields(Envelope) if f.name[0] == "K" or f.name[:2] in ("be", "va")
-    }
-    envelope = dataclasses.replace(
-        PAPER_ENVELOPE, **{**nothing, "K0": 1e-9, "imbalance": 0.0, "dR": 0.0, "allotted": 1e3}
-    )
-    model = simplified(envelope)
-    assert certified_bound(envelope, model).eotvos == pytest.approx(4 * 1e-9 / (4 * 0.1) / 1e-9, rel=1e-12)
-
-
-def test_the_spin_makes_terms_that_the_paper_may_drop_matter() -> None:
-    """The paper's own simplified model, with the spin in its numbers, misses a thousand eotvos."""
-    of_paper = certified_bound(FULL, simplified(PAPER_ENVELOPE)).eotvos
-    of_full = certified_bound(FULL, simplified(FULL)).eotvos
-    assert of_paper > 100 * of_full
-    assert of_full < 20
+    assert found > 100 * bound_of(PAPER_ENVELOPE, model)
+    assert found <= bound_of(PAPER_ENVELOPE, from_generic(generic))
 
 
 G = 9.8
@@ -256,7 +216,9 @@ def test_the_dynamic_experiment_needs_what_the_paper_drops_by_mistake() -> None:
 
 
 def test_the_signal_is_never_dropped() -> None:
-    at_rest = PAPER_ENVELOPE.scaled(("a", "omega", "omegadot", "Gamma", "K0"), 0.0)
+    at_rest = dataclasses.replace(
+        PAPER_ENVELOPE, **dict.fromkeys(("a", "omega", "omegadot"), (0.0,) * 3), Gamma=0.0, K0=0.0
+    )
     model = simplified(at_rest)
     assert {n: len(t) for n, t in model.amplitudes.items() if t} == {"A_2s": 1, "A_2c": 1}
 
@@ -282,39 +244,6 @@ def test_sizes_are_those_of_the_papers_equations(harmonic, motion, parameters, e
     assert size_of(PAPER_ENVELOPE, harmonic, motion, parameters) == pytest.approx(eotvos, rel=1e-12)
 
 
-@settings(max_examples=15, deadline=None, derandomize=True)
-@given(
-    st.sampled_from(["a", "omega", "omegadot", "Gamma", *ANGLES, *SECOND_ORDER, "K0", "imbalance"]),
-    st.floats(-3, 3),
-    st.floats(0, 1),
-)
-def test_a_wider_envelope_keeps_no_less(name: str, exponent: float, more: float) -> None:
-    narrow = PAPER_ENVELOPE.scaled((name,), 10**exponent)
-    assert keys(simplified(narrow)) <= keys(simplified(narrow.scaled((name,), 1 + more)))
-
-
-def test_the_dynamic_envelope_holds_the_experiment() -> None:
-    """Tables V and VI, motion over one turn of the disc and its exact derivative."""
-    e, hour = DYNAMIC_EXPERIMENT, math.radians(1) / 3600
-    turn = np.linspace(0, 2 * math.pi, 401)
-    for n, (mean, amplitude) in enumerate(((0.08, 0.005), (0.06, 0.006), (0.1, 0.05))):
-        assert np.max(mean + amplitude * np.sin(turn)) * G == pytest.approx(e.a[n], rel=1e-12)
-    for n, (mean, amplitude) in enumerate(((1000, 700), (1500, 900), (2000, 800))):
-        assert np.max(mean + amplitude * np.sin(turn)) * hour == pytest.approx(e.omega[n], rel=1e-12)
-        assert amplitude * hour * 2 * math.pi * 0.25 == pytest.approx(e.omegadot[n], rel=1e-12)
-    k1 = np.array([10, 11, 11.5, 12])
-    assert np.max(np.abs(k1 / k1.mean() - 1)) <= e.imbalance
-
-
-@pytest.mark.parametrize(
-    "change",
-    [{"a": (1.0, -1.0, 0.0)}, {"K7": math.nan}, {"imbalance": 1.0}, {"dR": 0.2}, {"Gamma": math.inf}],
-)
-def test_an_envelope_that_is_none_is_refused(change: dict[str, object]) -> None:
-    with pytest.raises(ValueError):
-        dataclasses.replace(PAPER_ENVELOPE, **change)  # type: ignore[arg-type]
-
-
 def condition(where: str, envelope: Envelope = PAPER_ENVELOPE) -> Condition:
     return next(c for c in critical_conditions(envelope) if c.kind.where == where)
 
@@ -337,19 +266,6 @@ def test_critical_values_are_the_printed_ones_to_their_digit(where: str, printed
     c = condition(where)
     computed = c.critical / (1e-9 if c.angular else G)
     assert computed == pytest.approx(printed, rel=0.05)
-
-
-def test_at_the_critical_acceleration_the_term_has_the_error_allotted() -> None:
-    """The table of conditions and the sizes that the model is chosen by are one measure."""
-    for where, motion, parameters in (
-        ("below Eq. 37a", "a_x", "k1"),
-        ("below Eq. 41, one angle", "a_x", "k1 vartheta_z"),
-        ("below Eq. 41, two angles", "a_x", "k1 beta_x vartheta_y"),
-        ("below Eq. 41, three angles", "a_x", "k1 beta_x beta_z vartheta_y"),
-    ):
-        a = condition(where).critical
-        envelope = dataclasses.replace(PAPER_ENVELOPE, a=(a, a, a))
-        assert size_of(envelope, 1, motion, parameters) == pytest.approx(0.1, rel=1e-9)
 
 
 def test_the_page_counts_parameters_as_the_code_does() -> None:

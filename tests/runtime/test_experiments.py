@@ -76,15 +76,6 @@ def test_centre_gradient_is_that_of_a_point_mass(beside_the_mass) -> None:
     np.testing.assert_allclose(c.cross, amplitude / 2 * np.sin(2 * angle), rtol=0, atol=1e-9)
 
 
-def test_numerical_difference_is_the_next_multipoles(beside_the_mass) -> None:
-    # cos 2x in P_4 and P_6 of the potential of a mass in the disc's plane, over that in P_2.
-    ratio = (0.1 / 1.2) ** 2
-    factor = (20 / 64) / (3 / 4) * ratio + (105 / 512) / (3 / 4) * ratio**2
-    c, found = beside_the_mass
-    np.testing.assert_allclose(found["numerical"].inline, factor * c.inline, rtol=0, atol=2e-4)
-    np.testing.assert_allclose(found["numerical"].cross, factor * c.cross, rtol=0, atol=2e-4)
-
-
 def test_derived_models_measure_the_centre(beside_the_mass, third_a) -> None:
     _, found = beside_the_mass
     for model in ("analytical", "simplified"):

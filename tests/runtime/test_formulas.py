@@ -31,7 +31,6 @@ from ragg_runtime.base.series_name import (
     harmonic,
     series,
 )
-from ragg_runtime.estimation.observation import ROWS
 from ragg_runtime.identification.dictionary import list_generic, list_harmonics
 from ragg_runtime.io import files
 from ragg_runtime.report.plots import draw_plot
@@ -71,18 +70,6 @@ def test_every_file_of_the_page_is_there() -> None:
     assert len(places) > 12
     files = {p.relative_to(ROOT).as_posix() for p in PYTHON}
     assert [p for p in sorted(places) if not any(f == p or f.endswith(f"/{p}") for f in files)] == []
-
-
-def test_every_reference_is_cited_and_every_citation_is_there() -> None:
-    text, _, references = TEXT.partition("## References")
-    listed = set(re.findall(r"^(\d+)\. ", references, flags=re.MULTILINE))
-    cited = set(re.findall(r"\[([1-9]\d*)(?:, [^\]]+)?\]", text))
-    assert cited == listed
-
-
-def test_glossary_states_the_sizes_of_the_code() -> None:
-    glossary = (ROOT / "docs" / "reference" / "glossary.md").read_text("utf-8")
-    assert f"at most {ROWS:,} samples" in glossary
 
 
 def test_every_name_of_the_dictionary_is_printed_as_it_was_parsed() -> None:

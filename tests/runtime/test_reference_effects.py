@@ -119,19 +119,6 @@ def test_an_effect_changes_either_the_truth_or_the_record(effect: str) -> None:
         np.testing.assert_array_equal(flight.voltages[[0, 2, 3]], PLAIN.voltages[[0, 2, 3]])
 
 
-def test_noise_does_not_change_with_the_effects() -> None:
-    from ragg_runtime.reference.accelerometer_noise import Noise
-
-    noise = Noise(omega_T=1e-18)
-    plain = run(noise=noise, seed=3)
-    jittery = run(
-        {"spin-rate-jitter": {"sigma_phi": 1e-6}, "bias-drift": {"dK0_dt": 1e-8}}, noise=noise, seed=3
-    )
-    np.testing.assert_allclose(
-        jittery.voltages - jittery.voltages_noise_free, plain.voltages - plain.voltages_noise_free, atol=1e-9
-    )
-
-
 @pytest.mark.parametrize("tau", [1e-9, 1e-3, 0.03])
 def test_lag_is_the_exact_first_order_filter(tau) -> None:
     # A horizontal force at 2.2 Hz is seen by A1 at 1.95 and 2.45 Hz: filter each line exactly.
@@ -152,11 +139,6 @@ def test_lag_is_the_exact_first_order_filter(tau) -> None:
     ) / GAIN
     size = np.max(np.abs(filtered - plain))
     np.testing.assert_allclose(change, filtered - plain, rtol=0, atol=1e-6 * size + 2e-15)
-
-
-def test_full_kinematics_have_the_spin_of_the_disc_already() -> None:
-    with pytest.raises(UserError, match="full kinematics already"):
-        run({"disc-spin": {"share": 1.0}}, kinematics="full")
 
 
 def test_spin_rate_jitter_has_its_statistics() -> None:
@@ -240,12 +222,6 @@ def test_saturation_and_quantisation() -> None:
 def test_bad_effects_are_refused(effects: dict, message: str) -> None:
     with pytest.raises(UserError, match=message):
         run(effects)
-
-
-def test_bad_arguments_are_refused() -> None:
-    for wrong in ({"duration": 0.0}, {"rotations": "third-order"}):
-        with pytest.raises(UserError, match=next(iter(wrong))):
-            run(**wrong)
 
 
 def test_missing_auxiliary_channel_is_named() -> None:
