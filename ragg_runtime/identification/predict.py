@@ -1,22 +1,18 @@
-"""What an effect would do before it is derived, and a generic term by itself: the error left, signatures, significances."""
+"""What effects would do before they are derived, and a generic term by itself: the error left, significances."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
-from functools import partial
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.estimation import unknown_gradient, whitening
-from ragg_runtime.estimation.fitted import HELD_OUT_BLOCKS, Fitted
-from ragg_runtime.estimation.least_squares import compute_r_factor, join
-from ragg_runtime.estimation.observation import BLOCKS, ROWS, combine_output, split_at_blocks
-from ragg_runtime.estimation.whitening import Piece, PreparedFlight, divide_flight
+from ragg_runtime.estimation import whitening
+from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.identification import omnibus
 from ragg_runtime.identification.dictionary import Term, list_harmonics
 from ragg_runtime.identification.omnibus import Scores
@@ -24,68 +20,6 @@ from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import ProjectedProblem, make_problem
 
 Array = NDArray[np.float64]
-
-WIDEST = 8 * ROWS
-"""Most samples of a long flight for which the signature of an effect is computed while one waits."""
-
-
-@dataclass(frozen=True)
-class Unwhitened:
-    """The columns [base | candidates | residual] of G_out, not whitened: an R factor (n + 1, n + 1), V, of all flights in each block
-    of time, and its valid samples (BLOCKS,).
-    """
-
-    r_factors: tuple[Array, ...]
-    samples: Array
-
-    def rms(self, v: Array, blocks: Sequence[int]) -> float:
-        """Root mean square, V, of the residual in some blocks once columns have coefficients v (n,)."""
-        w = np.append(-v, 1.0)
-        squares = sum(float(np.sum((self.r_factors[b] @ w) ** 2)) for b in blocks)
-        count = float(np.sum(self.samples[list(blocks)]))
-        return float(np.sqrt(squares / count)) if count else float("nan")
-
-
-@one_thread
-def pass_unwhitened(f: Fitted) -> Unwhitened:
-    """The R factors of the unwhitened columns, in one pass over the flights."""
-    found: list[list[Array]] = [[] for _ in range(BLOCKS)]
-    samples = np.zeros(BLOCKS)
-
-    def own(piece: Piece, count: int) -> list[tuple[int, Array, int]]:
-        r, whole = piece.observation.record, piece.segment.rows
-        e = combine_output(
-            piece.observation, unknown_gradient.take_out(piece.columns, piece.windows, r.valid)
-        )
-        parts = []
-        for b, rows in split_at_blocks(whole, count):
-            here = slice(rows.start - whole.start, rows.stop - whole.start)
-            parts.append((b, compute_r_factor(e[:, here]), int(np.sum(r.valid[here]))))
-        return parts
-
-    for x in f.prepared:
-        for parts in x.each(partial(own, count=len(x.observation.record.time)), whitened=False):
-            for b, T, valid in parts:
-                found[b].append(T)
-                samples[b] += valid
-    nothing = np.zeros((f.size + 1, f.size + 1))
-    return Unwhitened(tuple(join(t) if t else nothing for t in found), samples)
-
-
-@dataclass(frozen=True)
-class Prediction:
-    """What a choice of effects would leave, if everything is linear: calibrated and held-out error before demodulation, Eo, and the
-    chi-square that ``rank`` coefficients explain beyond the model.
-    """
-
-    effects: tuple[str, ...]
-    rms_Eo: float
-    holdout_Eo: float
-    chi2: float
-    rank: int
-
-    def as_json(self) -> dict[str, object]:
-        return {**asdict(self), "effects": list(self.effects)}
 
 
 def make_problem_of(d: Diagnosis) -> ProjectedProblem:
@@ -108,52 +42,10 @@ def fit_effects(
 
 
 @one_thread
-def predict_error(
-    f: Fitted, known: Unwhitened, problem: ProjectedProblem, effects: Sequence[str]
-) -> Prediction:
-    """The error that the flights would leave with these effects in the model."""
-    chi2, rank = problem.joint([list_columns(problem, [e]) for e in effects]) if effects else (0.0, 0)
-    return Prediction(
-        effects=tuple(effects),
-        rms_Eo=known.rms(fit_effects(f, problem, effects), range(BLOCKS)) / f.k_ggi,
-        holdout_Eo=known.rms(fit_effects(f, problem, effects, held_out=True), HELD_OUT_BLOCKS) / f.k_ggi,
-        chi2=chi2,
-        rank=rank,
-    )
-
-
-def choose_rows(f: Fitted, flight: int, window: tuple[float, float]) -> slice:
-    """Samples of which a signature is computed: of a long flight only segments that meet ``window`` (s); UserError if it is wide."""
-    r = f.prepared[flight].observation.record
-    n = len(r.time)
-    if n <= ROWS:
-        return slice(0, n)
-    a, b = (int(np.clip((t - r.time[0]) * r.rate, 0, n)) for t in window)
-    if b - a > WIDEST or b <= a:
-        raise UserError(
-            "the signature of an effect is drawn of a part of so long a flight",
-            remedy=f"zoom in to less than {WIDEST / r.rate:.0f} s",
-        )
-    return slice(ROWS * (a // ROWS), min(n, ROWS * -(-b // ROWS)))
-
-
-def compute_signature(f: Fitted, flight: int, v: Array, rows: slice | None = None) -> tuple[slice, Array]:
-    """(samples, V): what coefficients v (size,) take out of the calibrated residual of G_out of one flight, in the segments that
-    hold ``rows`` (or all), and where these begin and end.
-    """
-    x = f.prepared[flight]
-    wanted = rows or slice(0, len(x.observation.record.time))
-    chosen = [
-        s for s in divide_flight(x.observation) if s.rows.start < wanted.stop and s.rows.stop > wanted.start
-    ]
-    both = np.stack([v, np.zeros_like(v)])
-
-    def taken(piece: Piece) -> Array:
-        after, before = piece.left(both)
-        return np.asarray(before - after)
-
-    parts = [*x.each(taken, chosen=chosen, whitened=False)]
-    return slice(chosen[0].rows.start, chosen[-1].rows.stop), np.concatenate(parts)
+def predict_error(f: Fitted, problem: ProjectedProblem, effects: Sequence[str]) -> tuple[float, float]:
+    """The error before demodulation, Eo, calibrated and held out, that these effects would leave if everything is linear."""
+    whole, held_out = f.score([fit_effects(f, problem, effects, held_out=h) for h in (False, True)])
+    return whole.whole.rms_Eo, held_out.held_out.rms_Eo
 
 
 # --- harmonic x motion term: the significance of every generic term in the residual of a flight

@@ -143,7 +143,6 @@ def write_addition(
         *_figure("The residual before and after", *both),
         *_figure("Demodulated channels", panels.plot_channels(f, lines), detail=True),
         *(replace(s, detail=True) for s in _with_failures([], after)),
-        *_figure("Contributions of the parameters", panels.plot_budget(f, after.noise_floor), detail=True),
     ]
     if diagnosis is not None:
         said = describe.describe_diagnosis(diagnosis.as_json())

@@ -12,7 +12,7 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.estimation.unknown_gradient import is_unknown
 from ragg_runtime.estimation.whitening import PreparedFlight
-from ragg_runtime.identification import budget, comparison, series
+from ragg_runtime.identification import comparison, series
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Axes, Bar, Bars, Curve, Curves
 
@@ -224,18 +224,6 @@ def plot_history(steps: Sequence[Mapping[str, Any]], noise: float) -> Bars | Non
         threshold=(noise, f"noise floor {numbers.number(noise)} Eo") if known else None,
         dots=("held out",),
     )
-
-
-def plot_budget(f: Fitted, noise: float) -> Bars:
-    """What each group of calibrated parameters contributes to the output."""
-    rows = budget.list_contributions(f)
-    bars = tuple(Bar(r.label, r.rms, strong=r.strong, dots=(r.inline, r.cross)) for r in rows)
-    caption = (
-        "What each group of parameters contributes to the output: the change when it is set to zero. Bars: rms before"
-        " demodulation; marks: standard deviation in the channels. Dark: effects that were added."
-    )
-    threshold, dots = (noise, "noise before demodulation"), ("inline", "cross")
-    return Bars("budget", caption, bars, "contribution, Eo", log=True, threshold=threshold, dots=dots)
 
 
 def plot_compensated(made: Sequence[Mapping[str, Array]]) -> Curves | None:

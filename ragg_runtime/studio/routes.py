@@ -320,10 +320,6 @@ def _try(session: Session, body: Body) -> None:
     session.attempt(_take(body, "id"), _take(body, "add"), {n: _take(units, n) for n in units})
 
 
-def _put_beside(session: Session, body: Body) -> None:
-    session.put_beside(None if body.get("step") is None else _take(body, "step", "a whole number"))
-
-
 ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
     "open": _open,
     "new": _new,
@@ -337,7 +333,6 @@ ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
     "undo": lambda session, body: session.go("undo"),
     "redo": lambda session, body: session.go("redo"),
     "restore": lambda session, body: session.go("restore", _take(body, "step", "a whole number")),
-    "beside": _put_beside,
     "try": _try,
     "keep": lambda session, body: session.keep(),
     "compensate": lambda session, body: session.compensate(

@@ -141,60 +141,49 @@ class View:
     def sample(self) -> Sampled:
         """The series in V, Eo, or demodulated (``inline``, ``cross``, Eo); a recorded channel in its own unit."""
         kind, _, name = self.a.what.partition(":")
+        r = self.record
         if kind == "channel":
-            return self._sample_channel(name)
-        rows = self.signature()[0] if kind in ("effect", "left") else slice(0, len(self.record.time))
+            if name not in r.wide:
+                raise UserError("the flight has no such channel", found=repr(name[:40]))
+            return sample(float(r.time[0]), 1.0 / r.rate, np.where(r.valid, r.wide[name], np.nan))
         effects = self.a.effects if kind in ("effect", "left") else ()
-        key = ("drawn", self.a.what, self.a.unit, effects, rows.start, rows.stop)
-        found: Sampled = self.remember(key, lambda: self._sample_rows(rows))
+        make = self._sample_fan if kind == "fan" else lambda: self._convert(self.volts(self.a.what))
+        found: Sampled = self.remember(("drawn", self.a.what, self.a.unit, effects), make)
         return found
 
-    def _sample_channel(self, name: str) -> Sampled:
-        r = self.record
-        if name not in r.wide:
-            raise UserError("the flight has no such channel", found=repr(name[:40]))
-        return sample(float(r.time[0]), 1.0 / r.rate, np.where(r.valid, r.wide[name], np.nan))
-
-    def _sample_rows(self, rows: slice) -> Sampled:
-        kind, _, edge = self.a.what.partition(":")
-        if kind != "fan":
-            return self._convert(self.volts(self.a.what, rows), rows)
-        each = [self._convert(x, rows) for x in self._draw_models()]
-        outermost = np.fmin if edge == "low" else np.fmax
+    def _sample_fan(self) -> Sampled:
+        each = [self._convert(x) for x in self._draw_models()]
+        outermost = np.fmin if self.a.what == "fan:low" else np.fmax
         return Sampled(each[0].start, each[0].step, outermost.reduce([x.values for x in each]))
 
-    def _convert(self, x: Array, rows: slice) -> Sampled:
-        """A series of ``rows``, V, in the unit that is asked for."""
+    def _convert(self, x: Array) -> Sampled:
+        """A series, V, in the unit that is asked for."""
         r, unit = self.record, self.a.unit
+        start, step = float(r.time[0]), 1.0 / r.rate
         if unit not in DEMODULATED:
-            y = np.where(r.valid[rows], x / (1.0 if unit == "V" else self.k_ggi), np.nan)
-            return sample(float(r.time[rows][0]), 1.0 / r.rate, y)
+            return sample(start, step, np.where(r.valid, x / (1.0 if unit == "V" else self.k_ggi), np.nan))
         if not r.turning:
             raise UserError("disc not spinning: no demodulation")
-        if len(x) < len(r.time):
-            raise UserError("in so long a flight the signature of an effect is drawn in V or Eo only")
-        g = demodulate_residual(x, self.record, self.f.scales[self.n])
+        g = demodulate_residual(x, r, self.f.scales[self.n])
         if not np.isfinite(g).any():
             where = self.prepared.observation.name
             raise UserError("the flight is too short to be demodulated", where=where)
-        return sample(float(r.time[0]), 1.0 / r.rate, g.real if unit == DEMODULATED[0] else g.imag)
+        return sample(start, step, g.real if unit == DEMODULATED[0] else g.imag)
 
-    def signature(self) -> tuple[slice, Array]:
-        """Samples, and what the ticked effects would take out of the residual there, V: of a long flight where the window lies."""
-        d, a = self.s.require("diagnosed"), self.a
+    def _predict_left(self) -> Array:
+        """What the ticked effects would leave of the residual (N,), V."""
+        d, effects = self.s.require("diagnosed"), self.a.effects
         if self.kept:
             raise UserError("no effect is predicted for a validation flight")
-        rows = predict.choose_rows(d.fitted, self.n, (a.first, a.last))
 
-        def make() -> tuple[slice, Array]:
-            v = predict.fit_effects(d.fitted, predict.make_problem_of(d), a.effects)
-            return predict.compute_signature(d.fitted, self.n, v, rows)
+        def make() -> list[Array]:
+            v = predict.fit_effects(d.fitted, predict.make_problem_of(d), effects)
+            return list(d.fitted.residuals(v))
 
-        found: tuple[slice, Array] = self.remember(("signature", a.effects, rows.start, rows.stop), make)
-        return found
+        return self.s.cache.get(("left", effects), make)[self.n]
 
-    def volts(self, name: str, rows: slice) -> Array:
-        """(rows,) V of any series; zero where a sample is not valid.
+    def volts(self, name: str) -> Array:
+        """(N,) V of any series; zero where a sample is not valid.
 
         ``effect`` is what the ticked effects would take out of the residual, ``left`` what they would leave; ``term:h:p`` a generic
         term fitted alone; ``band:low:high`` (Hz) the part of the residual there; ``before`` the residual before the
@@ -202,27 +191,23 @@ class View:
         """
         kind, _, of = name.partition(":")
         match kind:
-            case "effect" | "left":
-                known, taken = self.signature()
-                if known.start > rows.start or known.stop < rows.stop:
-                    raise UserError("the signature of so long a flight is not available everywhere")
-                taken = taken[rows.start - known.start : rows.stop - known.start]
-                return taken if kind == "effect" else self.residual[rows] - taken
+            case "effect":
+                return self.residual - self._predict_left()
+            case "left":
+                return self._predict_left()
             case "measured":
-                x = reported.compute_measured(self.prepared)
+                return reported.compute_measured(self.prepared)
             case "residual":
-                x = self.residual
+                return self.residual
             case "modelled":
-                x = reported.compute_measured(self.prepared) - self.residual
+                return reported.compute_measured(self.prepared) - self.residual
             case "before":
-                x = self._find_previous()
+                return self._find_previous()
             case "term":
-                x = self._fit_term(of)
+                return self._fit_term(of)
             case "band":
-                x = self._pass_band(of)
-            case _:
-                raise UserError("there is no such series", found=repr(name[:40]))
-        return np.asarray(x[rows])
+                return self._pass_band(of)
+        raise UserError("there is no such series", found=repr(name[:40]))
 
     def _draw_models(self) -> list[Array]:
         """Residuals (N,), V, of models drawn from the posterior of the parameters, the same ones each time."""
@@ -284,15 +269,15 @@ class View:
 
 def predict_error(s: State, a: Asked) -> dict[str, Any]:
     """The error that the ticked effects would leave, and that without them."""
-    d, unwhitened = s.require("diagnosed"), s.require("unwhitened")
+    d = s.require("diagnosed")
     known = predict.make_problem_of(d)
 
-    def predicted(*effects: str) -> predict.Prediction:
-        make = lambda: predict.predict_error(d.fitted, unwhitened, known, effects)  # noqa: E731
+    def predicted(*effects: str) -> tuple[float, float]:
+        make = lambda: predict.predict_error(d.fitted, known, effects)  # noqa: E731
         return s.cache.get(("predicted", effects), make)
 
-    found = predicted(*(e for e in a.effects if e in known.candidates))
-    return found.as_json() | {"before_Eo": predicted().rms_Eo, "noise_Eo": d.noise_floor}
+    rms, held_out = predicted(*(e for e in a.effects if e in known.candidates))
+    return {"rms_Eo": rms, "holdout_Eo": held_out, "before_Eo": predicted()[0], "noise_Eo": d.noise_floor}
 
 
 def draw_spectra(s: State, a: Asked) -> dict[str, Any]:
@@ -303,7 +288,7 @@ def draw_spectra(s: State, a: Asked) -> dict[str, Any]:
     wanted = {"before": s.previous, "residual": True, "left": ticked}
     for name in (k for k, there in wanted.items() if there):
         try:
-            x = v.volts(name, rows)
+            x = v.volts(name)[rows]
         except UserError:
             continue
         found = reported.estimate_spectrum(x / v.k_ggi, r.valid[rows], r.rate, DENSE)
@@ -326,7 +311,7 @@ def draw_spectrogram(s: State, a: Asked) -> bytes:
     r, rows, spin = v.record, v.rows(), abs(v.record.spin_frequency)
     top = min(MULTIPLES * spin or r.rate, r.rate / 2)
     name = a.what if a.what in ("residual", "before", "left", "measured") else "residual"
-    x, valid = v.volts(name, rows) / v.k_ggi, np.asarray(r.valid[rows])
+    x, valid = v.volts(name)[rows] / v.k_ggi, np.asarray(r.valid[rows])
     time, frequency, density = spectrogram(x, valid, r.rate, spin or top / MULTIPLES, top)
     if not np.isfinite(density).any():
         raise UserError("no segment without gaps is long enough for a spectrogram")

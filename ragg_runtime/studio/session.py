@@ -16,9 +16,7 @@ from ragg_runtime.api import Added, Compensation, Held, Loaded
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.progress import PASSES
-from ragg_runtime.identification import predict
 from ragg_runtime.identification.comparison import Comparison
-from ragg_runtime.identification.predict import Unwhitened
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.edit_toml import add_effect, set_parameters
 from ragg_runtime.instrument.instrument import EffectSetting
@@ -32,19 +30,11 @@ T = TypeVar("T")
 Part = Callable[[str, float], None]
 """Announces a part of some work: what it is, and the samples that it passes over."""
 
-KEPT = 4
-"""Results that are remembered, by model and flights: undo, redo and taking back a cut cost nothing."""
-
-SMALL = 1e6
-"""Samples of all flights together up to which they are: what belongs to a result grows with them, and so would memory."""
-
 SERIES = 24
 """Series of a state that are remembered: of a day at 100 Hz each takes 40 MB."""
 
 NOTHING: Mapping[str, None] = MappingProxyType(
-    dict.fromkeys(
-        ("compared", "diagnosed", "unwhitened", "held", "previous", "beside", "trial", "compensated")
-    )
+    dict.fromkeys(("compared", "diagnosed", "held", "previous", "trial", "compensated"))
 )
 """What is known of another model or other flights."""
 
@@ -81,9 +71,9 @@ class State:
     """What is open and known; ``None`` and empty where it is not yet.
 
     ``read`` are the flights as they were read, ``cuts`` the segments (from, to, s) of each that are left out, ``kept`` how many at
-    the end are kept for validation; ``compared``, ``diagnosed`` and ``unwhitened`` are results for exactly the others, ``held`` how
-    the model calibrated on them holds on those kept. ``previous`` is the comparison before the last step, ``beside`` a state of the
-    history with its comparison, ``trial`` an own effect that is not kept yet; ``cache`` holds series that were made of these.
+    the end are kept for validation; ``compared`` and ``diagnosed`` are results for exactly the others, ``held`` how the model
+    calibrated on them holds on those kept. ``previous`` is the comparison before the last step, ``trial`` an own effect that is
+    not kept yet; ``cache`` holds series that were made of these.
     """
 
     loaded: Loaded | None = None
@@ -94,10 +84,8 @@ class State:
     kept: int = 0
     compared: Comparison | None = None
     diagnosed: Diagnosis | None = None
-    unwhitened: Unwhitened | None = None
     held: Held | None = None
     previous: Comparison | None = None
-    beside: tuple[int, Comparison] | None = None
     trial: tuple[str, str, Mapping[str, str], Added] | None = None
     compensated: Compensation | None = None
     cache: SeriesCache = field(default_factory=SeriesCache)
@@ -139,7 +127,6 @@ class State:
 REMEDIES = {
     "compared": "open a flight and wait until it is compared",
     "diagnosed": "wait until every effect is tested",
-    "unwhitened": "wait until every effect is tested",
     "previous": "derive an effect into the model first",
     "compensated": "compensate the flights under Compensation",
 }
@@ -154,7 +141,6 @@ class Session:
         self.state = State()
         self.shown: tuple[State, dict[str, Any]] | None = None
         self._lock = threading.Lock()
-        self._results: dict[object, dict[str, object]] = {}
 
     def _put(self, **changes: object) -> None:
         with self._lock:
@@ -235,10 +221,6 @@ class Session:
         s = self.state
         if s.loaded is None or not s.flights:
             return
-        key = (s.loaded.directory.text, tuple(x.digest for x in s.flights), s.cuts, s.kept)
-        if key in self._results:
-            self._put(**self._results[key], cache=SeriesCache())
-            return
         if s.compared is None:
             part("calibrating and comparing", PASSES["compare"] * s.samples)
             self._put(compared=api.compare(s.loaded, s.fitted), cache=SeriesCache())
@@ -247,14 +229,7 @@ class Session:
             part("validating", PASSES["compare"] * s.samples)
             self._put(held=api.validate(s.loaded, compared, s.fitted, s.flights[-s.kept :]))
         part("testing every effect", PASSES["diagnose"] * s.samples)
-        d = api.diagnose(s.loaded, s.fitted, compared=compared)
-        part("preparing the preview", s.samples)
-        self._put(diagnosed=d, unwhitened=predict.pass_unwhitened(d.fitted))
-        if s.samples <= SMALL:
-            names = ("compared", "diagnosed", "unwhitened", "held")
-            self._results[key] = {n: getattr(self.state, n) for n in names}
-            while len(self._results) > KEPT:
-                self._results.pop(next(iter(self._results)))
+        self._put(diagnosed=api.diagnose(s.loaded, s.fitted, compared=compared))
 
     def reread(self) -> None:
         """Load the model directory again if someone else has changed it."""
@@ -317,18 +292,6 @@ class Session:
         else:
             raise UserError(f"there is nothing to {action}")
         self._change(api.change(m, text_of(m.directory.history, to), action, str(to)))
-
-    def put_beside(self, step: int | None) -> None:
-        """Compare the model as it was after a step with the same flights; ``None``: no longer."""
-        if step is None:
-            self._put(beside=None)
-            return
-        m = self.state.model
-        if not 0 <= step < len(m.directory.history):
-            raise UserError("there is no such step", found=step)
-        old = api.as_of(m, text_of(m.directory.history, step))
-        name = "comparing an earlier model"
-        self._work(name, "compare", lambda s: {"beside": (step, api.compare(old, s.fitted))})
 
     def attempt(self, effect: str, add: str, units: Mapping[str, str]) -> None:
         """Try an effect of the user's own: derived and calibrated, but not kept."""

@@ -59,7 +59,6 @@ def overview(s: State) -> Json:
         "history": None if m is None else _show_history(m),
         "error_steps": [] if m is None or c is None else _show_steps(m, c),
         "compensated": None if s.compensated is None else _show_compensation(s),
-        "beside": None if s.beside is None else _show_beside(*s.beside),
         "trial": None if s.trial is None else _show_trial(s),
         "before": s.previous is not None and c is not None,
     }
@@ -331,11 +330,6 @@ def _show_compensation(s: State) -> Json:
         "demodulator": c.result["demodulator"]["name"],
         "sections": show_sections(describe_other.describe_compensation(c.as_json(), "")),
     }
-
-
-def _show_beside(step: int, c: Comparison) -> Json:
-    names = [x.name for x in c.fitted.observations]
-    return {"step": step, "sections": show_sections(describe.describe_comparison(c.as_json(), names)[:2])}
 
 
 def _show_trial(s: State) -> Json:

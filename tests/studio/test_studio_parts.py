@@ -45,26 +45,13 @@ def diagnosis(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
     return api.diagnose(m, api.read_flights(m, [folder / "flight.parquet"]))
 
 
-@pytest.mark.parametrize(
-    "effects", [(), ("thermal-scale",), ("gain-step",), ("lag", "cubic-cross", "magnetic-bias")]
-)
-def test_what_is_predicted_is_what_a_pass_over_the_flight_finds(diagnosis, effects) -> None:
-    f = diagnosis.fitted
-    field = make_problem(f, [r.effect for r in diagnosis.ranking])
-    found = predict.predict_error(f, predict.pass_unwhitened(f), field, effects)
-    vectors = [predict.fit_effects(f, field, effects, held_out=h) for h in (False, True)]
-    whole, half = f.score(vectors)
-    assert found.rms_Eo == pytest.approx(whole.whole.rms_Eo, rel=1e-9)
-    assert found.holdout_Eo == pytest.approx(half.held_out.rms_Eo, rel=1e-9)
-
-
-def test_a_signature_is_the_residual_that_goes(diagnosis: Diagnosis) -> None:
-    f = diagnosis.fitted
-    v = predict.fit_effects(f, make_problem(f, ["thermal-scale"]), ["thermal-scale"])
-    rows, taken = predict.compute_signature(f, 0, v)
-    assert rows == slice(0, 960)
-    before, after = (f.residuals(x)[0] for x in (np.zeros(f.size), v))
-    assert np.allclose(taken, before - after, atol=1e-12 * np.max(np.abs(before)))
+def test_what_is_predicted_is_what_the_derived_effect_leaves(diagnosis: Diagnosis) -> None:
+    f, (found,) = diagnosis.fitted, diagnosis.found
+    problem = make_problem(f, [found])
+    (row,) = (r for r in diagnosis.ranking if r.effect == found)
+    errors = predict.predict_error(f, problem, [found])
+    assert errors == pytest.approx((row.after.rms_Eo, row.after_holdout.rms_Eo), rel=1e-3)
+    assert errors[0] < 0.95 * predict.predict_error(f, problem, [])[0]
 
 
 def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> None:

@@ -199,7 +199,7 @@ export function figures(box) {
     if (flight() && view.output >= Math.max(1, (flight().parts || []).length) && ready()) look({ output: 0 });
     if (ready() && !spin() && !["V", "Eo"].includes(view.unit)) look({ unit: "Eo" });
     const b = state && state.banner;
-    const key = JSON.stringify([state && state.model && state.model.path, state && state.flights.map((f) => f.cuts), b && b.errors, state && state.effects.length, state && state.flights.map((f) => f.path), state && state.beside && state.beside.step]);
+    const key = JSON.stringify([state && state.model && state.model.path, state && state.flights.map((f) => f.cuts), b && b.errors, state && state.effects.length, state && state.flights.map((f) => f.path)]);
     heading();
     if (key === shown) return;
     shown = key;

@@ -99,20 +99,18 @@ export function sheetView(main) {
   return on("server", known);
 }
 
-// The steps as they were made, and the branches that were left; any state can be compared beside the present one.
+// The steps as they were made, and the branches that were left.
 
 const SAID = { new: "made from a test sheet", add: "added", remove: "removed", edit: "sheet edited:", undo: "undo", redo: "redo", restore: "went back", calibrate: "calibration saved" };
 
 export function historyView(main) {
-  const steps = h("section.card"), two = h("section.card", { hidden: true });
-  fill(main, steps, two);
+  const steps = h("section.card");
+  fill(main, steps);
   const known = () => {
     const { state } = server;
     if (!state || !state.history) return void fill(main, h("p.empty-note", {}, "Open a model directory to see its history."));
-    if (!steps.isConnected) fill(main, steps, two);
+    if (!steps.isConnected) fill(main, steps);
     listed(state);
-    two.hidden = !(state.beside && state.banner);
-    if (!two.hidden) beside(two, state);
   };
 
   const listed = (state) => {
@@ -132,19 +130,8 @@ export function historyView(main) {
           [s.before, s.after, s.holdout].map((x) => h("td.n", {}, x === null ? "–" : number(x))),
           h("td", {}, s.flights.join(", ")),
           h("td.do", {},
-            s.kept && s.n !== history.now ? h("button", { type: "button", disabled: busy, onclick: () => doing("restore", { step: s.n }), "aria-label": `Go back to the state after step ${s.n + 1}` }, "go back") : null,
-            s.kept && s.n !== history.now && state.flights.length ? h("button", { type: "button", disabled: busy, onclick: () => doing("beside", { step: s.n }), "aria-label": `Compare the state after step ${s.n + 1} beside the present one` }, "compare") : null)))))));
+            s.kept && s.n !== history.now ? h("button", { type: "button", disabled: busy, onclick: () => doing("restore", { step: s.n }), "aria-label": `Go back to the state after step ${s.n + 1}` }, "go back") : null)))))));
   };
   known();
   return on("server", known);
-}
-
-function beside(box, state) {
-  const b = state.beside, effects = state.model.effects.map((e) => e.id).join(", ") || "none";
-  const part = (title, ...nodes) => h("div", {}, h("h3", {}, title), nodes);
-  fill(box,
-    h("h2", {}, "Two models side by side"),
-    h("p.note", {}, "Both calibrated on the flights that are open."),
-    h("div.pair", {}, part(`after step ${b.step + 1}`, b.sections.map(sectionNode)), part("now", h("p", {}, state.banner.sentences[0]), h("p", {}, `effects in the model: ${effects}`), tableNode(state.banner.table))),
-    h("div.row", {}, h("button", { type: "button", onclick: () => doing("beside", { step: null }) }, "Close")));
 }
