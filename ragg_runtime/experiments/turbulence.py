@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.paper import Experiment, Printed, PrintedEntry, judge
+from ragg_runtime.experiments.paper import Experiment, PrintedEntry, judge
 from ragg_runtime.experiments.runs import (
     LARGEST,
     bounds,
@@ -72,7 +72,6 @@ def repeat_turbulence() -> Experiment:
         values |= {(e, name): np.array([s[name] for s in each]) for name in _LABELS}
     reach = draw_moments()
     rows = [_compare_entry(e, name, values, reach) for e in EXPERIMENTS for name in _LABELS]
-    rows += [_compare_growth(values, reach), *_compare_densities(values, reach)]
     settings = {
         "instrument": "Table V; vartheta_x = 0 (not stated)",
         "motion": "Table VII; independent Gaussian samples; horizontal mean and deviation 15 % of the "
@@ -108,45 +107,6 @@ def _compare_entry(e: int, name: str, values: Values, reach: Values) -> PrintedE
         open_input=_MEAN if simplified else _ANALYTICAL,
         unexplained=why,
     )
-
-
-def _compare_growth(values: Values, reach: Values) -> PrintedEntry:
-    """Sigma of experiment 3 over that of 1; its reach over vartheta_x, with white noise that makes up what 1 lacks."""
-    first, third = (paper.table_viii(e, "sigma_in").value for e in (1, 3))
-    ratio = values[3, "sigma_in"] / values[1, "sigma_in"]
-    one, three = (reach[e, "sigma_in"] for e in (1, 3))
-    noise = np.maximum(first**2 - one**2, 0.0)
-    least = float(np.sqrt((three**2 + noise) / (one**2 + noise)).min())
-    return judge(
-        "sigma, inline, analytical: exp. 3 over exp. 1",
-        Printed(f"{third / first:.2f}", "", "Table VIII"),
-        float(ratio.mean()),
-        spread=bounds(ratio),
-        reach=(least, float((three / one).max())),
-        open_input="the model's error is quadratic in the acceleration, so twice the mean makes twice "
-        "the sigma, for any vartheta_x (and the printed M does grow fourfold); a sigma that stays "
-        "needs another source, such as the accelerometer noise of Eq. 52, of which the paper does not "
-        "say how much, together with a vartheta_x that makes the model's own part small",
-        unexplained="neither vartheta_x nor accelerometer noise gives it",
-    )
-
-
-def _compare_densities(values: Values, reach: Values) -> list[PrintedEntry]:
-    root, rows = float(np.sqrt(paper.BANDWIDTH)), []
-    for model, e, density in paper.DENSITIES:
-        v = values[e, f"sigma{MARKS[model]}_in"] / root
-        rows.append(
-            judge(
-                f"exp. {e}: noise density, {model}",
-                density,
-                float(v.mean()),
-                spread=bounds(v),
-                reach=bounds(reach[e, "sigma_in"] / root) if model == "analytical" else None,
-                open_input=_ANALYTICAL,
-                unexplained=_NO_ANGULAR_MOTION if e == 1 else "as sigma",
-            )
-        )
-    return rows
 
 
 def draw_moments() -> Values:

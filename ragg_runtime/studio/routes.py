@@ -207,9 +207,11 @@ async def _upload(session: Session, request: Request) -> Response:
 
 
 async def _try_mapping(session: Session, request: Request) -> Response:
-    body = await _read_body(request)
-    path, given = session.places.inside(_take(body, "flight")), _take(body, "mapping", "a mapping")
-    return _send_json(await run_in_threadpool(mapping.try_mapping, session.state.model, path, given))
+    def tried(session: Session, body: Body) -> Any:
+        path = session.places.inside(body["flight"])
+        return mapping.try_mapping(session.state.model, path, body["mapping"])
+
+    return _send_json(await _act(tried, session, await _read_body(request)))
 
 
 async def _do(session: Session, request: Request) -> Response:
@@ -217,15 +219,24 @@ async def _do(session: Session, request: Request) -> Response:
     action = ACTIONS.get(request.path_params["what"])
     if action is None:
         raise UserError("there is no such action", found=request.path_params["what"][:40])
-    await run_in_threadpool(action, session, body)
+    await _act(action, session, body)
     return JSONResponse({"status": session.jobs.status.as_json()}, 202)
+
+
+async def _act(action: Callable[[Session, Body], Any], session: Session, body: Body) -> Any:
+    """What an action returns; UserError if it is asked for in another way than the page asks."""
+    try:
+        return await run_in_threadpool(action, session, body)
+    except (LookupError, TypeError, AttributeError, ValueError, ArithmeticError) as error:
+        found = f"{type(error).__name__}: {error}"
+        raise UserError("the page does not ask in this way", found=found[:80]) from error
 
 
 async def _read_body(request: Request) -> dict[str, Any]:
     if request.headers.get("content-type", "").split(";")[0] != "application/json":
         raise UserError("the body must be JSON", where=str(request.url.path))
     try:
-        body = json.loads(await request.body(), parse_int=_whole)
+        body = json.loads(await request.body())
     except (ValueError, RecursionError):
         raise UserError("the body is not JSON", where=str(request.url.path)) from None
     if not isinstance(body, dict):
@@ -233,91 +244,43 @@ async def _read_body(request: Request) -> dict[str, Any]:
     return body
 
 
-def _whole(text: str) -> int:
-    """A whole number that a float holds as well: all that the page asks for are far smaller."""
-    if abs(number := int(text)) > 1 << 53:
-        raise ValueError("a number is out of range")
-    return number
-
-
-def _is_list(x: Any, kinds: tuple[type, ...]) -> bool:
-    return isinstance(x, list) and len(x) <= 2000 and all(type(v) in kinds for v in x)
-
-
-def _is_mapping(x: Any) -> bool:
-    """Whether it is a mapping as the page sends it: rows, and tables of texts and numbers."""
-    if not (isinstance(x, dict) and isinstance(x.get("rows"), list)):
-        return False
-    named = (isinstance(r, dict) and isinstance(r.get("channel"), str) for r in x["rows"])
-    return all(named) and all(isinstance(x.get(k, {}), dict) for k in ("time", "file", "axes"))
-
-
-KINDS: Mapping[str, Callable[[Any], bool]] = {
-    "a text": lambda x: isinstance(x, str) and len(x) <= 4096,
-    "a list of texts": lambda x: _is_list(x, (str,)),
-    "a whole number": lambda x: type(x) is int,
-    "a list of numbers": lambda x: bool(x) and _is_list(x, (int, float)),
-    "a table": lambda x: isinstance(x, dict),
-    "a mapping": _is_mapping,
-}
-"""What the page sends: kind -> whether a value is of it."""
-
-
-def _take(body: Body, key: str, kind: str = "a text") -> Any:
-    """The value of a key; UserError if it is of another kind."""
-    value = body.get(key)
-    if not KINDS[kind](value):
-        raise UserError(f"{kind} is needed", where=key[:40], found=repr(value)[:80])
-    return value
-
-
 def _open(session: Session, body: Body) -> None:
-    model = session.places.inside(_take(body, "model")) if body.get("model") else None
-    flights = _take(body, "flights", "a list of texts") if body.get("flights") else []
-    session.open(model, [session.places.inside(f) for f in flights])
+    model = session.places.inside(body["model"]) if body.get("model") else None
+    session.open(model, [session.places.inside(f) for f in body.get("flights") or ()])
 
 
 def _new(session: Session, body: Body) -> None:
-    sheet = session.places.inside(_take(body, "sheet")) if body.get("sheet") else None
-    session.new(session.places.inside(_take(body, "model")), sheet)
+    sheet = session.places.inside(body["sheet"]) if body.get("sheet") else None
+    session.new(session.places.inside(body["model"]), sheet)
 
 
 def _map(session: Session, body: Body) -> None:
-    flight, m = session.places.inside(_take(body, "flight")), session.state.model
-    mapping.keep(m, flight, _take(body, "mapping", "a mapping"), replace=body.get("replace") is True)
+    flight, m = session.places.inside(body["flight"]), session.state.model
+    mapping.keep(m, flight, body["mapping"], replace=body.get("replace") is True)
     session.open(m.directory.path, [flight])  # the model anew: the mapping is its own now
 
 
 def _leave(session: Session, body: Body) -> None:
-    flight, ends = _take(body, "flight", "a whole number"), [body.get(k) for k in ("from", "to")]
+    ends = [body.get(k) for k in ("from", "to")]
     if ends == [None, None]:
-        session.leave_out(flight, None)
+        session.leave_out(body["flight"], None)
         return
-    first, last = (float(x) if isinstance(x, int | float) else math.nan for x in ends)
+    first, last = (math.nan if x is None else float(x) for x in ends)
     if not first < last:
         raise UserError("a segment of time is needed", where="from, to", found=repr(ends)[:80])
-    session.leave_out(flight, (first, last))
+    session.leave_out(body["flight"], (first, last))
 
 
 def _edit(session: Session, body: Body) -> None:
     """Values of the test sheet: name -> as many numbers as accelerometers, unit, sigma, fixed."""
     found: dict[str, SheetEdit] = {}
-    for name in _take(body, "values", "a table"):
-        given = _take(body["values"], name, "a table")
-        value = RawQuantity(
-            tuple(map(float, _take(given, "value", "a list of numbers"))), _take(given, "unit")
-        )
-        sigma = None if given.get("sigma") is None else _take(given, "sigma", "a list of numbers")
-        of_sheet = None if sigma is None else tuple(map(float, sigma))
-        found[name] = SheetEdit(value, of_sheet, given.get("fixed") is True)
+    for name, given in body["values"].items():
+        sigma = None if given.get("sigma") is None else tuple(map(float, given["sigma"]))
+        value = RawQuantity(tuple(map(float, given["value"])), given["unit"])
+        found[name] = SheetEdit(value, sigma, given.get("fixed") is True)
     if not found:
         raise UserError("no value was changed", remedy="change one, then save")
     session.edit(found)
-
-
-def _try(session: Session, body: Body) -> None:
-    units = _take(body, "units", "a table")
-    session.attempt(_take(body, "id"), _take(body, "add"), {n: _take(units, n) for n in units})
 
 
 ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
@@ -325,19 +288,17 @@ ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
     "new": _new,
     "map": _map,
     "look": lambda session, body: session.look(),
-    "add": lambda session, body: session.add(_take(body, "effects", "a list of texts")),
-    "remove": lambda session, body: session.remove(_take(body, "effect")),
+    "add": lambda session, body: session.add([*body["effects"]]),
+    "remove": lambda session, body: session.remove(body["effect"]),
     "edit": _edit,
     "leave": _leave,
-    "validate": lambda session, body: session.keep_for_validation(_take(body, "flight", "a whole number")),
+    "validate": lambda session, body: session.keep_for_validation(body["flight"]),
     "undo": lambda session, body: session.go("undo"),
     "redo": lambda session, body: session.go("redo"),
-    "restore": lambda session, body: session.go("restore", _take(body, "step", "a whole number")),
-    "try": _try,
+    "restore": lambda session, body: session.go("restore", body["step"]),
+    "try": lambda session, body: session.attempt(body["id"], body["add"], body["units"]),
     "keep": lambda session, body: session.keep(),
-    "compensate": lambda session, body: session.compensate(
-        _take(body, "calibration"), _take(body, "demodulator")
-    ),
+    "compensate": lambda session, body: session.compensate(body["calibration"], body["demodulator"]),
     "calibrate": lambda session, body: session.calibrate(),
     "cancel": lambda session, body: session.jobs.cancel(),
 }

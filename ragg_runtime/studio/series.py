@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.compensation.calibrate import information, invert_root
 from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.identification import predict
 from ragg_runtime.identification import series as reported
@@ -43,9 +42,6 @@ RESOLUTION = 0.25
 
 LEAST = 0.9
 """Share of the samples under a window that must be valid."""
-
-MODELS = 12
-"""Models that are drawn from the posterior."""
 
 
 @dataclass(frozen=True)
@@ -147,14 +143,9 @@ class View:
                 raise UserError("the flight has no such channel", found=repr(name[:40]))
             return sample(float(r.time[0]), 1.0 / r.rate, np.where(r.valid, r.wide[name], np.nan))
         effects = self.a.effects if kind in ("effect", "left") else ()
-        make = self._sample_fan if kind == "fan" else lambda: self._convert(self.volts(self.a.what))
+        make = lambda: self._convert(self.volts(self.a.what))  # noqa: E731
         found: Sampled = self.remember(("drawn", self.a.what, self.a.unit, effects), make)
         return found
-
-    def _sample_fan(self) -> Sampled:
-        each = [self._convert(x) for x in self._draw_models()]
-        outermost = np.fmin if self.a.what == "fan:low" else np.fmax
-        return Sampled(each[0].start, each[0].step, outermost.reduce([x.values for x in each]))
 
     def _convert(self, x: Array) -> Sampled:
         """A series, V, in the unit that is asked for."""
@@ -208,14 +199,6 @@ class View:
             case "band":
                 return self._pass_band(of)
         raise UserError("there is no such series", found=repr(name[:40]))
-
-    def _draw_models(self) -> list[Array]:
-        """Residuals (N,), V, of models drawn from the posterior of the parameters, the same ones each time."""
-        if self.kept:
-            raise UserError("no model is drawn for a validation flight")
-        root = invert_root(information(self.f))
-        z = np.random.default_rng(0).standard_normal((MODELS, self.f.n_base))
-        return [self.f.residuals(self.f.vector(root @ x))[self.n] for x in z]
 
     def _find_previous(self) -> Array:
         """The residual (N,), V, of the model before the last step."""

