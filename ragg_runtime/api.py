@@ -46,7 +46,6 @@ from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.io import Flight
 from ragg_runtime.io.files import require_writable as check_output
-from ragg_runtime.io.record import distinct
 from ragg_runtime.model import derive
 from ragg_runtime.model.catalogue import Catalogue, effects
 from ragg_runtime.model.directory import CALIBRATION, HistoryStep, replace_model_dir
@@ -107,7 +106,6 @@ def compare(m: Loaded, flights: Flights) -> Comparison:
         If the flights cannot be read or do not fit the instrument.
     """
     flights = read_flights(m, flights)
-    distinct(flights)
     return _compare.compare(m.model, m.instrument, flights)
 
 
@@ -135,7 +133,6 @@ def diagnose(
         As for :func:`ragg.compare`.
     """
     flights = read_flights(m, flights)
-    distinct(flights)
     extended = partial(derive.with_effects, m.instrument)
     if compared is None:
         d = _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
@@ -149,8 +146,6 @@ LIMIT_UNITS = {
     "omega": "rad/s",
     "jerk": "m/s^3",
     "alpha": "rad/s^2",
-    "mass": "m",
-    "speed": "m/s",
 }
 
 
@@ -165,7 +160,7 @@ def parse_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
                 "the limit of a motion cannot be read",
                 where="--limit",
                 found=text,
-                expected="a=50mg, omega=500deg/h, jerk=1m/s^3, alpha=1deg/s^2, mass=0.5m or speed=0.1m/s; of one axis a_z=50mg",
+                expected="a=50mg, omega=500deg/h, jerk=1m/s^3 or alpha=1deg/s^2; of one axis a_z=50mg",
             )
         q = read_quantity(size, f"--limit {name}", count=1)
         value = m.instrument.units.to_si(np.asarray(q.value), q.unit, LIMIT_UNITS[kind], f"--limit {name}")
@@ -260,7 +255,6 @@ def add(
         If there is no such effect, if the model has it, or if a flight lacks a channel that it needs.
     """
     flights = read_flights(m, flights)
-    distinct(flights)
     setting = _setting(m, effect, flights)
     others = replace(m.instrument, effects=tuple(s for s in m.instrument.effects if s.id != effect))
     before = _compare.compare(derive.load_model(others), others, flights) if flights else None
@@ -427,7 +421,6 @@ def calibrate(
         Parameters with their standard uncertainties, combinations, errors; ``loaded``, the model with the calibration.
     """
     flights = read_flights(m, flights, mapping)
-    distinct(flights)
     text = None if mapping is None else mapping_text(Path(mapping))
     c = _calibrate.calibrate(m.model, m.instrument, flights)
     walked = smooth_drift(c.fitted, flights) if drift else None
@@ -457,7 +450,6 @@ def calibration_notes(m: Loaded) -> list[str]:
 def compare_frozen(m: Loaded, flights: Flights) -> Held:
     """How far the model is from flights with the parameters as they were kept, and how these hold."""
     flights = read_flights(m, flights)
-    distinct(flights)
     return _frozen.compare_frozen(m.model, m.instrument, flights, saved_calibration(m))
 
 

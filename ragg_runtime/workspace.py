@@ -18,7 +18,7 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.io import read_flights as _read_flights
 from ragg_runtime.io.mapping import Mapped, parse_mapping, read_mapping
-from ragg_runtime.io.record import GRADIENT
+from ragg_runtime.io.record import GRADIENT, distinct
 from ragg_runtime.model import derive
 from ragg_runtime.model.directory import (
     MAPPING,
@@ -195,7 +195,7 @@ def read_flights(
     Raises
     ------
     UserError
-        If a file cannot be read or does not fit the instrument.
+        If a file cannot be read or does not fit the instrument, or is given twice.
     """
     given = list(paths) if isinstance(paths, list | tuple) else [paths]
     how = mapping_of(m, mapping) if any(not isinstance(x, Flight) for x in given) else None
@@ -213,6 +213,7 @@ def read_flights(
             name="flight" if len(given) == 1 else f"flight {n}",
         )
         found += [screen(m.model, m.instrument, x) for x in read]
+    distinct(found)
     return found
 
 

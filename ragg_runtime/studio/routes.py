@@ -6,7 +6,6 @@ import asyncio
 import contextlib
 import json
 import math
-import traceback
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from functools import partial
 from importlib import resources
@@ -24,7 +23,8 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.studio import mapping, series, views
 from ragg_runtime.studio.files import check_flight, receive_flight
-from ragg_runtime.studio.session import Busy, Session, SheetEdit
+from ragg_runtime.studio.session import Busy, Session, SheetEdit, describe_failure
+from ragg_runtime.wording import numbers
 
 BEAT = 0.15
 """How often a page hears of changes, s."""
@@ -63,22 +63,17 @@ def make_application(session: Session) -> Starlette:
 
 
 async def _answer(answer: Answer, session: Session, request: Request) -> Response:
-    def refused(status: int, what: str | None, **facts: object) -> Response:
-        return JSONResponse({"error": {"what": what, **facts}}, status)
-
     try:
         return await answer(session, request)
-    except UserError as e:
-        return JSONResponse({"error": e.facts}, 400)
     except Busy:
-        return refused(409, "another task is running; cancel it or wait")
+        what = "another task is running; cancel it or wait"
+        return JSONResponse({"error": {"what": what}}, 409)
     except ClientDisconnect:
-        return refused(408, "the request was incomplete")
-    except OSError as e:
-        return refused(400, e.strerror or "the system refused", where=e.filename)
-    except Exception:
-        traceback.print_exc()
-        return refused(500, "this is a fault of the program; see the terminal")
+        return JSONResponse({"error": {"what": "the request was incomplete"}}, 408)
+    except Exception as e:
+        return JSONResponse(
+            {"error": describe_failure(e)}, 400 if isinstance(e, UserError | OSError) else 500
+        )
 
 
 # --- what is read --------------------------------------------------------------------------------------
@@ -105,23 +100,28 @@ async def _read(make: Callable[[Session, Request], Any], session: Session, reque
 
 
 def _send_json(content: Any) -> Response:
-    text = json.dumps(_finite(content), allow_nan=False, ensure_ascii=False, separators=(",", ":"))
+    text = json.dumps(_make_plain(content), allow_nan=False, ensure_ascii=False, separators=(",", ":"))
     return Response(text.encode("utf-8", "replace"), media_type="application/json")
 
 
-def _finite(x: Any) -> Any:
-    """JSON has no NaN: null in its place."""
-    if isinstance(x, float):
-        return x if math.isfinite(x) else None
-    if isinstance(x, Mapping):
-        return {k: _finite(v) for k, v in x.items()}
-    return [_finite(v) for v in x] if isinstance(x, list | tuple) else x
+def _make_plain(x: Any) -> Any:
+    """The same without what JSON does not know (NaN), and without control characters, which names in files may hold."""
+    match x:
+        case float():
+            return x if math.isfinite(x) else None
+        case str():
+            return numbers.clean(x)
+        case dict():
+            return {k: _make_plain(v) for k, v in x.items()}
+        case list() | tuple():
+            return [_make_plain(v) for v in x]
+    return x
 
 
 def _show_state(session: Session, request: Request) -> Any:
     status, s = {"status": session.jobs.status.as_json()}, session.state
     if session.shown is None or session.shown[0] is not s:  # a state never changes: it is described once
-        session.shown = s, views.clean(views.overview(s))
+        session.shown = s, views.overview(s)
     return status | session.shown[1]
 
 

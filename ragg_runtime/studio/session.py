@@ -409,6 +409,20 @@ class Status:
         return asdict(self) | {"spent_s": time.monotonic() - self.began if self.job else 0.0}
 
 
+def describe_failure(error: Exception) -> dict[str, str | None]:
+    """What went wrong, and where, by name; a fault of the program also goes to the terminal."""
+    match error:
+        case UserError():
+            return error.facts
+        case OSError():
+            where = None if error.filename is None else one_line(str(error.filename))
+            return {"what": error.strerror or "the system refused", "where": where}
+        case MemoryError():
+            return {"what": "there is not enough memory; nothing was changed"}
+    traceback.print_exception(error)
+    return {"what": "this is a fault of the program, not of your input; see the terminal"}
+
+
 class Jobs:
     """One worker. Its status changes in its thread."""
 
@@ -469,15 +483,7 @@ class Jobs:
                 work(part)
         except Cancelled:
             error = {"what": "cancelled; nothing was changed"}
-        except UserError as e:
-            error = e.facts
-        except OSError as e:
-            where = None if e.filename is None else one_line(str(e.filename))
-            error = {"what": e.strerror or "the system refused", "where": where}
-        except MemoryError:
-            error = {"what": "there is not enough memory; nothing was changed"}
-        except Exception:
-            traceback.print_exc()
-            error = {"what": "this is a fault of the program, not of your input; see the terminal"}
+        except Exception as e:
+            error = describe_failure(e)
         finally:
             self._tell(job="", share=0.0, error=error)

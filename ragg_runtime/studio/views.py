@@ -64,15 +64,6 @@ def overview(s: State) -> Json:
     }
 
 
-def clean(x: Any) -> Any:
-    """The same without control characters, which names in files may hold."""
-    if isinstance(x, str):
-        return numbers.clean(x)
-    if isinstance(x, Mapping):
-        return {k: clean(v) for k, v in x.items()}
-    return [clean(v) for v in x] if isinstance(x, list | tuple) else x
-
-
 def show_table(t: Table) -> Json:
     """A table for the page."""
     return {"heads": t.heads, "rows": t.rows, "words": t.words, "note": t.note}

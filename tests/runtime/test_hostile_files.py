@@ -197,7 +197,7 @@ def short_flight(loaded: api.Loaded) -> Flight:
 def test_in_two_formats_it_is_refused_everywhere(loaded, short_flight, tmp_path) -> None:
     write_flight(short_flight, tmp_path / "x.csv")
     write_flight(short_flight, tmp_path / "y.parquet")
-    both = api.read_flights(loaded, [tmp_path / "x.csv", tmp_path / "y.parquet"])
+    both = [tmp_path / "x.csv", tmp_path / "y.parquet"]
     for use in (
         api.compare,
         api.diagnose,
