@@ -26,6 +26,7 @@ from ragg_runtime.identification.parameters import (
 from ragg_runtime.identification.series import list_noise_floor
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
+from ragg_runtime.model.evaluate import name_values
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
@@ -131,18 +132,22 @@ def calibrate(model: Model, instrument: Instrument, flights: Sequence[Flight]) -
 def make_saved(c: Calibrated, flights: Sequence[Flight], time: str) -> Saved:
     """The calibration as a model directory keeps it; ``time``: now, UTC."""
     f, q = c.fitted, c.fitted.calibration
+    values, sheet = (
+        {name: x.tolist() for name, x in name_values(f.model.chain, p).items()} for p in (q.p, f.sheet)
+    )
     return Saved(
         time=time,
-        effects=tuple(e.id for e in f.model.effects),
-        form=f.instrument.form.words(),
-        derivation=f.model.digest,
-        layout=tuple(f.model.chain.PARAMETERS),
-        p=q.p,
-        sheet=f.sheet,
+        converged=q.converged,
+        model={
+            "effects": [e.id for e in f.model.effects],
+            "form": f.instrument.form.words(),
+            "derivation": f.model.digest,
+        },
+        values=values,
+        sheet=sheet,
         columns=q.columns,
         index=q.index,
         information=information(f),
-        converged=q.converged,
         validity=find_ranges(flights),
         flights={x.name: x.digest for x in flights},
         error=c.errors_json(),

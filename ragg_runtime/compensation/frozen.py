@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.base.threads import one_thread
@@ -20,7 +19,7 @@ from ragg_runtime.estimation.least_squares import join
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation, divide_into_segments, observe_flights, spread
 from ragg_runtime.estimation.regressors import Column, LinearisationPoint
-from ragg_runtime.estimation.scores import Error, finite, log_sf
+from ragg_runtime.estimation.scores import Error, log_sf
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.instrument.instrument import Instrument
@@ -51,28 +50,23 @@ class CalibrationChange:
     """The step from the frozen to the free fit.
 
     ``z`` (k,): components, each of unit variance if nothing has changed; ``signatures`` (k, n): what a change of each
-    parameter, by its scale, makes of them; ``squares``: sums of the whitened residual, frozen and free.
+    parameter, by its scale, makes of them.
     """
 
     z: Array
     signatures: Array
-    squares: tuple[float, float]
 
     @property
     def chi2(self) -> float:
         return float(np.sum(self.z**2))
 
     @property
-    def p_value(self) -> float:
-        return float(special.chdtrc(len(self.z), self.chi2)) if len(self.z) else 1.0
-
-    @property
-    def log10_p(self) -> float:
-        return log_sf(self.chi2, len(self.z)) / float(np.log(10.0)) if len(self.z) else 0.0
+    def log_p(self) -> float:
+        return log_sf(self.chi2, len(self.z))
 
     @property
     def holds(self) -> bool:
-        return self.p_value > false_alarms.FROZEN
+        return bool(self.log_p > np.log(false_alarms.FROZEN))
 
     def find_suspects(self, columns: Sequence[Column]) -> list[dict[str, Any]]:
         """Single parameters whose change would explain the step, the best first; none if the calibration holds."""
@@ -90,8 +84,8 @@ class CalibrationChange:
             "holds": self.holds,
             "chi2": self.chi2,
             "degrees_of_freedom": len(self.z),
-            "p_value": self.p_value,
-            "log10_p": finite(self.log10_p),
+            "p_value": float(np.exp(self.log_p)),
+            "log10_p": self.log_p / float(np.log(10.0)),
         }
 
 
@@ -116,7 +110,6 @@ class Held:
             **describe_saved(self.saved),
             **self.change.as_json(),
             "samples": c.rows,
-            "whitened_squares": dict(zip(("frozen", "free"), self.change.squares, strict=True)),
             "suspects": self.change.find_suspects(c.columns),
             "free": {"calibrated": self.free.as_json(), "holdout": self.free_holdout.as_json()},
         }
@@ -181,7 +174,6 @@ def measure_change(f: Fitted, saved: Saved) -> CalibrationChange:
     return CalibrationChange(
         z=both[:, n],
         signatures=both[:, :n],
-        squares=(float(np.sum(T[:, n] ** 2)), float(T[n, n] ** 2)),
     )
 
 
@@ -204,7 +196,7 @@ def retest_change(
 
 def warn_of_change(made: str, change: CalibrationChange) -> str:
     """The warning of a compensation by a calibration, made at that instant, that does not hold."""
-    p = numbers.equate_probability(change.log10_p)
+    p = numbers.equate_probability(change.log_p / np.log(10.0))
     return (
         f"The calibration of {made} does NOT hold here: against parameters fitted to this record chi-square is "
         f"{change.chi2:.4g} in {len(change.z)} directions (p {p}). Motion errors beyond the "

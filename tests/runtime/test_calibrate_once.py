@@ -19,7 +19,7 @@ from ragg_runtime.compensation import drift, frozen
 from ragg_runtime.compensation.calibrate import calibrate, make_saved
 from ragg_runtime.compensation.channel import Quality
 from ragg_runtime.compensation.compensate import make_channel, prepare
-from ragg_runtime.compensation.saved import add_entry, read_saved
+from ragg_runtime.compensation.saved import add_entry
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.model import model as load
@@ -63,7 +63,9 @@ def test_what_is_kept_is_what_was_found_to_the_last_bit_with_its_history(kept: t
     for column, place in zip(saved.columns, saved.index, strict=True):
         value = saved.p[place] / column.unit_factor
         assert value == pytest.approx(found[column.name, column.accelerometer], rel=1e-12)
-    again = read_saved(add_entry(m.directory.calibration, saved, "here"), "here")
+    text = add_entry(m.directory.calibration, saved, "here")
+    directory = dataclasses.replace(m.directory, calibration=text)
+    again = api.saved_calibration(dataclasses.replace(m, directory=directory))
     assert np.array_equal(again.information, saved.information)
     assert np.array_equal(again.p, saved.p)
     assert saved.validity["a_z"][0] < saved.validity["a_z"][1]
@@ -163,7 +165,7 @@ DAMAGED: dict[str, Callable[[str], str]] = {
     "a parameter too few": _set("values", "K1", to=[1e-3] * 3),
     "singular": _set("square_root_information", 0, 0, to=0.0),
     "ragged": _set("square_root_information", 3, to=[1.0]),
-    "place outside": _set("fitted", 0, "place", to=10**6),
+    "no such parameter": _set("fitted", 0, "name", to="K9"),
     "no limits": _set("validity", "a_z", to=[1.0]),
     "negative gain": _set("values", "K1", to=[-1e-3] * 4),
     "another spin": _set("values", "spin_frequency", to=[0.5]),
