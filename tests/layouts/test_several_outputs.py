@@ -306,7 +306,9 @@ def test_every_output_is_what_python_gives(program: Path, tmp_path: Path) -> Non
     for k, o in enumerate(c.outputs()):
         r = record(x, c.instrument, k)
         expected = evaluate_output(c.model.chain, r, c.p, c.instrument.layout.outputs[k])
-        limit = max(1e-6 * o.scale_factor, 8 * np.finfo(float).eps * float(np.max(np.abs(expected))))
+        limit = max(
+            1e-6 * o["scale_factor"]["value"], 8 * np.finfo(float).eps * float(np.max(np.abs(expected)))
+        )
         assert np.max(np.abs(found[:, 1 + k] - expected)) < limit
         assert np.max(np.abs(again[:, 1 + k] - expected)) < limit
         assert np.std(expected) > 1e6 * limit

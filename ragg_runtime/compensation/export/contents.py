@@ -13,13 +13,15 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import Output
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
+from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS, is_disc_angle
 from ragg_runtime.model.evaluate import name_values, scale_factor
 from ragg_runtime.model.memory import list_late
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import SPIN, Record
+from ragg_runtime.model.record import SPIN, record
 from ragg_runtime.signals.derivative import differentiate_rate
 
 Array = NDArray[np.float64]
@@ -45,23 +47,6 @@ SIZES: Mapping[str, tuple[float, float]] = {
 
 
 @dataclass(frozen=True)
-class ExportedOutput:
-    """An output of the model.
-
-    ``formula``: what it is of the voltages. ``members``: its accelerometers, counted from 0, ``signs`` how each counts.
-    ``spin``: place of the disc's rate in the parameter vector. ``scale_factor``: k_ggi, V/Eo.
-    """
-
-    name: str
-    formula: str
-    members: tuple[int, ...]
-    signs: tuple[int, ...]
-    angle_column: str
-    spin: int
-    scale_factor: float
-
-
-@dataclass(frozen=True)
 class Contents:
     """A model with its values.
 
@@ -78,21 +63,27 @@ class Contents:
     origin: str
     saved: Saved | None = None
 
-    def outputs(self) -> list[ExportedOutput]:
-        """In the order of model.toml."""
+    def outputs(self) -> list[Json]:
+        """In the order of model.toml; accelerometers are counted from 0."""
         layout = self.instrument.layout
         return [
-            ExportedOutput(
-                name=o.name,
-                formula=layout.formula(o, [layout.voltage_columns(j)[0] for j in o.members]),
-                members=o.members,
-                signs=o.signs,
-                angle_column=layout.discs[o.disc].angle_column,
-                spin=1 if layout.like_paper else layout.size + o.members[0],
-                scale_factor=scale_factor(self.model, self.p, k),
-            )
+            {
+                "name": o.name,
+                "unit": "V",
+                "is": layout.formula(o, [layout.voltage_columns(j)[0] for j in o.members]),
+                "accelerometers": list(o.members),
+                "signs": list(o.signs),
+                "spin_angle": layout.discs[o.disc].angle_column,
+                "spin_frequency": float(self.p[self.find_spin(o)]),
+                "scale_factor": {"value": scale_factor(self.model, self.p, k), "unit": "V/Eo"},
+            }
             for k, o in enumerate(layout.outputs)
         ]
+
+    def find_spin(self, o: Output) -> int:
+        """Place of the rate of an output's disc in the parameter vector."""
+        layout = self.instrument.layout
+        return 1 if layout.like_paper else layout.size + o.members[0]
 
     def parameters(self) -> list[Json]:
         """The parameters in the order of the vector, SI."""
@@ -131,7 +122,7 @@ class Contents:
 
     def angles(self) -> list[str]:
         """The columns of disc angles."""
-        return list(dict.fromkeys(o.angle_column for o in self.outputs()))
+        return list(dict.fromkeys(o["spin_angle"] for o in self.outputs()))
 
     def columns(self) -> list[str]:
         """The columns of a flight that the model reads, besides ``time`` and the disc angles."""
@@ -165,46 +156,27 @@ class Contents:
         if derived:
             columns = {n: x for n, x in columns.items() if n not in ANGULAR_ACCELERATION}
             for o in self.outputs():
-                turned = 2 * np.pi * float(self.p[o.spin]) * t + 1e-3 * np.sin(0.7 * t)
-                columns[o.angle_column] = np.mod(turned, 2 * np.pi)
+                turned = 2 * np.pi * o["spin_frequency"] * t + 1e-3 * np.sin(0.7 * t)
+                columns[o["spin_angle"]] = np.mod(turned, 2 * np.pi)
         return columns, self._answer(columns)
 
     def _answer(self, columns: Mapping[str, Array]) -> dict[str, Array]:
         """The outputs by the form that is exported."""
-        t, wide = columns["time"], {n: x for n, x in columns.items() if n != "time"}
+        wide = {n: x for n, x in columns.items() if n != "time"}
         for name, rate in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
             if name not in wide and rate in wide:
                 wide[name] = differentiate_rate(wide[rate], RATE)[0]
+        x = Flight(time=columns["time"], channels=wide, outputs={})
         model = self.model if "folded.c" in self.sources else replace(self.model, folded=None)
         evaluator, found = model.compiled(native=False), {}
-        for k, o in enumerate(self.outputs()):
-            record = Record(
-                time=t,
-                wide=wide,
-                rate=RATE,
-                valid=np.ones(len(t), dtype=np.bool_),
-                spin_frequency=float(self.p[o.spin]),
-                angle_column=o.angle_column,
-            )
-            found[o.name] = evaluator.output(t, record.inputs(model.chain), self.p, record.phi, which=k)
+        for k, o in enumerate(self.instrument.layout.outputs):
+            r = record(x, self.instrument, k)
+            found[o.name] = evaluator.output(r.time, r.inputs(model.chain), self.p, r.phi, which=k)
         return found
 
     def document(self) -> Json:
         """The model's description, its parameters with units, its inputs and outputs, and an example with its answer."""
         motion, answers = self.example()
-        outputs = [
-            {
-                "name": o.name,
-                "unit": "V",
-                "is": o.formula,
-                "accelerometers": list(o.members),
-                "signs": list(o.signs),
-                "spin_angle": o.angle_column,
-                "spin_frequency": float(self.p[o.spin]),
-                "scale_factor": {"value": o.scale_factor, "unit": "V/Eo"},
-            }
-            for o in self.outputs()
-        ]
         return {
             "model": self.name,
             "origin": self.origin,
@@ -223,7 +195,7 @@ class Contents:
             ],
             "parameters": self.parameters(),
             "inputs": self.inputs(),
-            "outputs": outputs,
+            "outputs": self.outputs(),
             "calibration": None if self.saved is None else self.saved.as_json(),
             "example": {
                 "columns": {n: x.tolist() for n, x in motion.items()},

@@ -39,7 +39,7 @@ def make_program(c: Contents) -> dict[str, str]:
     """File name -> text of everything that `make` needs."""
     model = next(n.removesuffix(".c") for n in c.sources if n.endswith(".c"))
     outputs = c.outputs()
-    tolerance = TOLERANCE_EO * min(abs(o.scale_factor) for o in outputs)
+    tolerance = TOLERANCE_EO * min(abs(o["scale_factor"]["value"]) for o in outputs)
     makefile = _packaged("Makefile").replace("@MODEL@", model).replace("@TOLERANCE@", f"{tolerance:.3g}")
     needed = [f"{n} [{unit_of(n)}]" for n in c.columns() if _is_needed(n)]
     return {
@@ -56,14 +56,9 @@ def _packaged(name: str) -> str:
 
 
 def _render(template: str, **values: object) -> str:
-    filters = {"text": _text, "comment": in_comment, "digits": "{:.17g}".format}
+    filters = {"comment": in_comment, "digits": "{:.17g}".format}
     env = make_environment("ragg_runtime.compensation.export", filters)
     return env.get_template(f"{template}.j2").render(values)
-
-
-def _text(x: str) -> str:
-    """Inside a C string: names come from files and may hold anything."""
-    return "".join(ch if ch.isascii() and ch.isprintable() and ch not in '"\\?' else "_" for ch in x)
 
 
 def _is_needed(column: str) -> bool:
@@ -77,7 +72,7 @@ def write_values(c: Contents, name: str) -> str:
     if {*motion} & {*ANGULAR_ACCELERATION}:  # three and three, one after the other
         whole = [*ANGULAR_RATE, *ANGULAR_ACCELERATION]
         motion = [*whole, *(n for n in motion if n not in whole)]
-    columns = ["time", *angles, *motion, *(o.name for o in outputs)]
+    columns = ["time", *angles, *motion, *(o["name"] for o in outputs)]
     parameters = [
         (x, v["name"] if len(v["values"]) == 1 else f"{v['name']}[{j}]", v["unit"], v["meaning"])
         for v in c.parameters()
@@ -88,11 +83,14 @@ def write_values(c: Contents, name: str) -> str:
         c=c,
         name=name,
         outputs=outputs,
-        angles=angles,
+        discs={
+            o["spin_angle"]: c.find_spin(of)
+            for o, of in zip(outputs, c.instrument.layout.outputs, strict=True)
+        },
         columns=columns,
         place={n: k for k, n in enumerate(columns)} | {DISC: -1},
         needed={"time", *filter(_is_needed, motion)},
-        units={n: SPELLINGS.get(unit_of(n), unit_of(n)) for n in columns} | {o.name: "V" for o in outputs},
+        units={n: SPELLINGS.get(unit_of(n), unit_of(n)) for n in columns} | {o["name"]: "V" for o in outputs},
         inputs=c.inputs(),
         from_first=c.instrument.angle_origin == "first-sample",
         parameters=parameters,
@@ -167,8 +165,6 @@ def write_export(c: Contents, folder: Path, form: str) -> list[Path]:
     """Write what is exported into a folder; the files. UserError if the folder holds anything else."""
     if form not in FORMS:
         raise UserError("unknown form of export", found=repr(form), expected=", ".join(FORMS))
-    if folder.exists() and not folder.is_dir():
-        raise UserError("the export needs a folder", where=folder, found="a file", remedy="name another one")
     if folder.is_dir() and any(folder.iterdir()) and not (folder / MARK).is_file():
         raise UserError(
             "the folder is not empty and was not made by an export",
@@ -176,13 +172,7 @@ def write_export(c: Contents, folder: Path, form: str) -> list[Path]:
             remedy="name another folder, or empty this one",
         )
     files = FORMS[form](c)
-    written = []
     for name, text in {MARK: "\n".join(sorted(files)) + "\n", **files}.items():
-        place = folder / name
-        try:
-            place.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise UserError("the folder cannot be made", where=place.parent, found=error.strerror) from None
-        write_text(place, text)
-        written.append(place)
-    return written
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        write_text(folder / name, text)
+    return [folder / name for name in (MARK, *files)]
