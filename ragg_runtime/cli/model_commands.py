@@ -232,12 +232,11 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
     if mapping is not None and mapping.resolve() == target.resolve():
         raise UserError("OUT is the mapping itself", where=target, remedy="name another file")
     done = _convert(source, target, None if mapping is None else read_mapping(mapping))
-    for note in done.notes:
+    for note in done["notes"]:
         click.echo(printable(f"note: {note}"), err=True)
-    lines = f"{done.lines} lines, " if done.lines > 1 else ""
-    text = f"{target}: {lines}{done.rows} rows of {len(done.columns)} columns"
-    result = {"output": str(target), "lines": done.lines, "rows": done.rows, "columns": list(done.columns)}
-    conclude(result | {"notes": list(done.notes)}, [Section(sentences=(text,))])
+    lines = f"{done['lines']} lines, " if done["lines"] > 1 else ""
+    text = f"{target}: {lines}{done['rows']} rows of {len(done['columns'])} columns"
+    conclude(done, [Section(sentences=(text,))])
 
 
 @click.command(name="map", cls=Command, json=False)

@@ -11,6 +11,7 @@ import itertools
 import json
 import math
 import pickletools
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,22 +22,10 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, missing_package
+from ragg_runtime.io.arrays import WIDEST, Attributes, make_table, make_tables, read_array, read_frame_units
+from ragg_runtime.io.cells import read_heading, write_cell
 from ragg_runtime.io.record import SI_UNITS
-from ragg_runtime.io.tables import (
-    INDEX,
-    WIDEST,
-    Attributes,
-    DataColumn,
-    DataTable,
-    decode_values,
-    join_groups,
-    make_table,
-    read_attributes,
-    read_frame_units,
-    read_heading,
-    require_memory,
-    write_cell,
-)
+from ragg_runtime.io.tables import INDEX, DataColumn, DataTable, require_memory
 
 if TYPE_CHECKING:
     import h5py
@@ -84,10 +73,9 @@ def read_parquet(path: Path) -> list[DataTable]:
         unnamed, joined = field.name.startswith("__index_level_"), field.name.replace(".", "_")
         name = INDEX if unnamed else joined if joined in SI_UNITS else field.name
         index = read_heading(name)[0] if unnamed or field.name in labels else index
-        found = convert_arrow(values)
         said = (field.metadata or {}).get(b"units", b"").decode("utf-8", "replace")
         said = "1" if not said and pa.types.is_boolean(field.type) else said
-        arrays.append((name, np.zeros(len(values), "V1") if found is None else found, {"units": said}))
+        arrays.append((name, convert_arrow(values), {"units": said}))
     return [make_table(arrays, given, index=index)]
 
 
@@ -99,28 +87,15 @@ def _read_json(text: bytes) -> dict[str, Any]:
     return found if isinstance(found, dict) else {}
 
 
-def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any] | None:
-    """Numbers, texts or instants of a column of Arrow; ``None`` for anything else. Its own ``to_numpy`` may load pandas."""
+def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any]:
+    """A column of Arrow as an array. Its own ``to_numpy`` would load pandas for numbers."""
     kind = column.type.value_type if pa.types.is_dictionary(column.type) else column.type
-    if (
-        pa.types.is_string(kind)
-        or pa.types.is_large_string(kind)
-        or pa.types.is_binary(kind)
-        or pa.types.is_time(kind)
-    ):
-        return np.array([write_cell(t) for t in column.to_pylist()], dtype=object)
-    if pa.types.is_timestamp(kind) or pa.types.is_date(kind):
-        return np.asarray(column.cast(pa.timestamp("ns")).to_numpy(), dtype="datetime64[ns]")
-    if pa.types.is_duration(kind):
-        return np.asarray(column.cast(pa.duration("ns")).to_numpy(), dtype="timedelta64[ns]")
-    if pa.types.is_fixed_size_list(kind) or pa.types.is_list(kind) or pa.types.is_large_list(kind):
-        lengths = {None if x is None else len(x) for x in column}
-        inner = convert_arrow(pa.chunked_array([c.flatten() for c in column.chunks], kind.value_type))
-        if inner is None or len(lengths) != 1 or None in lengths:
-            return None
-        return inner.reshape(len(column), -1)
-    if not (pa.types.is_primitive(kind) or pa.types.is_decimal(kind) or pa.types.is_null(kind)):
-        return None
+    if pa.types.is_string(kind) or pa.types.is_large_string(kind) or pa.types.is_binary(kind):
+        return np.array(column.to_pylist(), dtype=object)
+    if pa.types.is_nested(kind) or pa.types.is_time(kind):
+        return read_array(column.to_pylist())
+    if pa.types.is_temporal(kind):
+        return np.asarray(column.to_numpy())
     column = column.cast(pa.int8()) if pa.types.is_boolean(kind) else column
     whole = column.cast(pa.float64()).combine_chunks()
     return np.asarray(np.from_dlpack(whole.fill_null(float("nan")) if whole.null_count else whole))
@@ -147,36 +122,62 @@ def read_netcdf(path: Path) -> list[DataTable]:
     from scipy.io import netcdf_file  # slow to import, and only this format needs it
 
     with report_damage(path, "NetCDF"), netcdf_file(path, mmap=False) as file:
-        found = {n: (np.array(v.data), vars(v)["_attributes"]) for n, v in file.variables.items()}
-        return [make_table((n, x, a) for n, (x, a) in found.items())]
+        return make_tables({n: (np.array(v.data), vars(v)["_attributes"]) for n, v in file.variables.items()})
 
 
 def read_hdf5(path: Path) -> list[DataTable]:
-    """The groups of an HDF5, NetCDF-4 or MATLAB 7.3 file that hold tables; units of MATLAB in a structure ``units``."""
+    """The groups of an HDF5, NetCDF-4 or MATLAB 7.3 file that hold tables."""
     import h5py  # slow to import, and only files built on HDF5 need it
 
-    tables: list[DataTable] = []
+    sizes = [0]
+
+    def measure(_: str, item: h5py.HLObject) -> None:
+        if isinstance(item, h5py.Dataset) and _is_column(item):
+            sizes.append(8 * math.prod(item.shape) * max(1, len(item.dtype.names or ())))
+
     with report_damage(path, "HDF5"), h5py.File(path, "r") as file:
-        for place, group, arrays in _find_groups(file):
-            if place.rsplit("/", 1)[-1] != "units":
-                tables += _read_group(path, place, group, arrays)
-    return join_groups(tables)
+        file.visititems(measure)
+        require_memory(path, sum(sizes))
+        return make_tables(_read_group(file, {file}))
 
 
-def _find_groups(file: h5py.File) -> Iterator[tuple[str, h5py.Group, dict[str, h5py.Dataset]]]:
-    """Every group once, with its datasets: not MATLAB's and PyTables' own, nor links to elsewhere in this file or to another."""
+def _read_group(group: h5py.Group, known: set[h5py.HLObject]) -> dict[str, Any]:
+    """What a group holds, everything once: not MATLAB's and PyTables' own, nor links to elsewhere in this file or to another."""
     import h5py
 
-    found: list[tuple[str, h5py.Group]] = [("", file)]
-    file.visititems(lambda n, x: found.append((f"/{n}", x)) if isinstance(x, h5py.Group) else None)
-    for place, group in found:
-        if "/#" not in place and "/_i_" not in place:
-            own = {n: group[n] for n in group if isinstance(group.get(n, getlink=True), h5py.HardLink)}
-            yield (
-                place,
-                group,
-                {n: x for n, x in own.items() if isinstance(x, h5py.Dataset) and _is_column(x)},
-            )
+    line = write_cell(read_attributes(group).get("line"))
+    tree: dict[str, Any] = {"line": line} if line else {}
+    own = [n for n in group if isinstance(group.get(n, getlink=True), h5py.HardLink)]
+    items = {n: x for n in own if not n.startswith(("#", "_i_")) and (x := group[n]) not in known}
+    known.update(items.values())
+    columns = {n: x for n, x in items.items() if isinstance(x, h5py.Dataset) and _is_column(x)}
+    if {"axis1", "block0_items"} <= columns.keys():
+        return tree | _read_blocks(columns)
+    for name, item in items.items():
+        if isinstance(item, h5py.Group):
+            tree[name] = _read_group(item, known)
+        elif isinstance(item, h5py.Dataset) and (text := _read_matlab_text(item)):
+            tree[name] = text
+        elif name in columns and item.dtype.names is None:
+            tree[name] = (item[()], read_attributes(item))
+        elif name in columns:
+            title = group.name.rpartition("/")[2] if name == "table" else name  # pandas calls all of them so
+            about = _read_pickled_names(group.attrs.get("info"))
+            index = next((b for a, b in itertools.pairwise(about) if a == "index_name"), INDEX)
+            tree[name] = {"line": title, "index_name": index, **_read_records(item, index)}
+    return tree
+
+
+def _read_blocks(arrays: Mapping[str, h5py.Dataset]) -> dict[str, Any]:
+    """A DataFrame in the fixed format of pandas: its index, and blocks of columns beside their titles."""
+    index = write_cell(arrays["axis1"].attrs.get("name"))
+    index = INDEX if index in ("", "N.") else index  # a pickled None
+    found: dict[str, Any] = {"index_name": index}
+    for name in ("axis1", *(n for n in arrays if n.endswith("_values"))):
+        own, titles = read_attributes(arrays[name]), arrays[name.replace("_values", "_items")][()]
+        values = _read_instants(arrays[name][()], own.get("kind", own.get("value_type")))
+        found[index if name == "axis1" else name] = (values, {"columns": titles})
+    return found
 
 
 def _is_column(data: h5py.Dataset) -> bool:
@@ -190,80 +191,54 @@ def _is_column(data: h5py.Dataset) -> bool:
         return False  # references and sequences
     if _DIMENSION in write_cell(data.attrs.get("NAME")):
         return False
-    if write_cell(data.attrs.get("MATLAB_class")) == "char":
-        return False  # MATLAB keeps texts as numbers
     narrow = len(data.shape) < 2 or (len(data.shape) == 2 and min(data.shape) <= WIDEST)
     return narrow or data.dtype.names is not None
 
 
-def _read_group(
-    path: Path, place: str, group: h5py.Group, arrays: Mapping[str, h5py.Dataset]
-) -> Iterator[DataTable]:
-    """The datasets of a group as a table, and every table of records (PyTables) in it; the group may be a line."""
-    size = sum(math.prod(d.shape) * max(1, len(d.dtype.names or ())) for d in arrays.values())
-    require_memory(path, 8.0 * size)
-    own = write_cell(read_attributes(group).get("line")) or read_matlab_text(group.get("line"))
-    line = own or place.rsplit("/", 1)[-1]
-    units = group.get("units")
-    given = {n: read_matlab_text(x) for n, x in units.items()} if hasattr(units, "items") else {}
-    plain = {n: d for n, d in arrays.items() if d.dtype.names is None}
-    if "axis1" in plain and "block0_items" in plain:
-        yield _read_blocks(plain, line=line, part=place)
-    elif plain:
-        found = [(n, d[()], read_attributes(d)) for n, d in plain.items()]
-        yield make_table(found, given, line=line, part=place)
-    for name, data in arrays.items():
-        if data.dtype.names is not None:
-            about = _read_pickled_names(group.attrs.get("info"))
-            index = next((b for a, b in itertools.pairwise(about) if a == "index_name"), INDEX)
-            records = [(index if n == INDEX else n, *x) for n, *x in _read_records(data)]
-            yield make_table(records, index=read_heading(index)[0], line=line, part=f"{place}/{name}")
+def _read_matlab_text(data: h5py.Dataset) -> str:
+    """A text of MATLAB, which keeps them as numbers; ``""``: it is none."""
+    if write_cell(data.attrs.get("MATLAB_class")) != "char" or not data.shape:
+        return ""
+    return "".join(map(chr, data[()].ravel(order="F").tolist())).strip("\0 ")
 
 
-def _read_blocks(arrays: Mapping[str, h5py.Dataset], **about: Any) -> DataTable:
-    """A DataFrame in the fixed format of pandas: its index, and blocks of columns beside their titles."""
-    index = write_cell(arrays["axis1"].attrs.get("name"))
-    index = INDEX if index in ("", "N.") else index  # a pickled None
-    found = []
-    for name in ("axis1", *(n for n in arrays if n.endswith("_values"))):
-        own, titles = read_attributes(arrays[name]), arrays[name.replace("_values", "_items")][()]
-        values = _read_instants(arrays[name][()], own.get("kind", own.get("value_type")))
-        found.append((index if name == "axis1" else name, values, {"columns": titles}))
-    return make_table(found, index=read_heading(index)[0], **about)
+def read_attributes(thing: h5py.Group | h5py.Dataset) -> dict[str, Any]:
+    """The attributes of a dataset or group, as far as h5py can read them."""
+    found = {}
+    for name in list(thing.attrs):
+        with contextlib.suppress(OSError, RuntimeError, TypeError, ValueError, KeyError):
+            found[str(name)] = thing.attrs[name]
+    return found
 
 
-def _read_records(data: h5py.Dataset) -> list[tuple[str, Any, Attributes]]:
-    """The fields of records as arrays with their units; those of pandas are taken apart by its own list of names."""
+def _read_records(data: h5py.Dataset, index: str) -> dict[str, tuple[Any, Attributes]]:
+    """The fields of records as arrays with their units; those of pandas have a list of their names."""
     attributes, whole = read_attributes(data), data[()].ravel()
-    listed = np.atleast_1d(np.asarray(attributes.get("units", attributes.get("unit", "")))).ravel()
+    fields = whole.dtype.names
+    listed = np.ravel(attributes.get("units", attributes.get("unit", "")))
     folded = {n.casefold(): v for n, v in attributes.items()}
-    found: list[tuple[str, Any, Attributes]] = []
-    for k, name in enumerate(whole.dtype.names):
+    found: dict[str, tuple[Any, Attributes]] = {}
+    for k, name in enumerate(fields):
         keys = [f"{n}_{e}".casefold() for n in (name, f"FIELD_{k}") for e in ("units", "unit")]
-        unit = next((write_cell(folded[n]) for n in keys if n in folded), "")
-        unit = write_cell(listed[k]) if len(listed) == len(whole.dtype.names) else unit
-        values, kind = whole[name], attributes.get(f"{name}_kind")
+        unit = listed[k] if len(listed) == len(fields) else next((folded[n] for n in keys if n in folded), "")
+        kind = attributes.get(f"{name}_kind")
         titles = [] if name == INDEX else _read_pickled_names(kind)
-        values = _read_instants(values, kind if name == INDEX else attributes.get(f"{name}_dtype"))
+        values = _read_instants(whole[name], kind if name == INDEX else attributes.get(f"{name}_dtype"))
         title = titles[0] if len(titles) == 1 and values.ndim == 1 else name
-        found.append((title, values, {"units": unit, "columns": titles}))
+        found[index if name == INDEX else title] = (values, {"units": write_cell(unit), "columns": titles})
     return found
 
 
 def _read_instants(values: NDArray[Any], kind: object) -> NDArray[Any]:
     """Whole numbers of which pandas says that they are instants or durations, of ns by default."""
-    written = write_cell(kind)
-    if not written.startswith(("datetime64", "timedelta64")):
+    if (m := re.match(r"(datetime|timedelta)64(\[\w+\])?", write_cell(kind))) is None:
         return values
-    step = written[written.index("[") + 1 : -1] if written.endswith("]") else "ns"
-    return values.astype(np.int64).view(f"{'M8' if written[0] == 'd' else 'm8'}[{step}]")
+    return values.astype(np.int64).view(f"{'M' if m[1] == 'datetime' else 'm'}8{m[2] or '[ns]'}")
 
 
 def _read_pickled_names(value: object) -> list[str]:
     """The texts in a list that PyTables has pickled; nothing is executed."""
-    data = (
-        value.tobytes() if isinstance(value, np.void) else bytes(value) if isinstance(value, bytes) else b""
-    )
+    data = value.tobytes() if isinstance(value, np.void) else value if isinstance(value, bytes) else b""
     try:
         return [a for o, a, _ in pickletools.genops(data) if "UNICODE" in o.name and isinstance(a, str)]
     except (ValueError, IndexError, UnicodeDecodeError):
@@ -283,39 +258,4 @@ def read_matlab(path: Path) -> list[DataTable]:
     with report_damage(path, "MATLAB"):
         require_memory(path, 8.0 * sum(math.prod(shape) for _, shape, _ in whosmat(path)))
         found = loadmat(path, mat_dtype=False, simplify_cells=True)
-    return join_groups([*_read_structures({n: v for n, v in found.items() if not n.startswith("__")})])
-
-
-def read_matlab_text(item: object) -> str:
-    """The text that MATLAB keeps in a dataset, as numbers; ``""`` where there is none, or no short one."""
-    if getattr(getattr(item, "dtype", None), "kind", "") != "u" or not 0 < item.size <= 200:  # type: ignore[attr-defined]
-        return ""
-    codes = np.asarray(item[()]).ravel(order="F")  # type: ignore[index]
-    return "".join(chr(int(c)) for c in codes if 0 < int(c) < 0x110000).strip()
-
-
-def _read_structures(variables: Mapping[str, Any]) -> Iterator[DataTable]:
-    """Every structure of vectors as a table; its path is the name of its line."""
-    waiting: list[tuple[str, Mapping[str, Any]]] = [("", variables)]
-    while waiting:
-        place, inside = waiting.pop(0)
-        units = inside.get("units")
-        known = units.items() if isinstance(units, Mapping) else ()
-        given = {n: t.strip() for n, t in known if isinstance(t, str)}
-        arrays = []
-        for name, value in (
-            (n, v) for n, v in inside.items() if v is not units or not isinstance(v, Mapping)
-        ):
-            boxed = isinstance(value, list) or (isinstance(value, np.ndarray) and value.dtype == object)
-            parts = [value] if isinstance(value, Mapping) else list(value) if boxed else []
-            if parts and all(isinstance(p, Mapping) for p in parts):
-                for k, part in enumerate(parts, 1):
-                    own = str(part["line"]) if isinstance(part.get("line"), str | int | float) else ""
-                    title = own or (name if len(parts) == 1 else f"{name}_{k}")
-                    waiting.append((f"{place}/{title}" if place else title, part))
-            elif isinstance(value, np.ndarray | list):
-                x = np.asarray(value, dtype=object if isinstance(value, list) else None)
-                if x.ndim and decode_values(x.ravel()[:4], {}) is not None:
-                    arrays.append((name, x))
-        if arrays:
-            yield make_table(arrays, given, line=place, part=place)
+        return make_tables({n: v for n, v in found.items() if not n.startswith("__")})

@@ -19,13 +19,13 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.names import LONGEST, is_column
 from ragg_runtime.instrument.units import units
+from ragg_runtime.io.cells import is_unit, parse_quantities
 from ragg_runtime.io.files import read_tables
 from ragg_runtime.io.instants import are_packed, find_order, find_parts
 from ragg_runtime.io.mapping import UNKNOWN
 from ragg_runtime.io.record import ANGULAR_RATE, DEMODULATED, SI_UNITS, SPECIFIC_FORCE
-from ragg_runtime.io.recording import find_spoiled, parse_numbers
 from ragg_runtime.io.roles import Role, find_roles, find_unit
-from ragg_runtime.io.tables import DataColumn, DataTable, is_unit, split_lines
+from ragg_runtime.io.tables import DataColumn, DataTable, split_lines
 
 OUTPUTS = ("G_out", "V_", "inline")
 """How channels begin of which one must be there."""
@@ -108,11 +108,11 @@ def _read_numbers(table: DataTable) -> tuple[DataTable, dict[str, list[str]]]:
     columns, odd = [], {}
     for c in table.columns:
         if c.is_text:
-            numbers = parse_numbers(c.values)
-            spoiled = sorted({*c.values[find_spoiled(c.values, numbers)]})
-            if len(spoiled) <= _FEW and np.mean(np.isfinite(numbers)) > 0.5:
-                odd[c.name] = spoiled
-                c = replace(c, values=numbers)
+            numbers, unit, spoiled = parse_quantities(c.values)
+            cells = sorted({*c.values[spoiled]})
+            if len(cells) <= _FEW and np.mean(np.isfinite(numbers)) > 0.5:
+                odd[c.name] = cells
+                c = replace(c, unit=unit or c.unit, values=numbers)
         columns.append(c)
     return replace(table, columns=tuple(columns)), odd
 
@@ -155,8 +155,8 @@ def _draft_time(
         shown = ", ".join(f'"{_quoted(n)}"' for n in names)
         column = shown if len(names) == 1 else f"[{shown}]"
         return [f"column = {column}  # {sure}", f'format = "{form}"' + f"  # {asked}" * bool(asked)], names
-    numbers = [c for c in table.columns if c.is_number]
-    fits = [c for c in numbers if _has(roles[c.name], "time", "second_of_week")]
+    numbers = [c for c in table.columns if not c.is_text]
+    fits = [c for c in numbers if c.is_instant or _has(roles[c.name], "time", "second_of_week")]
     if not fits:  # an index without a name, unless it counts the rows
         fits = [c for c in numbers if c.name == table.index and np.any(c.values % 1 != 0)]
     if not fits:
@@ -176,7 +176,7 @@ def _find_instants(table: DataTable, roles: Roles) -> tuple[tuple[str, ...], str
     by_role = {r: c for c in reversed(table.columns) for r in _TIMES[2:] if _has(roles[c.name], r)}
     if "week" in by_role and "second_of_week" in by_role:
         return (by_role["week"].name, by_role["second_of_week"].name), "gps", "likely: GPS week and seconds"
-    texts = [c for c in table.columns if not c.is_number or are_packed(c.values)]
+    texts = [c for c in table.columns if c.is_text or are_packed(c.values)]
     texts.sort(key=lambda c: not _has(roles[c.name], "time"))
     date, clock = by_role.get("date"), by_role.get("clock")
     pair = None
@@ -186,14 +186,14 @@ def _find_instants(table: DataTable, roles: Roles) -> tuple[tuple[str, ...], str
         if len(np.unique(date.values)) < len(table):  # no instants: it repeats itself
             return pair
     for c in texts:
-        if c.values.dtype.kind == "M" or are_packed(c.values) or all(find_parts(_first_cell(c))):
+        if are_packed(c.values) or all(find_parts(_first_cell(c))):
             return (c.name,), _find_form(c), "certain: a date and a time"
     if pair is not None:
         return pair
     if clock is not None and clock.is_number and not clock.unit and _is_hhmmss(clock.values):
         return (clock.name,), "clock", "likely: hhmmss"
     for c in texts:
-        if c.values.dtype.kind == "m" or find_parts(_first_cell(c))[1]:
+        if find_parts(_first_cell(c))[1]:
             return (c.name,), "clock", "certain: a time of the day, or an elapsed time"
     return None
 

@@ -23,18 +23,18 @@ from ragg_runtime.base.files import file_digest, opened, replacing
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.io.array_files import (
-    HDF5_MAGIC,
     read_hdf5,
     read_matlab,
     read_netcdf,
     read_parquet,
     write_parquet,
 )
+from ragg_runtime.io.arrays import tabulate
 from ragg_runtime.io.assemble import make_flight
 from ragg_runtime.io.mapping import Mapped
-from ragg_runtime.io.record import SI_UNITS, Flight
+from ragg_runtime.io.record import SI_UNITS, Flight, content
 from ragg_runtime.io.recording import make_recordings, read_quantities
-from ragg_runtime.io.tables import DataColumn, DataTable, digest_tables, tabulate
+from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.io.text_tables import read_csv, read_excel
 
 # --- formats -------------------------------------------------------------------------------------------
@@ -54,47 +54,39 @@ def write_csv(path: Path, columns: Sequence[DataColumn]) -> None:
 
 
 def write_netcdf(path: Path, columns: Sequence[DataColumn]) -> None:
-    """Write columns as float64 variables along ``time``; names of lines that are no numbers in ``flag_meanings`` (CF, 3.5)."""
+    """Write columns as variables along ``time``, float64 or texts."""
     import h5netcdf  # slow to import, and only this format needs it
+    import h5py
 
     whole = io.BytesIO()  # where a disc is full HDF5 crashes as the process ends
     with h5netcdf.File(whole, "w") as file:
         file.dimensions = {"time": len(columns[0].values)}
         for c in columns:
-            values: NDArray[Any] = c.values
-            attributes: dict[str, Any] = {"units": c.unit} if c.unit else {}
-            if c.is_text:
-                names, values = np.unique(np.asarray(values, dtype=str), return_inverse=True)
-                attributes = {
-                    "flag_values": np.arange(len(names), dtype=np.int32),
-                    "flag_meanings": " ".join("_".join(n.split()) for n in names),
-                }
-                values = values.astype(np.int32)
-            missing = np.nan if values.dtype.kind == "f" and c.name != "time" else None
-            variable = file.create_variable(c.name, ("time",), data=values, fillvalue=missing)
-            variable.attrs.update(attributes)
+            missing = None if c.is_text or c.name == "time" else np.nan
+            kind = h5py.string_dtype() if c.is_text else np.float64
+            variable = file.create_variable(c.name, ("time",), kind, c.values, fillvalue=missing)
+            variable.attrs.update({"units": c.unit} if c.unit else {})
     path.write_bytes(whole.getbuffer())
 
 
 @dataclass(frozen=True)
 class Format:
-    """A format of files: its ``name`` for messages, endings of names, what files begin with (nothing for text)."""
+    """A format of files: its ``name`` for messages, endings of names, reader and writer."""
 
     name: str
     endings: tuple[str, ...]
-    magic: tuple[bytes, ...]
     read: Callable[[Path], list[DataTable]]
     write: Callable[[Path, Sequence[DataColumn]], None] | None = None
 
 
 FORMATS = (
-    Format("csv", (".csv", ".csv.gz"), (), read_csv, write_csv),
-    Format("text", (".txt", ".dat", ".asc", ".tsv", ".log", ".lvm"), (), read_csv),
-    Format("parquet", (".parquet", ".pq"), (b"PAR1",), read_parquet, write_parquet),
-    Format("netcdf", (".nc", ".nc4"), (HDF5_MAGIC, b"CDF"), read_netcdf, write_netcdf),
-    Format("hdf5", (".h5", ".hdf5", ".hdf", ".he5"), (HDF5_MAGIC,), read_hdf5),
-    Format("MATLAB", (".mat",), (b"MATLAB 5", b"MATLAB 7", HDF5_MAGIC), read_matlab),
-    Format("Excel", (".xlsx", ".xlsm"), (b"PK\x03\x04",), read_excel),
+    Format("csv", (".csv", ".csv.gz"), read_csv, write_csv),
+    Format("text", (".txt", ".dat", ".asc", ".tsv", ".log", ".lvm"), read_csv),
+    Format("parquet", (".parquet", ".pq"), read_parquet, write_parquet),
+    Format("netcdf", (".nc", ".nc4"), read_netcdf, write_netcdf),
+    Format("hdf5", (".h5", ".hdf5", ".hdf", ".he5"), read_hdf5),
+    Format("MATLAB", (".mat",), read_matlab),
+    Format("Excel", (".xlsx", ".xlsm"), read_excel),
 )
 
 ENDINGS: Mapping[str, Format] = {e: f for f in FORMATS for e in f.endings}
@@ -133,48 +125,31 @@ def require_writable(path: Path) -> Callable[[Path, Sequence[DataColumn]], None]
     )
 
 
-def _require_content(path: Path, expected: Format) -> None:
-    """Compare the first bytes of an existing file with its format."""
-    regular = "a CSV, Parquet or NetCDF file, or another that `ragg convert` reads"
-    try:
-        with opened(path) as stream:
-            head = stream.read(8)
-    except FileNotFoundError:
-        raise UserError("the flight file does not exist", where=path, expected=regular) from None
-    except OSError as error:
-        raise UserError("the flight file cannot be read", where=path, found=error.strerror) from None
-    if not head:
-        remedy = "the recording or the copy may have failed: get the file again"
-        raise UserError("the flight file is empty", where=path, found="0 bytes", remedy=remedy)
-    names = [f.name for f in FORMATS if head.startswith(f.magic or b"\0\0")]
-    if not (expected.name in names if expected.magic else not names):
-        raise UserError(
-            "the content does not match the file ending",
-            where=path,
-            found=f"{' or '.join(names)}, by its first bytes"
-            if names
-            else "text, or a format that is not known",
-            expected=expected.name,
-            remedy="rename the file, or save it as CSV, Parquet or NetCDF-4",
-        )
-
-
 def read_tables(source: Any) -> list[DataTable]:
-    """All tables of a file, by the ending of its name and its content, or of a flight in memory."""
+    """All tables of a file, by the ending of its name, or of a flight in memory."""
     try:
-        if not isinstance(source, Path):
-            tables = tabulate(source)
-        else:
-            kind = find_format(source)
-            _require_content(source, kind)
-            tables = kind.read(source)
+        tables = _read_file(source) if isinstance(source, Path) else tabulate(source)
         return [replace(t, columns=tuple(map(read_quantities, t.columns))) for t in tables]
     except MemoryError:
-        what, remedy = (
-            "the file is damaged, or too large for the memory of this computer",
-            "copy it again, or split it",
-        )
-        raise UserError(what, where=source, remedy=remedy) from None
+        what = "the file is damaged, or too large for the memory of this computer"
+        raise UserError(what, where=source, remedy="copy it again, or split it") from None
+
+
+def _read_file(path: Path) -> list[DataTable]:
+    kind = find_format(path)
+    try:
+        with opened(path) as stream:
+            is_empty = not stream.read(1)
+    except FileNotFoundError:
+        raise UserError(
+            "the flight file does not exist", where=path, remedy="check the name and the folder"
+        ) from None
+    except OSError as error:
+        raise UserError("the flight file cannot be read", where=path, found=error.strerror) from None
+    if is_empty:
+        remedy = "the recording or the copy may have failed: get the file again"
+        raise UserError("the flight file is empty", where=path, found="0 bytes", remedy=remedy)
+    return kind.read(path)
 
 
 # --- reading -------------------------------------------------------------------------------------------
@@ -219,7 +194,7 @@ def read_flights(
     path = Path(source) if isinstance(source, str | Path) else None
     tables = read_tables(path or source)
     made = make_recordings(tables, path or name, mapping)
-    digest = digest_tables(tables) if path is None else file_digest(path)
+    digest = None if path is None else file_digest(path)
     title = name if path is None else flight_name(path)
     flights = []
     for r in made:
@@ -230,7 +205,7 @@ def read_flights(
             what = f"line {r.line}: {error.what}" if len(made) > 1 else error.what
             facts = {n: text for n, text in error.facts.items() if n != "what"}
             raise UserError(what, **facts) from None
-        flights.append(replace(x, name=own, path=path, digest=digest))
+        flights.append(replace(x, name=own, path=path, digest=digest or content(x)))
     return flights
 
 
@@ -295,21 +270,16 @@ def _join_tables(tables: Sequence[DataTable]) -> list[DataColumn]:
     return found
 
 
-@dataclass(frozen=True)
-class Converted:
-    """What was written: lines (one if the file names none), rows, columns, and what was left out, in sentences."""
-
-    lines: int
-    rows: int
-    columns: tuple[str, ...]
-    notes: tuple[str, ...]
-
-
-def convert(source: Path, target: Path, mapping: Mapped | None = None) -> Converted:
+def convert(source: Path, target: Path, mapping: Mapped | None = None) -> dict[str, Any]:
     """Write the flights of one file to another, in the format of its ending; values as they are.
 
     Instants become seconds since the first of them, of every line its own: the angle of a disc without an encoder counts
     from there, in the new file and in what is cut out of it.
+
+    Returns
+    -------
+    dict
+        ``output``, ``lines`` (1 where the file names none), ``rows``, ``columns``, and ``notes``: what was left out, in sentences.
     """
     if source.resolve() == target.resolve():
         raise UserError("a file cannot be converted into itself", where=source, remedy="name another file")
@@ -321,20 +291,22 @@ def convert(source: Path, target: Path, mapping: Mapped | None = None) -> Conver
     bare = [c.name for c in columns if not c.unit]
     notes = [n for r in made for n in r.notes]
     notes += [f"without a unit, as in the file: {', '.join(bare)}"] if bare else []
-    tables = []
-    for r in made:
-        first = float(r.column("time").values[0]) if r.instants and "time" in r.names and len(r) else 0.0
-        moved = (replace(c, values=c.values - first) if c.name == "time" else c for c in r.columns)
-        tables.append(DataTable(tuple(moved), line=r.line))
-        origin = f"{first:.10g} s after midnight" if r.instants else ""
-        if r.origin is not None:
-            origin = write_instant(r.origin + timedelta(seconds=first))
-        notes += (
-            [("" if r.line is None else f"line {r.line}: ") + f"time counts from {origin}"] if origin else []
-        )
-    write_tables(target, tables)
-    names = tuple(c.name for c in columns)
-    return Converted(len(tables), sum(map(len, tables)), names, tuple(dict.fromkeys(notes)))
+    made = [_count_from_first(r, notes) for r in made]
+    write_tables(target, made)
+    names, rows = [c.name for c in columns], sum(map(len, made))
+    counts = {"output": str(target), "lines": len(made), "rows": rows, "columns": names}
+    return {**counts, "notes": list(dict.fromkeys(notes))}
+
+
+def _count_from_first(r: DataTable, notes: list[str]) -> DataTable:
+    """A line whose instants count from the first of them, which is noted."""
+    first = float(r.column("time").values[0]) if r.instants and "time" in r.names and len(r) else 0.0
+    if r.instants or r.origin is not None:
+        elapsed = timedelta(seconds=first)
+        origin = f"{first:.10g} s after midnight" if r.origin is None else write_instant(r.origin + elapsed)
+        notes.append(("" if r.line is None else f"line {r.line}: ") + f"time counts from {origin}")
+    moved = (replace(c, values=c.values - first) if c.name == "time" else c for c in r.columns)
+    return replace(r, columns=tuple(moved))
 
 
 def write_instant(instant: datetime) -> str:

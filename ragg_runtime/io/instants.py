@@ -19,7 +19,7 @@ from dateutil import parser  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.io.tables import MISSING
+from ragg_runtime.io.cells import MISSING
 
 Array = NDArray[np.float64]
 Nanoseconds = NDArray[np.int64]
@@ -108,12 +108,12 @@ def parse_order(format_: str) -> str | None:
 def read_stamps(
     columns: Sequence[NDArray[Any]], way: str | None, where: str, row: Callable[[int], str] = "row {}".format
 ) -> Stamps:
-    """The stamps in one or two columns of text, dates or numbers.
+    """The stamps in one or two columns of texts or numbers.
 
     Parameters
     ----------
     columns
-        (n,) each, as :class:`ragg_runtime.io.tables.Column` holds them.
+        (n,) each, as :class:`ragg_runtime.io.tables.DataColumn` holds them.
     way
         One of :data:`WAYS`, or another order of day, month and year; ``None``: seen from the values.
     where
@@ -127,11 +127,6 @@ def read_stamps(
     first = columns[0]
     if way == "gps":
         return _count(_read_gps(first, columns[1], where))
-    if first.dtype.kind == "m":
-        seconds = np.where(np.isnat(first), np.nan, first.astype(np.int64) / _SECOND)
-        return Stamps(seconds, instants=False)
-    if first.dtype.kind == "M" and len(columns) == 1:
-        return _count(first.astype("datetime64[ns]").astype(np.int64))  # NaT is the least integer
     texts = [_write_clock(v) for v in columns[-1]]
     if len(columns) == 2:
         dates = [_write_date(v) for v in first]
@@ -179,8 +174,6 @@ def _write_clock(value: Any) -> str:
 
 def _write_date(value: Any) -> str:
     """A date as text: the number 20260301 without a point."""
-    if isinstance(value, np.datetime64):
-        return "" if np.isnat(value) else str(value.astype("datetime64[D]"))
     if isinstance(value, float):
         return f"{value:.0f}" if np.isfinite(value) else ""
     return str(value).strip().removesuffix("T00:00:00")

@@ -12,26 +12,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at, count
 from ragg_runtime.instrument.units import units
+from ragg_runtime.io.cells import MISSING, is_quantity, parse_quantities
 from ragg_runtime.io.instants import WAYS, Stamps, are_packed, count_seconds_since, read_stamps
 from ragg_runtime.io.mapping import Entry, Mapped, Null, TimeEntry
-from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
-from ragg_runtime.io.tables import (
-    INDEX,
-    MISSING,
-    DataColumn,
-    DataTable,
-    choose_tables,
-    is_unit,
-    name_line,
-    split_lines,
-)
-from ragg_runtime.io.text_tables import QUANTITY, write_plain
-
-Array = NDArray[np.float64]
+from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE, Array, Mask
+from ragg_runtime.io.tables import INDEX, DataColumn, DataTable, choose_tables, name_line, split_lines
 
 NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
 """Columns that every flight has."""
@@ -47,11 +35,8 @@ FEWEST_VARYING = 0.5
 """Share of steps other than 0 from which a column varies, so that equal values far outside are no readings: switches and
 counters stand still nearly always."""
 
-_VECTOR = re.compile(r"(a|omega|omegadot|B)_([xyz])")
-_TENSOR = re.compile(r"Gamma_([xyz])([xyz])")
-_THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?\s*")
-_POINTED = re.compile(r"\s*[+-]?[1-9]\d{0,2}(?:\.\d{3})+,\d*\s*")
-"""Numbers with commas between thousands (1,234.5), and with points (1.234,5)."""
+_LOOKED_AT = 600  # cells that tell whether a column of texts is one of numbers
+_COMPONENT = re.compile(r"(?:(a|omega|omegadot|B)_[xyz]|Gamma_[xyz]{2})")
 _NINES = re.compile(r"-?9{3,}(?:\.(?:0|25|9+))?")
 
 
@@ -119,8 +104,8 @@ def _pick_lines(lines: list[DataTable], names: Sequence[str] | None, place: Path
 def _read_plain(table: DataTable) -> DataTable:
     """A table whose columns have the names of the contract; without a column called time the index is used, if it is one."""
     notes = list(table.notes)
-    time = next((c for c in table.columns if c.name == "time"), None)
-    index = next((c for c in table.columns if c.name == table.index), None)
+    by_name = {c.name: c for c in reversed(table.columns)}
+    time, index = by_name.get("time"), by_name.get(table.index or "")
     if (
         time is None
         and index is not None
@@ -133,7 +118,7 @@ def _read_plain(table: DataTable) -> DataTable:
     for c in table.columns:
         if c is time or c is index:
             continue
-        if c.name in (found if time is None else {**found, "time": time}):
+        if c.name in found or (c.name == "time" and time is not None):
             if c.name in SI_UNITS:
                 what = f"the column {c.name!r} appears twice"
                 raise UserError(what, where=table.place, remedy="rename one")
@@ -156,9 +141,7 @@ def _read_mapped(table: DataTable, mapping: Mapped) -> DataTable:
     entries = mapping.channels.items()
     chosen = {n: (c := table.column(e.column), replace(e, unit=e.unit or c.unit)) for n, e in entries}
     read = _read_columns(named, [table.column(n) for n in mapping.time.columns], mapping.time, chosen)
-    if mapping.axes is None:
-        return read
-    return replace(read, columns=_turn(read.columns, mapping.axes, mapping.path))
+    return read if mapping.axes is None else _turn(read, mapping.axes, mapping.path)
 
 
 def _read_columns(
@@ -179,14 +162,14 @@ def _read_columns(
         if (e.factor, e.offset) != (1.0, 0.0):
             read = replace(read, values=read.values * e.factor + e.offset)
         columns.append(read)
-    there = np.isfinite(columns[0].values) if times else np.zeros(0, dtype=np.bool_)
-    if there.any() and not there.all():
-        lost = int(np.sum(~there))
-        notes.append(f"{count(lost, 'row')} without a time left out")
-        columns = [replace(c, values=c.values[there]) for c in columns]
     if stamps is not None:
         table = replace(table, origin=stamps.origin, instants=stamps.instants)
         notes += stamps.notes
+    there = np.isfinite(columns[0].values) if times else np.zeros(0, dtype=np.bool_)
+    lost = int(np.sum(~there))
+    if 0 < lost < len(there):
+        notes.append(f"{count(lost, 'row')} without a time left out")
+        columns = [replace(c, values=c.values[there]) for c in columns]
     return replace(table, columns=tuple(columns), notes=tuple(notes))
 
 
@@ -196,104 +179,67 @@ def _read_time(
     """Time as the numbers that it is, or as seconds of the instants that it is."""
     first = columns[0]
     where = at(table.place, f"column {first.name!r}")
-    numeric = first.is_number or (first.is_text and np.mean(np.isfinite(parse_numbers(first.values))) > 0.5)
-    numeric = numeric and not are_packed(first.values)
-    if t.format == "seconds" or (t.format is None and numeric):
-        remedy = None if numeric else f"specify the format: [time] format = {', '.join(map(repr, WAYS))}"
-        first = _read_numbers(first, table, t.null, remedy)
-        unit, _, epoch = first.unit.partition(" since ")
-        first = replace(first, name="time", unit=t.unit or unit)
-        stamps = (
-            count_seconds_since(units(9.8).to_si(first.values, unit, "s", where), epoch) if epoch else None
-        )
-    else:
+    few = first.values[:_LOOKED_AT]
+    mostly = not first.is_text or float(np.mean(np.isfinite(parse_quantities(few)[0]))) > 0.5
+    numeric = mostly and not are_packed(few)
+    if t.format != "seconds" and (t.format is not None or not numeric):
         stamps = read_stamps([c.values for c in columns], t.format, where, table.row)
-    return (first, None) if stamps is None else (DataColumn("time", "s", stamps.values), stamps)
+        return DataColumn("time", "s", stamps.values), stamps
+    remedy = None if numeric else f"specify the format: [time] format = {', '.join(map(repr, WAYS))}"
+    unit, _, epoch = first.unit.partition(" since ")
+    time = replace(
+        _read_numbers(replace(first, unit=unit), table, t.null, remedy), name="time", unit=t.unit or unit
+    )
+    if not epoch:
+        return time, None
+    since = count_seconds_since(units(9.8).to_si(time.values, time.unit, "s", where), epoch)
+    return (time, None) if since is None else (DataColumn("time", "s", since.values), since)
 
 
 # --- numbers -------------------------------------------------------------------------------------------
+
+
+def read_quantities(c: DataColumn) -> DataColumn:
+    """A column of texts that are all numbers, perhaps with units, as numbers; names of lines (10 N) and instants are texts."""
+    first = next((t for t in c.values if t not in MISSING), "") if c.is_text else ""
+    if not is_quantity(first) or "line" in c.name.casefold() or are_packed(c.values):
+        return c
+    numbers, unit, spoiled = parse_quantities(c.values)
+    return c if spoiled.any() else replace(c, unit=unit or c.unit, values=numbers)
 
 
 def _read_numbers(c: DataColumn, table: DataTable, null: Null, remedy: str | None = None) -> DataColumn:
     """A column of text as numbers; UserError at the first cell that is none."""
     if c.is_number:
         return c
-    texts = np.array(["" if t in null else t for t in c.values], dtype=object) if null else c.values
-    numbers = parse_numbers(texts) if c.is_text else np.full(len(texts), np.nan)
-    spoiled = np.flatnonzero(find_spoiled(texts, numbers)) if c.is_text else range(len(texts))
-    if len(spoiled):
+    texts = ["" if t in null else str(t) for t in c.values]
+    numbers, unit, spoiled = parse_quantities(texts)
+    if c.is_instant or spoiled.any():
+        row = int(np.argmax(spoiled))
         raise UserError(
-            "not a number" if np.isfinite(numbers).any() else "the column does not hold numbers",
-            where=at(table.place, table.row(int(spoiled[0])), f"column {c.name!r}"),
-            found=repr(str(texts[spoiled[0]]))[:60],
+            "not a number"
+            if np.isfinite(numbers).any() and not c.is_instant
+            else "the column does not hold numbers",
+            where=at(table.place, table.row(row), f"column {c.name!r}"),
+            found="dates" if c.is_instant else repr(texts[row])[:60],
             expected="a number with a decimal point, or nothing where it is missing",
             remedy=remedy or "codes of missing values can be named in a mapping: null = [...]",
         )
-    return replace(c, values=numbers)
-
-
-def read_quantities(c: DataColumn) -> DataColumn:
-    """A column of texts that are numbers with their units (``0.12 m/s2``) as numbers, in the unit of the first one."""
-    first = next((t for t in c.values if t not in MISSING), "") if c.is_text else ""
-    if not QUANTITY.fullmatch(first) or "line" in c.name.casefold():  # 10 N is a name
-        return c
-    parts = [QUANTITY.fullmatch(t) for t in c.values]
-    given = list(dict.fromkeys(m[2] for m in parts if m))
-    known = units(9.8)
-    if not all(map(is_unit, given)) or not all(known.fits(u, given[0]) for u in given):
-        return c
-    if any(m is None and t not in MISSING for m, t in zip(parts, c.values, strict=True)):
-        return c
-    numbers = parse_numbers(np.array([m[1] if m else "" for m in parts], dtype=object))
-    si = known.base_unit(given[0])
-    for unit in given[1:]:
-        here = np.array([m is not None and m[2] == unit for m in parts])
-        numbers[here] = known.from_si(known.to_si(numbers[here], unit, si), si, given[0], c.name)
-    return replace(c, unit=given[0], values=numbers)
-
-
-def parse_numbers(texts: NDArray[np.object_]) -> Array:
-    """Numbers (n,) of texts, NaN where they are none: with decimal commas, a minus of print or the D of Fortran, too.
-
-    Where a number has points and then a comma (1.234,5) the comma is decimal in all; where one has a point, commas separate
-    thousands. Commas alone are decimal, unless all of them may separate thousands (1,234).
-    """
-
-    def parse(text: str) -> float:
-        try:
-            return float(text)
-        except ValueError:
-            return np.nan
-
-    plain = [write_plain(str(t)) for t in texts]
-    if any(map(_POINTED.fullmatch, plain)):
-        return np.array([parse(t.replace(".", "").replace(",", ".")) for t in plain])
-    if any("." in t for t in plain):
-        return np.array([parse(t.replace(",", "") if _THOUSANDS.fullmatch(t) else t) for t in plain])
-    if all(map(_THOUSANDS.fullmatch, (t for t in plain if "," in t))):
-        return np.array([parse(t) for t in plain])
-    return np.array([parse(t.replace(",", ".")) for t in plain])
-
-
-def find_spoiled(texts: NDArray[np.object_], numbers: Array) -> NDArray[np.bool_]:
-    """Where a text is neither a number nor one of the usual codes of missing values."""
-    return np.isnan(numbers) & np.array([t not in MISSING for t in texts], dtype=np.bool_)
+    return replace(c, unit=unit or c.unit, values=numbers)
 
 
 def _leave_out_codes(c: DataColumn, null: Null, notes: list[str]) -> DataColumn:
     """The column without codes of missing values, given by the mapping or recognised, which ``notes`` report."""
     values = c.values
-    named = [n for n in null if isinstance(n, float)]
 
-    def leave_out(code: float, hit: NDArray[np.bool_]) -> None:
+    def leave_out(code: float, hit: Mask) -> None:
         nonlocal values
-        hits, unit = int(np.sum(hit)), "" if c.unit in ("", "1") else f" {c.unit}"
-        if hits:
-            shown = f"{count(hits, 'value')} of {code:.10g}{unit}"
-            notes.append(f"{c.name}: left out as missing: {shown}")
+        if hits := int(np.sum(hit)):
+            unit = "" if c.unit in ("", "1") else f" {c.unit}"
+            notes.append(f"{c.name}: left out as missing: {count(hits, 'value')} of {code:.10g}{unit}")
             values = np.where(hit, np.nan, values)
 
-    for code in named:
+    for code in (n for n in null if isinstance(n, float)):
         leave_out(code, np.isclose(values, code, rtol=1e-6, atol=0.0))
     for code in find_codes(values, known_only=c.name == "time"):
         leave_out(code, values == code)
@@ -315,25 +261,24 @@ def find_codes(values: Array, *, known_only: bool = False) -> list[float]:
     The codes, in the order in which they were found.
     """
     x = values[np.isfinite(values)]
-    usual: list[float] = []
-    rest = _strip_extremes(x, lambda _, v: _is_usual(v), usual)
+    usual = _find_extremes(x, lambda _, v: _is_usual(v))
+    rest = x[~np.isin(x, usual)]
     if not len(rest):  # a sensor that was not there
         return [c for c in usual if c < 0 or c >= 1e20]
     found = [c for c in usual if _is_isolated(x[(x == c) | ~np.isin(x, usual)], c, rest, QUIET)]
-    if not known_only:
-        _strip_extremes(x[~np.isin(x, found)] if found else x, _is_unusual_code, found)
-    return found
+    return found + ([] if known_only else _find_extremes(x[~np.isin(x, found)], _is_unusual_code))
 
 
-def _strip_extremes(x: Array, is_code: Callable[[Array, float], bool], found: list[float]) -> Array:
-    """The values that are left when extremes that are codes are taken out, one after the other, into ``found``."""
-    while (
-        len(x)
-        and (code := next((v for v in (float(x.min()), float(x.max())) if is_code(x, v)), None)) is not None
-    ):
+def _find_extremes(x: Array, is_code: Callable[[Array, float], bool]) -> list[float]:
+    """Extremes that are codes, one after the other."""
+    found: list[float] = []
+    while len(x):
+        code = next((v for v in (float(x.min()), float(x.max())) if is_code(x, v)), None)
+        if code is None:
+            break
         found.append(code)
         x = x[x != code]
-    return x
+    return found
 
 
 def _is_unusual_code(x: Array, code: float) -> bool:
@@ -367,29 +312,20 @@ def _is_usual(value: float) -> bool:
 # --- axes ----------------------------------------------------------------------------------------------
 
 
-def _turn(
-    columns: Sequence[DataColumn], axes: Sequence[tuple[int, float]], path: Path
-) -> tuple[DataColumn, ...]:
-    """Columns in the measurement frame."""
-    by_name = {c.name: c for c in columns}
+def _turn(table: DataTable, axes: Sequence[tuple[int, float]], path: Path) -> DataTable:
+    """The table with its vectors and its tensor in the measurement frame."""
     found = []
-    for c in columns:
-        own, sign = _find_source(c.name, axes)
-        if own not in by_name:
+    for c in table.columns:
+        own, sign = c.name, 1.0
+        if _COMPONENT.fullmatch(c.name):
+            stem, _, letters = c.name.rpartition("_")
+            turned = [axes["xyz".index(k)] for k in letters]
+            own = f"{stem}_{''.join(sorted('xyz'[k] for k, _ in turned))}"
+            sign = float(np.prod([s for _, s in turned]))
+        if own not in table.names:
             lacking = f"{c.name} comes from {own}, which [columns] does not have"
             what = "a component that the axes need is missing"
             raise UserError(what, where=at(path, "[axes]"), found=lacking)
-        source = by_name[own]
+        source = table.column(own)
         found.append(replace(source, name=c.name, values=source.values if sign > 0 else -source.values))
-    return tuple(found)
-
-
-def _find_source(name: str, axes: Sequence[tuple[int, float]]) -> tuple[str, float]:
-    """The recorder's column from which a component in the measurement frame comes, and its sign."""
-    if match := _VECTOR.fullmatch(name):
-        k, sign = axes["xyz".index(match[2])]
-        return f"{match[1]}_{'xyz'[k]}", sign
-    if match := _TENSOR.fullmatch(name):
-        (i, s), (j, t) = (axes["xyz".index(a)] for a in match.groups())
-        return "Gamma_" + "".join(sorted("xyz"[i] + "xyz"[j])), s * t
-    return name, 1.0
+    return replace(table, columns=tuple(found))

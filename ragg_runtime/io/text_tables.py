@@ -15,9 +15,8 @@ import re
 import zipfile
 import zlib
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from datetime import date, datetime, time, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -29,25 +28,18 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at, count
 from ragg_runtime.io.array_files import convert_arrow, report_damage
-from ragg_runtime.io.instants import are_packed, find_parts
-from ragg_runtime.io.record import SI_UNITS
-from ragg_runtime.io.tables import (
-    INDEX,
+from ragg_runtime.io.cells import (
     MISSING,
-    DataColumn,
-    DataTable,
+    is_number,
+    is_quantity,
     is_unit,
     read_heading,
     read_headings,
-    read_units,
-    require_memory,
     write_cell,
 )
-
-QUANTITY = re.compile(
-    r"\s*([+\-\u2212]?[.,]?\d[\d.,]*(?:[eE][+-]?\d+)?)\s*([A-Za-z\u00b5\u03bc\u00b0%\u2103].*?)\s*"
-)
-"""A number with its unit in one cell."""
+from ragg_runtime.io.instants import are_packed, find_parts
+from ragg_runtime.io.record import SI_UNITS
+from ragg_runtime.io.tables import INDEX, DataColumn, DataTable, require_memory
 
 TWO_ROWS = "the header spans two rows; they are joined"
 """A note: of merged cells, for example."""
@@ -59,9 +51,6 @@ _GZIP = b"\x1f\x8b"
 _BLANKS = " \t"
 _REMARK = re.compile(r"^\s*(?:#|%|//|!)+\s*")
 _DATE_CLOCK = re.compile(rb"(\d[/.-]\d\d?[/.-]\d+)[ \t]+(\d\d?:\d\d:)")
-_EXPONENT = re.compile(r"([\d.])[dD]([+-]?\d)")
-_GROUPED = re.compile(r"(?<=\d)['\u2019 \u00a0\u202f](?=\d{3}(?:\D|$))")
-_NUMBER = re.compile(r"\s*[+-]?[.,]?\d[\d.,]*(?:[eE][+-]?\d+)?\s*")
 _OTHER_WIDTH = re.compile(r"CSV parse error: (?:Row #(\d+): )?Expected (\d+) columns, got (\d+)")
 """How Arrow says that a line has too few cells or too many."""
 
@@ -82,8 +71,8 @@ class Header:
     notes: tuple[str, ...] = ()
 
 
-def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
-    """The header among the first rows of a table, whose cells are text, numbers, dates or ``""``; ``None``: none."""
+def find_header(rows: Sequence[Sequence[str]]) -> Header | None:
+    """The header among the first rows of cells of a table; ``None``: there is none."""
     sizes = Counter(len(r) for r in rows if sum(map(_is_filled, r)) > 1)
     if not sizes:
         return None
@@ -95,71 +84,62 @@ def find_header(rows: Sequence[Sequence[Any]]) -> Header | None:
     ]
     data = [_is_data(rows[k]) for k in alike]
     # numbers before the header are followed by other text, or have their names in front
-    usual = _find_usual(
-        [is_number(write_cell(rows[k][0])) for k, yes in zip(alike, data, strict=True) if yes]
-    )
-    first = next(
-        (
-            k
-            for k in range(len(alike))
-            if all(data[k : k + 3]) and usual in (None, is_number(write_cell(rows[alike[k]][0])))
-        ),
-        len(alike),
-    )
+    kinds = [is_number(rows[k][0]) for k in alike]
+    share = sum(k for k, yes in zip(kinds, data, strict=True) if yes) / max(1, sum(data))
+    usual = {True, False} if 0.1 < share < 0.9 else {share > 0.5}
+    starts = (k for k in range(len(alike)) if all(data[k : k + 3]) and kinds[k] in usual)
+    first = next(starts, len(alike))
     begins = alike[first] if first < len(alike) else len(rows)
     above = [k for k in alike[:first] if any(map(_is_filled, rows[k]))]
     if not above:
         return None
     size = max(width, *(len(r) for r in rows[begins : begins + 1]), 0)
-    parts = [([write_cell(c).strip() for c in rows[k]] + [""] * size)[:size] for k in above[-3:]]
-    units = [""] * size
-    if not any(all(read_heading(c)) for p in parts for c in p):
-        for k in range(len(parts) - 1, 0, -1):  # below the units there may be a row of remarks
-            if (found := read_units(parts[k])) is not None:
-                units, parts = found, parts[:k]
-                break
-    names, notes = parts[-1], tuple[str, ...]()
-    if len(parts) > 1 and sum(map(bool, parts[-2])) > 1 and _needs_a_row_above(names):
-        names, notes = _join_rows(parts[-2], names), (TWO_ROWS,)
+    names, units, notes = _read_header(
+        [([c.strip() for c in rows[k]] + [""] * size)[:size] for k in above[-3:]]
+    )
     headings = [h if h[0] else (n.strip(), "") for n, h in zip(names, read_headings(names), strict=True)]
-    share = sum(data[first:]) / max(1, len(data) - first)
     return Header(
         names=tuple(n for n, _ in headings),
         units=tuple(own or u for (_, own), u in zip(headings, units, strict=True)),
         begins=begins,
-        share=share,
+        share=sum(data[first:]) / max(1, len(data) - first),
         notes=notes,
     )
 
 
-def _find_usual(kinds: Sequence[bool]) -> bool | None:
-    """What nine in ten are; ``None``: there is no such."""
-    share = sum(kinds) / max(1, len(kinds))
-    return None if 0.1 < share < 0.9 else share > 0.5
+def _read_header(rows: list[list[str]]) -> tuple[list[str], list[str], tuple[str, ...]]:
+    """Names with or without units, units of a row below them, and a note of the last rows above the data."""
+    units = [""] * len(rows[0])
+    if not any(all(read_heading(c)) for r in rows for c in r):
+        for k in range(len(rows) - 1, 0, -1):  # below the units there may be a row of remarks
+            if (found := _read_units(rows[k])) is not None:
+                units, rows = found, rows[:k]
+                break
+    if len(rows) > 1 and sum(map(bool, rows[-2])) > 1 and _needs_a_row_above(rows[-1]):
+        return _join_rows(rows[-2], rows[-1]), units, (TWO_ROWS,)
+    return rows[-1], units, ()
 
 
-def _is_filled(cell: Any) -> bool:
-    return cell is not None and (not isinstance(cell, str) or cell.strip() not in MISSING)
+def _read_units(cells: Sequence[str]) -> list[str] | None:
+    """The units in a row below the names: each cell is a unit, perhaps in brackets, or empty; not all numbers.
+
+    The first cell may name the row: ``Units``.
+    """
+    found = [re.sub(r"\s*(?:\[(.*)\]|\((.*)\)|'(.*)')\s*", r"\1\2\3", c).strip() for c in cells]
+    found[:1] = ["" if re.fullmatch(r"units?:?", c, re.IGNORECASE) else c for c in found[:1]]
+    units = all(not c or is_unit(c) for c in found) and any(c not in ("", "1") for c in found)
+    return found if units else None
 
 
-def _is_data(row: Sequence[Any]) -> bool:
+def _is_filled(cell: str) -> bool:
+    return cell.strip() not in MISSING
+
+
+def _is_data(row: Sequence[str]) -> bool:
     """Whether more cells of a row are numbers or instants than are text."""
     filled = list(filter(_is_filled, row))
-    values = sum(
-        not isinstance(c, str) or is_number(c) or bool(QUANTITY.fullmatch(c)) or any(find_parts(c))
-        for c in filled
-    )
+    values = sum(is_quantity(c) or any(find_parts(c)) for c in filled)
     return values > 0 and 2 * values > len(filled)
-
-
-def is_number(text: str) -> bool:
-    """Whether a cell is a number, however its thousands and decimals are divided."""
-    return _NUMBER.fullmatch(write_plain(text)) is not None
-
-
-def write_plain(text: str) -> str:
-    """A number with the minus of print, the D of Fortran or blanks between thousands as programs read it."""
-    return _GROUPED.sub("", _EXPONENT.sub(r"\1e\2", text.replace("\u2212", "-")))
 
 
 def _needs_a_row_above(names: Sequence[str]) -> bool:
@@ -184,6 +164,20 @@ def _join_rows(above: Sequence[str], below: Sequence[str]) -> list[str]:
     return found
 
 
+def _make_table(
+    header: Header, columns: Iterable[NDArray[Any]], notes: Iterable[str], **about: Any
+) -> DataTable:
+    """The columns (n,) below a header; the first may be an index, which pandas writes without a name."""
+    found, odd = [], []
+    for k, (name, unit, x) in enumerate(zip(header.names, header.units, columns, strict=True)):
+        if name:
+            found.append(DataColumn(name, unit, x))
+        elif np.any(x != "" if x.dtype == object else np.isfinite(x)):
+            found += [DataColumn(INDEX, "", x)] if k == 0 else []
+            odd += [f"column {k + 1} has no name; it is skipped"] if k > 0 else []
+    return DataTable(tuple(found), notes=(*notes, *odd, *header.notes), index=INDEX, **about)
+
+
 # --- CSV -----------------------------------------------------------------------------------------------
 
 
@@ -199,34 +193,19 @@ def read_csv(path: Path) -> list[DataTable]:
         data, delimiter = re.sub(rb"[ \t]+", b" ", data), " "
     data = _drop_headers(data, delimiter, headings, notes)
     table = _parse(data, delimiter, len(headings), len(header.names), path, notes)
-    columns = []
-    for k, (name, unit, texts) in enumerate(zip(header.names, header.units, table.columns, strict=True)):
-        x = _read_numbers(texts, name)
-        if name:
-            columns.append(DataColumn(name, unit, x))
-        elif k == 0 and _holds_values(x):  # pandas writes an index without a name so
-            columns.append(DataColumn(INDEX, "", x))
-        elif _holds_values(x):
-            notes.append(f"column {k + 1} has no name; it is skipped")
-    index = INDEX if columns and columns[0].name == INDEX else None
-    counts = ("line", len(headings) + 1)
-    return [DataTable(tuple(columns), notes=(*notes, *header.notes), index=index, counts=counts)]
+    return [_make_table(header, map(_read_cells, table.columns), notes, counts=("line", len(headings) + 1))]
 
 
-def _read_numbers(texts: pa.ChunkedArray, name: str) -> NDArray[Any]:
-    """A column as numbers, or as its texts where one is no number, or digits would be lost; names of lines are words."""
+def _read_cells(texts: pa.ChunkedArray) -> NDArray[Any]:
+    """A column as numbers where Arrow reads them, or as its texts."""
     there = pc.is_in(cells := pc.utf8_trim_whitespace(texts), pa.array(sorted(MISSING)), skip_nulls=True)
-    cells = pc.if_else(there, None, cells)
-    if name.casefold() != "line" and not are_packed(cells.slice(0, _LOOKED_AT).drop_null().to_pylist()):
-        if not pc.any(pc.match_substring(cells, ".")).as_py():  # commas are decimal
-            cells = pc.replace_substring(cells, ",", ".")
+    numbers = pc.if_else(there, None, cells)
+    if not are_packed(numbers.slice(0, _LOOKED_AT).drop_null().to_pylist()):
+        if not pc.any(pc.match_substring(numbers, ".")).as_py():  # commas are decimal
+            numbers = pc.replace_substring(numbers, ",", ".")
         with contextlib.suppress(pa.ArrowInvalid):
-            return np.asarray(convert_arrow(cells.cast(pa.float64())))
-    return np.asarray(convert_arrow(texts))
-
-
-def _holds_values(x: NDArray[Any]) -> bool:
-    return bool(np.any(x != "" if x.dtype.kind == "O" else np.isfinite(x)))
+            return convert_arrow(numbers.cast(pa.float64()))
+    return convert_arrow(cells)
 
 
 def _read_text(path: Path) -> tuple[bytes, list[str]]:
@@ -244,6 +223,9 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
             return data.decode("utf-16").encode(), []
         if data[1:4:2] == b"\0\0":  # every second byte of plain text, without the mark
             return data.decode("utf-16-le").encode(), []
+        data = data.removeprefix(b"\xef\xbb\xbf").rstrip(b"\0")  # recorders reserve room ahead
+        if b"\0" in data:
+            raise UnicodeError("bytes of zero: another format, or a copy that failed")
         try:
             data.decode()
         except UnicodeDecodeError:
@@ -254,9 +236,9 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
             where=path,
             found=str(error)[:200],
             expected="a complete text file: a header of `name [unit]`, then numbers",
-            remedy="copy it again, or save it as CSV, Parquet or NetCDF-4",
+            remedy="copy it again, correct the ending of its name, or save it as CSV, Parquet or NetCDF-4",
         ) from None
-    return data.removeprefix(b"\xef\xbb\xbf").rstrip(b"\0"), []  # recorders reserve room ahead
+    return data, []
 
 
 def _look(data: bytes, path: Path) -> tuple[str, list[bytes], Header]:
@@ -352,51 +334,25 @@ def _parse(data: bytes, delimiter: str, lines: int, width: int, path: Path, note
 
 def read_excel(path: Path) -> list[DataTable]:
     """The sheets of a workbook that hold tables; formulas are not computed, what Excel has computed is read."""
-    import pandas as pd  # slow to import, and only this format needs it
-
     with report_damage(path, "Excel (.xlsx)"):
-        with zipfile.ZipFile(path) as parts:
-            size = sum(p.file_size for p in parts.infolist() if p.filename.startswith("xl/worksheets/"))
-        require_memory(path, _CELL_OF_XML * size)
-        sheets = pd.read_excel(path, sheet_name=None, header=None, na_filter=False, engine="openpyxl")
-    found = (
-        _read_sheet(str(name), sheet.astype(object).to_numpy().tolist()) for name, sheet in sheets.items()
-    )
-    return [t for t in found if t is not None]
+        import openpyxl  # slow to import, and only this format needs it
+
+        with path.open("rb") as stream:
+            parts = zipfile.ZipFile(stream).infolist()
+            size = sum(p.file_size for p in parts if p.filename.startswith("xl/worksheets/"))
+            require_memory(path, _CELL_OF_XML * size)
+            book = openpyxl.load_workbook(stream, data_only=True)
+        return [t for sheet in book.worksheets if (t := _read_sheet(sheet.title, sheet.values)) is not None]
 
 
-def _read_sheet(name: str, cells: list[list[Any]]) -> DataTable | None:
+def _read_sheet(name: str, cells: Iterable[Sequence[Any]]) -> DataTable | None:
     """What a sheet holds; ``None`` if there is no table in it."""
-    rows = [(n, ["" if c != c else c for c in r]) for n, r in enumerate(cells, 1)]
-    rows = [(n, r) for n, r in rows if any(c != "" for c in r)]
+    rows = [(n, list(map(write_cell, r))) for n, r in enumerate(cells, 1)]
+    rows = [(n, r) for n, r in rows if any(r)]
     header = find_header([r for _, r in rows[:_LOOKED_AT]])
     if header is None:
         return None
     data = rows[header.begins :]
-    columns = tuple(
-        DataColumn(n, header.units[k], _read_column([r[k] for _, r in data]))
-        for k, n in enumerate(header.names)
-        if n
-    )
+    columns = (np.array([r[k] for _, r in data], dtype=object) for k in range(len(header.names)))
     counts = ("row", data[0][0] if data else 1)
-    return DataTable(columns, line=name, part=name, notes=header.notes, counts=counts)
-
-
-def _read_column(cells: Sequence[Any]) -> NDArray[Any]:
-    """Cells of a sheet: numbers, dates, elapsed times (beyond 24 h Excel has dates of 1900 for them), or texts."""
-    there = list(filter(_is_filled, cells))
-    if all(isinstance(c, int | float) for c in there):
-        return np.array([float(c) if isinstance(c, int | float) else np.nan for c in cells])
-    if any(isinstance(c, timedelta | datetime) for c in there) and None not in map(_read_elapsed, there):
-        known = ["NaT" if (e := _read_elapsed(c)) is None else e for c in cells]
-        return np.array(known, dtype="timedelta64[us]").astype("timedelta64[ns]")
-    return np.array([write_cell(c) for c in cells], dtype=object)
-
-
-def _read_elapsed(cell: Any) -> timedelta | None:
-    """An elapsed time; ``None`` if the cell is none."""
-    if isinstance(cell, time):
-        cell = datetime.combine(date(1899, 12, 31), cell)
-    if isinstance(cell, datetime) and cell.year in (1899, 1900):
-        cell = cell - datetime(1899, 12, 31)
-    return cell if isinstance(cell, timedelta) else None
+    return _make_table(header, columns, (), line=name, part=name, counts=counts)

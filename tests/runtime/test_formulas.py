@@ -194,7 +194,7 @@ def test_an_effect_is_one_file(effect: Any) -> None:
 
 def test_a_file_format_is_a_function_and_a_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     read_rec = module_of("ragg_runtime/io/rec_file.py").read_rec
-    monkeypatch.setitem(files.ENDINGS, ".rec", files.Format("rec", (".rec",), (), read_rec))
+    monkeypatch.setitem(files.ENDINGS, ".rec", files.Format("rec", (".rec",), read_rec))
     rows = [f"{k / 16} " + " ".join(f"{x:.6f}" for x in np.sin(k + np.arange(7))) for k in range(800)]
     head = "# time a_x a_y a_z omega_x omega_y omega_z G_out\n# s g g g deg/h deg/h deg/h V\n"
     (tmp_path / "flight.rec").write_text(head + "\n".join(rows))

@@ -1,0 +1,323 @@
+"""From arrays with names and attributes, in a file or in memory, to tables.
+
+What a file or a dict holds is a tree of arrays; a branch of it is a table, which may be the record of a line.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from numbers import Number
+from typing import Any, SupportsFloat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError, one_line
+from ragg_runtime.io.cells import is_unit, read_heading, write_cell
+from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE, Array
+from ragg_runtime.io.tables import INDEX, DataColumn, DataTable
+
+WIDEST = 64
+"""Columns of one array that are taken apart: accelerations along three axes, voltages of a few discs, a whole flight."""
+
+Attributes = Mapping[str, Any]
+"""What a file says about an array: ``units``, ``_FillValue``, ``valid_range``, names of columns."""
+
+Tree = Mapping[str, Any]
+"""Arrays (or pairs of an array and its attributes), texts, and trees, by name: ``units`` is a tree of texts, ``line`` names the line."""
+
+_TITLES = ("columns", "names", "fields", "colheaders", "labels", "channels")
+
+_DEFAULT_FILL = {"f4": 2.0**123 * 0.9375, "f8": 2.0**123 * 0.9375, "i4": -2147483647, "i2": -32767}
+"""What NetCDF writes where nothing was written, by type (netcdf.h: NC_FILL_FLOAT ...)."""
+
+_LIMITS = (
+    ("valid_range", 0, np.less),
+    ("valid_range", -1, np.greater),
+    ("valid_min", 0, np.less),
+    ("valid_max", 0, np.greater),
+)
+
+
+def make_tables(tree: Tree, place: str = "") -> list[DataTable]:
+    """The tables of a tree of arrays and of its branches, from the outermost on.
+
+    A branch with as many rows, and no name in common, is a part of the record around it, unless that has all of the motion: columns
+    besides it may have no units.
+    """
+    arrays, branches = [], {}
+    for name, item in tree.items():
+        x = read_array(item) if isinstance(item, list | np.ndarray) else None
+        parts = x.ravel().tolist() if x is not None and x.dtype == object else []
+        if isinstance(item, Mapping):
+            branches[name] = item
+        elif parts and all(isinstance(p, Mapping) for p in parts):  # an array of structures
+            branches |= {f"{name}_{k}": p for k, p in enumerate(parts, 1)}
+        elif not isinstance(item, str):
+            arrays.append((name, *item) if isinstance(item, tuple) else (name, item))
+    units, line, index = branches.pop("units", {}), tree.get("line"), tree.get("index_name", INDEX)
+    title = write_cell(line) if isinstance(line, str | int | float) else place.rpartition("/")[2]
+    own = make_table(arrays, read_frame_units(units), line=title, part=place, index=read_heading(index)[0])
+    apart = []
+    for t in (t for name, branch in branches.items() for t in make_tables(branch, f"{place}/{name}")):
+        whole = {*SPECIFIC_FORCE, *ANGULAR_RATE} <= {*own.names} and "[" not in t.part
+        if len(t) != len(own) or {*own.names} & {*t.names} or whole:
+            apart.append(t)
+            continue
+        stem = t.part.removeprefix(place).strip("/")
+        more = [_name_inside(stem, c, own.names) for c in t.columns]
+        own = replace(own, columns=(*own.columns, *more), notes=(*own.notes, *t.notes))
+    found = [own, *apart] if own.columns else apart
+    return found if place else _join_channels(found)
+
+
+def _name_inside(stem: str, c: DataColumn, taken: Sequence[str]) -> DataColumn:
+    """A column of a branch that belongs to a record: behind the branch's name, unless its own is the contract's and free. Of a name
+    such as ``omega_x [deg/h]`` HDF5 makes a group.
+    """
+    if c.name in SI_UNITS and c.name not in taken:
+        return c
+    if "[" not in stem:
+        return replace(c, name=f"{stem}_{c.name}".replace("/", "_"))
+    name, unit = read_heading(f"{stem}/{c.name}")
+    return replace(c, name=name, unit=unit)
+
+
+def _join_channels(tables: list[DataTable]) -> list[DataTable]:
+    """Tables of the same instants, without other names in common, as one: a single channel is called as its branch."""
+    times = [next((c for c in t.columns if c.name.casefold() in ("time", "t")), None) for t in tables]
+    first = times[0] if len(times) > 1 else None
+    if first is None or not all(c is not None and np.array_equal(c.values, first.values) for c in times):
+        return tables
+    own = [
+        replace(c, name=t.part.rpartition("/")[2]) if len(t.columns) == 2 and c.name not in SI_UNITS else c
+        for t, time in zip(tables, times, strict=True)
+        for c in t.columns
+        if c is not time
+    ]
+    if len({c.name for c in own}) < len(own):
+        return tables
+    return [replace(tables[0], columns=(replace(first, name="time"), *own), line=None, part="")]
+
+
+def make_table(
+    arrays: Iterable[tuple[Any, ...]], given: Mapping[str, str] | None = None, **about: Any
+) -> DataTable:
+    """A table of those arrays that have the length of ``time`` (or the commonest one); notes say which have not.
+
+    Parameters
+    ----------
+    arrays
+        Name, array and perhaps attributes: (n,), or (n, m), (m, n) with m up to ``WIDEST``, which give ``name_1`` ... ``name_m`` (or
+        ``a_x`` ... of a vector ``a``, or what m texts in an attribute or another array, such as ``colheaders``, say).
+    given
+        Units by name, besides those in the attributes and in the names.
+    about
+        Further fields of the table.
+    """
+    given, arrays = given or {}, [(n, read_array(x), dict(*a)) for n, x, *a in arrays]
+    numbers = [a for a in arrays if a[1].dtype.kind not in "OSUT"] or arrays  # texts may be names of columns
+    sizes = [(read_heading(n)[0], max(x.shape)) for n, x, _ in numbers if _is_narrow(x.shape)]
+    common = Counter(size for _, size in sizes if size > 1).most_common(1)
+    length = next((size for n, size in sizes if n == "time" and size > 1), common[0][0] if common else 1)
+    lists = {n: x for n, x, _ in arrays if n.casefold() in (*_TITLES, "units") and x.dtype.kind in "OSUT"}
+    columns, other = [], []
+    for name, x, attributes in arrays:
+        fits = _is_narrow(x.shape) and length in x.shape
+        instants = ""
+        if x.dtype.kind in "mM":
+            x, instants = _count_seconds(x)
+        values = decode_values(x, attributes) if fits else None
+        if values is None:
+            why = "neither numbers nor text" if fits else " x ".join(map(str, x.shape)) or "a single value"
+            other += [f"{name!r} ({why})"] if name not in lists else []
+            continue
+        title, unit = read_heading(name)
+        said = [
+            t for k, v in attributes.items() if k.casefold() in ("units", "unit") and (t := _read_text(v))
+        ]
+        logical = x.dtype == np.bool_ or attributes.get("MATLAB_class") == b"logical"
+        said = said or [unit or "1" * logical]
+        for own, unit, part in _spread(title, values, length, {**lists, **attributes}):
+            unit_of = instants or given.get(own) or given.get(name) or given.get(title) or unit or said[0]
+            columns.append(DataColumn(own, unit_of.strip(), part))
+    notes = list(about.pop("notes", ()))
+    if other:
+        shown = ", ".join(other[:6]) + (" ..." if len(other) > 6 else "")
+        notes.append(f"skipped, not of the {length} rows of the table: {one_line(shown)}")
+    return DataTable(tuple(columns), notes=tuple(notes), **about)
+
+
+def read_array(x: Any) -> NDArray[Any]:
+    """Anything as an array; what is masked holds nothing."""
+    if isinstance(x, np.ma.MaskedArray) and x.dtype.kind in "biuf":
+        return np.where(np.ma.getmaskarray(x), np.nan, x.data)
+    try:
+        return np.asarray(x)
+    except ValueError:  # parts of several lengths
+        return np.asarray(x, dtype=object)
+
+
+def _is_narrow(shape: tuple[int, ...]) -> bool:
+    return len(shape) == 1 or (len(shape) == 2 and min(shape) <= WIDEST)
+
+
+def _spread(
+    name: str, values: NDArray[Any], length: int, attributes: Attributes
+) -> list[tuple[str, str, NDArray[Any]]]:
+    """The columns of an array with their units, if each has its own: itself, or of two dimensions ``name_1`` ...
+
+    A vector ``a`` gives ``a_x``, ``a_y``, ``a_z``; lists of names and units in its attributes are taken.
+    """
+    if values.ndim == 1:
+        return [(name, "", values)]
+    values = values if values.shape[0] == length else values.T
+    width = values.shape[1]
+    axes = "xyz" if width == 3 and f"{name}_x" in SI_UNITS else range(1, width + 1)
+    lists = {
+        k.casefold(): [write_cell(t) for t in np.ravel(v)]
+        for k, v in attributes.items()
+        if np.ndim(v) and np.size(v) == width
+    }
+    plain = [name if width == 1 else f"{name}_{k}" for k in axes]
+    titles = [read_heading(t) for t in next((lists[k] for k in _TITLES if k in lists), plain)]
+    units = next((lists[k] for k in ("units", "unit") if k in lists), [""] * width)
+    return [(n, u or own, x) for (n, own), u, x in zip(titles, units, values.T, strict=True)]
+
+
+# --- values --------------------------------------------------------------------------------------------
+
+
+def decode_values(values: NDArray[Any], attributes: Attributes) -> NDArray[Any] | None:
+    """Numbers as float64, text as objects; ``None`` for anything else.
+
+    What the CF conventions call missing (2.5.1: ``_FillValue``, ``missing_value``, ``valid_range``, and NetCDF's
+    default fill values) becomes NaN; ``scale_factor`` and ``add_offset`` are applied, ``flag_meanings`` give texts.
+    """
+    kind = values.dtype.kind
+    if kind == "i" and _read_text(attributes.get("_Unsigned")) == "true":  # NetCDF 3 has no unsigned numbers
+        values, kind = values.view(values.dtype.str.replace("i", "u")), "u"
+    if kind in "OSUT":
+        return _decode_objects(values.tolist())
+    if kind not in "biuf":
+        return None
+    meanings = _read_text(attributes.get("flag_meanings")).split()
+    if meanings and kind in "iu" and values.ndim == 1:
+        flags = np.atleast_1d(attributes.get("flag_values", np.arange(len(meanings)))).tolist()
+        known = dict(zip(flags, meanings, strict=False))
+        return np.array([known.get(int(v), str(v)) for v in values], dtype=object)
+    every = {n: np.ravel(v) for n, v in attributes.items()}
+    said = {n: v for n, v in every.items() if v.dtype.kind in "fiu" and v.size}
+    nothing = [v for n in ("_FillValue", "missing_value") for v in said.get(n, ()) if np.isfinite(v)]
+    if (fill := _DEFAULT_FILL.get(values.dtype.str[1:])) is not None and "DIMENSION_LIST" in attributes:
+        nothing.append(fill)
+    missing = np.isin(values, np.array(nothing).astype(values.dtype))
+    packed = "scale_factor" in said or "add_offset" in said
+    result: NDArray[Any] = values.astype(np.float64)
+    if packed:
+        result = result * said.get("scale_factor", [1.0])[0] + said.get("add_offset", [0.0])[0]
+    for name, end, is_beyond in _LIMITS:
+        if name in said:
+            # of packed whole numbers the range is one of whole numbers, or of what they encode (NUG, appendix A)
+            encoded = packed and kind in "iu" and said[name].dtype.kind == "f"
+            missing |= is_beyond(result if encoded else values, said[name][end])
+    result[missing] = np.nan
+    return result
+
+
+def _count_seconds(x: NDArray[Any]) -> tuple[Array, str]:
+    """Instants or elapsed times in seconds, and their unit: instants count from the midnight before the first of them."""
+    there = x[~np.isnat(x)]
+    if x.dtype.kind == "m":
+        return np.where(np.isnat(x), np.nan, x.astype("m8[ns]").astype(np.int64) / 1e9), "s"
+    midnight = there[0].astype("M8[D]") if len(there) else np.datetime64("1970-01-01")
+    return _count_seconds(x.astype("M8[ns]") - midnight)[0], f"s since {midnight}"
+
+
+def _decode_objects(cells: list[Any]) -> NDArray[Any] | None:
+    """Numbers, if all of what is there are numbers; else texts; ``None`` where there is anything else."""
+    there = [c for c in cells if write_cell(c)]
+    if there and all(isinstance(c, Number) for c in there):
+        return np.array([float(c) if isinstance(c, SupportsFloat) else np.nan for c in cells])
+    if not all(isinstance(c, str | bytes | Number) or hasattr(c, "isoformat") for c in there):
+        return None
+    return np.array([write_cell(c) for c in cells], dtype=object)
+
+
+def _read_text(value: object) -> str:
+    """The text of an attribute; ``""`` where it is none."""
+    if isinstance(value, np.ndarray) and value.size == 1:
+        value = value.ravel()[0]
+    return write_cell(value) if isinstance(value, str | bytes) else ""
+
+
+def read_frame_units(attributes: Mapping[Any, Any]) -> dict[str, str]:
+    """Units by name: as a DataFrame carries them in ``attrs``, under ``units``, or name -> unit or name -> {units: unit}."""
+    inside = attributes.get("units")
+    found = {}
+    for name, unit in (inside if isinstance(inside, Mapping) else attributes).items():
+        value = unit.get("units", unit.get("unit")) if isinstance(unit, Mapping) else unit
+        if isinstance(value, str):
+            found[str(name)] = value.strip()
+    return found
+
+
+# --- in memory -----------------------------------------------------------------------------------------
+
+
+def tabulate(data: Any) -> list[DataTable]:
+    """The tables of a DataFrame, a Dataset or a dict of arrays; UserError for anything else."""
+    if hasattr(data, "iloc") and hasattr(data, "columns"):
+        return [_tabulate_frame(data)]
+    if hasattr(data, "data_vars") and hasattr(data, "coords"):
+        return [make_table((str(n), v.values, _unpack_range(v)) for n, v in data.variables.items())]
+    if isinstance(data, Mapping):
+        tree = {str(n): v if isinstance(v, Mapping) else _read_series(v) for n, v in data.items()}
+        return make_tables({"units": tree.pop("attrs", {}), **tree})
+    raise UserError(
+        "this is not a flight",
+        found=type(data).__name__,
+        expected="a path, a pandas DataFrame, an xarray Dataset, a dict of arrays, or a list of these",
+    )
+
+
+def _unpack_range(v: Any) -> Attributes:
+    """The attributes of a variable of xarray, which unpacks values but not the range in which they are valid."""
+    scale, offset = v.encoding.get("scale_factor", 1.0), v.encoding.get("add_offset", 0.0)
+    packed = {n: np.asarray(x) * scale + offset for n, x in v.attrs.items() if n.startswith("valid_")}
+    return {**v.attrs, **packed}
+
+
+def _tabulate_frame(frame: Any) -> DataTable:
+    """The table of a DataFrame; an index that is more than row numbers is its first column."""
+    frame = frame.reset_index() if frame.index.nlevels > 1 else frame  # by line and time
+    arrays = []
+    for k, c in enumerate(frame.columns):
+        parts = [str(x) for x in c] if isinstance(c, tuple) else [str(c)]
+        if len(parts) > 1 and is_unit(parts[-1]):  # names and units in two rows of a header
+            parts[-1] = f"[{parts[-1]}]"
+        arrays.append((" ".join(parts), *_read_series(frame.iloc[:, k])))
+    index = None
+    if type(frame.index).__name__ != "RangeIndex":
+        name = INDEX if frame.index.name is None else str(frame.index.name)
+        arrays.insert(0, (name, *_read_series(frame.index.to_series())))
+        index = read_heading(name)[0]
+    return make_table(arrays, read_frame_units(frame.attrs), index=index)
+
+
+def _read_series(series: Any) -> tuple[Any, Attributes]:
+    """A column of pandas as an array of NumPy, any other array as it is; and its attributes."""
+    attributes = getattr(series, "attrs", {})
+    if not hasattr(series, "to_numpy") or not hasattr(series, "index"):
+        return series, attributes
+    series = series.astype(object) if str(series.dtype) == "category" else series
+    series = series.infer_objects()
+    kind = getattr(series.dtype, "kind", "O")
+    if kind in "mM":
+        return series.to_numpy(), attributes
+    options = (
+        {"dtype": np.float64, "na_value": np.nan} if kind in "iufb" else {"dtype": object, "na_value": None}
+    )
+    return series.to_numpy(**options), attributes
