@@ -188,8 +188,8 @@ class Flight:
         notes = (*self.notes, *(f.reason for f in flags))
         return dataclasses.replace(self, flags=(*self.flags, *flags), notes=notes)
 
-    def part(self, rows: slice) -> Flight:
-        """A segment of the flight, as views."""
+    def part(self, rows: slice | Mask) -> Flight:
+        """A segment of the flight, as views, or some of its rows."""
         return dataclasses.replace(
             self,
             time=self.time[rows],

@@ -16,11 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.least_squares import compute_r_factor
-from ragg_runtime.estimation.regressors import list_base_columns, list_own_columns, put_derivatives
-from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.estimation.regressors import Column, list_base_columns, list_own_columns, put_derivatives
 from ragg_runtime.model.evaluate import make_vector, scale_factor
-from ragg_runtime.model.model import Model
-from ragg_runtime.screening.sampler import Rows
+from ragg_runtime.screening.sampler import Rows, Sampler
 
 Array = NDArray[np.float64]
 
@@ -118,7 +116,7 @@ class Hypothesis:
     cost: float = 0.0
     kind: str = "record"
     effects: tuple[str, ...] = ()
-    calming: bool = True
+    calming: bool = False
 
     def score(self, before: LinearFit) -> float:
         """Minus the log evidence: one number for any mistake; ``before``: the record as it is."""
@@ -126,80 +124,55 @@ class Hypothesis:
         return self.fitted.score + self.cost + calmed / 2
 
 
-def fit_rows(model: Model, instrument: Instrument, rows: Rows) -> LinearFit:
+def fit_rows(rows: Rows) -> LinearFit:
     """Fit the model's parameters about the instrument's values, with their priors."""
-    return linearise(model, instrument, rows).fit(rows)
-
-
-@dataclass(frozen=True)
-class LinearModel:
-    """A model about an instrument's values ``p`` at N rows of one output, before demodulation.
-
-    ``columns`` (n, m, N): by every parameter, whose ``places`` in ``p`` and prior widths, ``scales``, these are, and by a gradient
-    that was not recorded, Eo; ``nominal`` (m, N): output at the sheet's values, V; ``eotvos``: V/Eo.
-    """
-
-    p: Array
-    places: list[int]
-    scales: Array
-    columns: Array
-    nominal: Array
-    eotvos: float
-
-    def system(self, rows: Rows) -> tuple[Array, Array]:
-        """The columns (n, m, N), and the output less the model at the sheet's values (m, N), Eo, of those of the rows that are fitted."""
-        inner = rows.inner
-        left = rows.data[:, inner] - rows.seen(self.nominal)[:, inner]
-        return rows.seen(self.columns)[:, :, inner], left / self.eotvos
-
-    def fit(self, rows: Rows) -> LinearFit:
-        """The rows, or the same with another low-pass, fitted by the columns."""
-        X, y = (x.reshape(*x.shape[:-2], -1) for x in self.system(rows))
-        theta, kept, volume = fit_robustly(X, y)
-        size = rows.data[:, rows.inner] / self.eotvos
-        size = (size - np.mean(size, axis=1, keepdims=True)).reshape(-1)
-        moves = theta[: len(self.places)]
-        moved = self.p.copy()
-        moved[self.places] += moves * self.scales
-        return LinearFit(
-            rms=float(np.sqrt(np.mean((y - theta @ X)[kept] ** 2))),
-            size=float(np.sqrt(np.mean(size[kept] ** 2))),
-            p=moved,
-            surprise=float(np.sum(moves**2)),
-            volume=volume,
-            kept=float(np.mean(kept)),
-        )
-
-
-def linearise(model: Model, instrument: Instrument, rows: Rows) -> LinearModel:
-    """A model about an instrument's values at rows of one output."""
-    p, evaluator, o = make_vector(model, instrument), model.evaluators("chain"), rows.output
-    place = instrument.layout.outputs.index(o)
-    eotvos = scale_factor(model, p, place)
-    base = list_base_columns(model, instrument)
-    own = [base[k] for k in list_own_columns([c for c, _ in base], instrument, place)]
-    at = (rows.time, rows.inputs(model.chain), rows.phi)
-    volts = evaluator.voltages(rows.time, at[1], p, rows.phi, o.members)
-    nominal = rows.recorded.of_voltages(o, volts)
-    columns = np.zeros((len(own), *nominal.shape))
-    put_derivatives(columns, evaluator, [c for c, _ in own], at, p, rows.recorded, o)
-    gradient = () if rows.gradient_recorded else (_make_gradient(rows),)
-    return LinearModel(
+    s, p = rows.sampler, make_vector(rows.sampler.model, rows.sampler.instrument)
+    X, y = (x.reshape(*x.shape[:-2], -1) for x in linearise(rows))
+    theta, kept, volume = fit_robustly(X, y)
+    size = rows.data[:, rows.inner] / scale_factor(s.model, p, s.place)
+    size = (size - np.mean(size, axis=1, keepdims=True)).reshape(-1)
+    own = list_columns(s)
+    moves = theta[: len(own)]
+    for (column, place), move in zip(own, moves, strict=True):
+        p[place] += move * column.scale
+    return LinearFit(
+        rms=float(np.sqrt(np.mean((y - theta @ X)[kept] ** 2))),
+        size=float(np.sqrt(np.mean(size[kept] ** 2))),
         p=p,
-        places=[i for _, i in own],
-        scales=np.array([c.scale for c, _ in own]),
-        columns=np.concatenate([columns / eotvos, *gradient]),
-        nominal=nominal,
-        eotvos=eotvos,
+        surprise=float(np.sum(moves**2)),
+        volume=volume,
+        kept=float(np.mean(kept)),
     )
+
+
+def list_columns(s: Sampler) -> list[tuple[Column, int]]:
+    """The parameters of an output, each with its place in the parameter vector."""
+    base = list_base_columns(s.model, s.instrument)
+    return [base[k] for k in list_own_columns([c for c, _ in base], s.instrument, s.place)]
+
+
+def linearise(rows: Rows) -> tuple[Array, Array]:
+    """The output by every parameter, times the width of its prior, and by a gradient that was not recorded, (n, m, rows), and the
+    output less the model at the sheet's values, (m, rows), Eo, of those of the rows that are fitted.
+    """
+    s, o, x = rows.sampler, rows.sampler.output, rows.inputs
+    p, evaluator = make_vector(s.model, s.instrument), s.model.evaluators("chain")
+    nominal = s.recorded.of_voltages(o, evaluator.voltages(rows.time, x, p, rows.phi, o.members))
+    own = [c for c, _ in list_columns(s)]
+    columns = np.zeros((len(own), *nominal.shape))
+    put_derivatives(columns, evaluator, own, (rows.time, x, rows.phi), p, s.recorded, o)
+    eotvos = scale_factor(s.model, p, s.place)
+    gradient = () if rows.gradient_recorded else (_make_gradient(rows),)
+    X, y = rows.seen(np.concatenate([columns / eotvos, *gradient])), rows.data - rows.seen(nominal)
+    return X[..., rows.inner], y[:, rows.inner] / eotvos
 
 
 def _make_gradient(rows: Rows) -> Array:
     """(2, m, N): columns of a constant gradient, before demodulation."""
-    o = rows.output
+    o = rows.sampler.output
     share = np.array(o.carriers) * np.array(o.radii) / max((*o.radii, 1e-300)) / len(o.members)
     wave = GRADIENT_SCALE * share[:, None] * np.exp(2j * rows.phi)
-    return np.stack([rows.recorded.of_voltages(o, x) for x in (wave.imag, wave.real)])
+    return np.stack([rows.sampler.recorded.of_voltages(o, x) for x in (wave.imag, wave.real)])
 
 
 def find_least(cost: Callable[[float], float], grid: NDArray[np.floating[Any]], finest: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations, permutations, product
@@ -11,14 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.regressors import list_base_columns
-from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.parameters import PARAMETERS
-from ragg_runtime.instrument.units import Units
 from ragg_runtime.io.record import ANGULAR_ACCELERATION
 from ragg_runtime.model.evaluate import make_vector
-from ragg_runtime.model.model import Model
-from ragg_runtime.screening import other_demodulator, timing
-from ragg_runtime.screening.linear_fit import INDEPENDENT, RARE, Hypothesis, LinearFit, fit_rows
+from ragg_runtime.model.record import make_kernel
+from ragg_runtime.screening import timing
+from ragg_runtime.screening.linear_fit import INDEPENDENT, RARE, Hypothesis, LinearFit, find_least, fit_rows
 from ragg_runtime.screening.sampler import Rows, Sampler, find_stem
 
 Array = NDArray[np.float64]
@@ -60,34 +59,21 @@ class Finding:
         return self.before.share / max(self.best.fitted.share, 1e-300)
 
 
-def find_mistake(model: Model, instrument: Instrument, s: Sampler) -> Finding | None:
-    """The hypothesis that explains a record, or ``None`` if it looks as it should (or none explains it).
-
-    Parameters
-    ----------
-    model, instrument
-        What the record is compared with.
-    s : Sampler
-        The record.
-    """
-    rows = s.take(s.rows())
-    before = fit_rows(model, instrument, rows)
+def find_mistake(s: Sampler) -> Finding | None:
+    """The hypothesis that explains a record, or ``None`` if it looks as it should (or none explains it)."""
+    before = fit_rows(s.take())
     if before.rms < SUSPICIOUS and before.surprise < SURPRISING and before.kept > 1.0 - RARE:
         return None
-    tried = [*_sheets(model, instrument, rows), *_wrong(model, instrument, s, rows)]
-    tried += timing.propose_times(model, instrument, s)
+    tried = [*_sheets(s), *_columns(s), *timing.propose_times(s)]
     if before.share > LARGE and not s.recorded.demodulated:
-        tried += timing.propose_parts(model, instrument, s)
-    found = _chosen(before, tried)
+        tried += timing.propose_parts(s)
+    found = _choose(before, tried)
     if not s.recorded.demodulated or (found is not None and found.factor > 5.0):
         return found
-    made = other_demodulator.propose_demodulator(
-        model, instrument, s
-    )  # takes a while: if nothing else would do
-    return _chosen(before, [*tried, made])
+    return _choose(before, [*tried, _propose_demodulator(s)])  # takes a while: if nothing else would do
 
 
-def _chosen(before: LinearFit, tried: Sequence[Hypothesis]) -> Finding | None:
+def _choose(before: LinearFit, tried: Sequence[Hypothesis]) -> Finding | None:
     """The best hypothesis that is clearly better than the record as it is and than a model that predicts nothing.
 
     A record is not taken to be wrong where wider priors explain it as it is.
@@ -107,9 +93,9 @@ def _chosen(before: LinearFit, tried: Sequence[Hypothesis]) -> Finding | None:
 # --- a sheet with priors that are too narrow ------------------------------------------------------------
 
 
-def _sheets(model: Model, instrument: Instrument, rows: Rows) -> Iterator[Hypothesis]:
+def _sheets(s: Sampler) -> Iterator[Hypothesis]:
     """Sheets that are less sure of the scale factors, of everything, or of both."""
-    every = {q.name: WIDE for q in PARAMETERS}
+    instrument, every = s.instrument, {q.name: WIDE for q in PARAMETERS}
     for factors in ({"K1": WIDE_K1}, every, {**every, "K1": WIDE_K1}):
         widths = {
             q.name: max(1.0, factors[q.name] * float(np.median(usual / instrument.sigma(q.name))))
@@ -118,9 +104,9 @@ def _sheets(model: Model, instrument: Instrument, rows: Rows) -> Iterator[Hypoth
             for usual in [q.plausible_si(instrument.accelerometers[q.name], instrument.g0)]
         }
         wider = replace(instrument, widths={**instrument.widths, **widths})
-        fitted = fit_rows(model, wider, rows)
+        fitted = fit_rows(replace(s, instrument=wider).take())
         yield Hypothesis(
-            what=f"the test sheet is too confident: {_farthest(model, instrument, fitted)}",
+            what=f"the test sheet is too confident: {_farthest(s, fitted)}",
             remedy="check it, or give the parameter a larger sigma in model.toml",
             fitted=fitted,
             kind="sheet",
@@ -128,10 +114,10 @@ def _sheets(model: Model, instrument: Instrument, rows: Rows) -> Iterator[Hypoth
         )
 
 
-def _farthest(model: Model, instrument: Instrument, fitted: LinearFit) -> str:
+def _farthest(s: Sampler, fitted: LinearFit) -> str:
     """The parameters that lie farthest from their sheet, in its sigmas: both values of up to three."""
-    sheet = make_vector(model, instrument)
-    off = [((fitted.p[k] - sheet[k]) / c.scale, c, k) for c, k in list_base_columns(model, instrument)]
+    sheet = make_vector(s.model, s.instrument)
+    off = [((fitted.p[k] - sheet[k]) / c.scale, c, k) for c, k in list_base_columns(s.model, s.instrument)]
     off = sorted((x for x in off if x[1].effect is None), key=lambda x: -abs(x[0]))
     worst = [x for x in off[:3] if abs(x[0]) > abs(off[0][0]) / 10]
     return ", ".join(
@@ -157,58 +143,59 @@ class ColumnMistake:
     plainness: int = 0
 
 
-def _wrong(model: Model, instrument: Instrument, s: Sampler, rows: Rows) -> list[Hypothesis]:
+def _columns(s: Sampler) -> list[Hypothesis]:
     """The most promising mistakes of unit, sign and axis."""
-    few = s.take(s.rows(most=FEW))
-    possible = list(
-        list_mistakes(
-            rows,
-            instrument.units,
-            s.flight.written,
-            derived=ANGULAR_ACCELERATION[0] not in (s.flight.written or s.flight.channels),
-        )
-    )
-    rough = [fit_rows(model, instrument, m.undo(few)) for m in possible]
-    order = sorted(range(len(possible)), key=lambda k: rough[k].score + possible[k].plainness / 2)
-    best = [possible[k] for k in order[:MOST_TRIED] if rough[k].score < rough[order[0]].score + NAMED]
-    return [
-        Hypothesis(m.what, m.remedy, fit_rows(model, instrument, m.undo(rows)), m.plainness / 2) for m in best
-    ]
+    rows, few = s.take(), s.take(s.rows(most=FEW))
+    rough = [(fit_rows(m.undo(few)).score, m) for m in list_mistakes(rows)]
+    rough.sort(key=lambda x: x[0] + x[1].plainness / 2)
+    best = [m for score, m in rough[:MOST_TRIED] if score < rough[0][0] + NAMED]
+    return [Hypothesis(m.what, m.remedy, fit_rows(m.undo(rows)), m.plainness / 2, calming=True) for m in best]
 
 
-def list_mistakes(
-    rows: Rows, known: Units, written: Mapping[str, str], *, derived: bool
-) -> Iterator[ColumnMistake]:
-    """Every mistake of units, signs, axes and order that such rows may hold.
-
-    Parameters
-    ----------
-    rows
-        The record.
-    known, written
-        Units with the model's g0; the unit that the file gives to each column (none: SI).
-    derived
-        Whether the angular acceleration was derived from the rate, so that both share its mistakes.
-    """
-    yield from _demodulated(rows) if rows.recorded.demodulated else _outputs(rows, known, written)
-    yield from _units_of_motion(known, written, derived)
+def list_mistakes(rows: Rows) -> Iterator[ColumnMistake]:
+    """Every mistake of units, signs, axes and order that such rows may hold."""
+    given = rows.sampler.flight.written or rows.sampler.flight.channels
+    derived = ANGULAR_ACCELERATION[0] not in given  # from the rates, whose mistakes it shares
+    yield from list_channel_mistakes(rows) if rows.sampler.recorded.demodulated else _outputs(rows)
+    for stem in ("a", "omega", *(() if derived else ("omegadot",)), *(["Gamma"] * rows.gradient_recorded)):
+        columns = "Gamma" if stem == "Gamma" else ", ".join(f"{stem}_{k}" for k in "xyz")
+        first = next(n for n in rows.channels if find_stem(n) == stem)
+        for what, remedy, factor in _in_other_units(rows, columns, first, stem):
+            if stem == "omega" and derived:
+                yield ColumnMistake(what, remedy, _scaled(("omega", "omegadot"), factor))
+                continue
+            yield ColumnMistake(what, remedy, _scaled((stem,), factor))
+            if stem == "omega":
+                what, remedy = f"{what}, and omegadot likewise", f"{remedy}, and that of omegadot"
+                yield ColumnMistake(what, remedy, _scaled(("omega", "omegadot"), factor), 1)
     if rows.gradient_recorded:
-        undo = _scaled(("Gamma",), -1.0)
-        yield ColumnMistake(
-            "the sign of Gamma is reversed", "multiply Gamma by -1: f = a + ... - Gamma r", undo
-        )
-        yield _in_unit("Gamma", "Eo", "s^-2", _scaled(("Gamma",), 1e-9))
-        yield _in_unit("Gamma", "s^-2", "Eo", _scaled(("Gamma",), 1e9))
+        remedy = "multiply Gamma by -1: f = a + ... - Gamma r"
+        yield ColumnMistake("the sign of Gamma is reversed", remedy, _scaled(("Gamma",), -1.0))
     yield from _axes(derived)
 
 
-def _in_unit(
-    what: str, unit: str, given: str, undo: Callable[[Rows], Rows], plainness: int = 0
-) -> ColumnMistake:
-    verb = "are" if "," in what or " and " in what or "..." in what else "is"
-    return ColumnMistake(
-        f"{what} {verb} in {unit}, not in {given}", f"write the unit [{unit}]", undo, plainness
-    )
+_UNITS = {
+    "a": ("m/s^2", "g", "mg", "mGal"),
+    "omega": ("rad/s", "deg/s", "deg/h", "mrad/s", "urad/s"),
+    "omegadot": ("rad/s^2", "deg/s^2", "deg/h/s", "deg/h^2"),
+    "Gamma": ("s^-2", "Eo"),
+    "G": ("V", "mV", "uV", "kV"),
+    "inline": ("s^-2", "Eo"),
+}
+"""Units in which quantities may be, SI first."""
+
+
+def _in_other_units(rows: Rows, columns: str, first: str, quantity: str) -> Iterator[tuple[str, str, float]]:
+    """What, remedy and factor of other units that may be meant than that which the file gives to the ``first`` of some columns."""
+    known, possible = rows.sampler.instrument.units, _UNITS[quantity]
+    given = rows.sampler.flight.written.get(first, possible[0])
+    here, factors = float(known.to_si(1.0, given, possible[0])), [1.0]
+    verb = "are" if "," in columns or " and " in columns or "..." in columns else "is"
+    for unit in possible:
+        factor = float(known.to_si(1.0, unit, possible[0])) / here
+        if all(abs(factor / f - 1) > 1e-9 for f in factors):
+            factors.append(factor)
+            yield f"{columns} {verb} in {unit}, not in {given}", f"write the unit [{unit}]", factor
 
 
 def _scaled(stems: tuple[str, ...], factor: float) -> Callable[[Rows], Rows]:
@@ -223,22 +210,19 @@ def _output_scaled(factors: float | Array) -> Callable[[Rows], Rows]:
     return lambda rows: replace(rows, data=factors * rows.data)
 
 
-def _outputs(rows: Rows, known: Units, written: Mapping[str, str]) -> Iterator[ColumnMistake]:
-    what = f"{rows.names[0]} ... {rows.names[-1]}" if rows.recorded.separate else " and ".join(rows.names)
+def _outputs(rows: Rows) -> Iterator[ColumnMistake]:
+    names = rows.sampler.columns
+    what = names[0] if len(names) == 1 else f"{names[0]} ... {names[-1]}"
     yield ColumnMistake(f"the sign of {what} is reversed", f"multiply {what} by -1", _output_scaled(-1.0))
-    given = written.get(rows.names[0], "V")
-    for unit, factor in _meant(known, given, ("V", "mV", "uV", "kV")):
-        yield _in_unit(what, unit, given, _output_scaled(factor))
-    if not rows.recorded.separate:
-        return
-    for order in _orders(len(rows.names)):
+    for text, remedy, factor in _in_other_units(rows, what, names[0], "G"):
+        yield ColumnMistake(text, remedy, _output_scaled(factor))
+    for order in _orders(len(names)):
         swapped = [k for k, was in enumerate(order) if was != k]
-        text = f"the order of {', '.join(rows.names)} is {', '.join(rows.names[k] for k in order)}"
+        text = f"the order of {', '.join(names)} is {', '.join(names[k] for k in order)}"
         if len(swapped) == 2:
-            text = f"{rows.names[swapped[0]]} and {rows.names[swapped[1]]} are exchanged"
-        yield ColumnMistake(
-            text, "exchange the names of the columns", partial(_reordered, order=order), len(swapped)
-        )
+            text = f"{names[swapped[0]]} and {names[swapped[1]]} are exchanged"
+        undo = partial(_reordered, order=order)
+        yield ColumnMistake(text, "exchange the names of the columns", undo, len(swapped))
 
 
 def _reordered(rows: Rows, order: tuple[int, ...]) -> Rows:
@@ -250,21 +234,18 @@ def _orders(count: int) -> Iterator[tuple[int, ...]]:
     straight = tuple(range(count))
     if count <= 4:
         yield from (order for order in permutations(straight) if order != straight)
-        return
-    for i, j in combinations(straight, 2):
-        order = list(straight)
-        order[i], order[j] = j, i
-        yield tuple(order)
+    else:
+        yield from (tuple({i: j, j: i}.get(k, k) for k in straight) for i, j in combinations(straight, 2))
 
 
 DEFINED = (1.0, -1.0, 2.0, -2.0, 0.5, -0.5)
 """Factors by which people define the channels otherwise: (Gamma_xx - Gamma_yy)/2, Gamma_yy - Gamma_xx, 2 Gamma_xy, ..."""
 
 
-def _demodulated(rows: Rows) -> Iterator[ColumnMistake]:
+def list_channel_mistakes(rows: Rows) -> Iterator[ColumnMistake]:
     """Inline and cross with other units, names, signs or factors than Gamma_xx - Gamma_yy and Gamma_xy."""
-    for factor, unit, given in ((1e-9, "Eo", "s^-2"), (1e9, "s^-2", "Eo")):
-        yield _in_unit("inline and cross", unit, given, _output_scaled(factor))
+    for text, remedy, factor in _in_other_units(rows, "inline and cross", "inline", "inline"):
+        yield ColumnMistake(text, remedy, _output_scaled(factor))
     yield ColumnMistake(
         "inline and cross are exchanged",
         "exchange their names",
@@ -273,14 +254,13 @@ def _demodulated(rows: Rows) -> Iterator[ColumnMistake]:
     )
     for factors in product(DEFINED, DEFINED):
         changed = [(n, x) for n, x in zip(("inline", "cross"), factors, strict=True) if x != 1.0]
-        undo = _output_scaled(np.array(factors)[:, None])
+        what = "; ".join(_defined(n, x) for n, x in changed)
+        remedy = ", ".join(f"multiply {n} by {x:g}" for n, x in changed)
         if factors == (-1.0, -1.0):
-            yield ColumnMistake(
-                "the sign of inline and cross is reversed", "multiply inline and cross by -1", undo, 2
-            )
-        elif changed:
-            remedy = ", ".join(f"multiply {n} by {x:g}" for n, x in changed)
-            yield ColumnMistake("; ".join(_defined(n, x) for n, x in changed), remedy, undo, 2 * len(changed))
+            what, remedy = "the sign of inline and cross is reversed", "multiply inline and cross by -1"
+        if changed:
+            undo = _output_scaled(np.array(factors)[:, None])
+            yield ColumnMistake(what, remedy, undo, 2 if factors == (-1.0, -1.0) else 2 * len(changed))
 
 
 def _defined(name: str, undo: float) -> str:
@@ -290,40 +270,6 @@ def _defined(name: str, undo: float) -> str:
     if not size:
         return f"the sign of {name} is reversed"
     return f"{name} is {'minus ' if undo < 0 else ''}{size}{component}"
-
-
-def _meant(known: Units, given: str, possible: Sequence[str]) -> list[tuple[str, float]]:
-    """(unit, factor): what may be meant instead of ``given``, and by how much the numbers then change."""
-    found: list[tuple[str, float]] = []
-    here = float(known.to_si(1.0, given, possible[0]))
-    for unit in possible:
-        factor = float(known.to_si(1.0, unit, possible[0])) / here
-        if abs(factor - 1) > 1e-9 and not any(abs(factor / f - 1) < 1e-9 for _, f in found):
-            found.append((unit, factor))
-    return found
-
-
-_MOTION_UNITS = {
-    "a": ("m/s^2", "g", "mg", "mGal"),
-    "omega": ("rad/s", "deg/s", "deg/h", "mrad/s", "urad/s"),
-    "omegadot": ("rad/s^2", "deg/s^2", "deg/h/s", "deg/h^2"),
-}
-"""Quantities of motion and the units in which they may be, SI first."""
-
-
-def _units_of_motion(known: Units, written: Mapping[str, str], derived: bool) -> Iterator[ColumnMistake]:
-    both = ("omega", "omegadot")
-    for stem, units in _MOTION_UNITS.items():
-        if stem == "omegadot" and derived:
-            continue
-        columns, given = ", ".join(f"{stem}_{k}" for k in "xyz"), written.get(f"{stem}_x", units[0])
-        for unit, factor in _meant(known, given, units):
-            undone = both if stem == "omega" and derived else (stem,)
-            yield _in_unit(columns, unit, given, _scaled(undone, factor))
-            if stem == "omega" and not derived:
-                one = _in_unit(columns, unit, given, _scaled(both, factor), 1)
-                what, remedy = f"{one.what}, and omegadot likewise", f"{one.remedy}, and that of omegadot"
-                yield replace(one, what=what, remedy=remedy)
 
 
 def _axes(derived: bool) -> Iterator[ColumnMistake]:
@@ -361,3 +307,56 @@ def _turned(rows: Rows, group: tuple[str, ...], order: tuple[int, ...], signs: t
         if all(n in rows.channels for n in own):
             changed |= {own[k]: signs[k] * rows.channels[own[order[k]]] for k in range(3)}
     return replace(rows, channels={**rows.channels, **changed})
+
+
+# --- channels that another demodulator has made ---------------------------------------------------------
+
+CORNERS = np.linspace(np.log(0.02), np.log(0.35), 6)
+"""Logarithms of corners, Hz, that are tried first of every low-pass; the best is then refined, to ``FINE`` of its size."""
+
+FINE = 1e-3
+
+ORDERS = (1, 2, 3, 4, 6, 8)
+"""Of Butterworth filters, causal, or in each direction."""
+
+FLAT = 0.443
+"""Half-power frequency of a moving average times its length."""
+
+CLEARLY = 1.1
+"""Factor by which less must be left than without any low-pass."""
+
+
+def _propose_demodulator(s: Sampler) -> Hypothesis:
+    """The low-pass, of those that people use, with which the model leaves least of inline and cross."""
+    rows, rate, half = s.take(), s.flight.rate, len(s.taps) // 2
+
+    def fit(how: Demodulation) -> LinearFit:
+        taps = make_kernel(how, rate).centred
+        spare = len(taps) // 2 - half
+        taps = taps[spare:-spare] if spare > 0 else np.pad(taps, -spare)
+        return fit_rows(replace(rows, sampler=replace(s, taps=taps)))
+
+    def find_corner(low_pass: Callable[[float], Demodulation]) -> Demodulation:
+        return low_pass(float(np.exp(find_least(lambda x: fit(low_pass(np.exp(x))).share, corners, FINE))))
+
+    none, corners = Demodulation(kind="none"), CORNERS[np.log(rate / 4) > CORNERS]
+    made = map(find_corner, list_low_passes()) if len(corners) > 1 else ()
+    tried = [(fit(how), how) for how in (none, *made)]
+    best, how = min(tried, key=lambda x: x[0].share / (CLEARLY if x[1] is none else 1.0))
+    words = "have passed" if how.kind == "none" else "were made by another demodulator, such as"
+    remedy = f"if so, describe it in model.toml or in a mapping: [demodulator] {how.toml()}; else record G_out itself"
+    return Hypothesis(f"inline and cross {words} {how.words()}", remedy, best, timing.COST, calming=True)
+
+
+def list_low_passes() -> Iterator[Callable[[float], Demodulation]]:
+    """Every kind of low-pass, by its corner, Hz; a causal one also with what it delays slow things by taken back."""
+    for n in ORDERS:
+        slow = 1.0 / (2 * np.pi * np.sin(np.pi / (2 * n)))
+        for kind, early in (("causal", 0.0), ("causal", slow), ("butterworth", 0.0)):
+            yield partial(_make_butterworth, kind, early, n)
+    yield lambda corner: Demodulation("average", length=FLAT / corner)
+    yield lambda corner: Demodulation("causal average", length=FLAT / corner)
+
+
+def _make_butterworth(kind: str, early: float, order: int, corner: float) -> Demodulation:
+    return Demodulation(kind, corner, order, delay=-early / corner)

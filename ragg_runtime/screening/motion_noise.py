@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 from scipy import fft, signal
 from scipy.sparse.linalg import LinearOperator, cg
 
-from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.units import EOTVOS, Units
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import (
@@ -29,9 +27,8 @@ from ragg_runtime.io.record import (
     Flag,
 )
 from ragg_runtime.model.evaluate import scale_factor
-from ragg_runtime.model.model import Model
 from ragg_runtime.screening.linear_fit import fit_rows
-from ragg_runtime.screening.sampler import Rows, make_sampler
+from ragg_runtime.screening.sampler import Sampler
 from ragg_runtime.signals.derivative import PREDICTED, predict_missing, runs
 from ragg_runtime.signals.resolution import find_step
 
@@ -77,13 +74,10 @@ frequencies have a correlation of 0.44 (P. Welch, IEEE Trans. AU 15, 1967, 70)."
 
 @dataclass(frozen=True)
 class MotionNoise:
-    """White noise of a column: its standard deviation, SI, the ``step`` in which it is recorded (0: none), and the share ``weaker`` by
-    which coefficients of it come out too small.
-    """
+    """White noise of a column: its standard deviation, SI, and the ``step`` in which it is recorded (0: none)."""
 
     std: float
     step: float
-    weaker: float
 
 
 def measure_noise(x: Array, there: Mask) -> MotionNoise:
@@ -92,12 +86,10 @@ def measure_noise(x: Array, there: Mask) -> MotionNoise:
     The floor is an upper bound, as motion may have one, too.
     """
     step = find_step(x[there]) or 0.0
-    lowest, next_one = sorted(
-        float(np.mean(b)) for b in np.array_split(_measure_spectrum(x, there).density[2:-1], BANDS) if len(b)
-    )[:2]
+    bands = np.array_split(_measure_spectrum(x, there).density[2:-1], BANDS)
+    lowest, next_one = sorted(float(np.mean(b)) for b in bands if len(b))[:2]
     floor = float(np.sqrt(0.5 * lowest)) if next_one < FLAT * lowest else 0.0
-    std = max(step / float(np.sqrt(12.0)), floor)
-    return MotionNoise(std, step, min(1.0, std**2 / max(float(np.var(x[there])), 1e-300)))
+    return MotionNoise(max(step / float(np.sqrt(12.0)), floor), step)
 
 
 @dataclass(frozen=True)
@@ -126,71 +118,49 @@ def _measure_spectrum(x: Array, there: Mask) -> _Spectrum:
     return _Spectrum(taken[0][0], smoothed, SCATTER * float(np.sqrt(window / np.sum(share))))
 
 
-def smooth_noisy_motion(model: Model, instrument: Instrument, flight: Flight, place: int) -> Flight:
+def smooth_noisy_motion(s: Sampler) -> Flight:
     """The flight with its noisy sensors smoothed, one after the other, and flagged.
 
-    That a floor is noise is a hypothesis: with motion smoothed that is none, the model explains less of the output ``place``.
+    That a floor is noise is a hypothesis: with motion smoothed that is none, the model explains less of the output.
     """
-    there = flight.valid
+    there = s.flight.valid
     if not runs(there, PREDICTED + 1):
-        return flight  # of motion that is held at a lower rate, for example, nothing can be told
-
-    def take(x: Flight) -> Rows:
-        s = make_sampler(x, instrument, tuple(model.chain.INPUTS), place)
-        return s.take(s.rows())
-
-    rows = take(flight)
-    left = fit_rows(model, instrument, rows)
+        return s.flight  # of motion that is held at a lower rate, for example, nothing can be told
+    left = fit_rows(s.take())
     for names in (SPECIFIC_FORCE, ANGULAR_RATE, ANGULAR_ACCELERATION, GRADIENT):
-        if names is ANGULAR_ACCELERATION and names[0] not in flight.written:
+        if names is ANGULAR_ACCELERATION and names[0] not in s.flight.written:
             continue  # derived from the rates
-        noise = {n: measure_noise(flight.channels[n], there) for n in names if n in flight.channels}
-        stds = {n: q.std for n, q in noise.items() if q.std > 0.0}
-        if not stds:
+        x, rng = s.flight.channels, np.random.default_rng(0)
+        noise = {n: q for n in names if n in x and (q := measure_noise(x[n], there)).std > 0.0}
+        noisier = {n: x[n] + q.std * rng.standard_normal(len(there)) for n, q in noise.items()}
+        if not noise or _compare(left.p, s, _change(s, noisier)) < NOTICED * left.rms:
             continue
-        if _compare(model, left.p, rows, take(_add_noise(flight, stds)), place) < NOTICED * left.rms:
-            continue
-        smoothed = smooth(flight, stds)
-        again = take(smoothed)
-        after = fit_rows(model, instrument, again)
+        smoothed = _change(s, {n: predict_true(x[n], there, q.std) for n, q in noise.items()})
+        after = fit_rows(smoothed.take())
         if after.rms >= FALLS * left.rms:
             continue
-        flag = _describe(flight, instrument.units, {n: noise[n] for n in stds}, left.rms, after.rms)
+        flag = _describe(s, noise, left.rms, after.rms)
         if names is GRADIENT and after.rms < MOSTLY * left.rms:
-            known = {n: x for n, x in flight.channels.items() if n not in GRADIENT}
+            known = {n: v for n, v in x.items() if n not in GRADIENT}
             text = f"{flag.reason}; it is not used but taken to be unknown and to vary slowly"
-            return replace(flight, channels=known).flagged([replace(flag, reason=text)])
-        flight, rows, left = smoothed.flagged([flag]), again, after
-    return flight
+            return replace(s.flight, channels=known).flagged([replace(flag, reason=text)])
+        s, left = replace(smoothed, flight=smoothed.flight.flagged([flag])), after
+    return s.flight
 
 
-def _compare(model: Model, p: Array, one: Rows, other: Rows, place: int) -> float:
+def _compare(p: Array, one: Sampler, other: Sampler) -> float:
     """Eo rms: how far apart the outputs of a model with parameters ``p`` are at the rows of two flights."""
-    evaluate = model.compiled(native=False).output
-    first, second = (evaluate(r.time, r.inputs(model.chain), p, r.phi, which=place) for r in (one, other))
-    return float(np.std(second - first)) / abs(scale_factor(model, p, place))
-
-
-def _add_noise(flight: Flight, noise: Mapping[str, float]) -> Flight:
-    """The flight with as much noise, SI, once more."""
-    rng = np.random.default_rng(0)
-    return _change(
-        flight,
-        {n: flight.channels[n] + std * rng.standard_normal(len(flight)) for n, std in noise.items()},
+    evaluate = one.model.compiled(native=False).output
+    first, second = (
+        evaluate(r.time, r.inputs, p, r.phi, which=one.place) for r in (one.take(), other.take())
     )
+    return float(np.std(second - first)) / abs(scale_factor(one.model, p, one.place))
 
 
-def smooth(flight: Flight, noise: Mapping[str, float]) -> Flight:
-    """The flight with Wiener's prediction of columns that have white noise of these standard deviations, SI."""
-    return _change(
-        flight, {n: predict_true(flight.channels[n], flight.valid, std) for n, std in noise.items()}
-    )
-
-
-def _change(flight: Flight, columns: Mapping[str, Array]) -> Flight:
-    """The flight with other columns, and the angular acceleration that follows from them."""
-    changed = replace(flight, channels={**flight.channels, **columns})
-    return derive_acceleration(changed) if any(n in columns for n in ANGULAR_RATE) else changed
+def _change(s: Sampler, columns: Mapping[str, Array]) -> Sampler:
+    """The same with other columns of motion, and the angular acceleration that follows from them."""
+    flight = replace(s.flight, channels={**s.flight.channels, **columns})
+    return s.with_flight(derive_acceleration(flight) if {*columns} & {*ANGULAR_RATE} else flight)
 
 
 def predict_true(x: Array, there: Mask, std: float) -> Array:
@@ -234,16 +204,13 @@ def _predict_block(x: Array, at: NDArray[np.intp], count: int, std: float, q: _S
     return np.asarray(trend(np.arange(count)) + std * filtered(S - 1.0, whitened)[:count])
 
 
-def _describe(x: Flight, known: Units, noise: Mapping[str, MotionNoise], before: float, after: float) -> Flag:
+def _describe(s: Sampler, noise: Mapping[str, MotionNoise], before: float, after: float) -> Flag:
+    x, known = s.flight, s.instrument.units
     loudest = max(noise, key=lambda n: noise[n].std)
-    q = noise[loudest]
+    q, gradient = noise[loudest], loudest in GRADIENT
     stepped = q.step / np.sqrt(12.0) > 0.5 * q.std
-    size = q.step if stepped else q.std
-    unit = x.written.get(loudest, x.units[loudest])
-    if loudest in GRADIENT:
-        size, unit = size / EOTVOS, "Eo"
-    else:
-        size /= float(known.to_si(1.0, unit, x.units[loudest]))
+    unit = "Eo" if gradient else x.written.get(loudest, x.units[loudest])
+    size = (q.step if stepped else q.std) / float(known.to_si(1.0, unit, x.units[loudest]))
     size, unit = (1e3 * size, f"m{unit}") if unit == "g" else (size, unit)
     verb, have = ("is", "has") if len(noise) == 1 else ("are", "have")
     what = (
@@ -251,8 +218,10 @@ def _describe(x: Flight, known: Units, noise: Mapping[str, MotionNoise], before:
         if stepped
         else f"{have} a noise floor of {size:.2g} {unit} rms"
     )
-    weaker = 100.0 * max(q.weaker for q in noise.values())
+    weaker = 100.0 * max(
+        min(1.0, n.std**2 / max(float(np.var(x.channels[c][x.valid])), 1e-300)) for c, n in noise.items()
+    )
     text = f"{', '.join(noise)} {what}: the noise is smoothed, and the model leaves {after:.3g} instead of {before:.3g} Eo"
-    if weaker > TOLD and loudest not in GRADIENT:  # which hardly varies
+    if weaker > TOLD and not gradient:  # which hardly varies
         text += f" (with it coefficients would be up to {weaker:.2g} % too small)"
     return Flag(tuple(noise), text, kind="motion-noise")

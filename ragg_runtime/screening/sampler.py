@@ -14,7 +14,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.evaluator import ChainModule
+from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import (
     SPIN,
     disc_angle,
@@ -47,56 +47,46 @@ class Rows:
 
     Attributes
     ----------
-    recorded
-        Which form of the output ``data`` is.
+    sampler
+        What they are taken from.
     data
         (m, n) V: the output; of channels k_ggi (inline/2, -cross).
     time, phi
         (n,) s since the flight's first sample; disc angle, rad.
     channels
         Name -> (n,) SI; time derivatives (``d_a_x``) that the model asks for among them.
-    taps
-        Low-pass of the demodulator; empty if there is none.
-    output, names
-        The output, and the columns that hold it.
     usable
-        (n,) rows whose output is there; ``None``: all.
+        (n,) rows whose output is there.
     """
 
-    recorded: RecordedSeries
+    sampler: Sampler
     data: Array
     time: Array
     phi: Array
     channels: Mapping[str, Array]
-    taps: Array
-    output: Output
-    names: tuple[str, ...]
-    usable: Mask | None = None
+    usable: Mask
 
-    def inputs(self, chain: ChainModule) -> Array:
-        """(n_inputs, n) in the order of the chain's INPUTS; what was not recorded is zero."""
-        x = np.zeros((len(chain.INPUTS), len(self.time)))
-        for n, name in enumerate(chain.INPUTS):
-            if name in self.channels:
-                x[n] = self.channels[name]
-        return x
+    @property
+    def inputs(self) -> Array:
+        """(n_inputs, n) in the order of the model's INPUTS; what was not recorded is zero."""
+        nothing = np.zeros(len(self.time))
+        return np.array([self.channels.get(name, nothing) for name in self.sampler.model.chain.INPUTS])
 
     def seen(self, raw: Array) -> Array:
         """(..., m, n): what the recorded output sees of what it is before demodulation."""
-        if not self.recorded.demodulated:
+        if not self.sampler.recorded.demodulated:
             return raw
         carriers = 2 * np.stack([np.sin(2 * self.phi), np.cos(2 * self.phi)])
-        return convolve(raw * carriers, self.taps, "same")
+        return convolve(raw * carriers, self.sampler.taps, "same")
 
     @property
     def inner(self) -> Index:
-        """Rows that are fitted: where the output is there, and a demodulator has seen enough of the record on either side."""
-        inside = np.ones(len(self.time), dtype=np.bool_)
-        edge = len(self.taps) // 2
-        inside[:edge] = False
-        inside[len(inside) - edge :] = False
-        found = np.flatnonzero(inside if self.usable is None else inside & self.usable)
-        return found[:: max(1, len(found) // TELLING)] if self.recorded.demodulated else found
+        """Rows that are fitted: of channels those where the demodulator has seen enough of the record on either side."""
+        if not self.sampler.recorded.demodulated:
+            return np.arange(len(self.time))
+        edge = len(self.sampler.taps) // 2
+        found = edge + np.flatnonzero(self.usable[edge : len(self.usable) - edge])
+        return found[:: max(1, len(found) // TELLING)]
 
     @property
     def gradient_recorded(self) -> bool:
@@ -105,16 +95,25 @@ class Rows:
 
 @dataclass(frozen=True)
 class Sampler:
-    """Takes rows of a flight's output ``place`` for fits; ``usable`` (N,) are those whose output is there and not saturated."""
+    """Takes rows of the output ``place`` of a flight, for fits of a model.
 
-    flight: Flight
+    ``columns`` hold the output in the form ``recorded``; ``usable`` (N,): it is there and not saturated; ``derived``: time derivatives
+    that the model asks for; ``taps``: low-pass of the demodulator.
+    """
+
+    model: Model
     instrument: Instrument
+    flight: Flight
+    place: int
     recorded: RecordedSeries
+    columns: tuple[str, ...]
     usable: Mask
     derived: Mapping[str, Array]
     taps: Array
-    columns: tuple[str, ...]
-    place: int = 0
+
+    def with_flight(self, flight: Flight) -> Sampler:
+        """The same of another flight."""
+        return make_sampler(self.model, self.instrument, flight, self.place)
 
     @property
     def output(self) -> Output:
@@ -139,7 +138,7 @@ class Sampler:
 
     def take(
         self,
-        rows: Index,
+        rows: Index | None = None,
         *,
         motion_later: int | Index = 0,
         of: Sequence[str] = ("a", "omega", "omegadot", "Gamma"),
@@ -153,7 +152,7 @@ class Sampler:
         Parameters
         ----------
         rows
-            (n,) which.
+            (n,) which; ``None``: as many as a fit takes.
         motion_later, of, output_later
             Samples by which the quantities ``of`` motion, or the output, are taken later than recorded, one or (n,); rows that
             would lie outside are left out.
@@ -165,20 +164,18 @@ class Sampler:
             Let the disc turn the other way.
         """
         x, n = self.flight, len(self.flight)
+        rows = self.rows() if rows is None else rows
         at = np.array([rows, rows + motion_later, rows + output_later])
         inside = ((at >= 0) & (at < n)).all(axis=0)
         rows, moved_to, output_at = at[:, inside]
-        time, start = x.time[rows] - x.time[0], find_start(x, self.instrument)
+        time = x.time[rows] - x.time[0]
         f = self.disc.spin_frequency if spin_frequency is None else spin_frequency
         if self.has_encoder and spin_frequency is None:
             phi = x.channels[self.disc.angle_column][rows]
         else:
-            phi = disc_angle(time, f, start)
-        moved = {
-            name for name in (*x.channels, *self.derived) if {find_stem(name), strip_derivative(name)} & {*of}
-        }
+            phi = disc_angle(time, f, find_start(x, self.instrument))
         channels = {
-            name: v[moved_to] if name in moved else v[rows]
+            name: v[moved_to if {find_stem(name), strip_derivative(name)} & {*of} else rows]
             for name, v in (*x.channels.items(), *self.derived.items())
         }
         if spin_frequency is not None:
@@ -189,17 +186,8 @@ class Sampler:
         data = np.nan_to_num(np.stack([x.outputs[v][output_at] for v in self.columns]), copy=False)
         if self.recorded.demodulated:  # inline and cross
             data *= self.instrument.scale_factor * np.array([[0.5], [-1.0]])
-        return Rows(
-            recorded=self.recorded,
-            data=data,
-            time=time,
-            phi=phi + (phase if isinstance(phase, float) else phase[inside]),
-            channels=channels,
-            taps=self.taps,
-            output=self.output,
-            names=self.columns,
-            usable=self.usable[output_at] if self.recorded.demodulated else None,
-        )
+        turned = phase[inside] if isinstance(phase, np.ndarray) else phase
+        return Rows(self, data, time, phi + turned, channels, self.usable[output_at])
 
 
 def find_stem(name: str) -> str:
@@ -207,35 +195,27 @@ def find_stem(name: str) -> str:
     return strip_derivative(name).rsplit("_", 1)[0]
 
 
-def make_sampler(
-    flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (), place: int = 0
-) -> Sampler:
-    """Prepare a flight for taking rows; ``inputs`` are the names that the model asks for, ``place`` the output.
-
-    Raises
-    ------
-    ValueError
-        If the flight does not have this output.
-    """
+def make_sampler(model: Model, instrument: Instrument, flight: Flight, place: int = 0) -> Sampler:
+    """Prepare a flight for taking rows of its output ``place``, which it must have."""
     layout = instrument.layout
     output = layout.outputs[place]
     form = find_recorded(flight, layout, place)
-    columns = None if form is None else form.columns(layout, output, flight.outputs)
-    if form is None or columns is None:
-        raise ValueError("the flight lacks this output")
+    columns = form and form.columns(layout, output, flight.outputs)
+    assert form and columns
     usable = flight.valid & np.isfinite([flight.outputs[name] for name in columns]).all(axis=0)
     if output.name in flight.outputs and usable.any():
         usable &= ~clipped(flight.outputs[output.name], usable)
     how = flight.demodulation or instrument.demodulation or OURS
     whole = record(flight, instrument, place)
-    rates = {n: x for n in inputs if strip_derivative(n) != n and (x := whole.series(n)) is not None}
+    asked = (n for n in model.chain.INPUTS if strip_derivative(n) != n)
     return Sampler(
-        flight=flight,
+        model=model,
         instrument=instrument,
-        recorded=form,
-        usable=usable,
-        derived=rates,
-        taps=make_kernel(how, flight.rate).centred if form.demodulated else np.zeros(0),
-        columns=columns,
+        flight=flight,
         place=place,
+        recorded=form,
+        columns=columns,
+        usable=usable,
+        derived={n: x for n in asked if (x := whole.series(n)) is not None},
+        taps=make_kernel(how, flight.rate).centred if form.demodulated else np.zeros(0),
     )

@@ -66,23 +66,20 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     flight = leave_out_repeated(flight)
     checks.require_comparable(model, instrument, flight)
     flight = leave_out_glitches(flight).flagged(checks.list_remarks(instrument, flight))
-    layout, inputs = instrument.layout, tuple(model.chain.INPUTS)
+    layout = instrument.layout
     places = [k for k in range(len(layout.outputs)) if find_recorded(flight, layout, k)]
-    s = make_sampler(flight, instrument, inputs, places[0])
+    s = make_sampler(model, instrument, flight, places[0])
     if not s.usable.any():
         return flight
-    flight = _with_right_clock(model, instrument, s)
-    s = make_sampler(flight, instrument, inputs, places[0])
-    finding = find_mistake(model, instrument, s)
+    s = s.with_flight(_with_right_clock(s))
+    finding = find_mistake(s)
     if finding is not None:
         if _is_senseless(finding, instrument):
-            raise _refuse(flight, finding)
-        flight = flight.flagged([_remark(finding)])
-    flight = smooth_noisy_motion(model, instrument, flight, places[0])
+            raise _refuse(s.flight, finding)
+        s = s.with_flight(s.flight.flagged([_remark(finding)]))
+    flight = smooth_noisy_motion(s)
     for place in places:
-        s = make_sampler(flight, instrument, inputs, place)
-        flight = flight.flagged(_saturated(s))
-        flight = _without_output_spikes(model, instrument, s, flight)
+        flight = _without_output_spikes(make_sampler(model, instrument, flight, place))
     return flight
 
 
@@ -128,25 +125,10 @@ def _remark(f: Finding) -> Flag:
     return Flag((), reason, open=True, effects=f.best.effects)
 
 
-def _saturated(s: Sampler) -> list[Flag]:
-    """A flag of the samples of an output that are at the end of its range."""
-    name = s.output.name
-    if name not in s.flight.outputs or s.recorded.separate:
-        return []
-    G = s.flight.outputs[name]
-    there = s.flight.valid & np.isfinite(G)
-    clipped = int(np.count_nonzero(there & ~s.usable))
-    if not clipped:
-        return []
-    top = float(np.max(np.abs(G[there])))
-    text = f"{name}: {clipped} samples are at the extreme value of {top:.6g} V: saturated, not used"
-    return [Flag((name,), text)]
-
-
 # --- the clock -----------------------------------------------------------------------------------------
 
 
-def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Flight:
+def _with_right_clock(s: Sampler) -> Flight:
     """The flight by the clock that explains it: its own, or an even one where stamps jitter, or were set on the way."""
     x = s.flight
     if s.recorded.demodulated or len(x) < LEAST:
@@ -155,21 +137,18 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
     instants = first + step * np.arange(len(x)) + set_by
     worst = float(np.max(np.abs(x.time - instants)[x.present])) / step
     steps = find_clock_steps(x.time, x.present)
-    inputs = tuple(model.chain.INPUTS)
-
-    def judge(flight: Flight) -> LinearFit:
-        t = make_sampler(flight, instrument, inputs, s.place)
-        return fit_rows(model, instrument, t.take(t.rows()))
-
-    own = judge(x) if worst > EVEN or steps else None
-    if own is None:
+    if worst <= EVEN and not steps:
         return x
-    even = replace(x, time=instants, began=(x.began or 0.0) + float(instants[0] - x.time[0]))
+    own = fit_rows(s.take())
+    even = s.with_flight(replace(x, time=instants, began=(x.began or 0.0) + float(instants[0] - x.time[0])))
     # times by the count are even: what that is worth where stamps jitter says nothing about a clock
-    least = min(own.misfit, judge(even).misfit) if steps and worst > EVEN else own.misfit
+    least = min(own.misfit, fit_rows(even.take()).misfit) if steps and worst > EVEN else own.misfit
     several = [steps, *([c] for c in steps if len(steps) > 1)] if steps else []
     gain, k = max(
-        ((least - judge(_by_count(x, some)).misfit, -k) for k, some in enumerate(several)),
+        (
+            (least - fit_rows(s.with_flight(_by_count(x, some)).take()).misfit, -k)
+            for k, some in enumerate(several)
+        ),
         default=(0.0, 0),
     )
     if INDEPENDENT * gain > CLOCK:
@@ -179,25 +158,32 @@ def _with_right_clock(model: Model, instrument: Instrument, s: Sampler) -> Fligh
             f" count ({np.exp(gain):.3g} times less remains unexplained)"
         )
         return derive_acceleration(_by_count(x, several[-k])).flagged([Flag(("time",), text)])
-    x = x.flagged([_pause(c, abs(INDEPENDENT * gain) < CLOCK) for c in steps if c.part and not c.until])
-    if worst <= EVEN or not _is_even(model, s, make_sampler(even, instrument, inputs, s.place), own.p):
+    undecided = "; whether the clock was set instead is hidden by what the model leaves unexplained"
+    undecided = undecided if abs(INDEPENDENT * gain) < CLOCK else ""
+    pauses = (
+        f"the time stamps jump {c}, not a whole number of samples: treated as a pause{undecided}"
+        for c in steps
+        if c.part and not c.until
+    )
+    x = x.flagged([Flag(("time",), text) for text in pauses])
+    if worst <= EVEN or not _is_even(s, even, own.p):
         return x
     text = (
         f"the time stamps jitter by up to {worst:.2g} of a step, but the output was sampled evenly: they are"
         " replaced by an even grid"
     )
-    even = replace(even, flags=x.flags)
-    return derive_acceleration(even).flagged([Flag(("time",), text)] * (worst > JITTER_NOTED))
+    noted = [Flag(("time",), text)] * (worst > JITTER_NOTED)
+    return derive_acceleration(replace(x, time=even.flight.time, began=even.flight.began)).flagged(noted)
 
 
-def _is_even(model: Model, s: Sampler, even: Sampler, p: Array) -> bool:
+def _is_even(s: Sampler, even: Sampler, p: Array) -> bool:
     """Whether the output was sampled evenly, and not at the instants of the stamps.
 
     What the model with parameters ``p`` predicts at the stamps differs from what it predicts at even instants by the jitter times
     the output's slope. The part of that which is in the output is 1 or 0; it is fitted to second differences, from which slow
     errors of the model are gone.
     """
-    by_stamps, by_count = (_residual(model, t, p) for t in (s, even))
+    by_stamps, by_count = (_residual(t, p) for t in (s, even))
     three = s.usable[2:] & s.usable[1:-1] & s.usable[:-2]
     d, e = (np.diff(y, 2)[:, three] for y in (by_count - by_stamps, by_count))
     kept = find_inliers(np.abs(e))  # spikes say nothing
@@ -211,55 +197,44 @@ def _by_count(x: Flight, steps: Sequence[ClockStep]) -> Flight:
     for c in steps:
         before = np.flatnonzero(x.present[: c.row])
         kept[before[-1] + 1 : c.row] = False
-    return replace(
-        x,
-        time=np.asarray(first + step * np.arange(np.sum(kept))),
-        valid=x.valid[kept],
-        lacking=None if x.lacking is None else x.lacking[kept],
-        channels={n: v[kept] for n, v in x.channels.items()},
-        outputs={n: v[kept] for n, v in x.outputs.items()},
-        # a first sample that came late does not delay the disc
-        began=(x.began or 0.0) + first - float(x.time[0]),
-    )
+    x = x.part(kept)
+    # a first sample that came late does not delay the disc
+    began = (x.began or 0.0) + first - float(x.time[0])
+    return replace(x, time=np.asarray(first + step * np.arange(len(x))), began=began)
 
 
-def _pause(c: ClockStep, undecided: bool) -> Flag:
-    text = f"the time stamps jump {c}, not a whole number of samples: treated as a pause"
-    if undecided:
-        text += "; whether the clock was set instead is hidden by what the model leaves unexplained"
-    return Flag(("time",), text)
+# --- the output ----------------------------------------------------------------------------------------
 
 
-# --- spikes of the output ------------------------------------------------------------------------------
+def _without_output_spikes(s: Sampler) -> Flight:
+    """The flight without the spikes of an output, found in what the fitted model leaves; saturated samples are said."""
+    x, name, flags = s.flight, s.output.name, []
+    there = x.valid & np.isfinite(x.outputs[s.columns[0]])
+    clipped = int(np.count_nonzero(there & ~s.usable))
+    if clipped and s.columns == (name,):
+        top = float(np.max(np.abs(x.outputs[name][there])))
+        text = f"{name}: {clipped} samples are at the extreme value of {top:.6g} V: saturated, not used"
+        flags.append(Flag((name,), text))
+    valid = np.array(x.valid)
+    if not s.recorded.demodulated and s.usable.any():  # a demodulator has smeared them
+        for column, left in zip(s.columns, _residual(s, fit_rows(s.take()).p), strict=True):
+            found = find_spikes(left, s.usable)
+            valid &= ~found
+            flags += [Flag((column,), describe_spikes(column, found, x.time))] if found.any() else []
+    return replace(x, valid=valid).flagged(flags)
 
 
-def _without_output_spikes(model: Model, instrument: Instrument, s: Sampler, flight: Flight) -> Flight:
-    """The flight without the spikes of an output, found in what the fitted model leaves."""
-    if s.recorded.demodulated or not s.usable.any():
-        return flight  # a demodulator has smeared them
-    fitted = fit_rows(model, instrument, s.take(s.rows())).p
-    found = np.array([find_spikes(e, s.usable) for e in _residual(model, s, fitted)])
-    flags = [
-        Flag((name,), describe_spikes(name, mask, flight.time))
-        for name, mask in zip(s.columns, found, strict=True)
-        if mask.any()
-    ]
-    valid = np.array(flight.valid)
-    valid[found.any(axis=0)] = False
-    return replace(flight, valid=valid).flagged(flags)
-
-
-def _residual(model: Model, s: Sampler, fitted: Array) -> Array:
+def _residual(s: Sampler, p: Array) -> Array:
     """(columns, N) Eo: what a model with these parameters leaves of the output."""
     size = len(s.flight)
-    evaluator = model.compiled(size >= MANY)
+    evaluator = s.model.compiled(size >= MANY)
     left = np.empty((len(s.columns), size))
-    for rows in split_range(size, CHUNK):
-        some = s.take(np.arange(rows.start, rows.stop))
-        x = some.inputs(model.chain)
+    for part in split_range(size, CHUNK):
+        rows = s.take(np.arange(part.start, part.stop))
+        at = (rows.time, rows.inputs, p, rows.phi)
         if s.recorded.separate:
-            predicted = evaluator.voltages(some.time, x, fitted, some.phi, s.output.members)
+            predicted = evaluator.voltages(*at, s.output.members)
         else:
-            predicted = evaluator.output(some.time, x, fitted, some.phi, which=s.place)[None]
-        left[:, rows] = some.data - predicted
-    return left / scale_factor(model, fitted, s.place)
+            predicted = evaluator.output(*at, which=s.place)[None]
+        left[:, part] = rows.data - predicted
+    return left / scale_factor(s.model, p, s.place)

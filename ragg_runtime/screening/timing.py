@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
-from itertools import pairwise, product
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -13,9 +12,6 @@ from numpy.typing import NDArray
 from scipy import optimize, signal
 
 from ragg_runtime.base.errors import count
-from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.io.sampling import find_clock_steps
-from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import disc_angle, find_start
 from ragg_runtime.screening.linear_fit import (
     Hypothesis,
@@ -57,11 +53,11 @@ LONGEST = 1 << 18
 LEAST_PHASE = np.deg2rad(5.0)
 """Angle at the start from which it is a mistake; smaller ones are a matter of calibration (spin-phase-offset)."""
 
-LEAST_STEP = np.deg2rad(1.0)
-"""Jump of the disc angle from which rows are said to be lost."""
+TURNED = np.array([-15, -8, -4, -2, 2, 4, 8, 15, *range(30, 360, 30)]) / 360
+"""Turns by which the disc may be ahead where rows were lost, or behind where some were doubled, that are tried first."""
 
 INSTANTS = 16
-"""Instants at which a jump of the disc angle is tried first; the best is then refined."""
+"""Instants at which a record may be two that are tried first; the best is then refined."""
 
 TELLING_PHASE = 3e-5
 """Angle, rad, that an error of the spin rate may add up to over a record and stay unseen: of a gradient of 3000 Eo that is
@@ -86,49 +82,32 @@ COST = 3.0
 """What orders a mistake of timing after one of columns that explains as much."""
 
 
-@dataclass(frozen=True)
-class _Trial:
-    """A record that is compared with a model under one hypothesis after the other."""
-
-    model: Model
-    instrument: Instrument
-    s: Sampler
-
-    def fit(self, rows: Index, **options: Any) -> LinearFit:
-        """What the model leaves of rows, taken with options of :meth:`Sampler.take`."""
-        return fit_rows(self.model, self.instrument, self.s.take(rows, **options))
-
-    def propose(
-        self, what: str, remedy: str, cost: float, rows: Index | None = None, **options: Any
-    ) -> Hypothesis:
-        """The hypothesis, fitted to rows, or to as many as a fit takes, with these options."""
-        known = {k: options.pop(k) for k in ("kind", "effects", "calming") if k in options}
-        fitted = self.fit(self.s.rows() if rows is None else rows, **options)
-        return Hypothesis(what, remedy, fitted, cost, **known)
-
-
-def propose_times(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
+def propose_times(s: Sampler) -> list[Hypothesis]:
     """The best of each kind of mistake."""
-    t = _Trial(model, instrument, s)
-    found = [*_propose_shifts(t), *_propose_slips(t)]
-    if s.disc.spin_frequency == 0.0:
-        return found
-    if not s.recorded.demodulated:  # a demodulator at the wrong rate lets nothing through
-        found += _propose_spin(t)
-    if not s.has_encoder or s.recorded.demodulated:
-        found += _propose_phase(t)
-    if not s.has_encoder:
-        found += _propose_origin(t)
-        found += [] if s.recorded.demodulated else [*_propose_jump(t), *_propose_losses(t)]
+    turning, whole = s.disc.spin_frequency != 0.0, not s.recorded.demodulated
+    found = [*_propose_shifts(s), *_propose_slips(s)] if whole else []
+    if turning and whole:  # a demodulator at the wrong rate lets nothing through
+        found += _propose_spin(s)
+    if turning and not (s.has_encoder and whole):
+        found += _propose_phase(s)
+    if turning and not s.has_encoder:
+        found += _propose_origin(s)
+        found += _propose_losses(s) if whole else []
     return found
 
 
-def _propose_spin(t: _Trial) -> list[Hypothesis]:
+def _fit(s: Sampler, rows: Index, **options: Any) -> LinearFit:
+    """What the model leaves of rows, taken with options of :meth:`Sampler.take`."""
+    return fit_rows(s.take(rows, **options))
+
+
+def _propose_spin(s: Sampler) -> list[Hypothesis]:
     """The spin rate at which the model explains most, coarse to fine: half a turn of error at each step."""
-    s, x, f0 = t.s, t.s.flight, t.s.disc.spin_frequency
+    x, f0 = s.flight, s.disc.spin_frequency
     remedy = "reverse the sign of spin_angle, or turn the axes of the record (y and z reversed)"
-    backwards = t.propose("the disc turns the other way", remedy, COST - 1.0, backwards=True, calming=False)
-    late = 0.0 if s.has_encoder else abs(find_start(x, t.instrument))
+    fitted = fit_rows(s.take(backwards=True))
+    backwards = Hypothesis("the disc turns the other way", remedy, fitted, COST - 1.0)
+    late = 0.0 if s.has_encoder else abs(find_start(x, s.instrument))
     if late > LATEST:
         return [backwards]
     best, width, last = f0, SPIN_RANGE * abs(f0), 0
@@ -138,10 +117,10 @@ def _propose_spin(t: _Trial) -> list[Hypothesis]:
         step = 0.1 / (late + last / x.rate)
         grid = best + step * np.arange(-np.ceil(width / step), np.ceil(width / step) + 1)
         rows = s.rows(0, last, 600)
-        best = float(min(grid, key=lambda f: t.fit(rows, spin_frequency=f).misfit))
+        best = float(min(grid, key=lambda f: _fit(s, rows, spin_frequency=f).misfit))
         width, span = 2 * step, span * 4
     near = best + step * np.arange(-1, 2)
-    best = find_least(lambda f: t.fit(rows, spin_frequency=f).misfit, near, 1e-9 * abs(f0))
+    best = find_least(lambda f: _fit(s, rows, spin_frequency=f).misfit, near, 1e-9 * abs(f0))
     shown, remedy = write_rate(best, x.duration), "record spin_angle"
     what = f"the spin rate is {shown} Hz, not the model's {f0:.9g} Hz ({100 * (best / f0 - 1):+.2g} %)"
     if s.has_encoder:
@@ -157,8 +136,8 @@ def _propose_spin(t: _Trial) -> list[Hypothesis]:
             remedy += "; if times were made from row numbers, rows may be missing: use the recorder's time"
     elif not s.has_encoder:
         return [backwards]
-    effects = ("spin-rate-offset",)
-    return [t.propose(what, remedy, COST, spin_frequency=best, effects=effects, calming=False), backwards]
+    fitted = fit_rows(s.take(spin_frequency=best))
+    return [Hypothesis(what, remedy, fitted, COST, effects=("spin-rate-offset",)), backwards]
 
 
 def write_rate(f: float, duration: float) -> str:
@@ -168,15 +147,15 @@ def write_rate(f: float, duration: float) -> str:
     return next(x for x in texts if abs(float(x) - f) <= near)
 
 
-def _propose_origin(t: _Trial) -> list[Hypothesis]:
+def _propose_origin(s: Sampler) -> list[Hypothesis]:
     """The disc angle counted from the first sample in the place of t = 0, or the other way round."""
-    x = t.s.flight
-    here = find_start(x, t.instrument)
+    x = s.flight
+    here = find_start(x, s.instrument)
     origin, other = "first-sample", "zero"
     if here == float(x.time[0]) - (x.began or 0.0):
         origin, other = other, origin
-    there = find_start(x, replace(t.instrument, angle_origin=origin))
-    phase = _angle_at(t, there) - _angle_at(t, here)
+    there = find_start(x, replace(s.instrument, angle_origin=origin))
+    phase = _angle_at(s, there) - _angle_at(s, here)
     if abs(_wrapped(phase)) < LEAST_PHASE:
         return []
     words = {"zero": "at t = 0", "first-sample": f"at the first sample (t = {x.time[0]:.6g} s)"}
@@ -185,87 +164,40 @@ def _propose_origin(t: _Trial) -> list[Hypothesis]:
         f'write angle_origin = "{origin}" under [model] of model.toml if that is so, else'
         f' angle_origin = "{other}"; or record spin_angle'
     )
-    return [t.propose(what, remedy, 0.0, phase=phase, kind="origin")]
+    return [Hypothesis(what, remedy, fit_rows(s.take(phase=phase)), kind="origin")]
 
 
-def _angle_at(t: _Trial, start: float) -> float:
+def _angle_at(s: Sampler, start: float) -> float:
     """The disc angle, rad, so many seconds after angle 0."""
-    return float(disc_angle(np.zeros(1), t.s.disc.spin_frequency, start)[0])
+    return float(disc_angle(np.zeros(1), s.disc.spin_frequency, start)[0])
 
 
-def _propose_phase(t: _Trial) -> list[Hypothesis]:
-    rows, round_about = t.s.rows(most=600), np.deg2rad(np.arange(0.0, 360.0, 10.0))
-    best = _wrapped(find_least(lambda a: t.fit(rows, phase=a).misfit, round_about, np.deg2rad(0.05)))
+def _propose_phase(s: Sampler) -> list[Hypothesis]:
+    rows, round_about = s.rows(most=600), np.deg2rad(np.arange(0.0, 360.0, 10.0))
+    best = _wrapped(find_least(lambda a: _fit(s, rows, phase=a).misfit, round_about, np.deg2rad(0.05)))
     if abs(best) < LEAST_PHASE:
         return []
-    taken = _angle_at(t, find_start(t.s.flight, t.instrument))
+    taken = _angle_at(s, find_start(s.flight, s.instrument))
     true, believed = (np.rad2deg(_wrapped(a)) for a in (taken + best, taken))
     what = (
         f"the disc was at {true:.4g} degrees at the first sample, not at {believed:.4g}"
         " (a file cut out of a longer one?)"
     )
     remedy = "record spin_angle, or count time from an instant with angle 0"
-    return [t.propose(what, remedy, COST, phase=best, effects=("spin-phase-offset",), calming=False)]
+    return [Hypothesis(what, remedy, fit_rows(s.take(phase=best)), COST, effects=("spin-phase-offset",))]
 
 
 def _wrapped(angle: float) -> float:
     return float((angle + np.pi) % (2 * np.pi) - np.pi)
 
 
-def _propose_jump(t: _Trial) -> list[Hypothesis]:
-    """The disc angle jumps on the way: rows were lost, or the clock was set, while disc and sampling went on."""
-    s, n = t.s, len(t.s.flight)
-    rows, spacing = s.rows(most=400), n / (INSTANTS + 1)
-
-    def misfit(at: float, jump: float) -> float:
-        return t.fit(rows, phase=np.where(rows >= at, jump, 0.0)).misfit
-
-    everywhere = spacing * np.arange(1, INSTANTS + 1)
-    small = np.array([2.0, 4.0, 8.0, 15.0])
-    jumps = np.deg2rad([*-small, *small, *np.arange(30.0, 360.0, 30.0)])
-    at, jump = min(product(everywhere, jumps), key=lambda x: misfit(*x))
-    for _ in range(2):  # where the jump is wrong the instant is not determined, and the other way round
-        near = jump + np.deg2rad(np.arange(-24.0, 25.0, 8.0))
-        jump = find_least(partial(misfit, at), near, np.deg2rad(0.1))
-        at = find_least(partial(misfit, jump=jump), everywhere, spacing / 512)
-    at_end = min(at, n - at) < n / 100  # there it is a phase, or nothing
-    if at_end or abs(_wrapped(jump)) < LEAST_STEP:
-        return []
-    beside = s.rows(max(0, int(at - n / 100)), int(at + n / 100) + 1, 64)
-    rows = np.union1d(rows, beside)
-    # in a gap any instant is as good
-    at = min(beside, key=lambda k: misfit(k, jump), default=int(at))
-    rows = s.rows()
-    what, remedy = _describe_jump(s, int(at), jump)
-    return [t.propose(what, remedy, COST, rows, phase=np.where(rows >= at, jump, 0.0), calming=False)]
-
-
-def _describe_jump(s: Sampler, at: int, jump: float) -> tuple[str, str]:
-    x, turn = s.flight, 1.0 / abs(s.disc.spin_frequency)
-    lost = float(np.mod(np.sign(s.disc.spin_frequency) * jump, 2 * np.pi)) / (2 * np.pi) * turn
-    near = [c for c in find_clock_steps(x.time, x.present) if abs(c.row - at) < 64]
-    gaps = [c for c in near if abs((c.size + lost + turn / 2) % turn - turn / 2) < 2 / x.rate]
-    if gaps:
-        return (
-            f"the time stamps jump {gaps[0]}, while sampling continued: was the clock adjusted?",
-            f"give the times by the sample count: time = row / {x.rate:.6g} Hz",
-        )
-    rows = round(lost * x.rate)
-    some = f"{rows} row{'s are' if rows != 1 else ' is'} missing"
-    return (
-        f"rows are missing at t = {x.time[at]:.5g} s: {some} there ({lost:.4g} s), or whole turns of the disc ({turn:.4g} s)"
-        f" more; or {round((turn - lost) * x.rate)} are duplicated",
-        "use the recorder's time, not the row number; or split the record there, or record spin_angle",
-    )
-
-
-def _propose_losses(t: _Trial) -> list[Hypothesis]:
+def _propose_losses(s: Sampler) -> list[Hypothesis]:
     """Rows are missing all along, or doubled, while the stamps go on evenly: the disc runs ahead of them, or behind.
 
     Its angle is followed by the phase of the output at the spin rate against that of the specific force in its plane, which differ by
     a constant; what runs one way only is taken of it.
     """
-    s, f, rate = t.s, t.s.disc.spin_frequency, t.s.flight.rate
+    f, rate = s.disc.spin_frequency, s.flight.rate
     turn = max(1, round(rate / abs(f)))
     blocks = len(s.flight) // (turn * TURNS)
     if blocks < FEWEST_BLOCKS:
@@ -281,7 +213,7 @@ def _propose_losses(t: _Trial) -> list[Hypothesis]:
         turned = abs(float(angle[-1] - angle[0]))
         number = round(turned / abs(2 * np.pi * f) * rate)
         if turned > LEAST_TURN:
-            fitted = t.fit(rows, phase=np.interp(rows, at, angle - angle[0]))
+            fitted = _fit(s, rows, phase=np.interp(rows, at, angle - angle[0]))
             found.append((fitted, f"{kind} (about {number} of {len(s.flight)})"))
     if not found:
         return []
@@ -289,17 +221,17 @@ def _propose_losses(t: _Trial) -> list[Hypothesis]:
     words = " or ".join(text for x, text in found if x.share < ALIKE * best.share)
     what = f"rows are {words} all along the record, while its stamps go on evenly"
     remedy = "use the recorder's time, not the row number; or record spin_angle"
-    return [Hypothesis(what, remedy, best, COST + 1.0, kind="losses", calming=False)]
+    return [Hypothesis(what, remedy, best, COST + 1.0, kind="losses")]
 
 
-def propose_parts(model: Model, instrument: Instrument, s: Sampler) -> list[Hypothesis]:
+def propose_parts(s: Sampler) -> list[Hypothesis]:
     """The record is two: what comes before some instant and what comes after are each explained alone, with parameters of their own."""
     rows, spacing = s.rows(most=800), len(s.flight) / (INSTANTS + 1)
 
     def judge(at: float) -> LinearFit:
         both = [rows[rows < at], rows[rows >= at]]
         share = np.array([len(x) for x in both]) / len(rows)
-        one, two = fits = [fit_rows(model, instrument, s.take(x)) for x in both]
+        one, two = fits = [_fit(s, x) for x in both]
         return LinearFit(
             rms=float(np.sqrt(share @ [x.rms**2 for x in fits])),
             size=float(np.sqrt(share @ [x.size**2 for x in fits])),
@@ -317,7 +249,7 @@ def propose_parts(model: Model, instrument: Instrument, s: Sampler) -> list[Hypo
         " both together (another instrument, range, sign or wiring from there on?)"
     )
     remedy = "cut the record there into two flights, and diagnose each by itself"
-    return [Hypothesis(what, remedy, judge(at), COST + 1.0, effects=("gain-step",), calming=False)]
+    return [Hypothesis(what, remedy, judge(at), COST + 1.0, effects=("gain-step",))]
 
 
 @dataclass(frozen=True)
@@ -329,9 +261,15 @@ class _Late:
     against: str
     of: tuple[str, ...] = ()
 
-    def options(self, k: int | Index) -> dict[str, Any]:
+    def options(self, s: Sampler, k: int | Index) -> dict[str, Any]:
         """Those of :meth:`Sampler.take` for rows as if this were not ``k`` samples late, one or (n,)."""
+        if self is _RECORD:
+            return {"phase": 2 * np.pi * s.disc.spin_frequency / s.flight.rate * k}
         return {"motion_later": k, "of": self.of} if self.of else {"output_later": -k}
+
+    def reach(self, lags: Collection[int], samples: int) -> int:
+        """Samples at either end of a record without which every lag is within it; against the disc a loss there is a phase."""
+        return samples // 100 if self is _RECORD else max(map(abs, lags))
 
     def describe(self, k: int, rate: float) -> str:
         """By how much it is late, in words."""
@@ -344,80 +282,107 @@ _FORCE = _Late("a_x, a_y, a_z are", "columns", "the output", ("a",))
 _RATES = _Late("omega_x, omega_y, omega_z are", "columns", "the rest", ("omega", "omegadot"))
 _AXES = (_Late("a_x is", "column", "the output", ("a_x",)), _Late("a_y is", "column", "the output", ("a_y",)))
 _OUTPUT = _Late("the output is", "output column", "motion and disc angle")
+_RECORD = _Late("the record is", "rows", "the disc")
 
 
-def _propose_shifts(t: _Trial) -> list[Hypothesis]:
+def _propose_shifts(s: Sampler) -> list[Hypothesis]:
     """Motion, specific force alone, and output apart in time: candidates from a cross-correlation, judged by the model."""
-    rows, rate = t.s.rows(most=400), t.s.flight.rate
-    lags = [k for k in _lags(t.s) if k != 0]
+    rows, rate = s.rows(most=400), s.flight.rate
+    lags = [k for k in _lags(s) if k != 0]
     found = []
     for x in (_MOTION, _FORCE, *_AXES, _OUTPUT) if lags else ():
-        k = _find_lag(t, rows, lags, x)
+        k = _find_lag(s, rows, lags, x)
         what = f"{x.name} {x.describe(k, rate)} against {x.against}"
         remedy = f"shift the {x.columns} by {abs(k) / rate:.6g} s"
-        whole = x in (_MOTION, _OUTPUT)
-        effects, cost = (("time-offset",), COST) if whole else ((), COST + 1.0)
-        found.append(
-            t.propose(what, remedy, cost, kind="shift", calming=False, effects=effects, **x.options(k))
-        )
+        effects, cost = (("time-offset",), COST) if x in (_MOTION, _OUTPUT) else ((), COST + 1.0)
+        found.append(Hypothesis(what, remedy, fit_rows(s.take(**x.options(s, k))), cost, "shift", effects))
     return found
 
 
-def _propose_slips(t: _Trial) -> list[Hypothesis]:
-    """From some instant on, some columns are late: one of two recorders lost samples, or wrote some twice, perhaps several times."""
-    s, n = t.s, len(t.s.flight)
-    turns = s.flight.duration * abs(s.disc.spin_frequency)
-    few = int(np.clip(turns / SLIP_TURNS, 4, SLIP_PARTS))
-    ends = [n * k // few for k in range(few + 1)]
-    likely = [(a, b, [k for k in _lags(s, a, b, beside=0) if abs(k) < n // 8]) for a, b in pairwise(ends)]
+def _propose_slips(s: Sampler) -> list[Hypothesis]:
+    """From some instant on, some columns are late, as one of two recorders lost samples, or wrote some twice; or all are, against the
+    disc, as rows were lost or doubled; perhaps several times.
+    """
+    n, f = len(s.flight), abs(s.disc.spin_frequency)
+    few = int(np.clip(s.flight.duration * f / SLIP_TURNS, 4, SLIP_PARTS))
+    parts = list(pairwise(n * k // few for k in range(few + 1)))
+    apart = [[k for k in _lags(s, *part, beside=0) if abs(k) < n // 8] for part in parts]
+    likely = dict.fromkeys((_MOTION, _FORCE, _RATES, _OUTPUT), apart)
+    if f > 0.0 and not s.has_encoder:
+        likely[_RECORD] = [np.rint(TURNED * s.flight.rate / f).astype(int).tolist()] * few
     tried: list[tuple[float, _Late, Index, Index]] = []
-    for x in (_MOTION, _FORCE, _RATES, _OUTPUT):
-        lags = {_find_lag(t, s.rows(a, b, SLIP_ROWS // 4), [0, *some], x) for a, b, some in likely} | {0}
-        rows = s.rows(reach := max(map(abs, lags)), n - reach, SLIP_ROWS)
-        for late in _follow_lags(t, rows, sorted(lags), x) if reach else ():
+    for x, first in likely.items():
+        lags = {
+            _find_lag(s, s.rows(*p, SLIP_ROWS // 4), [0, *k], x) for p, k in zip(parts, first, strict=True)
+        }
+        reach = x.reach(lags, n)
+        rows = s.rows(reach, n - reach, SLIP_ROWS)
+        for late in _follow_lags(s, rows, sorted({0, *lags}), x) if any(lags) else ():
             if np.ptp(late):
-                tried.append((t.fit(rows, **x.options(late)).misfit, x, rows, late))
+                tried.append((_fit(s, rows, **x.options(s, late)).misfit, x, rows, late))
     if not tried:
         return []
     _, x, rows, late = min(tried, key=lambda one: one[0])
     here = np.flatnonzero(np.diff(late))
     alone = [(rows[a:b], [int(late[a])]) for a, b in pairwise([0, *(here + 1), len(rows)])]
-    lags = {0, *late.tolist(), *(_find_lag(t, some, near, x) for some, near in alone)}
+    lags = {0, *late.tolist(), *(_find_lag(s, some, near, x) for some, near in alone)}
     beside = [s.rows(int(rows[k]), int(rows[k + 1]) + 1, SLIP_ROWS) for k in here]
-    rows, reach = np.union1d(rows, np.concatenate(beside)).astype(np.intp), max(map(abs, lags))
-    rows = rows[(rows >= reach) & (rows < n - reach)]  # with every lag
-    ways = _follow_lags(t, rows, sorted(lags), x)
-    late = min(ways, key=lambda late: t.fit(rows, **x.options(late)).misfit)
-    here = np.flatnonzero(np.diff(late)) + 1
-    if not len(here) or len(here) > MOST_SLIPS:
+    rows, reach = np.union1d(rows, np.concatenate(beside)).astype(np.intp), x.reach(lags, n)
+    rows = rows[(rows >= reach) & (rows < n - reach)]
+    ways = _follow_lags(s, rows, sorted(lags), x)
+    late = min(ways, key=lambda late: _fit(s, rows, **x.options(s, late)).misfit)
+    slips = [
+        (float(s.flight.time[rows[k]]), *late[k - 1 : k + 1].tolist())
+        for k in np.flatnonzero(np.diff(late)) + 1
+    ]
+    if not slips or len(slips) > MOST_SLIPS:
         return []
-    parts = [x.describe(int(late[0]), s.flight.rate) + " at first"] if late[0] else []
-    for k in here:
-        size = x.describe(int(late[k]), s.flight.rate) if late[k] else "in time"
-        parts.append(f"{size} from t = {s.flight.time[rows[k]]:.5g} s on")
-    what = f"{x.name} {', '.join(parts)}, against {x.against}: did one of two recorders lose samples, or repeat some?"
-    remedy = f"shift the {x.columns} back from there on, or cut the record there and diagnose the parts"
-    return [t.propose(what, remedy, COST + 1.0, rows, calming=False, **x.options(late))]
+    what, remedy = _describe_losses(s, slips) if x is _RECORD else _describe_slips(s, x, slips)
+    return [Hypothesis(what, remedy, _fit(s, rows, **x.options(s, late)), COST + 1.0)]
 
 
-def _find_lag(t: _Trial, rows: Index, lags: Sequence[int], x: _Late) -> int:
+def _describe_slips(s: Sampler, x: _Late, slips: Sequence[tuple[float, int, int]]) -> tuple[str, str]:
+    """What and the remedy: from which instants on, s, by how many samples before and since."""
+    rate, before = s.flight.rate, slips[0][1]
+    parts = [f"{x.describe(before, rate)} at first"] if before else []
+    parts += [f"{x.describe(k, rate) if k else 'in time'} from t = {at:.5g} s on" for at, _, k in slips]
+    return (
+        f"{x.name} {', '.join(parts)}, against {x.against}: did one of two recorders lose samples, or repeat some?",
+        f"shift the {x.columns} back from there on, or cut the record there and diagnose the parts",
+    )
+
+
+def _describe_losses(s: Sampler, slips: Sequence[tuple[float, int, int]]) -> tuple[str, str]:
+    """The same of the whole record against its disc."""
+    rate, turn = s.flight.rate, s.flight.rate / abs(s.disc.spin_frequency)
+    parts = []
+    for at, before, since in slips:
+        lost = round((since - before) % turn)
+        some = f"{lost} row{'s are' if lost != 1 else ' is'} missing there ({lost / rate:.4g} s)"
+        parts.append(f"at t = {at:.5g} s: {some}, or {round(turn - lost)} are duplicated")
+    return (
+        f"rows are missing {', '.join(parts)}; or whole turns of the disc ({turn / rate:.4g} s) more",
+        "use the recorder's time, not the row number; or split the record there, or record spin_angle",
+    )
+
+
+def _find_lag(s: Sampler, rows: Index, lags: Sequence[int], x: _Late) -> int:
     """The lag, of some and from the best of these on while less is left, with which the model leaves least of some rows."""
     tried: dict[int, float] = {}
     waiting = [*lags]
     while waiting and len(tried) < MOST_SHIFTS:
-        tried |= {k: t.fit(rows, **x.options(k)).misfit for k in waiting}
+        tried |= {k: _fit(s, rows, **x.options(s, k)).misfit for k in waiting}
         best = min(tried, key=lambda k: tried[k])
         waiting = [k for d in (-1, 1) if (k := best + d or d) not in tried]  # over 0, the record as it is
     return best
 
 
-def _follow_lags(t: _Trial, rows: Index, lags: Sequence[int], x: _Late) -> Iterator[Index]:
+def _follow_lags(s: Sampler, rows: Index, lags: Sequence[int], x: _Late) -> Iterator[Index]:
     """By how many samples, (rows,) of ``lags`` each, some columns are late all along: by the model as fitted to the first third as it is,
     and to the last third with the lag that suits it best.
     """
     third = len(rows) // 3
-    many = [t.s.take(rows, **x.options(np.full(len(rows), k))) for k in lags]
-    systems = [linearise(t.model, t.instrument, some).system(some) for some in many]
+    systems = [linearise(s.take(rows, **x.options(s, np.full(len(rows), k)))) for k in lags]
     ends = [slice(0, third), slice(len(rows) - third, None)]
     for end, some in zip(ends, ([lags.index(0)], range(len(lags))), strict=True):
         fits = [_fit_end(*systems[k], end) for k in some]
@@ -456,7 +421,7 @@ def _lags(s: Sampler, first: int = 0, last: int | None = None, beside: int = 2) 
     x, f = s.flight, abs(s.disc.spin_frequency)
     rows = np.arange(first, min(len(x) if last is None else last, first + LONGEST))
     n = len(rows)
-    if s.recorded.demodulated or not is_demodulable(x.rate) or (f > 0 and n < 3 * x.rate / f):
+    if not is_demodulable(x.rate) or (f > 0 and n < 3 * x.rate / f):
         return ()
     carried, in_plane = _mix(s, rows)
     rates = x.channels["omega_x"][rows] + 1j * x.channels["omega_y"][rows]

@@ -18,7 +18,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import make_vector, scale_factor
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.screening import mistakes, other_demodulator, screen, timing
+from ragg_runtime.screening import mistakes, screen, timing
 from ragg_runtime.screening.mistakes import Finding, find_mistake
 from ragg_runtime.screening.sampler import make_sampler
 from ragg_runtime.signals.demodulate import demodulate
@@ -38,7 +38,7 @@ def flown(seed: int, effects: dict[str, Any] | None = None, trim: Any = "matched
 
 
 def found_in(x: Flight, sheet: Any) -> Finding | None:
-    return find_mistake(MODEL, sheet, make_sampler(x, sheet, tuple(MODEL.chain.INPUTS)))
+    return find_mistake(make_sampler(MODEL, sheet, x))
 
 
 def changed(x: Flight, change: Callable[[str, np.ndarray], np.ndarray]) -> Flight:
@@ -54,14 +54,13 @@ def no_timing(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def timing_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without the mistakes of unit, sign and axis: for what is measured about those of time."""
-    monkeypatch.setattr(mistakes, "list_mistakes", lambda *_, **__: iter(()))
+    monkeypatch.setattr(mistakes, "list_mistakes", lambda _: iter(()))
 
 
 @pytest.fixture
 def shifts_alone(monkeypatch: pytest.MonkeyPatch, timing_alone: None) -> None:
-    """Of those of time neither slips nor jumps, which have tests of their own and take two thirds of the search."""
-    for search in ("_propose_slips", "_propose_jump"):
-        monkeypatch.setattr(timing, search, lambda _: [])
+    """Of those of time no slips, which have tests of their own and take two thirds of the search."""
+    monkeypatch.setattr(timing, "_propose_slips", lambda _: [])
 
 
 @pytest.fixture
@@ -311,7 +310,7 @@ def demodulated(s: Scenario, x: Flight, low_pass: Any = None) -> Flight:
 @pytest.fixture
 def channels_alone(monkeypatch: pytest.MonkeyPatch, no_timing: None) -> None:
     """Of all mistakes those of channels alone: each is tried on 3,000 rows."""
-    monkeypatch.setattr(mistakes, "list_mistakes", lambda rows, *_, **__: mistakes._demodulated(rows))
+    monkeypatch.setattr(mistakes, "list_mistakes", mistakes.list_channel_mistakes)
 
 
 @pytest.mark.usefixtures("channels_alone")
@@ -330,8 +329,8 @@ def test_channels_that_are_defined_otherwise_are_named() -> None:
 
 @pytest.mark.usefixtures("channels_alone")
 def test_another_demodulator_is_named_with_its_order_and_corner(monkeypatch: pytest.MonkeyPatch) -> None:
-    own = [m for m in other_demodulator.list_families() if m(0.1).order == 3]
-    monkeypatch.setattr(other_demodulator, "list_families", lambda: iter(own))
+    own = [m for m in mistakes.list_low_passes() if m(0.1).order == 3]
+    monkeypatch.setattr(mistakes, "list_low_passes", lambda: iter(own))
     s, x = drawn(14), flown(14)
     sections = signal.butter(3, 0.15, fs=x.rate, output="sos")
     found = found_in(demodulated(s, x, lambda z: signal.sosfilt(sections, z)), s.sheet)
