@@ -37,7 +37,7 @@ from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.evaluate import make_vector, scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.recorded import put_on_carriers
-from ragg_runtime.signals.demodulate import CUTOFF
+from ragg_runtime.signals.demodulators import CUTOFF
 from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]

@@ -12,8 +12,7 @@ from scipy import special
 
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.demodulate import CUTOFF, low_pass
-from ragg_runtime.signals.demodulators import Demodulator, find_demodulator
+from ragg_runtime.signals.demodulators import CUTOFF, Demodulator, find_demodulator, low_pass
 from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]

@@ -24,7 +24,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import Model
-from ragg_runtime.signals.demodulate import is_demodulable, low_pass
+from ragg_runtime.signals.demodulators import is_demodulable, low_pass
 from ragg_runtime.signals.fir import convolve
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import render_notebook

@@ -14,8 +14,7 @@ from ragg_runtime.estimation.observation import BLOCKS, combine_output
 from ragg_runtime.estimation.scores import finite
 from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.signals import derivative
-from ragg_runtime.signals.demodulate import CUTOFF, WIDTH, low_pass
-from ragg_runtime.signals.demodulators import find_demodulator
+from ragg_runtime.signals.demodulators import CUTOFF, WIDTH, find_demodulator, low_pass
 
 Array = NDArray[np.float64]
 

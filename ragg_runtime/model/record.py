@@ -18,8 +18,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.io.record import RATES, SPECIFIC_FORCE
 from ragg_runtime.model.evaluator import ChainModule
 from ragg_runtime.signals import demodulators
-from ragg_runtime.signals.demodulate import CUTOFF
-from ragg_runtime.signals.demodulators import Demodulator
+from ragg_runtime.signals.demodulators import CUTOFF, Demodulator
 from ragg_runtime.signals.derivative import (
     DEGREES,
     best_degree,
@@ -430,4 +429,4 @@ def _at(d: Demodulation, rate: float) -> Demodulator:
     if d.length is not None:
         return demodulators.average(rate, d.length, centred=d.kind == "average")
     build = demodulators.butterworth if d.kind == "butterworth" else demodulators.causal
-    return build(rate, d.order or demodulators.ORDER, d.cutoff or demodulators.CUTOFF)
+    return build(rate, d.order or demodulators.ORDER, d.cutoff or demodulators.CORNER)

@@ -20,13 +20,12 @@ from ragg_runtime.io.record import (
     Flag,
     is_disc_angle,
 )
+from ragg_runtime.screening.spikes import MOTION
 from ragg_runtime.signals.derivative import REACH, bridge_gaps, runs
 from ragg_runtime.signals.resolution import find_step
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-
-MOTION = (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION)
 
 HELD = 1 / 3
 """Share of equal neighbours from which a column is held at a lower rate, if its values are not just coarse."""
@@ -61,56 +60,45 @@ RARE, RARE_ZEROS = 1e-3, 0.1
 def leave_out_repeated(flight: Flight) -> Flight:
     """The flight without repeated values: outputs as if not recorded, samples of motion not valid, both flagged.
 
-    Parameters
-    ----------
-    flight
-        As it was read.
-
-    Returns
-    -------
-    Flight
-        Motion is interpolated between what was recorded, and an angular acceleration that was derived is derived anew.
+    Motion is interpolated between what was recorded, and an angular acceleration that was derived is derived anew.
     """
     flight = _take_recorded_rate(flight)
-    outputs, channels = dict(flight.outputs), dict(flight.channels)
-    valid, found, known = np.array(flight.valid), [], _find_known(flight)
-    angles = [n for n in flight.channels if is_disc_angle(n)]
-    for name in (
-        *flight.outputs,
-        *angles,
-        *(n for n in MOTION if n in (flight.written or flight.channels)),
-    ):
-        x = flight.outputs.get(name, flight.channels.get(name))
-        if x is None:
-            continue
+    columns, valid, known = {**flight.channels, **flight.outputs}, np.array(flight.valid), _find_known(flight)
+    found: list[tuple[str, _Repeated]] = []
+    motion = [n for n in MOTION if n in columns and n in (flight.written or columns)]
+    for name in (*flight.outputs, *filter(is_disc_angle, flight.channels), *motion):
+        x, turning = np.array(columns[name]), is_disc_angle(name)
         there = np.isfinite(x) & known
-        r = _repeated(np.array(x), there, turning=name in angles)
+        r = _repeated(x, there, turning)
         if r is None:
             continue
         found.append((name, r))
-        if name in outputs:
-            outputs[name] = np.where(r.left_out, np.nan, x)
-        else:
-            channels[name] = bridge_gaps(
-                np.array(x), there & ~r.left_out, smooth=r.how != "stuck", turning=name in angles
-            )
-            if r.how == "stuck" or name not in angles:  # a disc turns smoothly between two angles
-                valid &= ~r.left_out
+        if name in flight.outputs:
+            columns[name] = np.where(r.left_out, np.nan, x)
+            continue
+        columns[name] = bridge_gaps(x, there & ~r.left_out, smooth=r.how != "stuck", turning=turning)
+        if r.how == "stuck" or not turning:  # a disc turns smoothly between two angles
+            valid &= ~r.left_out
+    slower = {n for n, r in found if r.how != "stuck"}
     for sensor in (SPECIFIC_FORCE, ANGULAR_RATE):
-        slower = {n for n, r in found if r.how != "stuck"}
-        names = [n for n in sensor if n in channels and n not in slower]
-        lost = _find_lost_packets([channels[n] for n in names], valid)
+        names = [n for n in sensor if n in columns and n not in slower]
+        lost = _find_lost_packets([columns[n] for n in names], valid)
         if lost.any():
-            found += [(n, _Repeated("not renewed", lost, 0.0)) for n in names]
-            channels |= {n: bridge_gaps(channels[n], valid & ~lost, smooth=True) for n in names}
+            found += [(n, _Repeated("stuck", lost)) for n in names]
+            columns |= {n: bridge_gaps(columns[n], valid & ~lost, smooth=True) for n in names}
             valid &= ~lost
     if not found:
         return flight
-    changed = replace(flight, outputs=outputs, channels=channels, valid=valid)
-    rates = [r for name, r in found if name in ANGULAR_RATE]
+    changed = replace(
+        flight,
+        outputs={n: columns[n] for n in flight.outputs},
+        channels={n: columns[n] for n in flight.channels},
+        valid=valid,
+    )
+    rates = [r for n, r in found if n in ANGULAR_RATE]
     if rates:
-        all_lost = [r.left_out for r in rates if r.how in ("stuck", "not renewed")]
-        changed = derive_acceleration(changed, np.any(all_lost or [np.zeros_like(valid)], axis=0))
+        lost = np.any([np.zeros_like(valid), *(r.left_out for r in rates if r.how == "stuck")], axis=0)
+        changed = derive_acceleration(changed, lost)
     return changed.flagged(_flags(found, flight))
 
 
@@ -133,7 +121,7 @@ def _take_recorded_rate(flight: Flight) -> Flight:
     if not names or ANGULAR_ACCELERATION[0] in flight.written:
         return flight
     known = _find_known(flight)
-    slower = [r for n in names if (r := _repeated(np.array(flight.channels[n]), known)) and r.every]
+    slower = [r for n in names if (r := _repeated(flight.channels[n], known, False)) and r.every]
     kept = np.flatnonzero(known & ~np.any([r.left_out for r in slower], axis=0))
     every = int(max((r.every for r in slower), default=0))
     if not slower or not len(kept) or np.any((kept - kept[0]) % every):
@@ -145,16 +133,14 @@ def _take_recorded_rate(flight: Flight) -> Flight:
 
 @dataclass(frozen=True)
 class _Repeated:
-    """Samples (N,) that repeat others: ``repeated``, ``joined by straight lines`` (``every`` so many samples, else 0), ``stuck``,
-    or ``not renewed``, all axes of a sensor at once.
-    """
+    """Samples (N,) that repeat others: ``repeated`` or ``joined by straight lines``, recorded ``every`` so many samples, or ``stuck``."""
 
     how: str
     left_out: Mask
-    every: float
+    every: float = 0.0
 
 
-def _repeated(x: Array, there: Mask, turning: bool = False) -> _Repeated | None:
+def _repeated(x: Array, there: Mask, turning: bool) -> _Repeated | None:
     """What a column (N,), or the angle of a ``turning`` disc, repeats; ``None``: no more than its resolution and noise make."""
     pairs = there[1:] & there[:-1]
     if np.sum(there) < FEWEST or not pairs.any():
@@ -174,7 +160,7 @@ def _repeated(x: Array, there: Mask, turning: bool = False) -> _Repeated | None:
     if joined is not None:
         return joined
     stuck = _stuck(x, there, equal, 0.0 if step is None else step, turning)
-    return _Repeated("stuck", stuck, 0.0) if stuck.any() else None
+    return _Repeated("stuck", stuck) if stuck.any() else None
 
 
 def _find_lost_packets(axes: Sequence[Array], there: Mask) -> Mask:
@@ -282,33 +268,28 @@ def _find_usual_moves(moves: Array, there: Mask) -> Array:
 
 def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
     """One flag for all columns of which the same is to be said."""
-    groups: dict[str, dict[str, bool]] = {}
+    derived = ANGULAR_ACCELERATION[0] not in flight.written
+    groups: dict[str, list[str]] = {}
+    lacks: set[str] = set()
     for name, r in found:
-        groups.setdefault(_describe(r, flight), {})[name] = bool(
-            r.every and name in ANGULAR_RATE and ANGULAR_ACCELERATION[0] not in flight.written
-        )
-    flags = []
-    for text, columns in groups.items():
-        lost = any(columns.values())
-        if lost:
-            text += "; the angular acceleration, which is derived from it, is not known so"
-        flags.append(Flag(tuple(columns), f"{', '.join(columns)}: {text}", open=lost))
-    return flags
+        text = _describe(r, flight)
+        groups.setdefault(text, []).append(name)
+        lacks |= {text} if r.every and name in ANGULAR_RATE and derived else set()
+    more = "; the angular acceleration, which is derived from it, is not known so"
+    return [
+        Flag(tuple(names), f"{', '.join(names)}: {text}{more * (text in lacks)}", open=text in lacks)
+        for text, names in groups.items()
+    ]
 
 
 def _describe(r: _Repeated, flight: Flight) -> str:
-    at = np.flatnonzero(r.left_out)
-    if r.how in ("stuck", "not renewed") and max(x.stop - x.start for x in runs(r.left_out)) <= WIDEST_SPIKE:
+    if r.every:
+        return f"recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
+    at, places = np.flatnonzero(r.left_out), runs(r.left_out)
+    if max(x.stop - x.start for x in places) <= WIDEST_SPIKE:
         where = ", ".join(f"{t:.6g}" for t in flight.time[at[:3]]) + " ..." * (len(at) > 3)
         lost = f"repeated, or zero, at {count(len(at), 'sample')} (t = {where} s)"
         return f"{lost}: readings that did not arrive? not used"
-    if r.how in ("stuck", "not renewed"):
-        places = runs(r.left_out)
-        some = ", ".join(
-            f"{x.stop - x.start} equal samples from {flight.time[x.start]:.5g} s" for x in places[:3]
-        )
-        more = f" and {len(places) - 3} times more" if len(places) > 3 else ""
-        return f"the value is stuck: {some}{more}, unlike noise; {len(at)} samples not used"
-    return (
-        f"recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
-    )
+    some = (f"{x.stop - x.start} equal samples from {flight.time[x.start]:.5g} s" for x in places[:3])
+    more = f" and {len(places) - 3} times more" if len(places) > 3 else ""
+    return f"the value is stuck: {', '.join(some)}{more}, unlike noise; {len(at)} samples not used"

@@ -26,6 +26,8 @@ from ragg_runtime.signals.derivative import bridge_gaps, runs
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+MOTION = (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION)
+
 SIDE = 5
 """Samples before and after that a sample is compared with."""
 
@@ -105,24 +107,23 @@ def leave_out_glitches(flight: Flight) -> Flight:
     channels, valid = dict(flight.channels), np.array(flight.valid)
     flags: dict[str, Flag] = {}
     off = np.zeros_like(valid)  # samples that lack a rate
-    angles = [n for n in channels if is_disc_angle(n)]
-    for name in (*angles, *SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION):
-        if name not in channels:
-            continue
-        find = find_lost_angles if name in angles else find_glitches
-        mask, channels[name] = find(flight.channels[name], flight.valid)
+    for name, x in flight.channels.items():
+        if is_disc_angle(name):
+            mask, channels[name] = find_lost_angles(x, flight.valid)
+        elif name in MOTION:
+            mask, channels[name] = find_glitches(x, flight.valid)
+        elif name in AUXILIARY or name not in SI_UNITS:
+            mask, channels[name] = find_spikes_of_slow(x)
+        else:
+            continue  # a gradient
         if mask.any():
-            valid &= ~mask
+            flags[name] = Flag((name,), describe_spikes(name, mask, flight.time))
+            valid &= ~mask | (name not in MOTION and not is_disc_angle(name))
             off |= mask & (name in ANGULAR_RATE)
-            flags[name] = Flag((name,), describe_spikes(name, mask, flight.time))
-    for name in [n for n in channels if n not in angles and (n in AUXILIARY or n not in SI_UNITS)]:
-        mask, channels[name] = find_spikes_of_slow(channels[name])
-        if mask.any():
-            flags[name] = Flag((name,), describe_spikes(name, mask, flight.time))
     if not flags:
         return flight
     changed = replace(flight, channels=channels, valid=valid)
-    if ANGULAR_ACCELERATION[0] not in flight.written and any(n in ANGULAR_RATE for n in flags):
+    if ANGULAR_ACCELERATION[0] not in flight.written and {*flags} & {*ANGULAR_RATE}:
         changed = derive_acceleration(changed, off)
         flags = {n: f for n, f in flags.items() if n not in ANGULAR_ACCELERATION}
     return changed.flagged(list(flags.values()))
@@ -161,16 +162,17 @@ def find_spikes_of_slow(x: Array) -> tuple[Mask, Array]:
 
 def find_lost_angles(angle: Array, valid: Mask) -> tuple[Mask, Array]:
     """The same of the angle of a disc (N,), rad: what is off an even turn, which no turn of the whole hides."""
-    turn = np.angle(np.exp(1j * np.diff(angle)))
-    line = (
-        float(np.median(turn[valid[1:] & valid[:-1]])) * np.arange(len(angle))
-        if np.any(valid[1:] & valid[:-1])
-        else angle
-    )
-    mean = np.angle(np.mean(np.exp(1j * (angle - line)[valid]))) if valid.any() else 0.0
-    off = np.angle(np.exp(1j * (angle - line - mean)))
-    mask, mended = find_glitches(off, valid)
-    return mask, np.where(mask, mended + line + mean, angle)
+    pairs = valid[1:] & valid[:-1]
+    if not pairs.any():
+        return np.zeros_like(valid), angle
+    line = float(np.median(_wrap(np.diff(angle))[pairs])) * np.arange(len(angle))
+    line += np.angle(np.mean(np.exp(1j * (angle - line)[valid])))
+    mask, mended = find_glitches(_wrap(angle - line), valid)
+    return mask, np.where(mask, mended + line, angle)
+
+
+def _wrap(angle: Array) -> Array:
+    return np.asarray(np.angle(np.exp(1j * angle)))
 
 
 def _glitches(x: Array) -> tuple[Mask, Array]:
@@ -209,7 +211,6 @@ def _spread(x: Array, at: NDArray[np.intp]) -> Array:
 def describe_spikes(name: str, mask: Mask, time: Array) -> str:
     """How many spikes, where, what was done with them."""
     places = np.flatnonzero(mask)
-    instants = ", ".join(f"{time[k]:.10g}" for k in places[:3])
-    more = ", ..." if len(places) > 3 else ""
-    count = f"{len(places)} " + ("samples are spikes" if len(places) > 1 else "sample is a spike")
-    return f"{name}: {count} ({100 * np.mean(mask):.2g} %; t = {instants}{more} s), not used"
+    instants = ", ".join(f"{t:.10g}" for t in time[places[:3]]) + ", ..." * (len(places) > 3)
+    spikes = "samples are spikes" if len(places) > 1 else "sample is a spike"
+    return f"{name}: {len(places)} {spikes} ({100 * np.mean(mask):.2g} %; t = {instants} s), not used"

@@ -22,7 +22,7 @@ from ragg_runtime.screening.linear_fit import (
     linearise,
 )
 from ragg_runtime.screening.sampler import Index, Sampler
-from ragg_runtime.signals.demodulate import is_demodulable, low_pass
+from ragg_runtime.signals.demodulators import is_demodulable, low_pass
 from ragg_runtime.signals.fir import convolve
 from ragg_runtime.signals.resolution import find_step
 
@@ -164,7 +164,7 @@ def _propose_origin(s: Sampler) -> list[Hypothesis]:
         f'write angle_origin = "{origin}" under [model] of model.toml if that is so, else'
         f' angle_origin = "{other}"; or record spin_angle'
     )
-    return [Hypothesis(what, remedy, fit_rows(s.take(phase=phase)), kind="origin")]
+    return [Hypothesis(what, remedy, fit_rows(s.take(phase=phase)), kind="origin", calming=True)]
 
 
 def _angle_at(s: Sampler, start: float) -> float:

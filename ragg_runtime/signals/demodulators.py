@@ -1,4 +1,11 @@
-"""Low-passes of the demodulated channels, as kernels: two without phase for afterwards, one causal for at once."""
+"""Quadrature demodulation of G_out into inline and cross, and its low-passes as kernels: two without phase, one causal.
+
+From Eq. 30 and 16, G_out = k_ggi (T1 sin 2 phi + T2 cos 2 phi) with T1 = (Gamma_xx - Gamma_yy)/2 + ... and
+T2 = -Gamma_xy + ...; so with a low-pass LP
+
+    inline = Gamma_xx - Gamma_yy =  LP(4 G_out sin 2 phi) / k_ggi
+    cross  = Gamma_xy            = -LP(2 G_out cos 2 phi) / k_ggi
+"""
 
 from __future__ import annotations
 
@@ -6,19 +13,31 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
 from numpy.typing import NDArray
+from scipy.special import i0
 
 from ragg_runtime.base.errors import UserError, check_choice
-from ragg_runtime.signals.demodulate import CUTOFF as HALF_AMPLITUDE
-from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.fir import Series, convolve
 
 Array = NDArray[np.float64]
 
-ORDER, CUTOFF = 6, 0.18
+CUTOFF = 0.2
+"""Half-amplitude frequency of the low-pass (Hz), as in the paper."""
+
+WIDTH = 0.1
+"""Transition width (Hz): the stop band begins at 0.25 Hz, where the neighbours of the 2nd harmonic land."""
+
+ATTENUATION = 100.0
+"""Stop-band attenuation (dB)."""
+
+REFERENCE = 16.0
+"""Sampling rate (Hz) at which the length of the low-pass is rounded to samples: that of the paper's experiments here."""
+
+ORDER, CORNER = 6, 0.18
 """Butterworth, in each direction; half-power frequency, Hz: forward and backward it passes half of the amplitude there."""
 
 FORGOTTEN = 1e-9
@@ -32,6 +51,62 @@ TOP, GRID = 0.5, 4001
 
 EDGE = 1e-4
 """Share of the kernel that may lie beyond the record's end: of a gradient of 1000 Eo it is 0.1 Eo."""
+
+
+class Demodulated(NamedTuple):
+    """Gamma_xx - Gamma_yy and Gamma_xy, (M,) s^-2 each, where the filter saw a whole record: of the input samples ``valid``."""
+
+    inline: Array
+    cross: Array
+    valid: slice
+
+
+def demodulate(
+    G_out: Array, phi: Array, rate: float, k_ggi: float, *, attenuation: float = ATTENUATION
+) -> Demodulated:
+    """Inline and cross channels of an output before demodulation, or of a residual of it, (N,) V.
+
+    ``phi``: the disc angle at the same instants, (N,) rad, evenly spaced in time at ``rate``, Hz. ``k_ggi``: sum of k_VI K1 R, V per
+    s^-2 (in SI; 4.54e-4 V/Eo is 4.54e5). ``attenuation``: of the low-pass's stop band, dB.
+    """
+    taps = low_pass(rate, attenuation=attenuation)
+    inline = convolve(4 * G_out * np.sin(2 * phi), taps) / k_ggi
+    cross = -convolve(2 * G_out * np.cos(2 * phi), taps) / k_ggi
+    half = taps.size // 2
+    return Demodulated(inline, cross, slice(half, G_out.size - half))
+
+
+def low_pass(rate: float, *, cutoff: float = CUTOFF, attenuation: float = ATTENUATION) -> Array:
+    """Linear-phase FIR low-pass of odd length, unit gain at zero frequency (Kaiser window).
+
+    Samples of one function of time, whatever the rate: channels that were made at one and thinned out to another have
+    passed the same filter. ``rate``, ``cutoff``: Hz; ``attenuation``: dB.
+    """
+    from scipy.signal import kaiser_beta  # slow to import
+
+    if not 0 < cutoff - WIDTH / 2 < cutoff + WIDTH / 2 < rate / 2 < np.inf:
+        raise _refuse(rate, cutoff)
+    # Kaiser's rule (1974) for the transition
+    length = int(np.ceil((attenuation - 7.95) / 2.285 / (np.pi * WIDTH / (REFERENCE / 2)) + 1))
+    half = (length // 2) / REFERENCE
+    reach = int(half * rate * (1 + 1e-12))
+    t = np.arange(-reach, reach + 1) / rate
+    window = i0(kaiser_beta(attenuation) * np.sqrt(np.clip(1 - (t / half) ** 2, 0.0, None)))
+    taps = np.sinc(2 * cutoff * t) * window
+    return np.asarray(taps / np.sum(taps), dtype=np.float64)
+
+
+def _refuse(rate: float, cutoff: float) -> UserError:
+    return UserError(
+        "the low-pass does not fit the sampling rate",
+        found=f"cutoff {cutoff:g} Hz, rate {rate:g} Hz",
+        expected=f"a pass band above zero, and a stop band, {WIDTH / 2:g} Hz higher, below half of the rate",
+    )
+
+
+def is_demodulable(rate: float) -> bool:
+    """Whether a record of this rate, Hz, is long enough for the low-pass; of a disc at rest it need not be."""
+    return rate / 2 > CUTOFF + WIDTH / 2
 
 
 @dataclass(frozen=True)
@@ -72,11 +147,8 @@ class Demodulator:
     @cached_property
     def settling(self) -> tuple[int, int]:
         """Samples at the beginning and the end of a record at which the kernel has not settled."""
-        share = np.abs(self.taps) / np.sum(np.abs(self.taps))
-        from_right = np.cumsum(share[::-1])[::-1]  # [j]: all from j on
-        first = int(np.sum(from_right[self.ahead + 1 :] > EDGE))
-        last = int(np.sum(np.cumsum(share)[: self.ahead] > EDGE))
-        return first, last
+        share = np.cumsum(np.abs(self.taps)) / np.sum(np.abs(self.taps))
+        return int(np.sum(1 - share[self.ahead : -1] > EDGE)), int(np.sum(share[: self.ahead] > EDGE))
 
     @cached_property
     def bandwidth(self) -> float:
@@ -91,8 +163,7 @@ class Demodulator:
 
     def thinned(self, every: int) -> Demodulator:
         """What it is to the samples that are left if of its output every so many are kept, and of what it is made of too."""
-        first = self.ahead % every
-        taps = self.taps[first::every]
+        taps = self.taps[self.ahead % every :: every]
         return replace(self, rate=self.rate / every, taps=taps / np.sum(taps), ahead=self.ahead // every)
 
     def delayed(self, seconds: float) -> Demodulator:
@@ -114,17 +185,12 @@ class Demodulator:
         back = np.exp(-2j * np.pi * frequency / self.rate)
         return np.asarray(polyval(back, self.taps) * back ** (-float(self.ahead)))
 
-    @cached_property
-    def power_gain(self) -> tuple[Array, Array]:
-        """Frequencies, Hz, to either side of zero, and the power gain there."""
-        top = min(TOP, self.rate / 2)
-        f = np.linspace(-top, top, GRID)
-        return f, np.abs(self.response(f)) ** 2
-
     def pass_power(self, psd: Callable[[Array], Array], carrier: float) -> float:
         """Variance of the low-pass of 2 cos(2 pi carrier t) times a noise of one-sided density ``psd``, per Hz, of frequencies, Hz."""
-        f, gain = self.power_gain
-        return float(np.sum(gain * psd(np.abs(carrier + f))) * (f[1] - f[0]))
+        top = min(TOP, self.rate / 2)
+        f = np.linspace(-top, top, GRID)
+        power = np.abs(self.response(f)) ** 2 * psd(np.abs(carrier + f))
+        return float(np.sum(power) * (f[1] - f[0]))
 
     def low_passed(self, x: Series) -> Series:
         """Series (..., N) through the kernel; beyond their ends they are taken as zero."""
@@ -133,11 +199,24 @@ class Demodulator:
         return convolve(padded, self.taps)
 
 
-def fir(rate: float, cutoff: float = HALF_AMPLITUDE) -> Demodulator:
+def fir(rate: float, cutoff: float = CUTOFF) -> Demodulator:
     """The paper's low-pass, or one as narrow at another corner, Hz."""
-    taps, own = low_pass(rate, cutoff=cutoff), " (the paper's)" if cutoff == HALF_AMPLITUDE else ""
+    taps, own = low_pass(rate, cutoff=cutoff), " (the paper's)" if cutoff == CUTOFF else ""
     words = f"linear-phase FIR, half amplitude at {cutoff:g} Hz{own}"
     return Demodulator("fir", rate, taps, len(taps) // 2, words)
+
+
+def butterworth(rate: float, order: int = ORDER, cutoff: float = CORNER) -> Demodulator:
+    """Forward and backward."""
+    h = _impulse(rate, order, cutoff)
+    words = f"Butterworth of order {order} at {cutoff:g} Hz, forward and backward"
+    return Demodulator("butterworth", rate, convolve(h, h[::-1], "full"), len(h) - 1, words)
+
+
+def causal(rate: float, order: int = ORDER, cutoff: float = CORNER) -> Demodulator:
+    """Forward alone."""
+    words = f"Butterworth of order {order} at {cutoff:g} Hz, forward only"
+    return Demodulator("causal", rate, _impulse(rate, order, cutoff), 0, words)
 
 
 def _impulse(rate: float, order: int, cutoff: float) -> Array:
@@ -145,11 +224,7 @@ def _impulse(rate: float, order: int, cutoff: float) -> Array:
     from scipy import signal  # slow to import, and only these demodulators need it
 
     if rate / 2 <= cutoff:
-        raise UserError(
-            "the low-pass does not fit the sampling rate",
-            found=f"cutoff {cutoff:g} Hz, rate {rate:g} Hz",
-            expected="a rate of more than twice the cutoff",
-        )
+        raise _refuse(rate, cutoff)
     sections = signal.butter(order, cutoff, fs=rate, output="sos")
     # the slowest pole decays at this rate, 1/s; once and a half as long, for it is not alone
     slowest = 2 * np.pi * cutoff * np.sin(np.pi / (2 * order))
@@ -157,31 +232,17 @@ def _impulse(rate: float, order: int, cutoff: float) -> Array:
     impulse[0] = 1.0
     h = signal.sosfilt(sections, impulse)
     rest = np.cumsum(np.abs(h[::-1]))[::-1]
-    h = h[: int(np.sum(rest > FORGOTTEN * rest[0]))]
+    h = h[rest > FORGOTTEN * rest[0]]
     return np.asarray(h / np.sum(h))
-
-
-def butterworth(rate: float, order: int = ORDER, cutoff: float = CUTOFF) -> Demodulator:
-    """Forward and backward."""
-    h = _impulse(rate, order, cutoff)
-    words = f"Butterworth of order {order} at {cutoff:g} Hz, forward and backward"
-    return Demodulator("butterworth", rate, convolve(h, h[::-1], "full"), len(h) - 1, words)
-
-
-def causal(rate: float, order: int = ORDER, cutoff: float = CUTOFF) -> Demodulator:
-    """Forward alone."""
-    words = f"Butterworth of order {order} at {cutoff:g} Hz, forward only"
-    return Demodulator("causal", rate, _impulse(rate, order, cutoff), 0, words)
 
 
 def average(rate: float, seconds: float, *, centred: bool = True) -> Demodulator:
     """A moving average; samples at its ends count in part, so that its length may be any."""
     samples = max(seconds * rate, 1.0)
-    ahead = int(np.ceil(samples / 2 - 0.5)) if centred else 0
-    n = np.arange(-ahead, (ahead if centred else int(np.ceil(samples)) - 1) + 1)
-    low, high = (-samples / 2, samples / 2) if centred else (-0.5, samples - 0.5)
-    taps = np.clip(np.minimum(n + 0.5, high) - np.maximum(n - 0.5, low), 0.0, None)
-    return Demodulator("average" if centred else "causal average", rate, taps / np.sum(taps), ahead)
+    first = -samples / 2 if centred else -0.5
+    n = np.arange(np.floor(first + 0.5), np.ceil(first + samples + 0.5))
+    taps = np.clip(np.minimum(n + 0.5, first + samples) - np.maximum(n - 0.5, first), 0.0, None)
+    return Demodulator("average" if centred else "causal average", rate, taps / np.sum(taps), int(-n[0]))
 
 
 DEMODULATORS: Mapping[str, Callable[[float], Demodulator]] = MappingProxyType(

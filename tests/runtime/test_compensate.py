@@ -25,7 +25,7 @@ from ragg_runtime.estimation import seen_gradient
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.signals.demodulators import CUTOFF, DEMODULATORS, ORDER, find_demodulator
+from ragg_runtime.signals.demodulators import CORNER, DEMODULATORS, ORDER, find_demodulator
 from tests.rate import RATE
 from tests.runtime.flown_twice import BRIEF, DURATION, files, flights, new_model, run, truth
 
@@ -180,14 +180,14 @@ def test_the_instruments_own_response_to_the_gradient_is_undone() -> None:
 def test_kernels_are_the_filters_that_they_stand_for() -> None:
     rate = 16.0
     x: NDArray[np.float64] = np.random.default_rng(3).standard_normal(12000)
-    sections = signal.butter(ORDER, CUTOFF, fs=rate, output="sos")
+    sections = signal.butter(ORDER, CORNER, fs=rate, output="sos")
     inner = slice(2500, -2500)
     expected = signal.sosfilt(sections, signal.sosfilt(sections, x)[::-1])[::-1]
     both, causal = find_demodulator("butterworth", rate), find_demodulator("causal", rate)
     assert np.max(np.abs(both.low_passed(x + 0j).real - expected)[inner]) < 1e-8
     assert np.max(np.abs(causal.low_passed(x + 0j).real - signal.sosfilt(sections, x))) < 1e-8
     assert causal.ahead == 0
-    b, a = signal.butter(ORDER, 2 * np.pi * CUTOFF, analog=True)
+    b, a = signal.butter(ORDER, 2 * np.pi * CORNER, analog=True)
     w = 2 * np.pi * np.array([1e-4, 2e-4])
     phase = np.angle(signal.freqs(b, a, w)[1])
     assert causal.latency == pytest.approx(-np.diff(phase)[0] / np.diff(w)[0], rel=1e-3)

@@ -32,7 +32,7 @@ from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.signals.demodulate import demodulate
+from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.simulate import simulate_flight
 from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed

@@ -17,7 +17,7 @@ from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.instruments import perfect
 from ragg_runtime.reference.motion import RecordedSignal, Signal, Sinusoids, turns
 from ragg_runtime.reference.scenario import SHAPES, scenario, turbulence
-from ragg_runtime.signals.demodulate import demodulate
+from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.simulate import simulate_flight
 
 DEG_PER_HOUR = np.pi / 180 / 3600

@@ -32,7 +32,7 @@ from ragg_runtime.report import parameters, plots, whiteness
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.pages import write_addition, write_comparison, write_diagnosis
 from ragg_runtime.report.plots import draw_plot
-from ragg_runtime.signals.demodulate import demodulate
+from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Bar, Bars, render_text
 from tests.rate import RATE

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.io.sampling import find_clock_steps, fit_even_clock, make_grid
-from ragg_runtime.screening.checks import _encoder, _overflown
+from ragg_runtime.screening.checks import _overflown
 from ragg_runtime.screening.repeated import leave_out_repeated
 from ragg_runtime.screening.spikes import find_glitches, find_spikes, leave_out_glitches
 from ragg_runtime.signals.resolution import find_step
@@ -340,15 +339,6 @@ def test_jitter_and_pauses_are_no_steps() -> None:
     assert find_clock_steps(jitter, ALL) == []
     one_late = replace(Flight(time=TIME + 0.02 * (np.arange(N) == 777), channels={}, outputs={}))
     assert find_clock_steps(one_late.time, ALL) == []
-
-
-def test_rows_that_an_encoder_misses_are_counted() -> None:
-    kept = np.sort(np.random.default_rng(4).permutation(4000)[:3920])
-    disc, angle = replace(PAPER.discs[0], spin_frequency=0.25), np.mod(np.pi / 2 * kept / 16, 2 * np.pi)
-    x = Flight(np.arange(3920) / 16, {"spin_angle": angle}, {})
-    (note,) = _encoder(disc, x)
-    assert note.startswith(f"{4000 - 3920 - (3999 - kept[-1]) - kept[0]} rows are missing by spin_angle")
-    assert _encoder(disc, replace(x, channels={"spin_angle": np.pi / 2 * x.time})) == []
 
 
 @pytest.mark.parametrize(

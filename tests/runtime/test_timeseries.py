@@ -30,7 +30,7 @@ from ragg_runtime.reference import disc_angle, simulate, still
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import perfect
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.signals.demodulate import demodulate, low_pass
+from ragg_runtime.signals.demodulators import demodulate, low_pass
 from ragg_runtime.signals.derivative import WINDOW, differentiate, interpolate_even
 
 RATE = 16.0
