@@ -79,7 +79,8 @@ def make_flight(
         _require_names(made, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
     if need_output:
         _require_output(made, made.names, accelerometers)
-    made = _leave_aside(made, leave)
+    kept = tuple(c for c in made.columns if is_column(c.name) and c.name not in leave)
+    made = replace(made, columns=kept, notes=(*made.notes, *_pass_over(made.names)))
     si, si_units = _convert(made, g0, accelerometers)
     doubled = _leave_out_doubled(si)
     grid = make_grid(si.pop("time"), made.place)
@@ -89,8 +90,7 @@ def make_flight(
     if need_output:  # once more: of the columns that hold anything
         _require_output(made, placed, accelerometers)
     outputs = {c: placed.pop(c) for c in (*accelerometers.columns, *DEMODULATED) if c in placed}
-    _interpolate_coarse(placed, si_units, notes)
-    _interpolate_slower(placed, si_units, grid, notes)
+    _interpolate_auxiliaries(placed, si_units, grid, notes)
     notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
     valid = _find_valid(placed | outputs, outputs, grid, notes)
     _derive_outputs(outputs, notes, accelerometers)
@@ -152,32 +152,25 @@ def _pass_over(names: Sequence[str]) -> list[str]:
     return [one_line(f"skipped because of their names ({EXPECTED}): {shown}")] if odd else []
 
 
-def _leave_aside(made: DataTable, leave: frozenset[str]) -> DataTable:
-    """The table without some channels and columns whose names nothing can have; UserError where a unit is missing."""
-    kept = tuple(c for c in made.columns if is_column(c.name) and c.name not in leave)
-    for c in kept:
-        if not c.unit:
-            raise UserError(
-                "the column has no unit",
-                where=at(made.place, f"column {c.name!r}"),
-                found=repr(c.name),
-                expected=f"{c.name} [unit], such as {c.name if c.name in SI_UNITS else 'temperature'} [{SI_UNITS.get(c.name, 'K')}]",
-                remedy="write the unit; a pure number has the unit 1; none is guessed. Or describe the columns "
-                "once for all files: ragg map FLIGHT -o mapping.toml",
-            )
-    return replace(made, columns=kept, notes=(*made.notes, *_pass_over(made.names)))
-
-
 def _convert(
     made: DataTable, g0: float, accelerometers: Accelerometers
 ) -> tuple[dict[str, Array], dict[str, str]]:
-    """The columns in SI, NaN for what is beyond all bounds, and their units; UserError if one does not convert."""
+    """The columns in SI, NaN for what is beyond all bounds, and their units; UserError if one has no unit or another one."""
     fixed = {**SI_UNITS, **dict.fromkeys(accelerometers.columns, "V")}
     fixed |= {d.angle_column: "rad" for d in accelerometers.discs}
     known = units(g0)
     found, si_units = {}, {}
     for c in made.columns:
         where = at(made.place, f"column {c.name!r}")
+        if not c.unit:
+            raise UserError(
+                "the column has no unit",
+                where=where,
+                found=repr(c.name),
+                expected=f"{c.name} [unit], such as {c.name if c.name in SI_UNITS else 'temperature'} [{SI_UNITS.get(c.name, 'K')}]",
+                remedy="write the unit; a pure number has the unit 1; none is guessed. Or describe the columns "
+                "once for all files: ragg map FLIGHT -o mapping.toml",
+            )
         si_units[c.name] = fixed[c.name] if c.name in fixed else known.base_unit(c.unit, where)
         values = known.to_si(c.values, c.unit, si_units[c.name], where)
         with np.errstate(invalid="ignore"):
@@ -388,48 +381,48 @@ def interpolate_slow(time: Array, values: Array, at: Array) -> Array | str:
     return np.where(lost, np.nan, np.interp(at, time, values))
 
 
-def _interpolate_coarse(placed: dict[str, Array], si_units: Mapping[str, str], notes: list[str]) -> None:
-    """Interpolate auxiliary channels, in place, that mostly stand still and else move by one step of their resolution.
+def _interpolate_coarse(x: Array) -> tuple[Array, float | None]:
+    """A channel (N,) that mostly stands still and else moves by one step of its resolution, interpolated, and that step.
 
     Where it moves the sensor was half way between the two: of temperatures in steps of 0.06 and 0.1 K that leaves 0.03 to 0.14 of a
-    step, rms, instead of 0.29.
+    step, rms, instead of 0.29. Any other as it is.
     """
-    for name in (n for n in placed if _is_auxiliary(n) and not is_disc_angle(n)):
-        there = np.flatnonzero(np.isfinite(placed[name]))
-        x = placed[name][there]
-        at = np.flatnonzero(np.diff(x))
-        if not FEWEST_LEVELS <= len(at) + 1 <= 1 + len(x) / 2 or len(np.unique(x)) < FEWEST_LEVELS:
-            continue
-        step = find_step(x)
-        if step is None or np.ptp(x) > MOST_LEVELS * step or np.median(np.abs(np.diff(x)[at])) > 1.5 * step:
-            continue
-        knots, known = np.r_[0, at + 0.5, len(x) - 1], np.r_[x[0], (x[at] + x[at + 1]) / 2, x[-1]]
-        placed[name] = np.array(placed[name])
-        placed[name][there] = np.interp(np.arange(len(x)), knots, known)
-        notes.append(f"{name}: recorded in steps of {step:.3g} {si_units[name]}; interpolated between them")
+    there = np.flatnonzero(np.isfinite(x))
+    v = x[there]
+    at = np.flatnonzero(np.diff(v))
+    if not FEWEST_LEVELS <= len(at) + 1 <= 1 + len(v) / 2 or len(np.unique(v)) < FEWEST_LEVELS:
+        return x, None
+    step = find_step(v)
+    if step is None or np.ptp(v) > MOST_LEVELS * step or np.median(np.abs(np.diff(v)[at])) > 1.5 * step:
+        return x, None
+    found, knots = np.array(x), np.r_[0, at + 0.5, len(v) - 1]
+    found[there] = np.interp(np.arange(len(v)), knots, np.r_[v[0], (v[at] + v[at + 1]) / 2, v[-1]])
+    return found, step
 
 
-def _interpolate_slower(
+def _interpolate_auxiliaries(
     placed: dict[str, Array], si_units: Mapping[str, str], grid: Grid, notes: list[str]
 ) -> None:
-    """Interpolate auxiliary channels of a lower rate; those that cannot be are left out."""
+    """Interpolate, in place, auxiliary channels of coarse resolution or of a lower rate; leave out those that cannot be."""
     for name in filter(_is_auxiliary, list(placed)):
+        if not is_disc_angle(name):
+            placed[name], step = _interpolate_coarse(placed[name])
+            notes += (
+                [f"{name}: recorded in steps of {step:.3g} {si_units[name]}; interpolated between them"]
+                if step
+                else []
+            )
         there = np.isfinite(placed[name])
         known = int(np.sum(there))
         if not 0 < known < (1 - SPARSE) * len(grid.index):
             continue
-        time, values, lacking = (
-            grid.time[there],
-            placed[name][there],
-            count(len(grid.index) - known, "sample"),
-        )
-        if si_units[name] == "rad":
-            values = np.unwrap(values)
-        made = interpolate_slow(time, values, grid.time)
+        time, values = grid.time[there], placed[name][there]
+        values = np.unwrap(values) if si_units[name] == "rad" else values
+        made, lacking = interpolate_slow(time, values, grid.time), count(len(grid.index) - known, "sample")
         if isinstance(made, str):
             notes.append(f"{name}: without a value at {lacking}; left out: {made}")
             del placed[name]
         else:
             placed[name] = made
-            step = float(np.median(np.diff(time)))
-            notes.append(f"{name}: recorded every {step:.4g} s; interpolated (at {lacking})")
+            every = float(np.median(np.diff(time)))
+            notes.append(f"{name}: recorded every {every:.4g} s; interpolated (at {lacking})")

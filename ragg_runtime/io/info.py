@@ -14,7 +14,7 @@ from ragg_runtime.io.assemble import make_flight
 from ragg_runtime.io.files import find_format, flight_name, read_recordings, write_instant
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.io.record import is_disc_angle
-from ragg_runtime.io.sampling import Grid, make_grid
+from ragg_runtime.io.sampling import make_grid
 from ragg_runtime.io.tables import DataColumn, DataTable
 
 PAPER_G = 9.8
@@ -78,8 +78,8 @@ def _describe_record(r: DataTable, name: str, several: bool) -> Json:
         grid = make_grid(units(PAPER_G).to_si(time.values, time.unit or "s", "s", "column 'time'"), r.place)
     except (KeyError, UserError):
         pass  # reported in ``refused``
-    gaps = [] if grid is None else _list_gaps(grid)
-    longest = sorted(gaps, key=lambda g: -g["samples"])[:MOST_GAPS]
+    gaps = [] if grid is None else grid.gaps
+    longest = sorted(sorted(gaps, key=lambda g: -g[2])[:MOST_GAPS])
     return {
         "name": f"{name}:{r.line}" if several else name,
         "line": r.line if several else None,
@@ -89,20 +89,12 @@ def _describe_record(r: DataTable, name: str, several: bool) -> Json:
         "rate_Hz": None if grid is None else 1 / grid.step,
         "origin": None if r.origin is None else write_instant(r.origin),
         "gap_count": len(gaps),
-        "missing": sum(g["samples"] for g in gaps),
-        "gaps": sorted(longest, key=lambda g: g["from_s"]),
+        "missing": sum(g[2] for g in gaps),
+        "gaps": [dict(zip(("from_s", "to_s", "samples"), g, strict=True)) for g in longest],
         "columns": list(map(_describe_column, r.columns)),
         "notes": notes,
         "refused": refused,
     }
-
-
-def _list_gaps(grid: Grid) -> list[Json]:
-    here, jumps = grid.time[grid.index], np.diff(grid.index)
-    return [
-        {"from_s": float(here[k]), "to_s": float(here[k + 1]), "samples": int(jumps[k] - 1)}
-        for k in np.flatnonzero(jumps > 1)
-    ]
 
 
 def _describe_column(c: DataColumn) -> Json:

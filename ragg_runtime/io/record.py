@@ -9,11 +9,12 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.demodulation import Demodulation
 
 Array = NDArray[np.float64]
@@ -126,30 +127,21 @@ class Flight:
     lacking: Mask | None = None
 
     def __post_init__(self) -> None:
-        time = _read_only(self.time)
-        valid = np.ones(len(time), dtype=np.bool_) if self.valid.size == 0 else self.valid
-        valid = np.asarray(valid, dtype=np.bool_).view()
-        valid.flags.writeable = False
-        set_field = object.__setattr__  # the way of frozen dataclasses to normalise what they are given
-        set_field(self, "time", time)
-        set_field(self, "valid", valid)
-        if self.began is None:
-            set_field(self, "began", float(time[0]) if len(time) else 0.0)
+        changes: dict[str, Any] = {
+            "time": _read_only(self.time),
+            "valid": _read_only(self.valid if self.valid.size else np.ones(len(self.time)), np.bool_),
+            "began": self.began if self.began is not None or not len(self.time) else float(self.time[0]),
+        }
         for group in ("channels", "outputs"):
             columns = {name: _read_only(v) for name, v in getattr(self, group).items()}
-            for name, column in columns.items():
-                if column.shape != time.shape:
-                    what, where = f"{name} differs in length from time", at(self.path, self.name)
-                    raise UserError(what, where=where, found=column.shape, expected=time.shape)
-            set_field(self, group, MappingProxyType(columns))
+            changes[group] = MappingProxyType(columns)
+        own = {n: "rad" for n in self.channels if is_disc_angle(n)} | dict.fromkeys(self.outputs, "V")
         names = ("time", *self.channels, *self.outputs)
-        units = {name: self.units.get(name) or self._unit(name) for name in names}
-        set_field(self, "units", MappingProxyType(units))
-
-    def _unit(self, name: str) -> str:
-        """SI unit of a column: outputs and disc angles have names of the instrument's own."""
-        own = "V" if name in self.outputs else "rad" if is_disc_angle(name) else "1"
-        return SI_UNITS.get(name, own)
+        units = {n: self.units.get(n) or SI_UNITS.get(n, own.get(n, "1")) for n in names}
+        for name, value in (changes | {"units": MappingProxyType(units)}).items():
+            object.__setattr__(
+                self, name, value
+            )  # the way of frozen dataclasses to normalise what they are given
 
     def __repr__(self) -> str:
         columns = " ".join((*self.channels, *self.outputs))
@@ -205,8 +197,8 @@ def left_out(first: float, last: float) -> str:
     return f"left out by hand: {first:g} s to {last:g} s"
 
 
-def _read_only(values: ArrayLike) -> Array:
-    view = np.asarray(values, dtype=np.float64).view()
+def _read_only(values: ArrayLike, kind: type = np.float64) -> NDArray[Any]:
+    view: NDArray[Any] = np.asarray(values, dtype=kind).view()
     view.flags.writeable = False
     return view
 

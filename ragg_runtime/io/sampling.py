@@ -105,6 +105,12 @@ class Grid:
     step: float
     notes: tuple[str, ...]
 
+    @property
+    def gaps(self) -> list[tuple[float, float, int]]:
+        """Last instant before and first after each gap, s, and the samples that are missing between them."""
+        here, jumps = self.time[self.index], np.diff(self.index)
+        return [(float(here[k]), float(here[k + 1]), int(jumps[k] - 1)) for k in np.flatnonzero(jumps > 1)]
+
 
 @np.errstate(over="ignore", invalid="ignore")  # absurd times: what comes of them is refused
 def make_grid(time: Array, path: Path | str | None) -> Grid:
@@ -406,13 +412,10 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
     if len(time) < 2:
         rows = count(len(time), "row")
         raise UserError("too few samples", where=path, found=rows, expected="at least 2, usually thousands")
-    if not np.all(np.isfinite(time)):
-        row = int(np.flatnonzero(~np.isfinite(time))[0])
-        raise UserError("the time is missing", where=where, found=f"row {row + 1}: {time[row]}")
     steps = np.diff(time)
-    if np.all(steps > 0):
-        return
     wrong = np.flatnonzero(~(steps > 0))
+    if not len(wrong):
+        return
     row = int(wrong[0])
     found = f"row {row + 1}: {time[row]:.10g} s, row {row + 2}: {time[row + 1]:.10g} s"
     found += f" (and {len(wrong) - 1} more such places)" if len(wrong) > 1 else ""
@@ -421,42 +424,35 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
         "remove duplicate rows or sort the rows by time; two records need two files; of a clock that was set (to winter time?) give"
         " the times by the sample count",
     )
-    single = _find_single(time)
-    single = None if single is None or single < 1e-3 else single
-    if np.all(steps < 0):
-        what, remedy = "the time runs backwards", "sort the rows by time"
-    elif np.all(steps == 0) and single is None:
-        what = "the time does not increase"
-        remedy = "check the clock or the format in which the time was written"
+    in_order = np.diff(np.sort(time))
+    swapped = np.min(in_order) > 0.5 * np.median(in_order)
+    if np.isnan(time).any():
+        what, remedy = "the time is missing", "check the format in which the time was written"
     elif np.mean(steps == 0) > SHARED:
         what = "the time stamps are too coarse for the sampling rate"
-        found, remedy = _describe_coarse(time, steps, single)
+        found, remedy = _describe_coarse(time, steps)
     elif steps[row] == 0:
         what = "an instant appears twice"
-    elif len(wrong) <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)) and not _is_swapped(time):
+    elif len(wrong) <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)) and not swapped:
         step = _typical_step(steps[steps > 0])
         what = f"the time stamps jump back by {step - steps[row]:.4g} s at t = {time[row]:.10g} s: was the clock adjusted?"
         remedy = _BY_COUNT.format(rate=1 / step)
     raise UserError(what, where=where, found=found, expected="increasing time", remedy=remedy)
 
 
-def _is_swapped(time: Array) -> bool:
-    """Whether rows are in another order."""
-    in_order = np.diff(np.sort(time))
-    return bool(np.min(in_order) > 0.5 * np.median(in_order))
-
-
-def _describe_coarse(time: Array, steps: Array, single: float | None) -> tuple[str, str]:
+def _describe_coarse(time: Array, steps: Array) -> tuple[str, str]:
     """What was found and the remedy where several rows share each stamp: whole seconds, or single precision."""
-    edges = np.flatnonzero(steps != 0) + 1
+    edges, single = np.flatnonzero(steps != 0) + 1, _find_single(time)
     rows = len(time) / (len(edges) + 1)
     found = f"{count(len(edges) + 1, 'different stamp')} in {len(time)} rows, each in about {rows:.4g} rows"
     rate = "rate"
-    if single is not None:
+    if single is not None and single >= 1e-3:
         found += f"; single precision has steps of {single:.3g} s there"
     elif len(edges):
         found += "; they are whole seconds" * np.array_equal(np.rint(time), time)
         rate = f"{rows / float(np.median(steps[edges - 1])):.6g} Hz"
+    else:
+        found += ": the clock stands still"
     return (
         found,
         f"give the times by the rate and the number of the row: time = row / {rate}; no row is duplicated",

@@ -256,7 +256,7 @@ T = np.arange(N) / RATE
         ("\n".join(TEXT.splitlines()[:2]), ("too few samples", "1 row")),
         ("", ("empty",)),
         ("\n\n", ("no header",)),
-        (edited(time=np.full(N, 3.0)), ("does not increase", "3 s")),
+        (edited(time=np.full(N, 3.0)), ("too coarse", "the clock stands still")),
         (edited(time=T[::-1]), ("backwards",)),
         (edited(time=swapped(10, 11)), ("runs back", "row 11", "row 12", "0.6875 s")),
         (edited(time=np.repeat(T[: N // 2], 2)), ("too coarse", "100 different stamps in 200 rows")),
