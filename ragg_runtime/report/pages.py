@@ -58,7 +58,6 @@ def write_comparison(c: Comparison, origin: Origin, frozen: Held | None = None) 
         _with_plots(said[0], panels.plot_blocks(f, lines, envelope=True)),
         *_with_failures(said[1:], c),
         *_figure("Spectrum", panels.plot_spectrum(f, lines), detail=True),
-        *_figure("Measured over model", panels.plot_measured(f, c.residual), detail=True),
         *_figure("Demodulated channels", panels.plot_channels(f, lines), detail=True),
         *_ask_whiteness(f, c.residual),
         *describe_parameters(f),

@@ -27,9 +27,6 @@ FLIGHTS = 4
 MOST_POINTS = 4000
 """Points of a line above which its envelope is drawn instead."""
 
-TURNS, SAMPLES = 5.0, 2000
-"""Turns of the disc that are drawn sample by sample, and samples at most."""
-
 STEPS = 14
 """Latest steps of a history that are drawn."""
 
@@ -131,36 +128,6 @@ def _channel(label: str, time: Array, x: Array) -> Curve:
         return Curve(label, time, x, _role(label), width=0.8)
     e = series.decimate(time, x, np.isfinite(x), MOST_POINTS // 2)
     return Curve(label, e.time, e.low, _role(label), "band", e.high)
-
-
-def plot_measured(f: Fitted, residual: Residuals) -> Curves:
-    """The measured output over the model's: the whole of the worst flight, and a few turns of the disc where it is worst."""
-    (n,) = series.find_worst(f, residual, 1)
-    w = f.prepared[n]
-    r, y = w.observation.record, series.compute_measured(w)
-    edges, rms = series.measure_blocks(w, residual[n], f.scales[n])
-    k, spin = int(np.nanargmax(rms)), abs(r.spin_frequency)
-    count = int(min(SAMPLES, TURNS * r.rate / spin if spin > 0.0 else SAMPLES, len(r.time)))
-    middle = int(np.searchsorted(r.time, 0.5 * (edges[k] + edges[k + 1])))
-    first = min(max(0, middle - count // 2), len(r.time) - count)
-    part = slice(first, first + count)
-    model, window = y - residual[n], (float(r.time[first]), float(r.time[first + count - 1]))
-    wide = [series.decimate(r.time, x, r.valid) for x in (y, model)]
-    whole = (
-        Curve("measured", wide[0].time, wide[0].low, "before", "band", wide[0].high),
-        Curve("model", wide[1].time, wide[1].low, "residual", "outline", wide[1].high),
-    )
-    near = (
-        Curve("measured", r.time[part], np.where(r.valid[part], y[part], np.nan), "before", width=3.2),
-        Curve("model, calibrated", r.time[part], np.where(r.valid[part], model[part], np.nan), width=0.9),
-    )
-    axes = (
-        Axes(whole, "G_out, V", ends=(float(r.time[0]), float(r.time[-1])), frame=window),
-        Axes(near, "G_out, V", ends=window, share=1.2),
-    )
-    name = f" of {w.observation.name}" if len(f.prepared) > 1 else ""
-    caption = f"Above: min-max, the whole record{name}. Below: the window where the error is largest."
-    return Curves("measured", caption, axes, SECONDS, height=1.5)
 
 
 def plot_harmonics(f: Fitted, residuals: Sequence[Array]) -> Bars | None:

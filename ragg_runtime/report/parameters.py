@@ -1,4 +1,4 @@
-"""What a record determines of the calibrated parameters: what it does not see, sees only together, and how they are correlated.
+"""What a record determines of the calibrated parameters: what it does not see, and how they are correlated.
 
 The covariance is read in the combinations of four accelerometers that G_out depends on: Sigma, D^12, D^34, D^1234 (Eq.
 18-19).
@@ -6,11 +6,8 @@ The covariance is read in the combinations of four accelerometers that G_out dep
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 
 from ragg_runtime.compensation.calibrate import LEARNED, count_directions, list_combinations, list_parameters
 from ragg_runtime.estimation.fitted import Fitted
@@ -22,20 +19,13 @@ from ragg_runtime.wording.sections import Matrix, Section, Table
 Array = NDArray[np.float64]
 
 SHARE = 0.03
-"""Squared share of an unseen direction below which a combination is taken not to be part of it."""
+"""Squared share of what is seen below which a direction is taken not to be seen."""
 
 LISTED = 16
 """Pairs that are listed, the most correlated first."""
 
 MOST_LABELS = 24
 """Directions of a matrix of correlations: beyond these nobody reads it."""
-
-
-class Visibility(NamedTuple):
-    """Directions that the record does not see at all, and groups that it sees only together."""
-
-    unseen: tuple[str, ...]
-    groups: tuple[tuple[str, ...], ...]
 
 
 def find_directions(f: Fitted) -> tuple[list[str], Array]:
@@ -59,32 +49,21 @@ def find_directions(f: Fitted) -> tuple[list[str], Array]:
     return names, rows
 
 
-def find_visibility(f: Fitted) -> Visibility:
-    """Which directions of the parameters the record leaves at their prior."""
+def list_unseen(f: Fitted) -> list[str]:
+    """Names of the directions of the parameters that the record leaves at their prior."""
     names, U = find_directions(f)
     variance, vectors = np.linalg.eigh(U @ f.coefficients(())[1] @ U.T)
-    null = vectors[:, variance >= LEARNED**2]
-    P = null @ null.T
-    own_share = np.diag(P)
-    shared = np.flatnonzero((own_share > SHARE) & (own_share <= 1.0 - SHARE))
-    count, label = connected_components(np.abs(P[np.ix_(shared, shared)]) > SHARE, directed=False)
-    return Visibility(
-        unseen=tuple(names[n] for n in np.flatnonzero(own_share > 1.0 - SHARE)),
-        groups=tuple(tuple(names[n] for n in shared[label == k]) for k in range(count)),
-    )
+    share = np.sum(vectors[:, variance >= LEARNED**2] ** 2, axis=1)
+    return [names[n] for n in np.flatnonzero(share > 1.0 - SHARE)]
 
 
 def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...]:
     """What the record determines of the parameters, their ``values``, and their correlations, as folded sections."""
-    v = find_visibility(f)
     seen, total = count_directions(f)
     known = f"{seen} of {total} directions of the calibrated parameters are determined by this record"
     text = [f"{known}; the others stay at their test-sheet values."]
-    if v.unseen:
-        text.append(f"Not observable: {', '.join(v.unseen)}.")
-    if v.groups:
-        groups = "; ".join(numbers.join_names(group) for group in v.groups)
-        text.append(f"Degenerate, only sums or differences are determined: {groups}.")
+    if unseen := list_unseen(f):
+        text.append(f"Not observable: {', '.join(unseen)}.")
     matrix, pairs = correlate_parameters(f)
     strongest = Table(("parameter", "and", "correlation"), tuple(pairs), words=2)
     lists = (list_combinations(f), list_parameters(f)) if values else None

@@ -114,8 +114,6 @@ def _draw_curves(plot: Curves) -> str:
             if x >= MARKS_APART * named:
                 ax.annotate(text, (x, 1.0), xycoords=at, fontsize=9, color=COLOURS["quiet"], **away)
                 named = x
-        if axes.frame is not None:
-            ax.axvspan(*axes.frame, facecolor="none", edgecolor=COLOURS["noise"], linewidth=0.9)
         ax.set_ylabel(axes.y_label)
         labels = ax.get_legend_handles_labels()[1]
         if labels != named_before:
@@ -137,9 +135,7 @@ def _draw_curve(ax: Drawn, c: Curve) -> None:
         ax.plot(c.x, c.y, dashes, color=colour, linewidth=c.width, label=c.name)
     else:
         assert c.high is not None
-        outline: dict[str, Any] = {"facecolor": "none", "edgecolor": colour, "linewidth": 0.6}
-        look = {"color": colour, "linewidth": 0} if c.kind == "band" else outline
-        ax.fill_between(c.x, c.y, c.high, label=c.name, **look)
+        ax.fill_between(c.x, c.y, c.high, label=c.name, color=colour, linewidth=0)
 
 
 def _set_limits(ax: Drawn, axes: Axes) -> None:

@@ -282,16 +282,11 @@ class Session:
         """Undo, redo, or go back to the state after a step of the history."""
         self._idle()
         m = self.state.model
-        past, future = split_history(m.directory.history)
-        if action == "undo" and len(past) > 1:
-            to = past[-2]
-        elif action == "redo" and future:
-            to = future[-1]
-        elif action == "restore" and step is not None and 0 <= step < len(m.directory.history):
-            to = step
-        else:
+        history, known = m.directory.history, Branches(m.directory.history)
+        to = {"undo": known.undo, "redo": known.redo}.get(action, step)
+        if to is None or not 0 <= to < len(history) or not history[to].text:
             raise UserError(f"there is nothing to {action}")
-        self._change(api.change(m, text_of(m.directory.history, to), action, str(to)))
+        self._change(api.change(m, history[to].text, action, str(to)))
 
     def attempt(self, effect: str, add: str, units: Mapping[str, str]) -> None:
         """Try an effect of the user's own: derived and calibrated, but not kept."""
@@ -346,41 +341,38 @@ def list_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Load
 # --- the history as branches ---------------------------------------------------------------------------
 
 
-def text_of(history: Sequence[HistoryStep], step: int) -> str:
-    """model.toml as it was after a step; UserError if that was not kept."""
-    if not history[step].text:
-        raise UserError(
-            "that state was not kept: an older version made the step",
-            found=f"step {step + 1}",
-            remedy="remove effects one by one instead",
-        )
-    return history[step].text
+class Branches:
+    """The steps of a history as a tree of states, each named by the step that made it: undo, redo and going back only move in it."""
 
+    def __init__(self, history: Sequence[HistoryStep]) -> None:
+        self.parents: dict[int, int | None] = {}
+        self.now: int | None = None
+        after: list[int | None] = []
+        for n, s in enumerate(history):
+            if s.action in ("undo", "redo", "restore"):
+                self.now = after[int(s.effect)]
+            elif s.action != "calibrate":  # which leaves the model as it is
+                self.parents[n], self.now = self.now, n
+            after.append(self.now)
 
-def split_history(history: Sequence[HistoryStep]) -> tuple[list[int], list[int]]:
-    """Steps on the present branch, and those that undo has left (nearest last); undo and redo are steps themselves."""
-    past: list[int] = []
-    future: list[int] = []
-    for n, s in enumerate(history):
-        if s.action == "calibrate":
-            continue  # the model stays as it is
-        if s.action == "undo" and len(past) > 1:
-            future.append(past.pop())
-        elif s.action == "redo" and future:
-            past.append(future.pop())
-        else:
-            past.append(n)
-            future.clear()
-    return past, future
+    @property
+    def path(self) -> list[int]:
+        """The steps that lead to the present state."""
+        found, n = [], self.now
+        while n is not None:
+            found.append(n)
+            n = self.parents[n]
+        return found[::-1]
 
+    @property
+    def undo(self) -> int | None:
+        """The state before the present one."""
+        return None if self.now is None else self.parents[self.now]
 
-def trace_history(history: Sequence[HistoryStep]) -> list[int]:
-    """The steps that lead to the present state, without those that were undone or left."""
-    past, _ = split_history(history)
-    back = next((k for k in reversed(range(len(past))) if history[past[k]].action == "restore"), None)
-    if back is None:
-        return past
-    return [*trace_history(history[: int(history[past[back]].effect) + 1]), *past[back + 1 :]]
+    @property
+    def redo(self) -> int | None:
+        """The state that was made of the present one last."""
+        return max((n for n, parent in self.parents.items() if parent == self.now), default=None)
 
 
 # --- jobs ----------------------------------------------------------------------------------------------

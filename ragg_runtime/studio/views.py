@@ -30,7 +30,7 @@ from ragg_runtime.io.record import WIDEST_SPIKE, left_out
 from ragg_runtime.report import pages, panels, parameters
 from ragg_runtime.report.page import Origin
 from ragg_runtime.signals.derivative import runs
-from ragg_runtime.studio.session import State, split_history, trace_history
+from ragg_runtime.studio.session import Branches, State
 from ragg_runtime.wording import describe, describe_other, numbers
 from ragg_runtime.wording.sections import Section, Table
 
@@ -142,10 +142,10 @@ def _tabulate_discs(i: Instrument) -> Table:
 
 def _show_history(m: Loaded) -> Json:
     history = m.directory.history
-    past, future = split_history(history)
-    present = trace_history(history)
+    known = Branches(history)
+    present = known.path
     return {
-        "now": present[-1] if present else None,
+        "now": known.now,
         "steps": [
             {
                 "n": n,
@@ -161,8 +161,8 @@ def _show_history(m: Loaded) -> Json:
             }
             for n, s in enumerate(history)
         ],
-        "can_undo": len(past) > 1 and bool(history[past[-2]].text),
-        "can_redo": bool(future),
+        "can_undo": known.undo is not None,
+        "can_redo": known.redo is not None,
     }
 
 
@@ -170,7 +170,7 @@ def _show_steps(m: Loaded, c: Comparison) -> list[Json]:
     """The error after every step of the present branch, ending with what the flights that are open show now."""
     history = m.directory.history
     bars = panels.list_error_steps(
-        [history[n].as_json() for n in trace_history(history)], c.calibrated.rms_Eo
+        [history[n].as_json() for n in Branches(history).path], c.calibrated.rms_Eo
     )
     return [{"label": b.label, "value": b.value, "kind": "step" if b.strong else "start"} for b in bars]
 
@@ -390,7 +390,7 @@ def commands(s: State) -> list[str]:
 def _list_done(s: State, model: str, flights: str) -> list[str]:
     """The steps of the present branch, as comments."""
     history, known, found = s.model.directory.history, {x.name for x in s.flights}, []
-    for step in (history[n] for n in trace_history(history)):
+    for step in (history[n] for n in Branches(history).path):
         if step.action in ("add", "remove"):
             on = f" {flights if set(step.flights) <= known else 'FLIGHTS'}" if step.flights else ""
             found.append(f"# done: ragg {step.action} {model} {shlex.quote(step.effect)}{on}")
@@ -423,7 +423,7 @@ def _make_origin(s: State, command: str) -> Origin:
 def _write_steps(s: State) -> str:
     before, after = s.require("previous"), s.require("compared")
     history = s.model.directory.history
-    steps = [history[n].as_json() for n in split_history(history)[0]]
+    steps = [history[n].as_json() for n in Branches(history).path]
     return pages.write_addition(steps, before, after, _make_origin(s, "history"), s.diagnosed)
 
 

@@ -49,14 +49,14 @@ class Curve:
     x: Array
     y: Array
     role: Literal["residual", "envelope", "before", "noise"] = "residual"
-    kind: Literal["line", "steps", "band", "outline"] = "line"
+    kind: Literal["line", "steps", "band"] = "line"
     high: Array | None = None
     width: float = 1.2
 
 
 @dataclass(frozen=True)
 class Axes:
-    """Curves over one abscissa; ``level``: one standard deviation of noise; ``marks``: abscissae with a text; ``frame``: a window."""
+    """Curves over one abscissa; ``level``: one standard deviation of noise; ``marks``: abscissae with a text."""
 
     curves: tuple[Curve, ...]
     y_label: str
@@ -66,7 +66,6 @@ class Axes:
     signed: bool = True
     log: bool = False
     marks: tuple[tuple[float, str], ...] = ()
-    frame: tuple[float, float] | None = None
     share: float = 1.0
 
 

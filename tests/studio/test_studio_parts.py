@@ -30,7 +30,7 @@ from ragg_runtime.studio import mapping, session, views
 from ragg_runtime.studio.files import Places
 from ragg_runtime.studio.routes import ACTIONS
 from ragg_runtime.studio.series import HEAD, sample
-from ragg_runtime.studio.session import Session, split_history, trace_history
+from ragg_runtime.studio.session import Branches, Session
 from ragg_runtime.studio.views import find_missing, mathml
 from ragg_runtime.wording import numbers
 from tests.layouts import sheets
@@ -102,23 +102,29 @@ def test_a_window_of_a_series_loses_no_extreme_and_no_gap() -> None:
 
 
 def test_undo_and_redo_walk_along_a_branch() -> None:
-    actions = ["new", "add", "add", "undo", "undo", "redo", "edit", "undo", "redo"]
-    steps = [HistoryStep(a, "2026-01-01", text=str(n)) for n, a in enumerate(actions)]
-    assert split_history(steps[:3]) == ([0, 1, 2], [])
-    assert split_history(steps[:5]) == ([0], [2, 1])
-    assert split_history(steps[:6]) == ([0, 1], [2])
-    assert split_history(steps[:7]) == ([0, 1, 6], [])
-    assert split_history(steps[:8]) == ([0, 1], [6])
-    assert split_history(steps) == ([0, 1, 6], [])
-    kept = [*steps[:2], HistoryStep("calibrate", "2026-01-01")]  # leaves the model as it is
-    assert split_history([*kept, HistoryStep("undo", "2026-01-01", "0", text="0")]) == ([0], [1])
-    went = [
-        *steps[:4],
-        HistoryStep("add", "2026-01-01", text="4"),
-        HistoryStep("restore", "2026-01-01", "2", text="2"),
+    made = [
+        ("new", ""),
+        ("add", "lag"),
+        ("add", "time-offset"),
+        ("undo", "1"),
+        ("undo", "0"),
+        ("redo", "1"),
+        ("edit", ""),
     ]
-    assert trace_history(went[:5]) == [0, 1, 4]
-    assert trace_history(went) == [0, 1, 2]  # what is shown is the state after step 2
+    made += [("undo", "1"), ("redo", "6"), ("calibrate", ""), ("restore", "2")]
+    steps = [HistoryStep(action, "2026-01-01", effect, text="x") for action, effect in made]
+
+    def state(count: int) -> tuple[list[int], int | None, int | None]:
+        b = Branches(steps[:count])
+        return b.path, b.undo, b.redo
+
+    assert state(3) == ([0, 1, 2], 1, None)
+    assert state(5) == ([0], None, 1)
+    assert state(6) == ([0, 1], 0, 2)
+    assert state(7) == ([0, 1, 6], 1, None)
+    assert state(8) == ([0, 1], 0, 6)
+    assert state(10) == ([0, 1, 6], 1, None)
+    assert state(11) == ([0, 1, 2], 1, None)  # what is shown is the state after step 2
 
 
 def test_a_timeline_shows_gaps_and_lone_samples() -> None:
