@@ -12,6 +12,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -84,7 +85,8 @@ def contenders(p: NDArray[np.float64]) -> dict[str, Rival]:
     """Name -> (t, inputs, out) -> anything; heyoka only where it is installed."""
     from ragg_runtime.model.model import load_packaged
 
-    compiled, blocks = load_packaged().compiled(), load_packaged().compiled(native=False)
+    compiled = load_packaged().chain
+    blocks = replace(compiled, sources={})
     found: dict[str, Rival] = {
         # which allocate what they return, as for users
         OURS: lambda t, x, out: compiled.output(t, x, p),

@@ -523,7 +523,7 @@ def contents(m: Loaded) -> Contents:
             of = f"calibrated {saved.time} on {', '.join(saved.flights)}"
         except UserError as error:
             of = f"values of model.toml: {error.what}"
-    folded = {n: text for n, text in m.model.sources.items() if n.startswith("folded")}
+    folded = {n: text for n, text in m.model.chain.sources.items() if n.startswith("folded")}
     if not m.instrument.layout.like_paper:  # of a single accelerometer a volt has few digits: then bit by bit
         folded = {}
     return Contents(

@@ -154,7 +154,7 @@ class OutputChannel(ModelledOutput):
         o, count = self.observation, len(r.time) // few
         J = np.zeros((len(self.columns), len(o.series), len(r.time)))
         where, p = (r.time, x, r.phi), self.about - moved
-        put_derivatives(J, self.model.evaluators("chain"), self.columns, where, p, o.recorded, o.output)
+        put_derivatives(J, self.model.chain, self.columns, where, p, o.recorded, o.output)
         mixer = np.stack([self.mixer[rows].real, self.mixer[rows].imag]).reshape(2, count, few) / few
         return np.asarray(np.einsum("wcf,ncf->nwc", mixer, combine_output(o, J).reshape(len(J), count, few)))
 

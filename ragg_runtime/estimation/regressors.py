@@ -15,8 +15,8 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Output
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
+from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.evaluate import evaluate_voltages, find_unit_factor
-from ragg_runtime.model.evaluator import Evaluator, find_places
 from ragg_runtime.model.memory import add_responses, first_memories, move_record
 from ragg_runtime.model.model import DerivedEffect, Model
 from ragg_runtime.model.record import Record, list_channels
@@ -63,7 +63,7 @@ def list_base_columns(model: Model, instrument: Instrument) -> list[tuple[Column
     """The calibratable parameters of the model, each with its index in the parameter vector."""
     known = units(instrument.g0)
     found: list[tuple[Column, int]] = []
-    start = {name: place.start for name, place in find_places(model.chain).items()}
+    start = {name: place.start for name, place in model.chain.places.items()}
     places = instrument.layout.names
     for q in PARAMETERS:
         if q.name in UNOBSERVABLE or q.name in instrument.fixed:
@@ -234,21 +234,21 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
     ``residual`` (m, N): that of a thinned observation, where it is known already.
     """
     r, p = move_record(at.model, o.record, at.p)
-    V = _evaluate_voltages(at, o, r, p)
+    V = evaluate_voltages(at.model.chain, r, p, o.output)
     if r.reading is not None:  # in a column of what was read the noise would explain itself
         r = replace(r, reading=np.pad(o.output.combined(V), r.halo, mode="edge"))
     n_base = len(at.base)
     columns = np.zeros((n_base + len(at.candidates) + 1, len(o.series), len(r.time)))
-    chain = at.model.evaluators("chain")
-    where = (r.time, r.inputs(chain.chain), r.phi)
+    chain = at.model.chain
+    where = (r.time, r.inputs(chain), r.phi)
     put_derivatives(columns, chain, at.base, where, p, o.recorded, o.output)
     if at.candidates:
         searched = (m for _, m in first_memories((e for e in at.model.candidates if e.searched), r))
-        r = add_responses(r, searched, at.model.signatures.INPUTS)
-        q = np.concatenate([p, np.zeros(at.model.signatures.SIZE - len(p))])
-        module = at.model.evaluators("signatures")
-        where = (r.time, r.inputs(module.chain), r.phi)
-        put_derivatives(columns[n_base:], module, at.candidates, where, q, o.recorded, o.output)
+        signatures = at.model.signatures
+        r = add_responses(r, searched, signatures.INPUTS)
+        q = np.concatenate([p, np.zeros(signatures.SIZE - len(p))])
+        where = (r.time, r.inputs(signatures), r.phi)
+        put_derivatives(columns[n_base:], signatures, at.candidates, where, q, o.recorded, o.output)
     for column in columns[:-1] if o.recorded.demodulated else ():
         column[:] = o.recorded.through(column, r)
     if o.thin is None:
@@ -266,7 +266,7 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
 
 def put_derivatives(
     columns: Array,
-    e: Evaluator,
+    chain: Chain,
     parameters: Sequence[Column],
     at: tuple[Array, Array, Array],
     p: Array,
@@ -279,7 +279,7 @@ def put_derivatives(
     derivative is times its parameter's scale.
     """
     time, x, phi = at
-    row = {name: k for k, (name, _) in enumerate(e.chain.ROWS)}
+    row = {name: k for k, (name, _) in enumerate(chain.ROWS)}
     for k, (j, sign) in enumerate(zip(output.members, output.signs, strict=True)):
         series, weight = (k, 1) if recorded.separate else (0, sign)
         own = [
@@ -288,15 +288,9 @@ def put_derivatives(
             if c.accelerometer in (None, j + 1)
         ]
         for some in split_range(len(time), CACHED):
-            slopes = e.derivatives(j, time[some], x[:, some], p, phi[some])
+            slopes = chain.derivatives(j, time[some], x[:, some], p, phi[some])
             for n, of, scale in own:
                 columns[n, series, some] += scale * slopes[of]
-
-
-def _evaluate_voltages(at: LinearisationPoint, o: Observation, r: Record, p: Array) -> Array:
-    """Those of the output's accelerometers, (members, N), V."""
-    x = r.inputs(at.model.chain)
-    return at.model.evaluators("chain").voltages(r.time, x, p, r.phi, o.output.members)
 
 
 def thin_residual(at: LinearisationPoint, thin: Thin) -> Array:
@@ -308,5 +302,5 @@ def thin_residual(at: LinearisationPoint, thin: Thin) -> Array:
 def compute_residual(at: LinearisationPoint, o: Observation) -> Array:
     """Residual (m, N), V, at a point; between its neighbours where a sample is not valid."""
     r, p = move_record(at.model, o.record, at.p)
-    left = o.data - observe_voltages(o, _evaluate_voltages(at, o, r, p))
+    left = o.data - observe_voltages(o, evaluate_voltages(at.model.chain, r, p, o.output))
     return np.stack([bridge_gaps(x, r.valid) for x in left])

@@ -18,9 +18,8 @@ from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.evaluate import scale_factor
-from ragg_runtime.model.evaluator import Evaluator
 from ragg_runtime.model.memory import move_record
-from ragg_runtime.model.model import MANY, Model
+from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.tensor import spread_across
@@ -54,10 +53,6 @@ class ModelledOutput:
     about: Array
     blocks: tuple[Block, ...]
     demodulator: Demodulator
-
-    @cached_property
-    def evaluator(self) -> Evaluator:
-        return self.model.compiled(len(self.observation.record.time) >= MANY)
 
     def find_scale_factor(self, p: Array) -> float:
         """V/Eo, by parameters p (size,), SI."""
@@ -99,7 +94,7 @@ class ModelledOutput:
             for some in split_range(b.rows.stop - b.rows.start, ROWS):
                 rows = slice(b.rows.start + some.start, b.rows.start + some.stop)
                 r, x, moved = self.make_inputs(rows, gradient)
-                G[rows] = self.evaluator.output(r.time, x, b.p - moved, r.phi, which=self.observation.place)
+                G[rows] = self.model.chain.output(r.time, x, b.p - moved, r.phi, which=self.observation.place)
         return G
 
     def demodulate(self, e: Array) -> Complex:

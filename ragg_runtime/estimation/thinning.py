@@ -132,10 +132,9 @@ def _open(model: Model, instrument: Instrument, o: Observation) -> NDArray[np.bo
     found = np.zeros(len(r.time), dtype=np.bool_)
     for j in o.output.members:
         own = [c for c in base if c.accelerometer == j + 1]
-        case = (j, r.time, r.cos_phi, r.sin_phi, x, chain.values_of(j, p))
-        slopes = chain.derivatives(*case)
+        slopes = chain.derivatives(j, r.time, x, p, r.phi)
         variance = sum((slopes[rows[c.name]] * c.scale) ** 2 for c in own)
-        found |= chain.accelerometer(*case) ** 2 < OPEN**2 * variance
+        found |= chain.voltages(r.time, x, p, r.phi, (j,))[0] ** 2 < OPEN**2 * variance
     return found
 
 

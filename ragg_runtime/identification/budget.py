@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.evaluate import find_unit_factor
-from ragg_runtime.model.evaluator import find_places
 from ragg_runtime.model.model import Model
 from ragg_runtime.wording import numbers
 
@@ -31,7 +30,7 @@ class ParameterGroup:
 
 def list_groups(model: Model, instrument: Instrument, p: Array) -> list[ParameterGroup]:
     """The groups of the parameters p (size,) of which something is there: of accelerometers, then of each effect."""
-    places = find_places(model.chain)
+    places = model.chain.places
     found = []
     for q in (q for q in PARAMETERS if q.name in places):
         without = p.copy()

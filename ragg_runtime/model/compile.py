@@ -20,6 +20,7 @@ import tempfile
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import platformdirs
 
@@ -60,45 +61,36 @@ def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool
     if library.exists():
         return library
     command += ["-o", "library.so", *(n for n in sorted(sources) if n.endswith(".c")), "-lm"]
+    said = ""
     try:
         with tempfile.TemporaryDirectory(prefix=".", dir=place) as work:
             for name, content in sources.items():
                 (Path(work) / name).write_text(content, "utf-8")
-            errors = []
             for options in FOR_PROCESSOR:
-                error = _compile([*command, *options], Path(work))
-                if error is None:
+                with (Path(work) / "said").open(
+                    "w+", errors="replace"
+                ) as told:  # a child that hangs would keep a pipe open
+                    io: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": told, "stderr": told}
+                    done = subprocess.run([*command, *options], cwd=work, timeout=PATIENCE, check=False, **io)
+                    told.seek(0)
+                    said = said or next((line for line in told if "error" in line), "")
+                if done.returncode == 0:
                     os.replace(Path(work) / "library.so", library)
                     return library
-                errors.append(error)
+    except subprocess.TimeoutExpired:
+        raise BuildError(f"the C compiler {command[0]} does not answer within {PATIENCE:g} s") from None
     except OSError as refused:
         raise BuildError(f"{command[0]} or the cache {place} cannot be used: {refused.strerror}") from None
-    raise BuildError(f"the C compiler {command[0]} fails: {errors[0] or 'without a message'}")
+    raise BuildError(f"the C compiler {command[0]} fails: {said.strip() or 'without a message'}")
 
 
-def _compile(command: list[str], work: Path) -> str | None:
-    """``None`` once it is done, else the compiler's first error."""
-    with (work / "said").open("w+", errors="replace") as said:  # a child that hangs would keep a pipe open
-        try:
-            done = subprocess.run(
-                command,
-                cwd=work,
-                stdin=subprocess.DEVNULL,
-                stdout=said,
-                stderr=said,
-                timeout=PATIENCE,
-                check=False,
-            )
-        except subprocess.TimeoutExpired:
-            raise BuildError(f"the C compiler {command[0]} does not answer within {PATIENCE:g} s") from None
-        said.seek(0)
-        return None if done.returncode == 0 else next((line.strip() for line in said if "error" in line), "")
+def is_off() -> bool:
+    """Whether nothing is to be compiled."""
+    return os.environ.get(VARIABLE, "").lower() in ("off", "0", "none")
 
 
 def find_compiler() -> list[str]:
     """The C compiler as the beginning of a command; BuildError if there is none."""
-    if os.environ.get(VARIABLE, "").lower() in ("off", "0", "none"):
-        raise BuildError(f"{VARIABLE} is {os.environ[VARIABLE]}")
     try:
         named = shlex.split(os.environ.get("CC", ""))
     except ValueError as error:

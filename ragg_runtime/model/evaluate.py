@@ -1,4 +1,4 @@
-"""A model over a record: parameter vectors, output voltages in NumPy, scale factors."""
+"""A model over a record: parameter vectors, output voltages, scale factors."""
 
 from __future__ import annotations
 
@@ -10,23 +10,20 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import at, check_keys
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
-from ragg_runtime.instrument.units import EOTVOS, Units, units
-from ragg_runtime.model.evaluator import ChainModule, find_places
+from ragg_runtime.instrument.units import EOTVOS, Units
+from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]
 
 
-def evaluate_voltages(chain: ChainModule, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
+def evaluate_voltages(chain: Chain, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
     """V_j of the accelerometers of an output, (members, N), V."""
-    x = r.inputs(chain)
-    return np.stack(
-        [chain.accelerometer(j, r.time, r.cos_phi, r.sin_phi, x, chain.values_of(j, p)) for j in o.members]
-    )
+    return chain.voltages(r.time, r.inputs(chain), p, r.phi, o.members)
 
 
-def evaluate_output(chain: ChainModule, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
+def evaluate_output(chain: Chain, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
     """An output, (N,), V (Eq. 15)."""
     return o.combined(evaluate_voltages(chain, r, p, o))
 
@@ -38,9 +35,9 @@ def scale_factor(model: Model, p: Array, output: int = 0) -> float:
     return scale(model.layout.outputs[output], k1, R) * EOTVOS
 
 
-def name_values(chain: ChainModule, p: Array) -> dict[str, Array]:
+def name_values(chain: Chain, p: Array) -> dict[str, Array]:
     """A parameter vector as name -> values (one or four)."""
-    return {name: p[place] for name, place in find_places(chain).items()}
+    return {name: p[place] for name, place in chain.places.items()}
 
 
 def make_vector(model: Model, instrument: Instrument) -> Array:
@@ -48,27 +45,21 @@ def make_vector(model: Model, instrument: Instrument) -> Array:
 
     UserError if model.toml gives an effect a parameter that it does not have, or one of a wrong dimension.
     """
-    known = units(instrument.g0)
-    layout = instrument.layout
-    discs = [layout.discs[q.disc] for q in layout.places]
-    values: dict[str, Array] = {
-        "radius": instrument.radii,
-        "spin_frequency": np.array([d.spin_frequency for d in discs]),
-    }
+    known, layout = instrument.units, instrument.layout
+    spins = np.array([layout.discs[q.disc].spin_frequency for q in layout.places])
+    values = {"radius": instrument.radii, "spin_frequency": spins}
     if layout.like_paper:  # one value each
         values = {name: v[:1] for name, v in values.items()}
-    values |= {k: np.asarray(v, dtype=float) for k, v in instrument.accelerometers.items()}
+    values |= instrument.accelerometers
     for e in model.effects:
         setting = instrument.effect(e.id) or EffectSetting(e.id)
         where = None if instrument.path is None else str(instrument.path)
         check_keys(setting.values, [q.name for q in e.parameters], at(where, "effects", e.id))
         for q in e.parameters:
-            size = 1 if q.shared else layout.size
-            si = known.base_unit(q.unit)
+            size, si = 1 if q.shared else layout.size, known.base_unit(q.unit)
             given = setting.si(q.name, si, known.g0, shared=q.shared, where=where, count=size)
-            values[q.symbol] = (
-                np.full(size, q.default * find_unit_factor(q.unit, known)) if given is None else given
-            )
+            neutral = np.full(size, q.default * find_unit_factor(q.unit, known))
+            values[q.symbol] = neutral if given is None else given
     return np.concatenate([values[name] for name, _ in model.chain.PARAMETERS])
 
 

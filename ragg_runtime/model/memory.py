@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 from scipy.interpolate import make_interp_spline
 
-from ragg_runtime.model.evaluator import find_places
 from ragg_runtime.model.model import DerivedEffect, DerivedParameter, Model
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.derivative import bridge_gaps
@@ -83,7 +82,7 @@ class Memory:
 
 def list_memories(model: Model, p: Array) -> Iterator[Memory]:
     """Those of a model's effects, by the parameters p (size,), SI."""
-    places = find_places(model.chain)
+    places = model.chain.places
     for e in (e for e in model.effects if e.memory is not None):
         shape = (q for q in e.parameters if q.shape)
         yield Memory(
@@ -235,7 +234,7 @@ def move_record(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
     """
     rest, memories = p.copy(), [*list_memories(model, p)]
     if memories:
-        r, places = add_responses(r, memories, model.chain.INPUTS), find_places(model.chain)
+        r, places = add_responses(r, memories, model.chain.INPUTS), model.chain.places
         for q in (q for e in model.effects if e.memory for q in e.parameters if q.shape):
             rest[places[q.symbol]] = q.neutral
     moves: dict[str, tuple[float, float]] = {}
@@ -252,5 +251,5 @@ def move_record(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
 def list_late(model: Model) -> Iterator[tuple[int, DerivedParameter]]:
     """Parameters of a model that make motion late, each with its place in the parameter vector."""
     found = [q for e in model.effects for q in e.parameters if q.late]
-    places = find_places(model.chain) if found else {}
+    places = model.chain.places if found else {}
     yield from sorted(((places[q.symbol].start, q) for q in found), key=lambda x: x[0])

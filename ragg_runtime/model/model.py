@@ -5,9 +5,9 @@ from __future__ import annotations
 import importlib
 import json
 import sys
-from collections.abc import Callable, Container, Mapping
-from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from collections.abc import Container, Mapping
+from dataclasses import dataclass, field
+from functools import cache
 from importlib import resources
 from types import ModuleType
 from typing import Any, Protocol, cast
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.layout import PAPER, Layout
-from ragg_runtime.model.evaluator import ChainModule, Evaluator, make_evaluator
+from ragg_runtime.model.chain import Chain, ChainModule
 
 Array = NDArray[np.float64]
 
@@ -100,29 +100,25 @@ def list_missing_channels(e: Any, recorded: Container[str]) -> tuple[str, ...]:
     return () if e.either and len(missing) < len(e.channels) else missing
 
 
-MANY = 200_000
-"""Samples from which the voltages of a model are worth half a second of compiling."""
-
-
 @dataclass(frozen=True)
 class Model:
     """A derived model.
 
-    ``effects``: in the model beyond the paper's instrument; ``candidates``: not in it, with ``signatures``. ``chain``,
-    ``signatures``, ``folded``: generated modules. ``c``: their C, file name -> text. ``layout``: whose accelerometers the
-    chain is. ``own_recognisers``: of a model directory's effects, by id. ``lasting``: it comes with the program.
+    ``effects``: in the model beyond the paper's instrument; ``candidates``: not in it, with ``signatures``. ``own_recognisers``: of
+    effects of the user's own, by id.
     """
 
     effects: tuple[DerivedEffect, ...]
     candidates: tuple[DerivedEffect, ...]
-    chain: ChainModule
-    signatures: ChainModule
+    chain: Chain
+    signatures: Chain
     digest: str
-    c: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
-    folded: ModuleType | None = field(default=None, repr=False, compare=False)
-    layout: Layout = PAPER
-    lasting: bool = field(default=False, compare=False)
-    own_recognisers: Mapping[str, Recogniser] = field(default_factory=dict, repr=False, compare=False)
+    own_recognisers: Mapping[str, Recogniser] = field(default_factory=dict, repr=False)
+
+    @property
+    def layout(self) -> Layout:
+        """Whose accelerometers the chain is."""
+        return self.chain.layout
 
     @property
     def recognisers(self) -> Mapping[str, Recogniser]:
@@ -132,29 +128,6 @@ class Model:
         every = {**cast(Mapping[str, Recogniser], RECOGNISERS), **self.own_recognisers}
         return {i: every[i] for i in sorted(e.id for e in self.candidates if e.kind == "output")}
 
-    @property
-    def sources(self) -> Mapping[str, str]:
-        """The C of the model itself, without that of the candidates."""
-        return {name: text for name, text in self.c.items() if not name.startswith("signatures")}
-
-    @cached_property
-    def evaluators(self) -> Callable[[str], Evaluator]:
-        """``chain`` and ``signatures``, as fits evaluate them."""
-
-        @cache
-        def compiled(name: str) -> Evaluator:
-            own = {n: text for n, text in self.c.items() if n.partition(".")[0] == name}
-            # what comes with the program is compiled once for all flights, a derived model for one fit
-            return make_evaluator(
-                getattr(self, name), self.layout, own, name, quick=not self.lasting, quiet=True
-            )
-
-        return compiled
-
-    def compiled(self, native: bool = True) -> Evaluator:
-        """The model as machine code, compiled on first use; in NumPy where it is not to be, or, with a note, cannot be."""
-        return make_evaluator(self.chain, self.layout, self.sources, native=native, folded=self.folded)
-
     def effect(self, identifier: str) -> DerivedEffect | None:
         """The effect of this id, in the model or not; ``None`` if unknown."""
         return next((e for e in (*self.effects, *self.candidates) if e.id == identifier), None)
@@ -162,21 +135,17 @@ class Model:
 
 def load_packaged(kinematics: str = "platform") -> Model:
     """The model of the paper, without further effects, as derived and committed; or that of full kinematics."""
-    return _load_once(kinematics)  # one model, whether the default is spelt out or not
+    return _load("generated" if kinematics == "platform" else "generated.full")
 
 
 @cache
-def _load_once(kinematics: str) -> Model:
-    package = importlib.import_module("generated" if kinematics == "platform" else "generated.full")
+def _load(package: str) -> Model:
     root = resources.files(package)
-    manifest = json.loads(root.joinpath("manifest.json").read_text("utf-8"))
-
-    chain, folded, signatures = (
-        importlib.import_module(f"{package.__name__}.{n}") for n in ("chain", "folded", "signatures")
-    )
-    names = (f"{n}.{kind}" for n in ("chain", "folded", "signatures") for kind in ("c", "h"))
-    c = {name: root.joinpath("c", name).read_text("utf-8") for name in names}
-    return replace(_model(manifest, chain, signatures), c=c, folded=folded, lasting=True)
+    names = ("chain", "folded", "signatures")
+    modules = {n: importlib.import_module(f"{package}.{n}") for n in names}
+    c = {f"{n}.{kind}": root.joinpath("c", f"{n}.{kind}").read_text("utf-8") for n in names for kind in "ch"}
+    # compiled once for all flights, a derived model for one fit
+    return _model(json.loads(root.joinpath("manifest.json").read_text("utf-8")), modules, c, quick=False)
 
 
 def load_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
@@ -194,26 +163,38 @@ def load_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
         sys.modules[module.__name__] = module
         exec(compile(files[name], f"<derived/{name}>", "exec"), module.__dict__)
         modules[stem] = module
-    own = {
-        stem.partition("/")[2].replace("_", "-"): cast(Recogniser, module)
-        for stem, module in modules.items()
-        if "/" in stem
-    }
     c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith(("c/", "fits/"))}
-    model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"))
-    return replace(model, c=c, folded=modules.get("folded"), layout=layout, own_recognisers=own)
+    return _model(json.loads(files["manifest.json"]), modules, c, layout)
 
 
-def _model(manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleType | None) -> Model:
-    effects = tuple(_effect(e) for e in manifest["catalogue"])
-    present = list(manifest["effects"])
-    by_id = {e.id: e for e in effects}
+def _model(
+    manifest: Mapping[str, Any],
+    modules: Mapping[str, ModuleType],
+    c: Mapping[str, str],
+    layout: Layout = PAPER,
+    *,
+    quick: bool = True,
+) -> Model:
+    effects = {e["id"]: _effect(e) for e in manifest["catalogue"]}
+    present = manifest["effects"]
+
+    def chain(name: str) -> Chain:
+        own = {n: text for n, text in c.items() if n.startswith("signatures.") == (name == "signatures")}
+        module = cast(ChainModule, modules[name])
+        return Chain(module, layout, name, own, quick, modules.get("folded") if name == "chain" else None)
+
+    searched = "signatures" in modules
     return Model(
-        effects=tuple(by_id[i] for i in present),
-        candidates=tuple(e for e in effects if e.id not in present) if signatures is not None else (),
-        chain=cast(ChainModule, chain),
-        signatures=cast(ChainModule, signatures or chain),
+        effects=tuple(effects[i] for i in present),
+        candidates=tuple(e for i, e in effects.items() if i not in present) if searched else (),
+        chain=chain("chain"),
+        signatures=chain("signatures" if searched else "chain"),
         digest=manifest["digest"],
+        own_recognisers={
+            stem.partition("/")[2].replace("_", "-"): cast(Recogniser, module)
+            for stem, module in modules.items()
+            if "/" in stem
+        },
     )
 
 

@@ -16,7 +16,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout, Vector3, gain
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import RATES, SPECIFIC_FORCE
-from ragg_runtime.model.evaluator import ChainModule
+from ragg_runtime.model.chain import Chain
 from ragg_runtime.signals import demodulators
 from ragg_runtime.signals.demodulators import CUTOFF, Demodulator
 from ragg_runtime.signals.derivative import (
@@ -150,8 +150,8 @@ class Record:
         late = (time - time[0]) * self.rate - np.arange(len(time)) if len(time) else time
         return late if np.max(np.abs(late), initial=0.0) > EVEN else None
 
-    def inputs(self, chain: ChainModule) -> Array:
-        """(n_inputs, N) in the order of the module's INPUTS; channels that were not recorded are zero."""
+    def inputs(self, chain: Chain) -> Array:
+        """(n_inputs, N) in the order of the chain's INPUTS; channels that were not recorded are zero."""
         x = np.zeros((len(chain.INPUTS), len(self.time)))
         for n, name in enumerate(chain.INPUTS):
             series = self.series(name)

@@ -156,11 +156,11 @@ def linearise(rows: Rows) -> tuple[Array, Array]:
     output less the model at the sheet's values, (m, rows), Eo, of those of the rows that are fitted.
     """
     s, o, x = rows.sampler, rows.sampler.output, rows.inputs
-    p, evaluator = make_vector(s.model, s.instrument), s.model.evaluators("chain")
-    nominal = s.recorded.of_voltages(o, evaluator.voltages(rows.time, x, p, rows.phi, o.members))
+    p, chain = make_vector(s.model, s.instrument), s.model.chain
+    nominal = s.recorded.of_voltages(o, chain.voltages(rows.time, x, p, rows.phi, o.members))
     own = [c for c, _ in list_columns(s)]
     columns = np.zeros((len(own), *nominal.shape))
-    put_derivatives(columns, evaluator, own, (rows.time, x, rows.phi), p, s.recorded, o)
+    put_derivatives(columns, chain, own, (rows.time, x, rows.phi), p, s.recorded, o)
     eotvos = scale_factor(s.model, p, s.place)
     gradient = () if rows.gradient_recorded else (_make_gradient(rows),)
     X, y = rows.seen(np.concatenate([columns / eotvos, *gradient])), rows.data - rows.seen(nominal)

@@ -150,7 +150,7 @@ def smooth_noisy_motion(s: Sampler) -> Flight:
 
 def _compare(p: Array, one: Sampler, other: Sampler) -> float:
     """Eo rms: how far apart the outputs of a model with parameters ``p`` are at the rows of two flights."""
-    evaluate = one.model.compiled(native=False).output
+    evaluate = one.model.chain.output
     first, second = (
         evaluate(r.time, r.inputs, p, r.phi, which=one.place) for r in (one.take(), other.take())
     )

@@ -16,7 +16,7 @@ from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import Flag
 from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, find_clock_steps, fit_even_clock
 from ragg_runtime.model.evaluate import scale_factor
-from ragg_runtime.model.model import MANY, Model
+from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import EVEN
 from ragg_runtime.model.recorded import find_recorded
 from ragg_runtime.screening import checks
@@ -227,14 +227,13 @@ def _without_output_spikes(s: Sampler) -> Flight:
 def _residual(s: Sampler, p: Array) -> Array:
     """(columns, N) Eo: what a model with these parameters leaves of the output."""
     size = len(s.flight)
-    evaluator = s.model.compiled(size >= MANY)
     left = np.empty((len(s.columns), size))
     for part in split_range(size, CHUNK):
         rows = s.take(np.arange(part.start, part.stop))
         at = (rows.time, rows.inputs, p, rows.phi)
         if s.recorded.separate:
-            predicted = evaluator.voltages(*at, s.output.members)
+            predicted = s.model.chain.voltages(*at, s.output.members)
         else:
-            predicted = evaluator.output(*at, which=s.place)[None]
+            predicted = s.model.chain.output(*at, which=s.place)[None]
         left[:, part] = rows.data - predicted
     return left / scale_factor(s.model, p, s.place)

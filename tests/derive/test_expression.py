@@ -135,11 +135,7 @@ def drawn(m: Model, seed: int = 3) -> tuple[dict[str, Array], Array, Array]:
 
 def evaluated(m: Model, inputs: dict[str, Array], p: Array, t: Array) -> Array:
     """V_j, (4, N)."""
-    phi = 2 * np.pi * p[1] * t
-    x = np.stack([inputs[n] for n in m.chain.INPUTS])
-    return np.stack([
-        m.chain.accelerometer(j, t, np.cos(phi), np.sin(phi), x, m.chain.values_of(j, p)) for j in range(4)
-    ])  # fmt: skip
+    return m.chain.voltages(t, [inputs[n] for n in m.chain.INPUTS], p, 2 * np.pi * p[1] * t)
 
 
 @cache

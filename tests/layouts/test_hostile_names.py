@@ -161,8 +161,8 @@ def test_names_that_are_words_of_c_and_python_work_beside_each_other() -> None:
     assert {*channels} < {*m.chain.INPUTS}
     inputs = [np.array([channels.get(n, 0.0)]) for n in m.chain.INPUTS]
     expected = 1.0 + 2e2 + 3e4 + 4e6 + 5e8 + 5e10
-    for native in (False, True):
-        assert m.compiled(native).voltages(t, inputs, p)[0, 0] == expected
+    for chain in (m.chain, replace(m.chain, sources={})):
+        assert chain.voltages(t, inputs, p)[0, 0] == expected
 
 
 def test_an_instrument_of_such_names_is_exported(tmp_path: Path) -> None:

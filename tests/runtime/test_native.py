@@ -15,13 +15,12 @@ from derive.effects import catalogue
 from derive.pipeline import derive_model
 from ragg_runtime.estimation import observation
 from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
+from ragg_runtime.model.chain import _say_once
 from ragg_runtime.model.compile import BuildError, build, find_compiler, load
 from ragg_runtime.model.evaluate import make_vector
-from ragg_runtime.model.evaluator import Evaluator, NativeWarning, _warn_once
 from ragg_runtime.model.model import load_files, load_packaged
 from ragg_runtime.reference.scenario import scenario
 from tests.generated import draws
-from tests.generated.draws import Array
 
 needs_compiler = pytest.mark.skipif(
     not any(shutil.which(c) for c in ("cc", "gcc", "clang")), reason="no C compiler is installed"
@@ -32,32 +31,22 @@ LENGTH = 3 * 4096 + 77
 @pytest.fixture(autouse=True)
 def compiling(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("RAGG_NATIVE", raising=False)
-    _warn_once.cache_clear()
-
-
-@pytest.fixture(scope="module")
-def case() -> tuple[Array, Array, Array]:
-    """(t, inputs, p) of the base model: some blocks and a part."""
-    draw = np.random.default_rng(40)
-    return np.sort(draw.uniform(0, 1e4, LENGTH)), draws.motion(draw, LENGTH), draws.instrument(draw)
+    _say_once.cache_clear()
 
 
 @needs_compiler
-def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
-    """But for rounding; NumPy serves without a note."""
+def test_fits_in_machine_code_are_those_in_numpy() -> None:
+    """But for rounding."""
     s = scenario(63, duration=60.0)
     flight = s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
-    found = []
-    for off in (False, True):
-        if off:
-            monkeypatch.setenv("RAGG_NATIVE", "off")
-        model = replace(load_packaged())  # evaluators of its own
-        o = observation.observe(flight, s.sheet)
-        at = LinearisationPoint(model, s.sheet, make_vector(model, s.sheet), with_candidates=True)
-        columns = linearise(at, o)
-        assert {model.evaluators(n).backend for n in ("chain", "signatures")} == {"numpy" if off else "c"}
-        found.append(columns)
-    c, n = found
+    model, o = load_packaged(), observation.observe(flight, s.sheet)
+    without = {n: replace(getattr(model, n), sources={}) for n in ("chain", "signatures")}
+    c, n = (
+        linearise(LinearisationPoint(m, s.sheet, make_vector(m, s.sheet), with_candidates=True), o)
+        for m in (model, replace(model, **without))
+    )
+    assert model.chain.library is not None
+    assert model.signatures.library is not None
     size = np.max(np.abs(n), axis=2, keepdims=True)
     assert np.sum(size > 0.0) > 150
     assert np.all(np.abs(c - n) <= 1e-9 * size)
@@ -72,27 +61,28 @@ def test_fits_of_a_derived_model_run_in_machine_code_candidates_too() -> None:
     assert sorted(n for n in files if n.startswith("fits/")) == ["fits/signatures.c", "fits/signatures.h"]
     assert not any("fits/" in n for n in json.loads(files["manifest.json"])["files"])
     t, draw = np.linspace(0.0, 50.0, 300), np.random.default_rng(7)
-    for name, module in (("chain", model.chain), ("signatures", model.signatures)):
-        e = model.evaluators(name)
-        inputs, p = draw.uniform(-1.0, 1.0, (len(e.inputs), len(t))), draw.uniform(0.1, 1.0, module.SIZE)
-        D = Evaluator(module, model.layout).derivatives(2, t, inputs, p)
-        assert e.backend == "c"
-        assert np.all(np.abs(e.derivatives(2, t, inputs, p) - D) <= 1e-11 * np.max(np.abs(D), 1)[:, None])
+    for chain in (model.chain, model.signatures):
+        inputs, p = draw.uniform(-1.0, 1.0, (len(chain.INPUTS), len(t))), draw.uniform(0.1, 1.0, chain.SIZE)
+        D = replace(chain, sources={}).derivatives(2, t, inputs, p)
+        assert chain.library is not None
+        assert np.all(np.abs(chain.derivatives(2, t, inputs, p) - D) <= 1e-11 * np.max(np.abs(D), 1)[:, None])
 
 
-def test_without_a_compiler_numpy_serves_and_says_so_once(case, monkeypatch, tmp_path) -> None:
-    t, inputs, p = case
+def test_without_a_compiler_numpy_serves_and_says_so_once(monkeypatch, tmp_path, capsys) -> None:
+    draw = np.random.default_rng(40)
+    t, inputs, p = np.sort(draw.uniform(0, 1e4, LENGTH)), draws.motion(draw, LENGTH), draws.instrument(draw)
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("CC", raising=False)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     assert find_compiler()[1:] == ["-m", "ziglang", "cc"]
     monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
-    with pytest.warns(NativeWarning, match="slower NumPy code is used: there is no C compiler") as said:
-        e = load_packaged().compiled()
-    assert len(said) == 1
-    assert e.backend == "numpy"
-    assert load_packaged().compiled().backend == "numpy"  # silently: warnings are errors here
-    assert np.all(np.isfinite(e.output(t, inputs, p)))
+    for chain in (replace(load_packaged().chain), replace(load_packaged().chain)):
+        assert np.all(np.isfinite(chain.output(t, inputs, p)))
+        assert chain.library is None
+    assert capsys.readouterr().err.count("slower NumPy code is used: there is no C compiler") == 1
+    monkeypatch.setenv("RAGG_NATIVE", "off")
+    assert replace(load_packaged().chain).library is None
+    assert capsys.readouterr().err == ""
 
 
 @needs_compiler

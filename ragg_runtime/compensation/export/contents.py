@@ -167,11 +167,12 @@ class Contents:
             if name not in wide and rate in wide:
                 wide[name] = differentiate_rate(wide[rate], RATE)[0]
         x = Flight(time=columns["time"], channels=wide, outputs={})
-        model = self.model if "folded.c" in self.sources else replace(self.model, folded=None)
-        evaluator, found = model.compiled(native=False), {}
+        chain, found = replace(self.model.chain, sources={}), {}
+        if "folded.c" not in self.sources:
+            chain = replace(chain, folded=None)
         for k, o in enumerate(self.instrument.layout.outputs):
             r = record(x, self.instrument, k)
-            found[o.name] = evaluator.output(r.time, r.inputs(model.chain), self.p, r.phi, which=k)
+            found[o.name] = chain.output(r.time, r.inputs(chain), self.p, r.phi, which=k)
         return found
 
     def document(self) -> Json:

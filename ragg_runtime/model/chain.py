@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import ctypes
-import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, field
+from functools import cache, cached_property
 from types import ModuleType
 from typing import Protocol
 
@@ -14,9 +13,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from generated.folded import disc_angle
+from ragg_runtime.base.progress import remark
 from ragg_runtime.base.threads import split_range
 from ragg_runtime.instrument.layout import Layout
-from ragg_runtime.model.compile import BuildError, build, load
+from ragg_runtime.model.compile import BuildError, build, is_off, load
 
 Array = NDArray[np.float64]
 
@@ -40,44 +40,61 @@ class ChainModule(Protocol):
     def values_of(self, j: int, p: Array) -> Array: ...
 
 
-def find_places(chain: ChainModule) -> dict[str, slice]:
-    """Where each parameter of a generated module is in its parameter vector."""
-    ends = np.cumsum([size for _, size in chain.PARAMETERS])
-    return {n: slice(int(e) - size, int(e)) for (n, size), e in zip(chain.PARAMETERS, ends, strict=True)}
-
-
 Inputs = Sequence[ArrayLike] | NDArray[np.floating]
 """One series of N samples each, in the order of the model."""
 BLOCK = 4096
 """Samples that NumPy evaluates at a time, in cache."""
 
 
-class NativeWarning(UserWarning):
-    """There is no machine code; the NumPy model serves."""
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """A generated module for the accelerometers of a layout.
 
-
-@dataclass(frozen=True)
-class Evaluator:
-    """A generated module, in machine code (``library``) or in NumPy.
-
-    Times t in s, (N,); parameters p in SI, in the order of the model's PARAMETERS. ``angle`` is the disc angle, rad, (N,), of
-    several discs that of the one whose accelerometers are asked for; by default 2 pi spin_frequency t, reduced exactly. ``folded``:
-    the module whose form serves for outputs in NumPy. ``name`` is the generated module's.
+    Times t in s, (N,); parameters p in SI, in the order of PARAMETERS. ``angle`` is the disc angle, rad, (N,), of
+    several discs that of the one whose accelerometers are asked for; by default 2 pi spin_frequency t, reduced exactly. ``sources``:
+    its C, file name -> text, compiled when it is first evaluated, ``quick``: for one fit. ``folded``: the module that serves for
+    outputs in NumPy. ``name`` is the generated module's.
     """
 
-    chain: ChainModule
+    module: ChainModule
     layout: Layout
-    library: ctypes.CDLL | None = None
-    folded: ModuleType | None = None
     name: str = "chain"
+    sources: Mapping[str, str] = field(default_factory=dict)
+    quick: bool = True
+    folded: ModuleType | None = None
 
     @property
-    def backend(self) -> str:
-        return "numpy" if self.library is None else "c"
+    def INPUTS(self) -> tuple[str, ...]:
+        return self.module.INPUTS
 
     @property
-    def inputs(self) -> tuple[str, ...]:
-        return self.chain.INPUTS
+    def PARAMETERS(self) -> tuple[tuple[str, int], ...]:
+        return self.module.PARAMETERS
+
+    @property
+    def ROWS(self) -> tuple[tuple[str, bool], ...]:
+        return self.module.ROWS
+
+    @property
+    def SIZE(self) -> int:
+        return self.module.SIZE
+
+    @cached_property
+    def places(self) -> Mapping[str, slice]:
+        """Where each parameter is in the parameter vector."""
+        ends = np.cumsum([size for _, size in self.PARAMETERS])
+        return {n: slice(int(e) - size, int(e)) for (n, size), e in zip(self.PARAMETERS, ends, strict=True)}
+
+    @cached_property
+    def library(self) -> ctypes.CDLL | None:
+        """The machine code; ``None``: NumPy serves."""
+        if not self.sources or is_off():
+            return None
+        try:
+            return load(build(self.sources, quick=self.quick))
+        except BuildError as error:
+            _say_once(str(error))
+            return None
 
     def output(
         self, t: ArrayLike, inputs: Inputs, p: ArrayLike, angle: ArrayLike | None = None, which: int = 0
@@ -110,29 +127,29 @@ class Evaluator:
         case = self._case(t, inputs, p, angle)
         wanted = tuple(range(self.layout.size) if members is None else members)
         if self.library is not None and self.layout.like_paper:
-            V = np.empty((4, len(case[0])))
-            self._call(f"{self.name}_voltages", (), case, V)
-            return V if wanted == (0, 1, 2, 3) else np.asarray(V[list(wanted)])
+            four = np.empty((4, len(case[0])))
+            self._call(f"{self.name}_voltages", (), case, four)
+            return four if wanted == (0, 1, 2, 3) else four[list(wanted)]
         V = np.empty((len(wanted), len(case[0])))
         for v, j in zip(V, wanted, strict=True):
             if self.library is not None:
                 self._call(f"{self.name}_voltage", (j,), case, v)
             else:
                 for some, block in self._blocks(j, case):
-                    v[some] = self.chain.accelerometer(j, *block)
+                    v[some] = self.module.accelerometer(j, *block)
         return V
 
     def derivatives(
         self, j: int, t: ArrayLike, inputs: Inputs, p: ArrayLike, angle: ArrayLike | None = None
     ) -> Array:
-        """Derivatives of V_j, j counted from 0, (rows, N), in the order of the chain's ROWS."""
+        """Derivatives of V_j, j counted from 0, (rows, N), in the order of ROWS."""
         case = self._case(t, inputs, p, angle)
-        D = np.empty((len(self.chain.ROWS), len(case[0])))
+        D = np.empty((len(self.ROWS), len(case[0])))
         if self.library is not None:
             self._call(f"{self.name}_derivatives", (j,), case, D)
         else:
             for some, block in self._blocks(j, case):
-                D[:, some] = self.chain.derivatives(j, *block)
+                D[:, some] = self.module.derivatives(j, *block)
         return D
 
     def _call(self, function: str, leading: tuple[int, ...], case: _Case, result: Array) -> None:
@@ -140,12 +157,12 @@ class Evaluator:
         t, x, p, angle = case
         rows = (ctypes.c_void_p * len(x))(*(v.ctypes.data for v in x))
         call = getattr(self.library, f"ragg_{function}")
-        call(*map(_SIZE, (*leading, len(t))), _at(t), rows, _at(p), _at(angle), _at(result))
+        call(*map(ctypes.c_size_t, (*leading, len(t))), _at(t), rows, _at(p), _at(angle), _at(result))
 
     def _blocks(self, j: int, case: _Case) -> Iterator[tuple[slice, tuple[Array, ...]]]:
         """Samples, and what the generated NumPy functions take of them for accelerometer j."""
         t, x, p, angle = case
-        q = self.chain.values_of(j, p)
+        q = self.module.values_of(j, p)
         for some in split_range(len(t), BLOCK):
             phi = disc_angle(t[some], float(q[1])) if angle is None else angle[some]
             yield some, (t[some], np.cos(phi), np.sin(phi), np.stack([v[some] for v in x]), q)
@@ -154,48 +171,20 @@ class Evaluator:
         """The arguments as the generated code takes them: contiguous float64 is used where it lies, the rest converted."""
         time, values, *rows = (np.ascontiguousarray(x, dtype=np.float64) for x in (t, p, *inputs))
         phi = None if angle is None else np.ascontiguousarray(angle, dtype=np.float64)
-        series = (*rows, *([] if phi is None else [phi]))
         # the generated code reads beyond the end of what is shorter
-        assert (len(rows), values.shape) == (len(self.chain.INPUTS), (self.chain.SIZE,))
-        assert all(x.shape == (time.size,) for x in series)
+        assert (len(rows), values.shape) == (len(self.INPUTS), (self.SIZE,))
+        assert all(x is None or x.shape == time.shape for x in (*rows, phi))
         return time, rows, values, phi
 
 
 _Case = tuple[Array, Sequence[Array], Array, Array | None]
 """Times (N,), inputs, parameters, disc angle (N,)."""
 
-_SIZE = ctypes.c_size_t
-
 
 def _at(x: Array | None) -> ctypes.c_void_p:
     return ctypes.c_void_p(None if x is None else x.ctypes.data)
 
 
-def make_evaluator(
-    chain: ChainModule,
-    layout: Layout,
-    sources: Mapping[str, str],
-    name: str = "chain",
-    *,
-    native: bool = True,
-    folded: ModuleType | None = None,
-    quick: bool = False,
-    quiet: bool = False,
-) -> Evaluator:
-    """The evaluator of a module by its C ``sources``, name -> text, unless not ``native``; where that cannot be made in NumPy, with a
-    note unless ``quiet``. ``quick``: compiled for one fit.
-    """
-    if native and sources:
-        try:
-            return Evaluator(chain, layout, load(build(sources, quick=quick)), name=name)
-        except BuildError as error:
-            if not quiet:
-                _warn_once(str(error))
-    return Evaluator(chain, layout, folded=folded, name=name)
-
-
 @cache
-def _warn_once(why: str) -> None:
-    warnings.warn(
-        f"the model is not compiled, the slower NumPy code is used: {why}", NativeWarning, stacklevel=4
-    )
+def _say_once(why: str) -> None:
+    remark(f"the model is not compiled, the slower NumPy code is used: {why}")
