@@ -26,7 +26,6 @@ from ragg_runtime.model.directory import (
     ModelDir,
     compute_digest,
     create_model_dir,
-    identity,
     load_model_dir,
     replace_model_dir,
 )
@@ -279,8 +278,12 @@ class Source:
 
     def as_json(self) -> dict[str, object]:
         """What the reader did to the flights (``notes``), and what makes the result again (``provenance``)."""
-        before = None if self.before is None else self.before.directory
-        model = identity(self.m.directory, self.m.model.digest, before)
+        model = {
+            "model": str(self.m.directory.path),
+            "model_digest": compute_digest(self.m.directory.text),
+            **({"model_digest_before": compute_digest(self.before.directory.text)} if self.before else {}),
+            "derivation_digest": self.m.model.digest,
+        }
         read = [(x.name if x.path is None else str(x.path), x.digest) for x in self.flights]
         elsewhere = [(path, digest) for _, path, digest in self.files]
         return {"notes": self.notes, "provenance": provenance(self.command, model, [*read, *elsewhere])}

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import errno
 import hashlib
 import os
+import secrets
+import shutil
 import stat
-import sys
 import tempfile
-import time
 from collections.abc import Iterator
 from functools import cache
 from io import BufferedReader
 from pathlib import Path
 
 import filelock
+import platformdirs
 
-from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 
 
@@ -28,22 +29,25 @@ def replacing(path: Path) -> Iterator[Path]:
         mode = _find_mode(path)
         is_stream = mode is not None and not stat.S_ISREG(mode)
         place = Path(os.path.realpath(path))
-        beside = Path(tempfile.gettempdir()) / "ragg-output" if is_stream else place
-        handle, name = tempfile.mkstemp(path.suffix, f".{beside.name[:60]}.", beside.parent)
-        os.close(handle)
-        temporary = Path(name)
+        folder = Path(tempfile.gettempdir()) if is_stream else place.parent
+        temporary = folder / f".{place.name[:60]}.{secrets.token_hex(4)}{path.suffix}"
         try:
             yield temporary
             if is_stream:
                 path.write_bytes(temporary.read_bytes())
             else:
-                # It is private so far; the file that is asked for has the rights of any new file, or its own.
-                os.chmod(temporary, 0o666 & ~_umask() if mode is None else mode & 0o7777)
-                sync(temporary)
-                os.replace(temporary, place)
-                sync(place.parent)
+                put_in_place(temporary, place)
         finally:
             temporary.unlink(missing_ok=True)
+
+
+def put_in_place(new: Path, target: Path) -> None:
+    """Let a new file, on the disc, take the place of another, with its rights."""
+    with new.open("r+b") as stream:
+        os.fsync(stream)
+    if target.exists():
+        new.chmod(target.stat().st_mode & 0o777)
+    os.replace(new, target)
 
 
 def check_writable(path: Path) -> None:
@@ -99,23 +103,6 @@ def write_bytes(path: Path, content: bytes) -> None:
         temporary.write_bytes(content)
 
 
-def sync(path: Path) -> None:
-    """Force a file or folder to the disc; folders cannot be synced on every system."""
-    flags = os.O_RDONLY | getattr(os, "O_DIRECTORY", 0) if path.is_dir() else os.O_RDONLY
-    with contextlib.suppress(OSError):
-        handle = os.open(path, flags)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
 def opened(path: Path) -> BufferedReader:
     """A user's file, to read. A pipe or a device would be waited for, or never end: UserError."""
     if path.exists() and not path.is_file():
@@ -152,47 +139,28 @@ def read_text(path: Path, longest: int = 1 << 20) -> str:
         raise UserError("the file cannot be read", where=path, found=error.strerror) from None
 
 
-_POLL = 0.005  # s
-_NO_LOCKS = (errno.EBADF, errno.ENOLCK, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOSYS, errno.EINVAL)
+def locked(path: Path, patience: float) -> filelock.BaseFileLock:
+    """The lock of a file or folder, held in a ``with`` block; TimeoutError if another process of the user holds it for longer, s."""
+    name = hashlib.sha256(os.fsencode(os.path.realpath(path))).hexdigest()[:32]
+    return filelock.FileLock(find_private_folder("locks") / name, timeout=patience)
 
 
-@contextlib.contextmanager
-def locked(path: Path, patience: float) -> Iterator[None]:
-    """Hold the lock of a directory, or of a file, while this process lives; without one where the file system has none.
-
-    Raises TimeoutError if another process holds it for longer than ``patience``, s.
+def find_private_folder(name: str, folder: Path | None = None) -> Path:
+    """The ``folder``, by default one of the user's cache, if it can be written, by its owner alone (it holds code); else one for this
+    process.
     """
-    if sys.platform == "win32":  # a directory cannot be locked there
-        place = path / ".ragg.lock" if path.is_dir() else path.with_name(f"{path.name}.lock")
-        with filelock.FileLock(place, timeout=patience):
-            yield
-        return
-    handle = os.open(path, os.O_RDONLY)
+    place = folder if folder is not None else platformdirs.user_cache_path("ragg") / name
     try:
-        deadline = time.monotonic() + patience
-        while not _taken(handle):
-            if time.monotonic() >= deadline:
-                raise TimeoutError(errno.ETIMEDOUT, "the directory is locked")
-            time.sleep(_POLL)
-        yield
-    finally:
-        os.close(handle)
-
-
-def _taken(handle: int) -> bool:
-    import fcntl  # does not exist on Windows
-
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except OSError as error:
-        if error.errno not in _NO_LOCKS:
-            raise
-        _say_once()
-    return True
+        place.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if os.access(place, os.W_OK) and not place.stat().st_mode & 0o022:
+            return place
+    except OSError:
+        pass
+    return _make_own_folder()
 
 
 @cache
-def _say_once() -> None:
-    progress.remark("this file system has no locks: run one command at a time on this model")
+def _make_own_folder() -> Path:
+    folder = tempfile.mkdtemp(prefix="ragg-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return Path(folder)

@@ -119,11 +119,12 @@ def remove(model_dir: Path, effect: str) -> None:
 def history(model_dir: Path) -> None:
     """Show the error after every step."""
     from ragg_runtime.base.provenance import provenance
-    from ragg_runtime.model.directory import identity, load_model_dir
+    from ragg_runtime.model.directory import compute_digest, load_model_dir
 
     d = load_model_dir(model_dir)  # not derived: the steps of a model that no longer can be are shown, too
     steps = [s.as_json() for s in d.history]
-    result = {"steps": steps, "provenance": provenance(command_line(), identity(d))}
+    model = {"model": str(d.path), "model_digest": compute_digest(d.text)}
+    result = {"steps": steps, "provenance": provenance(command_line(), model)}
     page = lambda origin: pages.write_history(steps, origin)  # noqa: E731
     conclude(
         result, (Section(table=describe.tabulate_history(steps)),), page=page, title=f"{d.path.name}: history"

@@ -6,7 +6,6 @@ The compiler is ``CC``, else ``cc``, ``gcc`` or ``clang``, else that of the pack
 
 from __future__ import annotations
 
-import atexit
 import ctypes
 import hashlib
 import importlib.util
@@ -22,7 +21,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import platformdirs
+from ragg_runtime.base.files import find_private_folder
 
 VARIABLE = "RAGG_NATIVE"
 
@@ -54,7 +53,10 @@ def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool
     BuildError
         If there is no compiler, or if it fails.
     """
-    command, place = [*find_compiler(), "-O1" if quick else "-O3", *OPTIONS], private_folder("native", folder)
+    command, place = (
+        [*find_compiler(), "-O1" if quick else "-O3", *OPTIONS],
+        find_private_folder("native", folder),
+    )
     text = [f"{name}\0{sources[name]}" for name in sorted(sources)]
     identity = "\0".join((*text, *command, repr(FOR_PROCESSOR), describe_processor()))
     library = place / f"{hashlib.sha256(identity.encode()).hexdigest()[:32]}.so"
@@ -115,27 +117,6 @@ def describe_processor() -> str:
         lines = []
     own = (x for x in lines if x.startswith(("model name", "flags", "Features", "CPU part")))
     return "\n".join((platform.system(), platform.machine(), platform.processor(), *dict.fromkeys(own)))
-
-
-def private_folder(name: str, folder: Path | None = None) -> Path:
-    """The ``folder``, by default one of the user's cache, if it can be written, by its owner alone (it holds code); else one for this
-    process.
-    """
-    place = folder if folder is not None else platformdirs.user_cache_path("ragg") / name
-    try:
-        place.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if os.access(place, os.W_OK) and not place.stat().st_mode & 0o022:
-            return place
-    except OSError:
-        pass
-    return _own_folder()
-
-
-@cache
-def _own_folder() -> Path:
-    folder = tempfile.mkdtemp(prefix="ragg-")
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    return Path(folder)
 
 
 def load(file: Path) -> ctypes.CDLL:

@@ -19,14 +19,13 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
-from ragg_runtime.base.files import read_text, write_text
+from ragg_runtime.base.files import find_private_folder, read_text, write_text
 from ragg_runtime.base.provenance import digest_sources
 from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.layout import Layout
-from ragg_runtime.model.compile import private_folder
 from ragg_runtime.model.directory import DIGEST, compute_digest, read_digest
 from ragg_runtime.model.model import Model, load_files, load_packaged
 
@@ -283,7 +282,7 @@ def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candida
 
 def kept(asked: str) -> Mapping[str, str] | None:
     """The files that were derived for this request before, if they are at hand."""
-    place = private_folder("derived") / f"{asked}.json"
+    place = find_private_folder("derived") / f"{asked}.json"
     try:
         with place.open("rb") as stream:
             found = json.loads(stream.read(_LARGEST))
@@ -296,7 +295,7 @@ def kept(asked: str) -> Mapping[str, str] | None:
 
 def keep(asked: str, files: Mapping[str, str]) -> None:
     """Keep what a derivation yielded; where that cannot be written, it will be derived again."""
-    folder = private_folder("derived")
+    folder = find_private_folder("derived")
     try:
         write_text(folder / f"{asked}.json", json.dumps(dict(files)))
         for old in sorted(folder.glob("*.json"), key=lambda p: -p.stat().st_mtime)[MOST_KEPT:]:

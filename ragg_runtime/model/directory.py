@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import secrets
 import shutil
 from collections.abc import Callable, Mapping, Sequence
@@ -18,7 +17,7 @@ from types import MappingProxyType
 from typing import Any
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import locked, read_text, refuse_to_write, sync
+from ragg_runtime.base.files import locked, put_in_place, read_text, refuse_to_write
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 
@@ -57,12 +56,8 @@ class HistoryStep:
 
     def was_cut_off(self, model: str, calibration: str | None) -> bool:
         """Whether the file that the step changes is still the one before: the history is written first."""
-        if len(self.digests) != 2:
-            return False
-        before, after = self.digests
-        return before != after and before == compute_digest(
-            calibration if self.action == "calibrate" else model
-        )
+        now = compute_digest(calibration if self.action == "calibrate" else model)
+        return len(self.digests) == 2 and now == self.digests[0] != self.digests[1]
 
     def as_json(self) -> dict[str, Any]:
         """The entry as in the file."""
@@ -70,8 +65,8 @@ class HistoryStep:
             "action": self.action,
             "effect": self.effect or None,
             "time": self.time,
-            "before": None if self.before is None else dict(self.before),
-            "after": None if self.after is None else dict(self.after),
+            "before": self.before,
+            "after": self.after,
             "flights": dict(self.flights),
             **({"model": self.text} if self.text else {}),
             **({"digests": list(self.digests)} if self.digests else {}),
@@ -85,11 +80,9 @@ def history_text(steps: Sequence[HistoryStep]) -> str:
 
 def _error(found: Any) -> Mapping[str, Any] | None:
     """An error object as in the file; TypeError, ValueError or AttributeError if it is none."""
-    inner = found.get("calibrated", found) if found else {}
-    told = inner.get("rms_Eo") if inner else None  # of a step
-    float(0.0 if told is None else told)
-    json.dumps(found, allow_nan=False)  # it is written again with the next step
-    return None if found is None else dict(found)
+    if found is not None:
+        float(found.get("calibrated", found).get("rms_Eo") or 0.0)
+    return found  # type: ignore[no-any-return]
 
 
 def read_history(path: Path) -> tuple[HistoryStep, ...]:
@@ -97,20 +90,20 @@ def read_history(path: Path) -> tuple[HistoryStep, ...]:
     if not path.exists():
         return ()
     try:
-        content = json.loads(read_text(path, LONGEST))
-        return tuple(
+        found = tuple(
             HistoryStep(
                 action=one_line(str(s["action"])),
                 time=one_line(str(s["time"])),
                 effect=one_line(str(s["effect"] or "")),
                 before=_error(s.get("before")),
                 after=_error(s.get("after")),
-                flights=MappingProxyType({str(n): str(d) for n, d in s.get("flights", {}).items()}),
+                flights={str(n): str(d) for n, d in s.get("flights", {}).items()},
                 text=str(s.get("model", "")),
                 digests=tuple(map(str, s.get("digests", ()))),
             )
-            for s in content["steps"]
+            for s in json.loads(read_text(path, LONGEST))["steps"]
         )
+        history_text(found)  # it is written again with the next step, and holds numbers only
     except (ArithmeticError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise UserError(
             "the history is damaged",
@@ -119,6 +112,7 @@ def read_history(path: Path) -> tuple[HistoryStep, ...]:
             expected='{"steps": [{"action", "effect", "time", "before", "after", "flights"}, ...]}',
             remedy="restore the file, or remove it: a new history begins with the next step",
         ) from None
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,9 +134,8 @@ class ModelDir:
     @property
     def digest(self) -> str:
         """SHA-256 over model, history and calibration, hexadecimal: equal states have equal digests."""
-        return compute_digest(
-            "".join(map(compute_digest, (self.text, history_text(self.history), self.calibration)))
-        )
+        parts = (self.text, history_text(self.history), self.calibration)
+        return compute_digest("".join(map(compute_digest, parts)))
 
 
 def load_model_dir(path: Path | str) -> ModelDir:
@@ -174,6 +167,19 @@ def load_model_dir(path: Path | str) -> ModelDir:
     )
 
 
+def _read(path: Path) -> tuple[str, str | None]:
+    """The texts of model.toml and calibration.json."""
+    if not (path / MODEL).exists():
+        raise UserError(
+            "not a model directory: model.toml is missing",
+            where=path,
+            found=", ".join(sorted(p.name for p in path.iterdir())[:8]) or "an empty directory",
+            remedy="make a model with: ragg new",
+        )
+    kept = path / CALIBRATION
+    return read_text(path / MODEL), read_text(kept, LONGEST) if kept.exists() else None
+
+
 def create_model_dir(
     path: Path | str,
     text: str,
@@ -191,14 +197,12 @@ def create_model_dir(
         )
     fresh = path.absolute().with_name(f".{path.absolute().name[:60]}.{secrets.token_hex(4)}")
     try:
-        fresh.parent.mkdir(parents=True, exist_ok=True)
-        fresh.mkdir()
+        fresh.mkdir(parents=True)
         _put(fresh, {MODEL: text, HISTORY: history_text(history), MAPPING: mapping}, generated)
         if path.exists():
             fresh.chmod(path.stat().st_mode & 0o7777)
             path.rmdir()
         fresh.rename(path)
-        sync(fresh.parent)
     except OSError as error:
         raise refuse_to_write("the model directory", path, error) from None
     finally:
@@ -246,52 +250,29 @@ def replace_model_dir(
     return load_model_dir(path)
 
 
-def _read(path: Path) -> tuple[str, str | None]:
-    """The texts of model.toml and calibration.json."""
-    if not (path / MODEL).exists():
-        raise UserError(
-            "not a model directory: model.toml is missing",
-            where=path,
-            found=", ".join(sorted(p.name for p in path.iterdir())[:8]) or "an empty directory",
-            remedy="make a model with: ragg new",
-        )
-    kept = path / CALIBRATION
-    return read_text(path / MODEL), read_text(kept, LONGEST) if kept.exists() else None
-
-
 def _put(path: Path, files: Mapping[str, str | None], generated: Mapping[str, str]) -> None:
     """Write these files in this order and generated/ after them; all that may fail is done before the first is in place."""
-    new = {name: text for name, text in files.items() if text is not None}
+    new = {path / name: (path / f".{name}.new", text) for name, text in files.items() if text is not None}
     code, fresh = path / GENERATED, path / f".{GENERATED}.new"
     same = code.is_dir() and read_digest(code) == generated.get(DIGEST)
     try:
-        for name, text in new.items():
-            _write(path / f".{name}.new", text, path / name)
+        for place, text in new.values():
+            place.unlink(missing_ok=True)  # it may be a link
+            place.write_bytes(text.encode())
         _remove(fresh)
         for name, text in {} if same else generated.items():
             (fresh / name).parent.mkdir(parents=True, exist_ok=True)
             (fresh / name).write_bytes(text.encode())
-        for name in new:
-            os.replace(path / f".{name}.new", path / name)
-        sync(path)
+        for target, (place, _) in new.items():
+            put_in_place(place, target)
         if not same:
             _remove(code)
             if generated:
                 fresh.rename(code)
     finally:
-        for name in new:
-            (path / f".{name}.new").unlink(missing_ok=True)
+        for place, _ in new.values():
+            place.unlink(missing_ok=True)
         _remove(fresh)
-
-
-def _write(place: Path, text: str, target: Path) -> None:
-    """Write a file that is going to take the place of ``target``, with its rights."""
-    place.unlink(missing_ok=True)
-    with place.open("xb") as stream:
-        stream.write(text.encode())
-    if target.exists():
-        place.chmod(target.stat().st_mode & 0o777)
-    sync(place)
 
 
 def read_digest(generated: Path) -> str | None:
@@ -307,15 +288,3 @@ def _remove(place: Path) -> None:
         place.unlink()
     elif place.exists():
         shutil.rmtree(place)
-
-
-def identity(
-    directory: ModelDir, derivation: str | None = None, before: ModelDir | None = None
-) -> dict[str, object]:
-    """Of a directory as it was read, with the digest of what was derived for it, and as it was ``before`` a change."""
-    digests = {
-        "model_digest": compute_digest(directory.text),
-        "model_digest_before": None if before is None else compute_digest(before.text),
-        "derivation_digest": derivation,
-    }
-    return {"model": str(directory.path), **{k: v for k, v in digests.items() if v is not None}}
