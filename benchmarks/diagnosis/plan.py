@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from benchmarks.diagnosis import records
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import paper
 from ragg_runtime.io import read_flight
 from ragg_runtime.reference.accelerometer_noise import eotvos_noise
 from ragg_runtime.reference.auxiliaries import further, plausible
@@ -152,9 +153,7 @@ def world(s: Spec) -> World:
         spin = true.layout.discs[0].spin_frequency * (
             1.0 + options["spin_off"] * float(rng.choice([-1.0, 1.0]))
         )
-        true = Instrument.build(
-            radius=true.radius, spin_frequency=spin, g0=true.g0, accelerometers=true.accelerometers
-        )
+        true = replace(true, layout=paper(true.radius, spin))
     motion = draw_motion(
         rng,
         duration,
@@ -267,9 +266,7 @@ def _elsewhere(rng: np.random.Generator) -> tuple[Instrument, Instrument, Instru
     drawn = {n: values[n] + x * rng.standard_normal(4) for n, x in sigma.items()}
 
     def of(accelerometers: Mapping[str, Array], sigmas: Mapping[str, Array]) -> Instrument:
-        return Instrument.build(
-            radius=radius, spin_frequency=spin, g0=9.8, accelerometers=accelerometers, sigmas=sigmas
-        )
+        return Instrument.build(paper(radius, spin), 9.8, accelerometers, sigmas=sigmas)
 
     true = {**values, **drawn}
     return of(values, stated), of(true, {}), of(true, stated), (1.0, 10.0, 1e4)[grade]

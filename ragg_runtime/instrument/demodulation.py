@@ -14,10 +14,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from ragg_runtime.base.errors import UserError, at, check_choice, check_keys, check_table
-from ragg_runtime.instrument.units import read_quantity, units
+from ragg_runtime.instrument.units import STANDARD_G0, read_quantity, read_si
 
 KINDS: Mapping[str, tuple[str, ...]] = {
     "fir": ("cutoff",),
@@ -110,8 +108,7 @@ def read_demodulation(table: object, where: str) -> Demodulation | None:
 
 
 def _size(raw: object, key: str, where: str) -> float:
-    q = read_quantity(raw, where, count=1)
-    value = float(units(9.8).to_si(np.asarray(q.value), q.unit, _UNITS[key], where))
+    value = float(read_si(read_quantity(raw, where, count=1), _UNITS[key], STANDARD_G0, where)[0])
     if key != "delay" and value <= 0.0:
         raise UserError(f"{key} must be positive", where=where, found=str(raw)[:60])
     return value

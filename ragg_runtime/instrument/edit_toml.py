@@ -11,17 +11,19 @@ import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT
 
-from ragg_runtime.base.errors import UserError, did_you_mean
+from ragg_runtime.base.errors import UserError, check_keys, did_you_mean
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.parameters import PARAMETER
 from ragg_runtime.instrument.units import RawQuantity
+
+_NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 def set_parameters(
     text: str,
     values: Mapping[str, RawQuantity],
-    sigmas: Mapping[str, tuple[float, ...] | None] = MappingProxyType({}),
-    fixed: Mapping[str, bool] = MappingProxyType({}),
+    sigmas: Mapping[str, tuple[float, ...] | None] = _NOTHING,
+    fixed: Mapping[str, bool] = _NOTHING,
 ) -> str:
     """``text`` of a model.toml with some of ``[accelerometers]`` set, comments kept.
 
@@ -30,35 +32,27 @@ def set_parameters(
     """
     document = _document(text)
     table: Any = document.setdefault("accelerometers", tomlkit.table())
+    check_keys(values, PARAMETER, "[accelerometers]")
     for name, quantity in values.items():
-        if name not in PARAMETER:
-            raise UserError(
-                f"the accelerometer has no parameter {name!r}",
-                expected="one of " + ", ".join(PARAMETER),
-                remedy=did_you_mean(name, PARAMETER),
-            )
-        _put(table, name, quantity_table(quantity))
+        further: dict[str, Any] = {"fixed": fixed[name]} if name in fixed else {}
         if name in sigmas:
-            table[name].pop("sigma", None)
-        if sigma := sigmas.get(name):
-            table[name].add("sigma", [plain_number(v) for v in sigma])
-        if name in fixed:
-            table[name].pop("fixed", None)
-        if fixed.get(name):
-            table[name].add("fixed", True)
+            further["sigma"] = [_plain_number(v) for v in sigmas[name] or ()]
+        _put(table, name, quantity, further)
     return tomlkit.dumps(document)
 
 
 def add_effect(text: str, setting: EffectSetting) -> str:
     """``text`` with the effect at the end of ``effects``, or with its values changed if it is there."""
     document = _document(text)
-    entries = _entries(document)
+    if "effects" not in document:
+        document = _document("effects = []\n" + text)  # a plain key must come before the first table
+    entries: Any = document["effects"]
     place = _place(entries, setting.id)
     if place is None:
         entry = _entry(setting)
         if isinstance(entries, AoT):
             table = tomlkit.table()
-            table.update(entry if not isinstance(entry, str) else {"id": str(entry)})
+            table.update(entry if isinstance(entry, dict) else {"id": setting.id})
             entry = table
         entries.append(entry)
     elif isinstance(entries[place], str):
@@ -67,14 +61,14 @@ def add_effect(text: str, setting: EffectSetting) -> str:
         entries[place].trivia.comment = comment
     else:
         for name, quantity in setting.values.items():
-            _put(entries[place], name, quantity_table(quantity))
+            _put(entries[place], name, quantity)
     return tomlkit.dumps(document)
 
 
 def remove_effect(text: str, effect_id: str) -> str:
     """``text`` without the effect; UserError if it is not there."""
     document = _document(text)
-    entries = _entries(document)
+    entries: Any = document.get("effects", [])
     place = _place(entries, effect_id)
     if place is None:
         known = [_id(e) for e in entries]
@@ -102,64 +96,47 @@ def _document(text: str) -> tomlkit.TOMLDocument:
         raise UserError("not a TOML file", found=str(error), expected="the form of model.toml") from None
 
 
-def _entries(document: tomlkit.TOMLDocument) -> Any:
-    if "effects" not in document:
-        # A plain key must come before the first table.
-        fresh = tomlkit.document()
-        fresh.add("effects", tomlkit.array())
-        document_text = tomlkit.dumps(fresh) + tomlkit.dumps(document)
-        document.clear()
-        document.update(tomlkit.parse(document_text))
-    return document["effects"]
-
-
 def _entry(setting: EffectSetting) -> Any:
     if not setting.values and setting.expression is None:
         return tomlkit.item(setting.id)
     entry = tomlkit.inline_table()
     entry.add("id", setting.id)
+    parameters: Mapping[str, Mapping[str, Any]] = _NOTHING
     if setting.expression is not None:
-        entry.add("stage", setting.expression["stage"])
-        entry.add("add", setting.expression["add"])
-        for name, parameter in setting.expression["params"].items():
-            inner = tomlkit.inline_table()
-            inner.update({k: v for k, v in parameter.items() if k != "value" or name not in setting.values})
-            if name not in setting.values:
-                entry.add(name, inner)
-    for name, quantity in setting.values.items():
-        entry.add(name, quantity_table(quantity))
+        entry.update({k: setting.expression[k] for k in ("stage", "add")})
+        parameters = setting.expression["params"]
+    for name in dict.fromkeys((*parameters, *setting.values)):
+        entry.add(name, _table(setting.values.get(name), parameters.get(name, _NOTHING)))
     return entry
 
 
-def quantity_table(quantity: RawQuantity) -> Any:
+def _table(quantity: RawQuantity | None, further: Mapping[str, Any]) -> Any:
+    """A quantity, and what is said of it besides, less what is false or empty."""
     table = tomlkit.inline_table()
-    value = quantity.value
-    table.add("value", [plain_number(v) for v in value] if isinstance(value, tuple) else plain_number(value))
-    table.add("unit", quantity.unit)
+    if quantity is not None:
+        v = quantity.value
+        table.add("value", [_plain_number(x) for x in v] if isinstance(v, tuple) else _plain_number(v))
+        table.add("unit", quantity.unit)
+    table.update({k: x for k, x in further.items() if k not in table and x not in (False, [])})
     return table
 
 
-def plain_number(value: float) -> int | float:
+def _plain_number(value: float) -> int | float:
     """Whole numbers are written as people write them: 30, not 30.0."""
     value = float(np.float64(value))
     return int(value) if value.is_integer() and abs(value) < 1e6 else value
 
 
-def _put(table: Any, name: str, item: Any) -> None:
-    """Set a quantity; the sigma of the old one stays where the unit does, and whether it is fixed."""
-    if name in table:
-        old = table[name]
-        if isinstance(old, dict) and "sigma" in old and old.get("unit") == item.get("unit"):
-            item.add("sigma", old["sigma"])
-        if isinstance(old, dict) and old.get("fixed"):
-            item.add("fixed", True)
-        trivia = getattr(old, "trivia", None)
-        table[name] = item
-        if trivia is not None:
-            table[name].trivia.comment = trivia.comment
-            table[name].trivia.comment_ws = trivia.comment_ws
-    else:
-        table.add(name, item)
+def _put(table: Any, name: str, quantity: RawQuantity, further: Mapping[str, Any] = _NOTHING) -> None:
+    """Set a quantity; what is said of the old one besides stays, its sigma where the unit does."""
+    old = table.get(name)
+    kept = dict(old) if isinstance(old, dict) else {}
+    if kept.get("unit") != quantity.unit:
+        kept.pop("sigma", None)
+    table[name] = _table(quantity, {**kept, **further})
+    trivia = getattr(old, "trivia", None)
+    if trivia is not None:
+        table[name].trivia.comment, table[name].trivia.comment_ws = trivia.comment, trivia.comment_ws
 
 
 def _place(entries: Any, effect_id: str) -> int | None:

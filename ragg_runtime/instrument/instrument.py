@@ -16,9 +16,9 @@ from ragg_runtime.base.errors import UserError, at, check_keys
 from ragg_runtime.instrument import form as forms
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.form import Form
-from ragg_runtime.instrument.layout import PAPER, Layout, paper, scale
-from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
-from ragg_runtime.instrument.units import RawQuantity, Units, units
+from ragg_runtime.instrument.layout import PAPER, Layout, scale
+from ragg_runtime.instrument.parameters import PARAMETER, PARAMETERS, Vector
+from ragg_runtime.instrument.units import RawQuantity, Units, check_finite, read_si, units
 
 
 @dataclass(frozen=True)
@@ -58,59 +58,44 @@ class EffectSetting:
         return value if shared else np.broadcast_to(value, (count,)).copy()
 
 
-def read_si(quantity: RawQuantity, si_unit: str, g0: float, where: str | None = None) -> Vector:
-    """The numbers of a quantity, (1,) or (n,), in ``si_unit``; UserError if one is not finite there."""
-    value = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
-    return _finite(np.asarray(units(g0).to_si(value, quantity.unit, si_unit, where)), where)
-
-
 @dataclass(frozen=True, eq=False)
 class Instrument:
-    """One gradiometer in SI: disc (m, Hz, m/s^2), ``accelerometers`` name -> (n,), one each, effects, layout.
+    """One gradiometer in SI: layout, g0 (m/s^2), ``accelerometers`` name -> (n,), one each, effects.
 
-    ``sigmas``: how sure the sheet is of some parameters, name -> (n,). ``radius`` and ``spin_frequency`` are those of
-    the first accelerometer and its disc. ``widths``: kind of parameter -> how many times wider than usual its prior is.
+    ``sigmas``: how sure the sheet is of some parameters, name -> (n,). ``widths``: kind of parameter -> how many times wider than
+    usual its prior is.
     ``fixed``: parameters that are not fitted, but stay as model.toml has them; ``held``: labels of effects' coefficients likewise.
     ``angle_origin``: where the angle of a disc without an encoder is 0, ``zero`` (of ``time``) or ``first-sample``; ``None``: at
     zero of seconds, at the first of stamps that are instants.
     """
 
-    radius: float
-    spin_frequency: float
+    layout: Layout
     g0: float
     accelerometers: Mapping[str, Vector]
     effects: tuple[EffectSetting, ...] = ()
     path: Path | None = None
     sigmas: Mapping[str, Vector] = field(default_factory=lambda: MappingProxyType({}))
     form: Form = forms.PAPER
-    layout: Layout = PAPER
     demodulation: Demodulation | None = None
     widths: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
     fixed: frozenset[str] = frozenset()
     held: frozenset[str] = frozenset()
     angle_origin: str | None = None
 
-    def __post_init__(self) -> None:
-        if self.layout.of_paper:  # the paper's one disc, described by radius and spin frequency
-            object.__setattr__(self, "layout", paper(self.radius, self.spin_frequency))
-
     @classmethod
     def build(
         cls,
-        radius: float,
-        spin_frequency: float,
+        layout: Layout,
         g0: float,
         accelerometers: Mapping[str, ArrayLike],
         *,
-        layout: Layout | None = None,
         sigmas: Mapping[str, ArrayLike] | None = None,
         **others: Any,
     ) -> Instrument:
-        """An instrument from SI values: scalars hold for all accelerometers, missing ones are 0; by default the paper's layout.
+        """An instrument from SI values: scalars hold for all accelerometers, missing ones are 0.
 
         ``others`` are further fields, as they are.
         """
-        layout = paper(radius, spin_frequency) if layout is None else layout
         check_keys(accelerometers, PARAMETER, "[accelerometers]")
         for p in PARAMETERS:
             if p.required and p.name not in accelerometers:
@@ -121,25 +106,15 @@ class Instrument:
                 )
         vectors = {name: _vector(accelerometers.get(name, 0.0), layout.size) for name in PARAMETER}
         known = {name: _vector(v, layout.size) for name, v in (sigmas or {}).items()}
-        made = cls(
-            radius=radius,
-            spin_frequency=spin_frequency,
-            g0=g0,
-            accelerometers=MappingProxyType(vectors),
-            sigmas=MappingProxyType(known),
-            layout=layout,
-            **others,
-        )
+        made = cls(layout, g0, MappingProxyType(vectors), sigmas=MappingProxyType(known), **others)
         _check_physical(made)
         return made
 
     def replace(self, **changes: ArrayLike) -> Instrument:
         """The same instrument with some accelerometer parameters changed (SI, scalar or (n,))."""
         check_keys(changes, PARAMETER, "[accelerometers]")
-        vectors = dict(self.accelerometers) | {
-            name: _vector(v, self.layout.size) for name, v in changes.items()
-        }
-        return dataclasses.replace(self, accelerometers=MappingProxyType(vectors))
+        changed = {name: _vector(v, self.layout.size) for name, v in changes.items()}
+        return dataclasses.replace(self, accelerometers=MappingProxyType({**self.accelerometers, **changed}))
 
     def sigma(self, name: str) -> Vector:
         """How far a parameter of the accelerometers may be from its sheet, (n,) SI: by the sheet, or plausible."""
@@ -157,6 +132,16 @@ class Instrument:
     def effect(self, effect_id: str) -> EffectSetting | None:
         """The entry of this effect, or None."""
         return next((e for e in self.effects if e.id == effect_id), None)
+
+    @property
+    def radius(self) -> float:
+        """Of the first accelerometer, m."""
+        return self.layout.places[0].radius
+
+    @property
+    def spin_frequency(self) -> float:
+        """Of the first accelerometer's disc, Hz."""
+        return self.layout.discs[self.layout.places[0].disc].spin_frequency
 
     @property
     def scale_factor(self) -> float:
@@ -181,35 +166,28 @@ def _vector(value: ArrayLike, count: int) -> Vector:
     return vector
 
 
-def _finite(value: Vector, where: str | None) -> Vector:
-    if not np.all(np.isfinite(value)):
-        raise UserError("the value is not finite in SI", where=where, found=value, expected="finite numbers")
-    return value
-
-
-def _check_physical(instrument: Instrument) -> None:
-    path, k = instrument.path, instrument.accelerometers
-    own_discs = not instrument.layout.of_paper  # which may be at rest, with accelerometers at their centres
-    for name in ("g0",) if own_discs else DISC_UNITS:
-        value = getattr(instrument, name)
+def _check_physical(i: Instrument) -> None:
+    k, of_paper = i.accelerometers, i.layout.of_paper
+    positive = {"g0": (i.g0, "m/s^2")}
+    if of_paper:  # other discs may be at rest, with accelerometers at their centres
+        positive |= {"radius": (i.radius, "m"), "spin_frequency": (i.spin_frequency, "Hz")}
+    for name, (value, unit) in positive.items():
         if not (np.isfinite(value) and value > 0):
             raise UserError(
                 f"{name} must be positive",
-                where=at(path, f"[disc] {name}"),
-                found=f"{value:g} {DISC_UNITS[name]}",
+                where=at(i.path, f"[disc] {name}"),
+                found=f"{value:g} {unit}",
                 expected="a positive number",
             )
     for name, vector in k.items():
-        _finite(vector, at(path, f"[accelerometers] {name}"))
-    for name in ("K1", "k_VI"):
-        if np.any(k[name] == 0):
-            raise UserError(
-                f"{name} must not be zero", where=at(path, f"[accelerometers] {name}"), found=k[name].tolist()
-            )
-    R = instrument.radii + k["dR"]
-    if np.any(R < 0) or (np.any(R == 0) and not own_discs):
+        where = at(i.path, f"[accelerometers] {name}")
+        check_finite(vector, where)
+        if PARAMETER[name].required and np.any(vector == 0):
+            raise UserError(f"{name} must not be zero", where=where, found=vector.tolist())
+    R = i.radii + k["dR"]
+    if np.any(R < 0) or (np.any(R == 0) and of_paper):
         raise UserError(
             "the distance from the disc centre, radius + dR, must be positive",
-            where=at(path, "[accelerometers] dR"),
+            where=at(i.path, "[accelerometers] dR"),
             found=f"{R.tolist()} m",
         )

@@ -16,9 +16,8 @@ from ragg_runtime.base.errors import UserError, at, check_choice, check_keys, ch
 from ragg_runtime.base.names import is_name, read_name
 from ragg_runtime.instrument.demodulation import read_demodulation
 from ragg_runtime.instrument.form import read_form
-from ragg_runtime.instrument.instrument import EffectSetting, Instrument, read_si
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import (
-    PAPER,
     TANGENTIAL,
     X_AXIS,
     Z_AXIS,
@@ -32,7 +31,7 @@ from ragg_runtime.instrument.layout import (
     unit,
 )
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, Vector
-from ragg_runtime.instrument.units import Units, read_quantity, units
+from ragg_runtime.instrument.units import STANDARD_G0, Units, read_quantity, read_si, units
 
 
 def parse_instrument(text: str, path: Path | None = None) -> Instrument:
@@ -58,23 +57,17 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         _table(table, "accelerometers", path), g0, path, layout.size
     )
     return Instrument.build(
-        radius=layout.places[0].radius,
-        spin_frequency=layout.discs[layout.places[0].disc].spin_frequency,
-        g0=g0,
-        accelerometers=accelerometers,
+        layout,
+        g0,
+        accelerometers,
         sigmas=sigmas,
         fixed=fixed,
-        effects=_effects(table.get("effects", []), g0, path, layout.size),
+        effects=_effects(table.get("effects", []), units(g0), path, layout.size),
         path=path,
-        layout=layout,
         form=form,
         angle_origin=angle_origin,
         demodulation=read_demodulation(table.get("demodulator"), at(path, "[demodulator]")),
     )
-
-
-STANDARD_G0 = 9.8
-"""What g means in a model.toml with [[disc]] that does not say it, m/s^2: the paper's value."""
 
 
 def _discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, float]:
@@ -118,7 +111,7 @@ def _accelerometers(
             sigma = read_quantity({"value": raw["sigma"], "unit": quantity.unit}, where, count=count)
             sigmas[name] = read_si(sigma, si_unit, g0, where)
             if np.any(sigmas[name] <= 0):
-                expected = f"one or {'four' if count == 4 else count} above 0, in {quantity.unit}; omit it if unknown"
+                expected = f"one or {count} above 0, in {quantity.unit}; omit it if unknown"
                 raise UserError("sigma must be positive", where=where, found=raw["sigma"], expected=expected)
     return found, sigmas, frozenset(fixed)
 
@@ -132,18 +125,13 @@ def _without(raw: object, *keys: str) -> object:
     return {k: v for k, v in raw.items() if k not in keys} if isinstance(raw, dict) else raw
 
 
-def _effects(
-    entries: object, g0: float, path: Path | None, count: int = PAPER.size
-) -> tuple[EffectSetting, ...]:
+def _effects(entries: object, known: Units, path: Path | None, count: int) -> tuple[EffectSetting, ...]:
+    where = at(path, "effects")
     if not isinstance(entries, list):
-        raise UserError(
-            "effects must be a list", where=at(path, "effects"), found=repr(entries), expected='["lag"]'
-        )
-    found = [_effect(e, at(path, f"effects, entry {n}"), units(g0), count) for n, e in enumerate(entries, 1)]
+        raise UserError("effects must be a list", where=where, found=repr(entries), expected='["lag"]')
+    found = [_effect(e, f"{where}, entry {n}", known, count) for n, e in enumerate(entries, 1)]
     if twice := _find_twice([e.id for e in found]):
-        raise UserError(
-            f"the effect {twice!r} is listed twice", where=at(path, "effects"), remedy="remove one entry"
-        )
+        raise UserError(f"the effect {twice!r} is listed twice", where=where, remedy="remove one entry")
     return tuple(found)
 
 
@@ -152,9 +140,9 @@ def _find_twice(names: Sequence[str]) -> str | None:
 
 
 def _effect(entry: object, where: str, known: Units, count: int) -> EffectSetting:
-    if isinstance(entry, str):
-        entry = {"id": entry}
-    if not isinstance(entry, dict) or not isinstance(entry.get("id"), str) or not entry["id"].strip():
+    """An entry of ``effects``: an id, or a table with values of parameters, or one with the expression and its parameters."""
+    entry = {"id": entry} if isinstance(entry, str) else entry
+    if not isinstance(entry, dict) or not isinstance(entry.get("id"), str):
         raise UserError(
             "not an effect",
             where=where,
@@ -163,55 +151,48 @@ def _effect(entry: object, where: str, known: Units, count: int) -> EffectSettin
         )
     effect_id = read_name(entry["id"], at(where, "id"), '"lag"')
     where = f"{where} ({effect_id})"
-    own = {name: raw for name, raw in entry.items() if name not in ("id", "stage", "add", "params")}
-    if ("stage" in entry or "add" in entry) and "params" not in entry:
-        # An effect in one line: its parameters are keys next to stage and add, with or without a value.
-        entry = {k: entry[k] for k in ("id", "stage", "add") if k in entry} | {"params": own}
-        own = {}
-    for name in (*own, *(entry["params"] if isinstance(entry.get("params"), dict) else ())):
+    values = {name: raw for name, raw in entry.items() if name not in ("id", *_EXPRESSION)}
+    for name in values:
         read_name(name, at(where, "the name of a parameter"), "tau")
-    expression = _expression(entry, where, known)
-    if expression is not None:
-        check_keys(own, expression["params"], where)
-        own |= {
-            name: {"value": parameter["value"], "unit": parameter["unit"]}
-            for name, parameter in expression["params"].items()
-            if "value" in parameter
+    expression = None
+    if any(key in entry for key in _EXPRESSION):
+        expression = _expression(entry, values, where, known)
+        values = {
+            n: {k: q[k] for k in ("value", "unit")} for n, q in expression["params"].items() if "value" in q
         }
-    fixed = {name for name, raw in own.items() if _is_fixed(raw, f"{where}: {name}")}
-    values = {
+    fixed = {name for name, raw in values.items() if _is_fixed(raw, f"{where}: {name}")}
+    quantities = {
         name: known.quantity(_without(raw, "fixed"), f"{where}: {name}", count=count)
-        for name, raw in own.items()
+        for name, raw in values.items()
     }
-    return EffectSetting(effect_id, MappingProxyType(values), expression, frozenset(fixed))
+    return EffectSetting(effect_id, MappingProxyType(quantities), expression, frozenset(fixed))
 
 
-def _expression(entry: Mapping[str, Any], where: str, known: Units) -> Mapping[str, Any] | None:
-    keys = [k for k in ("stage", "add", "params") if k in entry]
-    if not keys:
-        return None
+_EXPRESSION = ("stage", "add")
+"""Keys of an effect in one line, beside its parameters."""
+
+
+def _expression(
+    entry: Mapping[str, Any], parameters: Mapping[str, Any], where: str, known: Units
+) -> Mapping[str, Any]:
+    """``stage``, ``add`` and ``params`` (name -> ``unit``, and ``value``, ``shared``, ``plausible`` where they are given)."""
     example = 'stage = "transducer", add = "K_x * f_i**3", K_x = { value = 0, unit = "ug/g^3" }'
-    for key, kind in (("stage", str), ("add", str), ("params", dict)):
-        if not isinstance(entry.get(key), kind):
+    for key in _EXPRESSION:
+        if not isinstance(entry.get(key), str):
             raise UserError(
-                f"the effect's {key} is missing or not a {'table' if kind is dict else 'text'}",
+                f"the effect's {key} is missing or not a text",
                 where=where,
                 found=repr(entry.get(key)),
                 expected=example,
             )
-    params: dict[str, Mapping[str, Any]] = {}
-    for name, raw in entry["params"].items():
-        table = {"unit": raw} if isinstance(raw, str) else raw
-        if not isinstance(table, dict) or not isinstance(table.get("unit"), str):
+    for name, raw in parameters.items():
+        if not isinstance(raw, dict) or not isinstance(raw.get("unit"), str):
             raise UserError(
                 "the parameter needs a unit", where=f"{where}: {name}", found=repr(raw), expected=example
             )
-        check_keys(table, ("value", "unit", "shared", "plausible"), f"{where}: {name}")
-        known.parse(table["unit"], f"{where}: {name}")
-        params[name] = MappingProxyType(table)
-    return MappingProxyType(
-        {"stage": entry["stage"], "add": entry["add"], "params": MappingProxyType(params)}
-    )
+        check_keys(raw, ("value", "unit", "shared", "plausible"), f"{where}: {name}")
+        known.parse(raw["unit"], f"{where}: {name}")
+    return MappingProxyType({**{k: entry[k] for k in _EXPRESSION}, "params": dict(parameters)})
 
 
 DISC_KEYS = ("name", "radius", "spin_frequency", "axis", "zero", "g0", "accelerometer")
@@ -235,16 +216,17 @@ def read_layout(tables: Sequence[Any], path: Path | None) -> Layout:
     outputs: dict[str, int] = {}
     for number, table in enumerate(tables, 1):
         check_table(table, "disc", path, "[[disc]]")
-        named = table["name"] if is_name(table.get("name")) else str(number)
-        where = at(path, f"[[disc]] {named}")
+        where = at(path, f"[[disc]] {table['name'] if is_name(table.get('name')) else number}")
         check_keys(table, DISC_KEYS, where)
         discs.append(_a_disc(table, where, single=len(tables) == 1))
-        radius = None if "radius" not in table else _number(table, "radius", "m", where)
         entries = table.get("accelerometer", [])
         if not isinstance(entries, list):
             raise UserError("accelerometer must be a list of tables", where=where, expected=_EXAMPLE)
         for k, entry in enumerate(entries, 1):
-            places.append(_place(entry, at(where, f"accelerometer {k}"), number - 1, radius, outputs))
+            own = at(where, f"accelerometer {k}")
+            check_keys(check_table(entry, "an accelerometer", own, _EXAMPLE), PLACE_KEYS, own)
+            default = {n: table[n] for n in ("radius",) if n in table}
+            places.append(_place(default | entry, own, number - 1, outputs))
     layout = Layout(discs=tuple(discs), places=tuple(places), output_names=tuple(outputs))
     _check(layout, path)
     return layout
@@ -253,44 +235,36 @@ def read_layout(tables: Sequence[Any], path: Path | None) -> Layout:
 def _a_disc(table: Mapping[str, Any], where: str, *, single: bool) -> Disc:
     name = _text(table, "name", where, "A" if single else None)
     axis = _direction(table, "axis", where, Z_AXIS)
-    zero = (
-        X_AXIS if axis == Z_AXIS else perpendicular(least_rotation(Z_AXIS, axis, X_AXIS)[:, 0].tolist(), axis)
-    )
+    zero = least_rotation(Z_AXIS, axis, X_AXIS)[:, 0].tolist()
     if "zero" in table:
-        given = _direction(table, "zero", where, X_AXIS)
-        if abs(math.fsum(a * b for a, b in zip(axis, given, strict=True))) > 1 - 1e-9:
-            raise UserError("zero must not lie along the axis", where=where, found=list(given))
-        zero = perpendicular(given, axis)
+        zero = _direction(table, "zero", where, X_AXIS)
+        if abs(math.fsum(a * b for a, b in zip(axis, zero, strict=True))) > 1 - 1e-9:
+            raise UserError("zero must not lie along the axis", where=where, found=list(zero))
     return Disc(
         name=name,
         spin_frequency=_number(table, "spin_frequency", "Hz", where),
         axis=axis,
-        zero=zero,
+        zero=perpendicular(zero, axis),
         angle_column="spin_angle" if single else f"spin_angle_{name}",
     )
 
 
-def _place(
-    entry: Any, where: str, disc: int, radius: float | None, outputs: dict[str, int]
-) -> AccelerometerPosition:
-    check_keys(check_table(entry, "an accelerometer", where, _EXAMPLE), PLACE_KEYS, where)
-    output = _text(entry, "output", where, None)
-    sign = entry.get("sign")
-    if isinstance(sign, bool) or sign not in (1, -1):
-        raise UserError("sign must be 1 or -1", where=where, found=repr(sign), expected="sign = 1")
-    own = _number(entry, "radius", "m", where) if "radius" in entry else radius
-    if own is None:
-        raise UserError("radius is missing", where=where, expected='radius = "0.1 m", here or in [[disc]]')
-    if own < 0.0:
-        raise UserError("radius is out of range", where=where, found=f"{own} m", expected="not negative")
+def _place(entry: Mapping[str, Any], where: str, disc: int, outputs: dict[str, int]) -> AccelerometerPosition:
+    output = _text(entry, "output", where)
+    radius = _number(entry, "radius", "m", where)
+    if radius < 0.0:
+        raise UserError("radius is out of range", where=where, found=f"{radius} m", expected="not negative")
+    if type(entry.get("sign")) is not int or abs(entry["sign"]) != 1:
+        found = repr(entry.get("sign"))
+        raise UserError("sign must be 1 or -1", where=where, found=found, expected="sign = 1")
     return AccelerometerPosition(
-        name=_text(entry, "name", where, None),
+        name=_text(entry, "name", where),
         disc=disc,
         angle=_number(entry, "angle", "rad", where),
-        radius=own,
+        radius=radius,
         height=_number(entry, "height", "m", where) if "height" in entry else 0.0,
         direction=_direction(entry, "direction", where, TANGENTIAL),
-        sign=int(sign),
+        sign=entry["sign"],
         output=outputs.setdefault(output, len(outputs)),
     )
 
@@ -326,7 +300,7 @@ def _check(layout: Layout, path: Path | None) -> None:
             )
 
 
-def _text(table: Mapping[str, Any], key: str, where: str, default: str | None) -> str:
+def _text(table: Mapping[str, Any], key: str, where: str, default: str | None = None) -> str:
     example = {"name": '"A1"', "output": '"G_out"'}[key]
     if key not in table and default is None:
         raise UserError(f"{key} is missing", where=where, expected=f"{key} = {example}")
@@ -353,9 +327,11 @@ def _direction(table: Mapping[str, Any], key: str, where: str, default: Vector3)
     if key not in table:
         return default
     raw = table[key]
-    numbers = isinstance(raw, list) and len(raw) == 3
-    numbers = numbers and all(isinstance(v, int | float) and not isinstance(v, bool) for v in raw)
-    if not numbers or not all(math.isfinite(float(v)) for v in raw) or not any(v != 0 for v in raw):
+    try:
+        usable = len(raw) == 3 and all(math.isfinite(v) for v in raw) and any(raw)
+    except (TypeError, OverflowError):  # no list of numbers
+        usable = False
+    if not usable:
         raise UserError(
             f"{key} is not a direction",
             where=where,

@@ -6,8 +6,10 @@ In this project ``g`` is the specific force g0 of the model file (9.8 m/s^2 in t
 
 from __future__ import annotations
 
+import contextlib
 import math
 import re
+import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -26,6 +28,9 @@ Value = TypeVar("Value", float, NDArray[np.float64])
 
 EOTVOS = 1e-9
 """1 Eo in s^-2."""
+
+STANDARD_G0 = 9.8
+"""What g means in a model.toml with [[disc]] that does not say it, m/s^2: the paper's value."""
 
 DIMENSIONLESS = ("1", "", "-", "dimensionless")
 
@@ -68,7 +73,6 @@ class Units:
             raise UserError("g0 must be a positive acceleration", found=g0, expected="such as 9.8 m/s^2")
         self.g0 = float(g0)
         self._parsed: dict[str, Any] = {}
-        self._stems: dict[str, str | None] = {}
 
     @cached_property
     def _registry(self) -> pint.UnitRegistry[Any]:
@@ -176,14 +180,8 @@ class Units:
         return quantity
 
     def _counts(self, unit: Any, names: frozenset[str]) -> bool:
-        return any(self._stem(name) in names for name in unit._units)
-
-    def _stem(self, name: str) -> str | None:
-        """A unit's name without prefix and suffix."""
-        if name not in self._stems:  # pint looks through all prefixes, units and suffixes
-            parsed = self._registry.parse_unit_name(name)
-            self._stems[name] = parsed[0][1] if parsed else None
-        return self._stems[name]
+        """Whether one of these units, with any prefix, is a factor of a unit."""
+        return any(self._registry.parse_unit_name(name)[0][1] in names for name in unit._units)
 
 
 @lru_cache(maxsize=32)
@@ -192,56 +190,28 @@ def units(g0: float) -> Units:
     return Units(g0)
 
 
+_AMOUNT = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*(\S.*)?")
+# a decimal comma, but not what may be a comma between thousands
+_COMMA = re.compile(r"^(\s*[+-]?(?:0+,\d+|\d+,(?!\d{3}(?!\d))\d+))")
+
+
 def read_quantity(raw: object, where: str | None = None, *, count: int = 4) -> RawQuantity:
     """The number or numbers and the unit, as written; see :meth:`Units.quantity`."""
+    value: object = None
+    unit: object = None
     if isinstance(raw, str):
-        # a decimal comma, but not what may be a comma between thousands
-        text = re.sub(r"^(\s*[+-]?(?:0+,\d+|\d+,(?!\d{3}(?!\d))\d+))", lambda m: m[0].replace(",", "."), raw)
-        match = re.fullmatch(r"\s*([+-]?[\d.][\d.]*(?:[eE][+-]?\d+)?)\s*(\S.*)?", text)
-        try:
-            number = float(match[1]) if match else math.nan
-        except ValueError:
-            number = math.nan
-        if match is None or math.isnan(number):
-            raise _not_a_quantity(raw, where, count)
-        return RawQuantity(_number(number, where), _need_unit(match[2], raw, where))
-    if isinstance(raw, Mapping):
-        unknown = [str(k) for k in raw if k not in ("value", "unit")]
-        if unknown or "value" not in raw:
-            raise _not_a_quantity(raw, where, count)
-        return RawQuantity(_values(raw["value"], where, count), _need_unit(raw.get("unit"), raw, where))
-    if isinstance(raw, int | float) and not isinstance(raw, bool):
-        _need_unit(None, raw, where)
-    raise _not_a_quantity(raw, where, count)
-
-
-def _values(value: object, where: str | None, count: int) -> float | tuple[float, ...]:
-    if not isinstance(value, list | tuple):
-        return _number(value, where)
-    if len(value) != count:
-        raise UserError(
-            "wrong number of values",
-            where=where,
-            found=f"{len(value)} values",
-            expected=f"one number, or {count} ({_count_up(count, 'A')})" if count > 1 else "one number",
-        )
-    return tuple(_number(v, where) for v in value)
-
-
-def _number(value: object, where: str | None) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise UserError("not a number", where=where, found=repr(value), expected="a number")
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
-    if not math.isfinite(number):
-        shown = value if isinstance(value, float) else "a whole number too large for a float"
-        raise UserError("the value is not finite", where=where, found=shown, expected="a finite number")
-    return number
-
-
-def _need_unit(unit: object, raw: object, where: str | None) -> str:
+        found = _AMOUNT.fullmatch(_COMMA.sub(lambda m: m[0].replace(",", "."), raw))
+        if found is not None:
+            with contextlib.suppress(ValueError):
+                value, unit = float(found[1]), found[2]
+    elif isinstance(raw, Mapping):
+        value, unit = (raw.get("value"), raw.get("unit")) if raw.keys() <= {"value", "unit"} else (None, None)
+    elif isinstance(raw, int | float) and not isinstance(raw, bool):
+        value = raw
+    if value is None:
+        expected = '"0.1 m", { value = 0.1, unit = "m" }'
+        expected += f' or {{ value = [{_count_up(count)}], unit = "m" }}' if count > 1 else ""
+        raise UserError("not a quantity", where=where, found=repr(raw), expected=expected)
     if not isinstance(unit, str):
         raise UserError(
             "the unit is missing" if unit is None else "the unit is not a text",
@@ -250,17 +220,38 @@ def _need_unit(unit: object, raw: object, where: str | None) -> str:
             expected='"0.1 m" or { value = 0.1, unit = "m" }',
             remedy='write the unit; a pure number has the unit "1"; none is guessed',
         )
-    return unit.strip()
+    if not isinstance(value, list | tuple):
+        return RawQuantity(_number(value, where), unit.strip())
+    if len(value) != count:
+        raise UserError(
+            "wrong number of values",
+            where=where,
+            found=f"{len(value)} values",
+            expected=f"one number, or {count} ({_count_up(count, 'A')})" if count > 1 else "one number",
+        )
+    return RawQuantity(tuple(_number(v, where) for v in value), unit.strip())
 
 
-def _not_a_quantity(raw: object, where: str | None, count: int) -> UserError:
-    return UserError(
-        "not a quantity",
-        where=where,
-        found=repr(raw),
-        expected='"0.1 m", { value = 0.1, unit = "m" }'
-        + (f' or {{ value = [{_count_up(count)}], unit = "m" }}' if count > 1 else ""),
-    )
+def _number(value: object, where: str | None) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise UserError("not a number", where=where, found=repr(value), expected="a number")
+    if not abs(value) <= sys.float_info.max:
+        shown = value if isinstance(value, float) else "a whole number too large for a float"
+        raise UserError("the value is not finite", where=where, found=shown, expected="a finite number")
+    return float(value)
+
+
+def read_si(quantity: RawQuantity, si_unit: str, g0: float, where: str | None = None) -> NDArray[np.float64]:
+    """The numbers of a quantity, (1,) or (n,), in ``si_unit``; UserError if one is not finite there."""
+    value = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
+    return check_finite(np.asarray(units(g0).to_si(value, quantity.unit, si_unit, where)), where)
+
+
+def check_finite(value: NDArray[np.float64], where: str | None) -> NDArray[np.float64]:
+    """``value`` (n,); UserError if one is not finite."""
+    if not np.all(np.isfinite(value)):
+        raise UserError("the value is not finite in SI", where=where, found=value, expected="finite numbers")
+    return value
 
 
 def _count_up(count: int, before: str = "") -> str:
@@ -277,24 +268,21 @@ _NAMED = {
     spelling: unit
     for unit, spellings in {
         # EU would be an exa-enzyme-unit, gal a gallon and E nothing at all.
-        "Eo": ("E", "EU", "EO", "Eö", "EOTVOS", "Eötvös", "eötvös", "Eoetvoes", "eotvoes", "eotvos"),
+        "Eo": ("E", "EU", "EO", "Eö", "EOTVOS", "Eötvös", "eötvös", "Eoetvoes", "eotvoes"),
         "mEo": ("mE",),
         "uEo": ("uE", "µE", "μE"),
         "Gal": ("gal", "gals", "GAL"),
-        "mGal": ("mgal", "mgals", "MGAL", "milligal", "milliGal"),
+        "mGal": ("mgal", "mgals", "MGAL", "milligal"),
         "uGal": ("ugal", "µgal", "μgal", "microgal"),
-        "deg/s": ("dps", "DPS", "°/s", "º/s", "deg/sec"),
-        "deg/h": ("dph", "degph", "°/h", "º/h", "°/hr"),
+        "deg/s": ("dps", "DPS", "º/s"),
+        "deg/h": ("dph", "degph", "º/h"),
         "mdeg/s": ("mdps", "MDPS"),
         "degC": (
             *("\u2103", "deg C", "° C", "deg.C", "Celsius", "CELSIUS", "DEGC"),
             *("degrees_celsius", "degrees_Celsius", "degrees_C", "degreesC", "degree_C"),  # of CF
         ),
-        "deg": ("DEG", "degs", "DEGREES", "Degrees"),
-        "rad": ("RAD", "rads"),
-        "s": ("SEC", "Seconds", "SECONDS"),
-        "m": ("METRES", "METERS"),
-        "V": ("VOLT", "VOLTS", "Volts", "Volt", "Vdc", "VDC"),
+        "rad": ("rads",),
+        "V": ("Vdc", "VDC"),
         "mV": ("mVolt", "mVolts"),
         "g": ("g's", "G's", "gs", "gee", "gees"),
         "1": ("unitless",),
@@ -306,7 +294,7 @@ _LETTERS = {"C": "degC", "F": "degF"}
 
 _WORDS = frozenset((
     "deg", "degs", "degree", "degrees", "rad", "rads", "radian", "radians", "s", "sec", "secs", "second", "seconds", "h",
-    "hr", "hrs", "hour", "hours", "min", "minute", "volt", "volts", "m", "meter", "meters", "kelvin",
+    "hr", "hrs", "hour", "hours", "min", "minute", "volt", "volts", "m", "meter", "meters", "metres", "kelvin",
 ))  # fmt: skip
 """Words of units that programs write in capitals, and that mean the same then."""
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import paper
 
 Array = NDArray[np.float64]
 
@@ -38,7 +39,7 @@ vartheta_x; it leaves the linear terms alone."""
 
 
 def _instrument(accelerometers: Mapping[str, Array]) -> Instrument:
-    return Instrument.build(radius=0.1, spin_frequency=0.25, g0=_G0, accelerometers=accelerometers)
+    return Instrument.build(paper(0.1, 0.25), _G0, accelerometers)
 
 
 def table_v() -> Instrument:

@@ -63,8 +63,7 @@ def test_effects() -> None:
     found = parse_instrument(
         with_effects(
             '["lag", { id = "cubic-input", K_iii = { value = [2, 0, 0, 0], unit = "ug/g^3" } }, '
-            '{ id = "mine", stage = "transducer", add = "c*f_i^5", '
-            'params = { c = "ug/g^5" }, c = "3 ug/g^5" }]'
+            '{ id = "mine", stage = "transducer", add = "c*f_i^5", c = { value = 3, unit = "ug/g^5" } }]'
         )
     )
     lag, cubic, mine = found.effects
@@ -113,10 +112,7 @@ def test_shared_parameters_have_one_value() -> None:
         (with_effects("[{ tau = 3 }]"), ("effects, entry 1", "not an effect")),
         (with_effects('["arm-sag", { id = "lag", tau = 3 }]'), ("effects, entry 2 (lag): tau", "unit")),
         (with_effects('[{ id = "x", stage = "transducer" }]'), ("entry 1 (x)", "add")),
-        (
-            with_effects('[{ id = "x", stage = "output", add = "c", params = { c = "V" }, d = "1 V" }]'),
-            ("entry 1 (x)", "'d'"),
-        ),
+        (with_effects('[{ id = "x", stage = "output", add = "c", c = "1 V" }]'), ("entry 1 (x): c", "unit")),
         (TEXT.replace("[accelerometers]", "[accelerometers.inner]"), ("[accelerometers]", "'inner'")),
         ("", ("[disc] is missing",)),
     ],

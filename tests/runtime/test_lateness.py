@@ -12,7 +12,6 @@ from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.thinning import leave_out_uncertain
 from ragg_runtime.estimation.unknown_gradient import make_windows
-from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import evaluate_voltages, make_vector
@@ -114,12 +113,7 @@ def test_what_is_kept_is_on_the_same_side_for_every_instrument_that_the_sheet_al
     for _ in range(20):
         a = s.sheet.accelerometers
         drawn = {n: a[n] + s.sheet.sigma(n) * rng.standard_normal(4) for n in ("K0", "dR", "beta_z", "K2")}
-        other = Instrument.build(
-            radius=s.sheet.radius,
-            spin_frequency=s.sheet.spin_frequency,
-            g0=9.8,
-            accelerometers={**a, **drawn},
-        )
+        other = s.sheet.replace(**drawn)
         changed |= (np.sign(evaluate_voltages(model.chain, o.record, make_vector(model, other))) != side).any(
             axis=0
         )

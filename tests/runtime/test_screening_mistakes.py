@@ -14,6 +14,7 @@ import pytest
 from scipy import signal
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.layout import paper
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import make_vector, scale_factor
@@ -126,7 +127,7 @@ def test_nothing_is_named_where_nothing_follows_the_motion() -> None:
 
 @pytest.mark.usefixtures("shifts_alone")
 def test_the_spin_rate_is_measured() -> None:
-    found = found_in(flown(10), replace(drawn(10).sheet, spin_frequency=0.25 * 0.97))
+    found = found_in(flown(10), replace(drawn(10).sheet, layout=paper(0.1, 0.25 * 0.97)))
     assert found is not None
     assert float(found.best.what.split()[4]) == pytest.approx(0.25, rel=1e-6)
 
