@@ -297,7 +297,7 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
     """The effect as model.toml will list it, its values open but for a step's instant; UserError if it cannot be added."""
     # a candidate of the model has all that is needed here; importing the derivation takes half a second
     found = next((e for e in m.model.candidates if e.id == effect), None)
-    offered = derive.find_offered(m.instrument, effect) if found is None else found
+    offered = found or derive.find_offered(m.instrument, effect)[0]
     present = m.instrument.effect(effect) or EffectSetting(effect)
     if {q.name for q in offered.parameters if not q.shape} & present.values.keys():
         raise UserError(

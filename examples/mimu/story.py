@@ -68,7 +68,7 @@ def calibrated(text: str, *effects: str) -> tuple[Array, Array]:
     """Arms and lifts, each values and uncertainties (2, 4), mm, of a calibration with these effects in the model beside its own."""
     i = parse_instrument(text)
     i = replace(i, effects=(*i.effects, *(EffectSetting(e) for e in effects)))
-    model = derive.derive_without_signatures(i, i.form)
+    model = derive.load_model(i, candidates=False)
     f = fit(model, i, observe_flights(flights(i, HERE / "motion.parquet"), i))
     c = f.calibration
     std = np.sqrt(np.diag(c.covariance)) * np.array([q.scale for q in c.columns])

@@ -307,7 +307,7 @@ def _keep_samples(o: Observation, thin: Thin) -> Observation:
         valid=_find_supported(r.valid, thin),
         halo=(0, 0),
         whole=None,
-        instants=None,
+        first=0,
     )
     return replace(o, record=record, series=tuple(series), thin=thin)
 

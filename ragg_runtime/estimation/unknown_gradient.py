@@ -114,7 +114,8 @@ def make_windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]
         inside = here[lead:]
         shares = [np.empty((0, len(here)))] * len(o.series)
         if is_unknown(o):
-            shares = _share_among_series(o, make_splines(*r.carried(slice(a - lead, b))) * here)
+            part = r.part(slice(a - lead, b), only=())
+            shares = _share_among_series(o, make_splines(part.time, *part.carriers) * here)
         plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
         level = noise.level.of(take_quantities(r, slice(a - lead, b)))
         lines = noise.line_columns(r.time[a - lead : b], len(o.series))

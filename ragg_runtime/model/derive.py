@@ -13,7 +13,6 @@ import threading
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import metadata, resources
-from importlib.metadata import entry_points
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -59,6 +58,17 @@ def list_known(instrument: Instrument) -> Mapping[str, SymbolicEffect]:
     return {e.id: e for e in found}
 
 
+def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
+    from derive.expression import ExpressionError, from_expression
+
+    assert s.expression is not None
+    try:
+        return from_expression(s.id, s.expression["stage"], s.expression["add"], s.expression["params"])
+    except ExpressionError as error:
+        where = at(path, f"effect {s.id}")
+        raise UserError("the expression is invalid", where=where, found=str(error)) from error
+
+
 def find_effect(effects: Mapping[str, E], identifier: str, where: str | None = None) -> E:
     """The effect of this id; UserError if there is none."""
     if identifier in effects:
@@ -72,105 +82,56 @@ def find_effect(effects: Mapping[str, E], identifier: str, where: str | None = N
     )
 
 
-def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
-    from derive.expression import ExpressionError, from_expression
+def find_offered(instrument: Instrument, *ids: str) -> list[SymbolicEffect]:
+    """The effects of these ids; UserError if there is none, or if the form of the instrument's model holds it already."""
+    every, form = list_known(instrument), _make_symbolic_form(instrument.form, instrument.layout)
+    found = [find_effect(every, i, at(instrument.path, "effects")) for i in ids]
+    for e in found:
+        if e.moot(form.order, form.kinematics):
+            raise UserError(
+                f"the effect {e.id} is already in the model",
+                where=at(instrument.path, "effects"),
+                found=f"[model] with {instrument.form.words()}",
+                remedy="leave the effect out, or change [model]",
+            )
+    return found
 
-    where = at(path, f"effect {s.id}")
-    assert s.expression is not None
-    try:
-        return from_expression(
-            s.id, str(s.expression["stage"]), str(s.expression["add"]), s.expression["params"]
-        )
-    except ExpressionError as error:
-        raise UserError("the expression is invalid", where=where, found=str(error)) from error
 
-
-def load_model(instrument: Instrument) -> Model:
-    """The model for an instrument's list of effects: the packaged one, or one derived for it."""
+def load_model(instrument: Instrument, *, candidates: bool = True) -> Model:
+    """The model for an instrument's list of effects: the packaged one, or one derived for it, with the signatures of the others."""
     if not (instrument.effects or list_own_sources()) and _is_packaged(instrument):
         return load_packaged(instrument.form.kinematics)
-    return _execute_files(tuple(_derive_files(instrument).items()), instrument.layout)
+    files = _derive_files(instrument, [s.id for s in instrument.effects], candidates=candidates)
+    return _execute_files(tuple(files.items()), instrument.layout)
+
+
+def with_effects(
+    instrument: Instrument, model: Model, further: Sequence[str], *, candidates: bool = False
+) -> Model:
+    """``model`` with further effects derived into it; with the signatures of the others only if ``candidates``."""
+    ids = [*(e.id for e in model.effects), *further]
+    return _execute_files(
+        tuple(_derive_files(instrument, ids, candidates=candidates).items()), instrument.layout
+    )
 
 
 @cache
 def _execute_files(files: tuple[tuple[str, str], ...], layout: Layout) -> Model:
-    return load_files(dict(files), layout=_sized(layout))
+    return load_files(dict(files), layout)
 
 
 def _derive_files(
-    instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True
+    instrument: Instrument, ids: Sequence[str], *, candidates: bool = True
 ) -> Mapping[str, str]:
-    """The files of an instrument's model, with effects of these ids (its own if none are given), derived or kept."""
+    """The files of an instrument's model, with effects of these ids, derived or kept."""
     asked = request(instrument, ids, candidates=candidates)
     files = kept(asked)
     if files is None:
-        every = list_known(instrument)
-        chosen = _chosen(instrument, every) if ids is None else [find_effect(every, i) for i in ids]
-        others = tuple(every.values()) if candidates else ()
-        _, files = derived(tuple(chosen), others, instrument.form, instrument.layout)
+        others = tuple(list_known(instrument).values()) if candidates else ()
+        chosen = tuple(find_offered(instrument, *ids))
+        _, files = derived(chosen, others, instrument.form, instrument.layout)
         keep(asked, files)
     return files
-
-
-def _sized(layout: Layout) -> Layout:
-    return FOUR if layout.like_paper else layout
-
-
-def describe_departure(instrument: Instrument, generated: Path | None) -> str | None:
-    """That a model directory's ``generated/`` was derived for something else, in a sentence; ``None``: it was not."""
-    if generated is None or not _has_files(instrument) or read_digest(generated) == request(instrument):
-        return None
-    return (
-        "generated/ was not derived for this model.toml by this version; it is not used, and "
-        "the next change of the model rewrites it"
-    )
-
-
-def _is_packaged(instrument: Instrument) -> bool:
-    """Whether such models come derived with the program: those of the paper's order and layout."""
-    return instrument.form.preset == "paper" and instrument.layout.like_paper
-
-
-def _has_files(instrument: Instrument) -> bool:
-    """Whether a model directory of this instrument keeps derived code of its own."""
-    return bool(instrument.effects) or not _is_packaged(instrument)
-
-
-def _make_symbolic_form(form: Form, layout: Layout) -> SymbolicForm:
-    from derive.pipeline import SymbolicForm
-    from derive.stages import Order
-
-    order = Order(
-        rotation=None if form.mounting == "exact" else int(form.mounting),
-        misalignment=None if form.misalignment == "exact" else int(form.misalignment),
-        second_order_angles=form.second_order_angles,
-    )
-    return SymbolicForm(order=order, kinematics=form.kinematics, layout=_make_symbolic_layout(layout))
-
-
-def _chosen(instrument: Instrument, every: Mapping[str, SymbolicEffect]) -> list[SymbolicEffect]:
-    form = _make_symbolic_form(instrument.form, instrument.layout)
-    found = [find_effect(every, s.id, at(instrument.path, "effects")) for s in instrument.effects]
-    for e in found:
-        _check_needed(e, form, instrument)
-    return found
-
-
-def find_offered(instrument: Instrument, identifier: str) -> SymbolicEffect:
-    """The effect of this id, which the instrument's model does not hold already; UserError if it does."""
-    e = find_effect(list_known(instrument), identifier, at(instrument.path))
-    _check_needed(e, _make_symbolic_form(instrument.form, instrument.layout), instrument)
-    return e
-
-
-def _check_needed(e: SymbolicEffect, form: SymbolicForm, instrument: Instrument) -> None:
-    if e.moot(form.order, form.kinematics):
-        raise UserError(
-            f"the effect {e.id} is already in the model",
-            where=at(instrument.path, "effects"),
-            found=f"[model] with {instrument.form.words()}",
-            remedy="leave the effect out, or change [model]",
-        )
 
 
 @cache
@@ -185,7 +146,19 @@ def derived(
 
     with _SYMPY:
         files = pipeline.derive_model(effects, candidates, _make_symbolic_form(form, layout))
-    return load_files(files, layout=_sized(layout)), files
+    return load_files(files, layout), files
+
+
+def _make_symbolic_form(form: Form, layout: Layout) -> SymbolicForm:
+    from derive.pipeline import SymbolicForm
+    from derive.stages import Order
+
+    order = Order(
+        rotation=None if form.mounting == "exact" else int(form.mounting),
+        misalignment=None if form.misalignment == "exact" else int(form.misalignment),
+        second_order_angles=form.second_order_angles,
+    )
+    return SymbolicForm(order=order, kinematics=form.kinematics, layout=_make_symbolic_layout(layout))
 
 
 def _make_symbolic_layout(layout: Layout) -> SymbolicLayout:
@@ -195,61 +168,59 @@ def _make_symbolic_layout(layout: Layout) -> SymbolicLayout:
 
     if layout.like_paper:
         return QUARTERS
-    outputs = tuple(SymbolicOutput(o.name, o.members, o.signs) for o in layout.outputs)
     constants = layouts.constants(layout)
     return SymbolicLayout(
         names=layout.names,
         constants=constants,
-        outputs=outputs,
+        outputs=tuple(SymbolicOutput(o.name, o.members, o.signs) for o in layout.outputs),
         rest=rest_of_angles(layouts.degrees(layout), constants["cos_j"], constants["sin_j"]),
         own=True,
     )
 
 
-def with_effects(
-    instrument: Instrument, model: Model, further: Sequence[str], *, candidates: bool = False
-) -> Model:
-    """``model`` with further effects derived into it; with the signatures of the others only if ``candidates``."""
-    files = _derive_files(instrument, [*(e.id for e in model.effects), *further], candidates=candidates)
-    return _execute_files(tuple(files.items()), instrument.layout)
+def _is_packaged(instrument: Instrument) -> bool:
+    """Whether such models come derived with the program: those of the paper's order and layout."""
+    return instrument.form.preset == "paper" and instrument.layout.like_paper
+
+
+def _has_files(instrument: Instrument) -> bool:
+    """Whether a model directory of this instrument keeps derived code of its own."""
+    return bool(instrument.effects) or not _is_packaged(instrument)
 
 
 def list_files(instrument: Instrument) -> Mapping[str, str]:
     """What ``generated/`` of a model directory must hold; empty where the packaged model serves."""
     if not _has_files(instrument):
         return {}
-    found = {n: text for n, text in _derive_files(instrument).items() if not n.startswith("fits/")}
-    return found | {DIGEST: request(instrument)}
+    files = _derive_files(instrument, [s.id for s in instrument.effects])
+    return {n: text for n, text in files.items() if not n.startswith("fits/")} | {DIGEST: request(instrument)}
 
 
-def derive_without_signatures(instrument: Instrument, form: Form) -> Model:
-    """The instrument's model in another form, with those of its effects that this form does not hold already."""
-    every, symbolic = list_known(instrument), _make_symbolic_form(form, instrument.layout)
-    chosen = (find_effect(every, s.id, at(instrument.path, "effects")) for s in instrument.effects)
-    kept = tuple(e for e in chosen if not e.moot(symbolic.order, symbolic.kinematics))
-    return derived(kept, (), form, instrument.layout)[0]
+def describe_departure(instrument: Instrument, generated: Path | None) -> str | None:
+    """That a model directory's ``generated/`` was derived for something else, in a sentence; ``None``: it was not."""
+    if generated is None or not _has_files(instrument) or read_digest(generated) == request(instrument):
+        return None
+    return (
+        "generated/ was not derived for this model.toml by this version; it is not used, and "
+        "the next change of the model rewrites it"
+    )
 
 
 def derive_plain_c(instrument: Instrument) -> Mapping[str, str]:
     """The model in C, for G_out alone, in the order of operations of the NumPy code: file name -> text."""
     from derive import pipeline
 
-    return pipeline.derive_plain(
-        _chosen(instrument, list_known(instrument)), _make_symbolic_form(instrument.form, instrument.layout)
-    )
+    chosen = find_offered(instrument, *(s.id for s in instrument.effects))
+    return pipeline.derive_plain(chosen, _make_symbolic_form(instrument.form, instrument.layout))
 
 
 def read_chain(instrument: Instrument) -> str:
     """The text of the chain in NumPy."""
-    files = list_files(instrument)
-    if files:
-        return files["chain.py"]
+    if _has_files(instrument):
+        return list_files(instrument)["chain.py"]
     package = "generated" if instrument.form.kinematics == "platform" else "generated.full"
     return resources.files(package).joinpath("chain.py").read_text("utf-8")
 
-
-_LARGEST = 1 << 24
-"""Bytes of all generated files together."""
 
 MOST_KEPT = 200
 """Derivations that are kept, at most half a megabyte each: a catalogue's effects one by one, and pairs of those that are used."""
@@ -257,11 +228,14 @@ MOST_KEPT = 200
 
 def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True) -> str:
     """Digest of all that a derivation depends on, for effects of these ids (else its own), and all ``candidates``."""
-    expressions = {
-        s.id: [str(s.expression["stage"]), str(s.expression["add"]), _list_kept(s.expression["params"])]
-        for s in instrument.effects
-        if s.expression is not None
-    }
+    expressions: dict[str, object] = {}
+    for s in instrument.effects:
+        if s.expression is not None:  # the values of its parameters do not matter
+            parameters = {
+                n: {k: repr(q[k]) for k in ("unit", "plausible", "shared") if k in q}
+                for n, q in s.expression["params"].items()
+            }
+            expressions[s.id] = [s.expression["stage"], s.expression["add"], parameters]
     chosen = [s.id for s in instrument.effects] if ids is None else ids
     asked: list[object] = [
         digest_sources("derive", suffixes=(".py", ".j2"), first=metadata.version("sympy")),
@@ -270,13 +244,10 @@ def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candida
         instrument.form.as_json(),
         candidates and expressions,
     ]
-    if not instrument.layout.like_paper:
-        layout = instrument.layout
-        asked += [
-            layout.names,
-            dict(layouts.constants(layout)),
-            [[o.name, o.members, o.signs] for o in layout.outputs],
-        ]
+    layout = instrument.layout
+    if not layout.like_paper:
+        outputs = [[o.name, o.members, o.signs] for o in layout.outputs]
+        asked += [layout.names, dict(layouts.constants(layout)), outputs]
     return compute_digest(json.dumps(asked, sort_keys=True))
 
 
@@ -284,13 +255,11 @@ def kept(asked: str) -> Mapping[str, str] | None:
     """The files that were derived for this request before, if they are at hand."""
     place = find_private_folder("derived") / f"{asked}.json"
     try:
-        with place.open("rb") as stream:
-            found = json.loads(stream.read(_LARGEST))
+        found = json.loads(place.read_text("utf-8"))
         os.utime(place)  # used last: the others go first
-    except (OSError, ValueError, RecursionError):
+    except (OSError, ValueError):
         return None
-    whole = isinstance(found, dict) and all(isinstance(text, str) for text in found.values())
-    return found if whole and "manifest.json" in found else None
+    return found if "manifest.json" in found else None
 
 
 def keep(asked: str, files: Mapping[str, str]) -> None:
@@ -304,13 +273,6 @@ def keep(asked: str, files: Mapping[str, str]) -> None:
         return
 
 
-def _list_kept(parameters: Mapping[str, Mapping[str, object]]) -> Mapping[str, object]:
-    """What of the parameters of an effect in one line enters its derivation: not their values."""
-    return {
-        n: {k: repr(q[k]) for k in ("unit", "plausible", "shared") if k in q} for n, q in parameters.items()
-    }
-
-
 GROUP = "ragg.effects"
 """The group of entry points of packages; each is a module with ``EFFECT``."""
 
@@ -320,7 +282,13 @@ VARIABLE = "RAGG_EFFECTS"
 
 def list_own_sources() -> Mapping[str, str]:
     """The text of every module of a package or of RAGG_EFFECTS that defines an effect, by its name or path."""
-    return {name: inspect.getsource(module) for name, module in _installed().items()} | _in_folder()
+    found = {name: inspect.getsource(module) for name, module in _load_installed().items()}
+    if named := os.environ.get(VARIABLE):
+        if not Path(named).is_dir():
+            raise UserError("there is no folder of effects", where=VARIABLE, found=named)
+        files = sorted(p for p in Path(named).glob("*.py") if not p.name.startswith((".", "_")))
+        found |= {str(path): read_text(path) for path in files}
+    return found
 
 
 def load_own_effects() -> tuple[SymbolicEffect, ...]:
@@ -333,7 +301,7 @@ def load_own_effects() -> tuple[SymbolicEffect, ...]:
     found = []
     for name, text in sources.items():
         try:
-            module = _installed().get(name)
+            module = _load_installed().get(name)
             found.append(of_text(Path(name), text) if module is None else of_module(module, text))
         except ValueError as error:
             raise _unread(name, error) from error
@@ -351,24 +319,14 @@ def list_own_entries() -> tuple[Mapping[str, Any], ...]:
 
 
 @cache
-def _installed() -> Mapping[str, ModuleType]:
+def _load_installed() -> Mapping[str, ModuleType]:
     found = {}
-    for entry in sorted(entry_points(group=GROUP), key=lambda e: e.value):
+    for entry in sorted(metadata.entry_points(group=GROUP), key=lambda e: e.value):
         try:
             found[entry.value] = entry.load()
         except Exception as error:
             raise _unread(entry.value, error) from error
     return found
-
-
-def _in_folder() -> dict[str, str]:
-    named = os.environ.get(VARIABLE)
-    if not named:
-        return {}
-    if not Path(named).is_dir():
-        raise UserError("there is no folder of effects", where=VARIABLE, found=named)
-    files = sorted(p for p in Path(named).glob("*.py") if not p.name.startswith((".", "_")))
-    return {str(path): read_text(path) for path in files}
 
 
 def _unread(where: str, error: Exception) -> UserError:

@@ -111,9 +111,7 @@ def add_responses(r: Record, memories: Iterable[Memory], wanted: Container[str])
 def _responses(r: Record, m: Memory, wanted: Container[str]) -> dict[str, Array]:
     """Name -> (before + N + after,), as the channels of a part."""
     whole = r.whole or r
-    before, after = r.halo
-    start = int(np.searchsorted(whole.time, r.time[0])) - before
-    stop = start + before + len(r.time) + after
+    start, stop = r.first, r.first + len(r.time) + sum(r.halo)
     reach = min(int(np.ceil(m.lasts * r.rate)), len(whole.time))
     first, last = max(start - reach, 0), min(stop + reach, len(whole.time))
     near = whole.part(slice(first, last))

@@ -164,7 +164,8 @@ def load_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
         exec(compile(files[name], f"<derived/{name}>", "exec"), module.__dict__)
         modules[stem] = module
     c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith(("c/", "fits/"))}
-    return _model(json.loads(files["manifest.json"]), modules, c, layout)
+    own = PAPER if layout.like_paper else layout
+    return _model(json.loads(files["manifest.json"]), modules, c, own)
 
 
 def _model(

@@ -61,7 +61,7 @@ class Record:
     ``rate``, ``spin_frequency``: Hz. ``angle_column``: of the disc that the output belongs to. ``phase``, rad: a
     gradient shows as T_1 sin(2 phi + phase) + T_2 cos(2 phi + phase). ``axes``: first two of the disc at rest in the
     measurement frame; ``None``: x and y. ``every``: samples from one recorded inline and cross to the next. ``whole``:
-    what this is a part of. ``instants`` (before + N + after,): times of all samples of a part.
+    what this is a part of, from its sample ``first`` on, those of the halo among them.
     ``input_axes``: cosine and sine of the angle of each of the output's accelerometers, and its share in the power of equal noises.
     ``reading``: the output as its converter gave it, (before + N + after,) V; ``None`` where something else is fitted.
     """
@@ -79,7 +79,7 @@ class Record:
     demodulation: Demodulation = OURS
     every: int = 1
     whole: Record | None = None
-    instants: Array | None = None
+    first: int = 0
     start: float = 0.0
     input_axes: tuple[tuple[float, float, float], ...] = ((1.0, 0.0, 0.5), (0.0, 1.0, 0.5))
     reading: Array | None = None
@@ -122,18 +122,10 @@ class Record:
         """Those on which inline and cross are put to be one series: the gradient's, or, where they were recorded more
         seldom, ones that turn by a quarter from sample to sample.
         """
-        return self.quadratures if self.every == 1 else self._quarters(self.time)
-
-    def _quarters(self, time: Array) -> tuple[Array, Array]:
-        angle = np.pi / 2 * np.remainder(np.rint(time * self.rate), 4.0 * self.every) / self.every
+        if self.every == 1:
+            return self.quadratures
+        angle = np.pi / 2 * np.remainder(np.rint(self.time * self.rate), 4.0 * self.every) / self.every
         return np.asarray(np.cos(angle)), np.asarray(np.sin(angle))
-
-    @cached_property
-    def spin_degree(self) -> int:
-        """Of the polynomials that give the disc's rate from its encoder: those of the whole record, in every part of it."""
-        if self.whole is not None:
-            return self.whole.spin_degree
-        return choose_spin_degree(self.wide.get(self.angle_column), self.rate, self._lateness)
 
     @cached_property
     def cos_phi(self) -> Array:
@@ -143,12 +135,15 @@ class Record:
     def sin_phi(self) -> Array:
         return np.asarray(np.sin(self.phi))
 
-    @property
-    def _lateness(self) -> Array | None:
-        """By how many steps all samples, those of the halo too, are later than evenly spaced ones; ``None`` if they are even."""
-        time = self.time if self.instants is None else self.instants
-        late = (time - time[0]) * self.rate - np.arange(len(time)) if len(time) else time
-        return late if np.max(np.abs(late), initial=0.0) > EVEN else None
+    @cached_property
+    def spin(self) -> Mapping[str, Array]:
+        """Rate and acceleration of the disc angle, (before + N + after,): those of the whole record, in every part of it."""
+        size = len(self.time) + sum(self.halo)
+        if self.whole is not None:
+            return {n: x[self.first : self.first + size] for n, x in self.whole.spin.items()}
+        if self.angle_column in self.wide:
+            return measure_spin(self.wide[self.angle_column], self.time, self.rate)
+        return make_spin(self.spin_frequency, size)
 
     def inputs(self, chain: Chain) -> Array:
         """(n_inputs, N) in the order of the chain's INPUTS; channels that were not recorded are zero."""
@@ -212,10 +207,12 @@ class Record:
         n, a, b = len(self.time), rows.start, rows.stop
         if (a, b) == (0, n):
             return self
-        first, last = max(0, a - HALO), min(n, b + HALO)
+        halo = min(a, HALO), min(n - b, HALO)
+        first = self.halo[0] + a - halo[0]
+        here = slice(first, first + halo[0] + b - a + halo[1])
         wanted = [k for k in self.wide if only is None or k in only or k == self.angle_column]
-        wide = {k: np.array(self.wide[k][first:last]) for k in wanted}
-        reading = None if self.reading is None else np.array(self.reading[first:last])
+        wide = {k: np.array(self.wide[k][here]) for k in wanted}
+        reading = None if self.reading is None else np.array(self.reading[here])
         for x in (*wide.values(), *([] if reading is None else [reading])):
             if not np.isfinite(np.dot(x, x)):  # cheap, and true wherever something is not finite
                 x[~np.isfinite(x)] = 0.0
@@ -224,9 +221,9 @@ class Record:
             time=np.array(self.time[rows]),
             wide=wide,
             valid=np.array(self.valid[rows]),
-            halo=(a - first, last - b),
+            halo=halo,
             whole=self.whole or self,
-            instants=np.array(self.time[first:last]),
+            first=self.first + first,
             reading=reading,
         )
 
@@ -254,16 +251,6 @@ class Record:
             wide |= dict(zip(names, moved, strict=True))
         return replace(self, wide=wide)
 
-    def carried(self, rows: slice) -> tuple[Array, Array, Array]:
-        """Time, s, of some samples alone, and cosine and sine of its carriers in what is fitted."""
-        time = np.array(self.time[rows])
-        if self.every > 1:
-            return time, *self._quarters(time)
-        phi = disc_angle(time, self.spin_frequency, self.start)
-        if self.angle_column in self.wide:
-            phi = np.array(self.wide[self.angle_column][rows])
-        return time, np.asarray(np.cos(2 * phi)), np.asarray(np.sin(2 * phi))
-
     def _inner(self, x: Array) -> Array:
         return x[self.halo[0] : len(x) - self.halo[1]]
 
@@ -273,10 +260,7 @@ class Record:
         if name == READING:
             return self.reading
         if name in SPIN:
-            encoder, length = self.wide.get(self.angle_column), len(self.time) + sum(self.halo)
-            return spin(
-                name, encoder, length, self.rate, self.spin_frequency, self.spin_degree, self._lateness
-            )
+            return self.spin[name]
         for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
             if name.startswith(prefix):
                 inner = self._wide(base)
@@ -284,47 +268,32 @@ class Record:
         return None
 
 
-def spin(
-    name: str,
-    encoder: Array | None,
-    samples: int,
-    rate: float,
-    spin_frequency: float,
-    degree: int = DEGREES[0],
-    late: Array | None = None,
-) -> Array:
-    """Rate, rad/s, or acceleration, rad/s^2, of the disc angle, (samples,), by the encoder (rad); NaN where it has none.
+def make_spin(spin_frequency: float, samples: int) -> dict[str, Array]:
+    """Rate, rad/s, and acceleration, rad/s^2, of the angle of a disc that turns evenly, (samples,) each."""
+    return dict(zip(SPIN, (np.full(samples, 2 * np.pi * spin_frequency), np.zeros(samples)), strict=True))
 
-    ``late`` (samples,): by how many steps each sample is later than an evenly spaced one. What the disc turns meanwhile is no
-    swing of it; the swing itself is so slow that it may be differentiated as if steps were even.
+
+def measure_spin(encoder: Array, time: Array, rate: float) -> dict[str, Array]:
+    """Rate, rad/s, and acceleration, rad/s^2, of the disc angle, (N,) each, by an encoder, rad; zero where it has none.
+
+    What the disc turns while a sample is late is no swing of it; the swing itself is so slow that it may be differentiated as if steps
+    were even.
     """
-    order = SPIN.index(name) + 1
-    if encoder is None:
-        return np.full(samples, 2 * np.pi * spin_frequency if order == 1 else 0.0)
-    found = np.full(samples, np.nan)
-    for run in runs(np.isfinite(encoder), DEGREES[0] + 2):
-        half = min(_half(rate), (run.stop - run.start - 1) // 2)
-        steady, swing = steady_and_swing(encoder[run], None if late is None else late[run])
-        bearable = max(d for d in DEGREES if d == DEGREES[0] or d <= min(degree, 2 * half - 1))
-        slope = smooth_slope(swing, half, order, bearable)
-        found[run] = (slope + steady) * rate if order == 1 else slope * (rate * rate)
+    late = (time - time[:1]) * rate - np.arange(len(time))
+    even = np.max(np.abs(late), initial=0.0) <= EVEN
+    found = make_spin(0.0, len(time))
+    half = min(max(round(SPIN_WINDOW * rate), DEGREES[0]), HALO)
+    stretches = [
+        (run, *steady_and_swing(encoder[run], None if even else late[run]))
+        for run in runs(np.isfinite(encoder), DEGREES[0] + 2)
+    ]
+    best = best_degree((swing for _, _, swing in stretches), half)
+    for run, steady, swing in stretches:
+        own = min(half, (len(swing) - 1) // 2)
+        degree = max(d for d in DEGREES if d == DEGREES[0] or d <= min(best, 2 * own - 1))
+        found[SPIN[0]][run] = (smooth_slope(swing, own, 1, degree) + steady) * rate
+        found[SPIN[1]][run] = smooth_slope(swing, own, 2, degree) * (rate * rate)
     return found
-
-
-def choose_spin_degree(encoder: Array | None, rate: float, late: Array | None = None) -> int:
-    """Of the polynomials for the rate of the angle (N,), rad, of a whole record; the lowest without an encoder."""
-    if encoder is None:
-        return DEGREES[0]
-    swings = (
-        steady_and_swing(encoder[run], None if late is None else late[run])[1]
-        for run in runs(np.isfinite(encoder), 2)
-    )
-    return best_degree(swings, _half(rate))
-
-
-def _half(rate: float) -> int:
-    """Samples on either side."""
-    return min(max(round(SPIN_WINDOW * rate), DEGREES[0]), HALO)
 
 
 def disc_angle(time: Array, spin_frequency: float, start: float = 0.0) -> Array:

@@ -20,8 +20,8 @@ from ragg_runtime.model.record import (
     disc_angle,
     find_start,
     make_kernel,
+    make_spin,
     record,
-    spin,
     strip_derivative,
 )
 from ragg_runtime.model.recorded import RecordedSeries, find_recorded
@@ -179,7 +179,7 @@ class Sampler:
             for name, v in (*x.channels.items(), *self.derived.items())
         }
         if spin_frequency is not None:
-            channels |= {name: spin(name, None, len(rows), x.rate, f) for name in SPIN}
+            channels |= make_spin(f, len(rows))
         if backwards:
             phi = -phi
             channels |= {name: -channels[name] for name in SPIN if name in channels}

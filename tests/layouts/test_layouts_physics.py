@@ -19,11 +19,10 @@ from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.model import derive
 from ragg_runtime.model.evaluate import evaluate_output, find_unit_factor, make_vector, scale_factor
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import Record, choose_spin_degree, record
-from ragg_runtime.model.record import spin as turning_rate
+from ragg_runtime.model.record import SPIN, Record, measure_spin, record
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
-from ragg_runtime.signals.derivative import DEGREES
+from ragg_runtime.signals.derivative import DEGREES, smooth_slope, steady_and_swing
 from ragg_runtime.simulate import parse_turning, simulate_flight
 from tests.layouts import sheets
 
@@ -129,16 +128,17 @@ def test_the_rate_of_a_coarse_encoder_is_as_smooth_as_it_was(encoder: str, f: fl
     angle = 2 * np.pi * f * t + swing * np.sin(2 * np.pi * 0.1 * t)
     noisy = angle + 1e-3 * np.random.default_rng(1).standard_normal(t.size)
     read = noisy if encoder == "1 mrad" else step * np.round(angle / step)
-    assert choose_spin_degree(np.mod(read, 2 * np.pi), 16.0) == DEGREES[0]
+    found, (_, swing_read) = measure_spin(np.mod(read, 2 * np.pi), t, 16.0), steady_and_swing(read)
+    np.testing.assert_array_equal(found[SPIN[1]], smooth_slope(swing_read, 10, 2, DEGREES[0]) * 256.0)
 
 
 def test_a_gap_in_the_encoder_stays_where_it_is() -> None:
     t = np.arange(400) / 16.0
     angle = np.mod(2 * np.pi * 0.25 * t, 2 * np.pi)
     angle[100:103] = np.nan
-    rate = turning_rate("d_spin_angle", angle, t.size, 16.0, 9.9)
-    assert np.array_equal(np.isnan(rate), np.isnan(angle))
-    assert rate[~np.isnan(rate)] == pytest.approx(2 * np.pi * 0.25, abs=1e-9)
+    rate = measure_spin(angle, t, 16.0)[SPIN[0]]
+    assert np.array_equal(rate == 0.0, np.isnan(angle))
+    assert rate[rate != 0.0] == pytest.approx(2 * np.pi * 0.25, abs=1e-9)
 
 
 def test_each_disc_turns_as_it_is_told() -> None:

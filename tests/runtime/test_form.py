@@ -19,7 +19,7 @@ from ragg_runtime.io.files import convert
 from ragg_runtime.model import derive
 from ragg_runtime.model.evaluate import evaluate_output, make_vector, scale_factor
 from ragg_runtime.model.model import load_packaged
-from ragg_runtime.model.record import SPIN, Record, choose_spin_degree, record, spin
+from ragg_runtime.model.record import SPIN, Record, measure_spin, record
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.screening import screen
@@ -120,13 +120,13 @@ def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -
     """Nominal error below 0.1 Eo; measured below 1e-5."""
     instrument = replace(parse_instrument(EXAMPLE), form=form)
     flight = simulate_flight(instrument, (), noise=0.0, sheet_error=0.0, duration=120.0, no_gradient=False)
-    model = derive.derive_without_signatures(instrument, form)
+    model = derive.load_model(instrument, candidates=False)
     p = make_vector(model, instrument)
     r = record(flight, instrument)
     left = (flight.outputs["G_out"] - evaluate_output(model.chain, r, p)) / scale_factor(model, p)
     assert np.sqrt(np.mean(left**2)) < 1e-5
     other = replace(instrument, form=PAPER if form == EXACT else EXACT)
-    away = derive.derive_without_signatures(other, other.form)
+    away = derive.load_model(other, candidates=False)
     q = make_vector(away, other)
     left = (flight.outputs["G_out"] - evaluate_output(away.chain, r, q)) / scale_factor(away, q)
     assert np.sqrt(np.mean(left**2)) > 0.1
@@ -139,19 +139,17 @@ def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
     swing = 1e-3 * np.sin(2 * np.pi * 2 * f * t)
     angle = 2 * np.pi * f * t + swing
     coded = np.mod(step * np.round(angle / step), 2 * np.pi)
-    degree = choose_spin_degree(coded, rate)
-    assert degree == 7  # it follows the swing more closely than the lowest
-    first, second = (spin(name, coded, t.size, rate, 9.9, degree) for name in SPIN)
+    first, second = measure_spin(coded, t, rate).values()
     left = np.unwrap(coded) - 2 * np.pi * f * t  # of an angle of hundreds of radians the filter loses digits
     for level, order, found in ((2 * np.pi * f, 1, first), (0.0, 2, second)):
-        expected = savgol_filter(left, 21, degree, deriv=order, delta=1 / rate) + level
+        expected = savgol_filter(left, 21, 7, deriv=order, delta=1 / rate) + level
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9)
     w = 2 * np.pi * 2 * f
     inner = slice(20, -20)
     assert np.std((first - 2 * np.pi * f - 1e-3 * w * np.cos(w * t))[inner]) < 0.02 * 1e-3 * w
     assert np.std((second + 1e-3 * w**2 * np.sin(w * t))[inner]) < 0.05 * 1e-3 * w**2
-    steady = spin(SPIN[1], np.mod(step * np.round(2 * np.pi * f * t / step), 2 * np.pi), t.size, rate, f)
-    assert np.std(steady[inner]) < 1e-4
+    steady = np.mod(step * np.round(2 * np.pi * f * t / step), 2 * np.pi)
+    assert np.std(measure_spin(steady, t, rate)[SPIN[1]][inner]) < 1e-4
     whole = Record(
         time=t, wide={"spin_angle": coded}, rate=rate, valid=np.ones(t.size, bool), spin_frequency=f
     )

@@ -25,7 +25,7 @@ def mine(identifier: str) -> str:
 @pytest.fixture(autouse=True)
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    derive._installed.cache_clear()
+    derive._load_installed.cache_clear()
     derive._execute_files.cache_clear()
 
 
@@ -91,7 +91,7 @@ def test_effects_of_an_installed_package(tmp_path: Path, monkeypatch: pytest.Mon
     finally:
         for name in ("ragg_theirs", "ragg_theirs.power"):
             sys.modules.pop(name, None)
-        derive._installed.cache_clear()
+        derive._load_installed.cache_clear()
 
 
 @pytest.mark.parametrize(
