@@ -22,14 +22,14 @@ from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import file_digest, opened, replacing
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
-from ragg_runtime.io.array_files import (
+from ragg_runtime.io.arrays import (
     read_hdf5,
     read_matlab,
     read_netcdf,
     read_parquet,
+    tabulate,
     write_parquet,
 )
-from ragg_runtime.io.arrays import tabulate
 from ragg_runtime.io.assemble import make_flight
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.io.record import SI_UNITS, Flight, content

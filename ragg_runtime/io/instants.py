@@ -19,7 +19,7 @@ from dateutil import parser  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.io.cells import MISSING
+from ragg_runtime.io.tables import MISSING
 
 Array = NDArray[np.float64]
 Nanoseconds = NDArray[np.int64]

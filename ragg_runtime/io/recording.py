@@ -15,11 +15,20 @@ import numpy as np
 
 from ragg_runtime.base.errors import UserError, at, count
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.cells import MISSING, is_quantity, parse_quantities
 from ragg_runtime.io.instants import WAYS, Stamps, are_packed, count_seconds_since, read_stamps
 from ragg_runtime.io.mapping import Entry, Mapped, Null, TimeEntry
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE, Array, Mask
-from ragg_runtime.io.tables import INDEX, DataColumn, DataTable, choose_tables, name_line, split_lines
+from ragg_runtime.io.tables import (
+    INDEX,
+    MISSING,
+    DataColumn,
+    DataTable,
+    choose_tables,
+    is_quantity,
+    name_line,
+    parse_quantities,
+    split_lines,
+)
 
 NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
 """Columns that every flight has."""

@@ -27,19 +27,22 @@ import pyarrow.csv
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at, count
-from ragg_runtime.io.array_files import convert_arrow, report_damage
-from ragg_runtime.io.cells import (
+from ragg_runtime.io.arrays import convert_arrow, report_damage
+from ragg_runtime.io.instants import are_packed, find_parts
+from ragg_runtime.io.record import SI_UNITS
+from ragg_runtime.io.tables import (
+    INDEX,
     MISSING,
+    DataColumn,
+    DataTable,
     is_number,
     is_quantity,
     is_unit,
     read_heading,
     read_headings,
+    require_memory,
     write_cell,
 )
-from ragg_runtime.io.instants import are_packed, find_parts
-from ragg_runtime.io.record import SI_UNITS
-from ragg_runtime.io.tables import INDEX, DataColumn, DataTable, require_memory
 
 TWO_ROWS = "the header spans two rows; they are joined"
 """A note: of merged cells, for example."""
@@ -210,14 +213,10 @@ def _read_cells(texts: pa.ChunkedArray) -> NDArray[Any]:
 
 def _read_text(path: Path) -> tuple[bytes, list[str]]:
     """The file's text in UTF-8, unpacked, and notes."""
-    require_memory(path, path.stat().st_size)
     try:
         data = path.read_bytes()
         if data.startswith(_GZIP):
-            unpacker = zlib.decompressobj(31)
-            start = unpacker.decompress(data[: 1 << 16], 1 << 25)
-            packed = min(len(data), 1 << 16) - len(unpacker.unconsumed_tail)
-            require_memory(path, len(data) * len(start) / max(1, packed))
+            require_memory(path, int.from_bytes(data[-4:], "little"))  # its size unpacked, modulo 2^32
             data = gzip.decompress(data)
         if data.startswith((b"\xff\xfe", b"\xfe\xff")):
             return data.decode("utf-16").encode(), []
