@@ -16,10 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.compensate import (
-    make_channel,
-    prepare,
-)
+from ragg_runtime.compensation.compensate import prepare
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual
@@ -31,7 +28,7 @@ from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, draw_gradient, draw_motion, scenario
 from ragg_runtime.reference.simulate import combine
-from ragg_runtime.signals.demodulators import DEMODULATORS
+from ragg_runtime.signals.demodulators import DEMODULATORS, find_demodulator
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -53,9 +50,9 @@ def transfer(duration: float = 7200.0) -> dict[str, tuple[Complex, Complex]]:
     phi = 2 * np.pi * s.sheet.spin_frequency * t
     waves = 1e-9 * s.instrument.scale_factor * (g.real / 2 * np.sin(2 * phi) - g.imag * np.cos(2 * phi))
     more = dataclasses.replace(x, outputs={"G_out": x.outputs["G_out"] + waves})
-    found, both = {}, [prepare(load_packaged(), s.sheet, [y], "self") for y in (more, x)]
+    found, both = {}, [prepare(load_packaged(), s.sheet, [y], "self").channels[0][0] for y in (more, x)]
     for name in DEMODULATORS:
-        c, other = (make_channel(p, 0, name) for p in both)
+        c, other = (dataclasses.replace(y, demodulator=find_demodulator(name, s.rate)) for y in both)
         difference = c.compensate().gradient - other.compensate().gradient
         ok = np.isfinite(difference.real)
         gains = np.linalg.lstsq(basis[ok], difference[ok] / SIZE, rcond=None)[0]
@@ -186,8 +183,7 @@ def score_survey(seed: int, kind: str) -> Array:
     s, flights = fly_survey(seed)
     p = prepare(load_packaged(), s.sheet, flights, kind)  # type: ignore[arg-type]
     found = []
-    for n, x in enumerate(flights):
-        c = make_channel(p, n, "fir")
+    for x, (c,) in zip(flights, p.channels, strict=True):
         y = c.compensate()
         g = x.channels["Gamma_xx"] - x.channels["Gamma_yy"] + 1j * x.channels["Gamma_xy"]
         off = y.gradient - c.demodulator.low_passed(g / 1e-9)

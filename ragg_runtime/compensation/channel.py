@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import IntFlag
 
 import numpy as np
@@ -11,11 +11,10 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.threads import split_range
-from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import ROWS, combine_output
 from ragg_runtime.estimation.regressors import Column, put_derivatives
-from ragg_runtime.estimation.seen_gradient import Block, ModelledOutput
+from ragg_runtime.estimation.seen_gradient import ModelledOutput
 from ragg_runtime.estimation.unknown_gradient import measure_spin_frequency
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.signals.demodulators import find_demodulator
@@ -61,13 +60,6 @@ MEANING = {
 """What each bit says of samples."""
 
 
-def make_block(c: Calibration, rows: slice, step: Array | float, root: Array) -> Block:
-    """Samples with parameters a ``step`` (n,) from the calibrated ones, in scales."""
-    p = c.p.copy()
-    p[c.index] += step * np.array([q.scale for q in c.columns])
-    return Block(rows, p, root)
-
-
 @dataclass(frozen=True)
 class Compensated:
     """Compensated samples.
@@ -93,7 +85,7 @@ class OutputChannel(ModelledOutput):
     columns: tuple[Column, ...]
     noise: NoiseModel
     recorded: Complex | None
-    validity: Mapping[str, tuple[float, float]]
+    validity: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     flags: int = 0
 
     @property

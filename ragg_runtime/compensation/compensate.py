@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
 
@@ -19,7 +20,6 @@ from ragg_runtime.compensation.channel import (
     Compensated,
     OutputChannel,
     Quality,
-    make_block,
 )
 from ragg_runtime.compensation.drift import find_starts, smooth_drift
 from ragg_runtime.compensation.frozen import (
@@ -32,21 +32,16 @@ from ragg_runtime.compensation.frozen import (
 from ragg_runtime.compensation.saved import Saved, saved_calibration
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.least_squares import orthonormalise
 from ragg_runtime.estimation.observation import (
-    BLOCKS,
     ROWS,
     Observation,
-    combine_output,
     divide_into_segments,
     make_block_edges,
     observe_flights,
     spread,
 )
-from ragg_runtime.estimation.scores import finite, measure_error
+from ragg_runtime.estimation.scores import finite
 from ragg_runtime.estimation.seen_gradient import Block
-from ragg_runtime.estimation.unknown_gradient import make_windows
-from ragg_runtime.estimation.whitening import divide_flight
 from ragg_runtime.identification.budget import list_groups
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, sees
@@ -73,6 +68,9 @@ WINDOW = 128.0
 """Length of the windows of a measured density, s."""
 
 Kind = Literal["frozen", "self", "crossed", "smoothed"]
+Part = tuple[slice, "Array | float", Array]
+"""Samples of a flight, their parameters (n,) less the calibrated ones, and a root (n, m) of the covariance, in scales."""
+
 KINDS: tuple[Kind, ...] = ("self", "crossed", "smoothed", "frozen")
 
 
@@ -159,67 +157,116 @@ def _round(name: str, columns: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
 
 @dataclass(frozen=True)
 class PreparedFlights:
-    """Flights with the parameters that compensate them: of every observation its ``blocks``. ``seeing``: observations that see a
-    gradient on a turning disc; ``saved`` and ``change`` only if frozen.
+    """Flights with the parameters that compensate them.
+
+    ``channels``: of every flight the outputs that see a gradient on a turning disc. ``change``: only if frozen.
     """
 
-    model: Model
-    instrument: Instrument
     flights: tuple[Flight, ...]
-    observations: tuple[Observation, ...]
-    seeing: tuple[int, ...]
+    channels: tuple[tuple[OutputChannel, ...], ...]
     calibration: Calibration
-    blocks: tuple[tuple[Block, ...], ...]
-    saved: Saved | None
     change: CalibrationChange | None
-
-    @property
-    def converged(self) -> bool:
-        return self.calibration.converged if self.saved is None else self.saved.converged
-
-    def of_flight(self, k: int) -> list[int]:
-        """The observations of a flight that are compensated."""
-        return [n for n in self.seeing if self.observations[n].flight == k]
 
 
 @one_thread
 def prepare(
-    model: Model, instrument: Instrument, flights: Sequence[Flight], kind: Kind, saved: Saved | None = None
+    model: Model,
+    instrument: Instrument,
+    flights: Sequence[Flight],
+    kind: Kind,
+    demodulator: str = "fir",
+    saved: Saved | None = None,
 ) -> PreparedFlights:
     """Calibrate on the flights (``self``, ``crossed``, ``smoothed``), or take what was saved (``frozen``).
 
     Raises
     ------
     UserError
-        If no output of the instrument sees a gradient, or there is no such kind of calibration.
+        If no output of the instrument sees a gradient, a flight is too short for the demodulator, or there is no such kind of
+        calibration.
     """
     if kind not in KINDS:
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
     flights = tuple(leave_out_gradients(x) for x in flights)
-    observations = tuple(observe_flights(flights, instrument))
+    observations = observe_flights(flights, instrument)
     seeing = find_seeing(instrument, observations)
     change: CalibrationChange | None = None
-    if kind == "frozen":
-        if saved is None:
-            raise UserError("a frozen compensation needs a saved calibration")
-        c = make_calibration(saved, model, instrument, observations)
-        root = invert_root(saved.information)
-        blocks = _whole_blocks(c, observations, root)
+    if saved is not None:
+        c, root = make_calibration(saved, model, instrument, observations), invert_root(saved.information)
         change = retest_change(model, instrument, observations, saved, c)
     else:
         # constant parameters leave the drift, which is no noise: it is followed from where they leave the smallest rms
         f = fit(model, instrument, observations, unweighted=kind == "smoothed", candidates=False)
-        c, blocks = _fitted_blocks(f, flights, kind)
-    return PreparedFlights(
+        c, root = f.calibration, invert_root(information(f))
+    parts: list[Iterable[Part]] = [[(slice(0, len(o.record.time)), 0.0, root)] for o in observations]
+    if kind == "crossed":
+        parts = [follow_others(f, o) for o in observations]
+    elif kind == "smoothed":
+        d = smooth_drift(f, flights)
+        c, parts = d.f.calibration, [d.follow(o.flight) for o in observations]
+    made = [
+        _make_channel(model, instrument, flights[o.flight], o, c, n, parts[n], demodulator)
+        for n, o in enumerate(observations)
+        if n in seeing
+    ]
+    if saved is not None:
+        broken = 0 if change is None or change.holds else int(Quality.CALIBRATION)
+        made = [replace(x, validity=saved.validity, flags=broken) for x in made]
+    channels = (tuple(x for x in made if x.observation.flight == k) for k in range(len(flights)))
+    return PreparedFlights(flights, tuple(channels), c, change)
+
+
+def follow_others(f: Fitted, o: Observation) -> Iterator[Part]:
+    """The blocks of time of an observation, each with the parameters that all others give."""
+    every = [
+        ((x.flight, b), T)
+        for k, x in enumerate(f.observations)
+        for b, T in enumerate(list_base_r_factors(f, k))
+    ]
+    edges = make_block_edges(len(o.record.time)).tolist()
+    for b, (first, last) in enumerate(pairwise(edges)):
+        yield slice(first, last), *fit_some(f, [T for place, T in every if place != (o.flight, b)])
+
+
+def _make_channel(
+    model: Model,
+    instrument: Instrument,
+    flight: Flight,
+    o: Observation,
+    c: Calibration,
+    n: int,
+    parts: Iterable[Part],
+    demodulator: str,
+) -> OutputChannel:
+    """The ``n``-th observation ready to be compensated; UserError if the flight is too short for the demodulator."""
+    d, scales = find_demodulator(demodulator, o.record.rate), np.array([q.scale for q in c.columns])
+    least = sum(d.settling) + 1
+    if len(flight.time) < least:
+        raise UserError(
+            "the record is too short for the demodulator",
+            where=flight.path or flight.name,
+            found=f"{flight.duration:.4g} s",
+            expected=f"at least {least / d.rate:.3g} s for {d.name}",
+            remedy="give a longer recording, or choose another --demodulator",
+        )
+    blocks = []
+    for rows, step, root in parts:
+        p = c.p.copy()
+        p[c.index] += step * scales
+        blocks.append(Block(rows, p, root))
+    recorded: Complex | None = None
+    if o.recorded.demodulated:  # by its recorder: put right for the calibrated scale factor
+        known: Complex = flight.outputs["inline"] + 1j * flight.outputs["cross"]
+        recorded = known * (instrument.scale_factor / scale_factor(model, c.p, o.place))
+    return OutputChannel(
         model=model,
-        instrument=instrument,
-        flights=flights,
-        observations=observations,
-        seeing=seeing,
-        calibration=c,
+        observation=o,
+        about=c.p,
         blocks=tuple(blocks),
-        saved=saved if kind == "frozen" else None,
-        change=change,
+        demodulator=d,
+        columns=c.columns,
+        noise=c.noise[n],
+        recorded=recorded,
     )
 
 
@@ -242,75 +289,6 @@ def find_seeing(instrument: Instrument, observations: Sequence[Observation]) -> 
     return found
 
 
-def _fitted_blocks(
-    f: Fitted, flights: Sequence[Flight], kind: Kind
-) -> tuple[Calibration, list[tuple[Block, ...]]]:
-    """A calibration on the flights, and of every observation its blocks."""
-    c = f.calibration
-    if kind == "smoothed":
-        d = smooth_drift(f, flights)
-        c = d.f.calibration
-        return c, [tuple(make_block(c, *x) for x in d.follow(o.flight)) for o in f.observations]
-    if kind == "crossed":
-        of_all = [list_base_r_factors(f, k) for k in range(len(f.observations))]
-        return c, [tuple(_crossed_block(f, o, b, of_all) for b in range(BLOCKS)) for o in f.observations]
-    root = invert_root(information(f))
-    return c, _whole_blocks(c, f.observations, root)
-
-
-def _whole_blocks(
-    c: Calibration, observations: Sequence[Observation], root: Array
-) -> list[tuple[Block, ...]]:
-    """One calibration for all samples."""
-    return [(make_block(c, slice(0, len(o.record.time)), 0.0, root),) for o in observations]
-
-
-def _crossed_block(f: Fitted, o: Observation, b: int, of_all: Sequence[Sequence[Array]]) -> Block:
-    """A block of time with the calibration on everything else."""
-    others = [
-        t
-        for x, r_factors in zip(f.observations, of_all, strict=True)
-        for y, t in enumerate(r_factors)
-        if (x.flight, y) != (o.flight, b)
-    ]
-    edges = make_block_edges(len(o.record.time))
-    return make_block(f.calibration, slice(int(edges[b]), int(edges[b + 1])), *fit_some(f, others))
-
-
-# --- channels ------------------------------------------------------------------------------------------
-
-
-def make_channel(p: PreparedFlights, k: int, name: str) -> OutputChannel:
-    """An observation ready to be compensated; ``name``: of the demodulator. UserError if the flight is too short for it."""
-    o, c = p.observations[k], p.calibration
-    flight, d = p.flights[o.flight], find_demodulator(name, o.record.rate)
-    least = sum(d.settling) + 1
-    if len(flight.time) < least:
-        raise UserError(
-            "the record is too short for the demodulator",
-            where=flight.path or flight.name,
-            found=f"{flight.duration:.4g} s",
-            expected=f"at least {least / d.rate:.3g} s for {d.name}",
-            remedy="give a longer recording, or choose another --demodulator",
-        )
-    recorded: Complex | None = None
-    if o.recorded.demodulated:  # by its recorder: put right for the calibrated scale factor
-        known: Complex = flight.outputs["inline"] + 1j * flight.outputs["cross"]
-        recorded = known * (p.instrument.scale_factor / scale_factor(p.model, c.p, o.place))
-    return OutputChannel(
-        model=p.model,
-        observation=o,
-        about=c.p,
-        blocks=p.blocks[k],
-        demodulator=d,
-        columns=c.columns,
-        noise=c.noise[k],
-        recorded=recorded,
-        validity={} if p.saved is None else p.saved.validity,
-        flags=0 if p.change is None or p.change.holds else int(Quality.CALIBRATION),
-    )
-
-
 # --- descriptions ------------------------------------------------------------------------------
 
 
@@ -319,7 +297,9 @@ def describe_channel(c: OutputChannel, x: Compensated, instrument: Instrument) -
     o, d, names = c.observation, c.demodulator, ("inline_Eo", "cross_Eo")
     there = np.isfinite(x.gradient.real)
     rms = np.sqrt(np.mean(x.parameters[:, there] ** 2, axis=1)) if there.any() else np.full(2, np.nan)
-    nominal = measure_error(find_nominal_residual(c, instrument), o.record, c.scale_factor).as_json()
+    sheet = make_vector(c.model, instrument)
+    nominal = replace(c, about=sheet, blocks=(Block(slice(0, len(there)), sheet),))
+    before = np.where(there, nominal.estimate_first(nominal.predict()), np.nan)
     every = max(1, int(d.rate))  # the channels hold nothing above half a hertz
     return {
         "flight": o.flight_name,
@@ -330,7 +310,7 @@ def describe_channel(c: OutputChannel, x: Compensated, instrument: Instrument) -
         "quality": {q.name: int(np.count_nonzero(x.quality & q)) for q in Quality},
         "density": {
             "band_Hz": list(BAND),
-            "before": {k: v for k, v in nominal.items() if k.endswith("rtHz")},
+            "before": measure_density(before[::every], d.rate / every),
             "after": measure_density(x.gradient[::every], d.rate / every),
             "noise": {
                 f"{n}_per_rtHz": finite(s / np.sqrt(d.bandwidth))
@@ -343,23 +323,6 @@ def describe_channel(c: OutputChannel, x: Compensated, instrument: Instrument) -
         },
         "contributions": list_contributions(c, instrument),
     }
-
-
-def find_nominal_residual(c: OutputChannel, instrument: Instrument) -> Array:
-    """(N,) V: the residual with the sheet's values, without what a gradient can be of it: as a record is scored of which the gradient
-    is not known.
-    """
-    o, sheet = c.observation, make_vector(c.model, instrument)
-    r, rows = o.record, slice(0, len(o.record.time))
-    predicted = o.recorded.through(replace(c, about=sheet, blocks=(Block(rows, sheet),)).predict(), r)
-    e = np.where(r.valid, combine_output(o, o.data) - predicted, 0.0)
-    for s in divide_flight(o):
-        for w in (w for w in make_windows(o, s.rows, c.noise) if len(w.plain)):
-            own = np.arange(s.rows.start, s.rows.stop)[w.samples]
-            own = own[r.valid[own]]
-            Q = orthonormalise(combine_output(o, w.plain.reshape(len(w.plain), -1, len(own))))
-            e[own] -= (e[own] @ Q) @ Q.T
-    return e
 
 
 def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
@@ -379,28 +342,26 @@ def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
 
 def list_contributions(c: OutputChannel, instrument: Instrument) -> list[dict[str, Any]]:
     """What was removed: root mean squares of inline and cross, Eo, on two segments of the flight, largest first."""
+    p, count = c.blocks[0].p, 0
     totals: dict[tuple[str, str | None], Array] = {}
-    count, p = 0, c.blocks[0].p
+    groups = [(x.name, x.effect, x.without) for x in list_groups(c.model, instrument, p)]
     most = max(ROWS, 4 * len(c.demodulator.taps))
     for s in spread(divide_into_segments(len(c.observation.record.time), most), 2):
         some = slice(0, s.rows.stop - s.rows.start)
         part = replace(c, observation=c.observation.part(s.rows), blocks=(Block(some, p),))
-        good = (part.flag_samples() & NO_VALUE) == 0
+        good, whole = (part.flag_samples() & NO_VALUE) == 0, part.predict()
         count += int(np.sum(good))
-        bare = part.predict()
-        removed: dict[tuple[str, str | None], Array] = {("everything", None): bare}
-        for x in list_groups(c.model, instrument, p):
-            removed[x.name, x.effect] = bare - replace(part, blocks=(Block(some, x.without),)).predict()
-        for key, e in removed.items():
-            g = part.demodulate(e)[good]
-            power = np.array([np.sum(g.real**2), np.sum(g.imag**2)])
-            totals[key] = totals.get(key, 0.0) + power
-    found: list[dict[str, Any]] = []
+        for name, effect, without in [("everything", None, None), *groups]:
+            rest = 0.0 if without is None else replace(part, blocks=(Block(some, without),)).predict()
+            g = part.demodulate(whole - rest)[good]
+            squares = np.array([np.sum(g.real**2), np.sum(g.imag**2)])
+            totals[name, effect] = totals.get((name, effect), 0.0) + squares
+    found = []
     for (name, effect), squares in totals.items() if count else ():
-        inline, cross = np.sqrt(squares / count)
+        inline, cross = map(float, np.sqrt(squares / count))
         if inline or cross:
-            found.append({"of": name, "effect": effect, "inline_Eo": float(inline), "cross_Eo": float(cross)})
-    return sorted(found, key=lambda r: -float(r["inline_Eo"] ** 2 + r["cross_Eo"] ** 2))
+            found.append({"of": name, "effect": effect, "inline_Eo": inline, "cross_Eo": cross})
+    return sorted(found, key=lambda r: -(r["inline_Eo"] ** 2 + r["cross_Eo"] ** 2))
 
 
 # --- the command ---------------------------------------------------------------------------------------
@@ -415,25 +376,23 @@ def compensate(m: Loaded, flights: Sequence[Flight], kind: Kind, demodulator: st
     UserError
         If a flight cannot be compensated, or not in one table with the others.
     """
-    model, instrument, saved = m.model, m.instrument, None
-    if kind == "frozen":
-        saved = saved_calibration(m)
-    else:
+    model, instrument = m.model, m.instrument
+    saved = saved_calibration(m) if kind == "frozen" else None
+    if saved is None:
         distinct(flights)
-    p = prepare(model, instrument, flights, kind, saved)
-    every = [[make_channel(p, n, demodulator) for n in p.of_flight(k)] for k in range(len(p.flights))]
-    _require_alike(p.flights, every)
+    p = prepare(model, instrument, flights, kind, demodulator, saved)
+    _require_alike(p)
     series, entries = [], []
-    for k, (flight, channels) in enumerate(zip(p.flights, every, strict=True), 1):
+    for k, (flight, channels) in enumerate(zip(p.flights, p.channels, strict=True), 1):
         found = [c.compensate() for c in channels]
         columns = make_columns(instrument, channels, found)
         number = {"flight": np.full(len(flight.time), k, dtype=np.int64)} if len(p.flights) > 1 else {}
         series.append({"time": np.array(flight.time), **columns, **number})
         entries += [describe_channel(c, x, instrument) for c, x in zip(channels, found, strict=True)]
-    d = every[0][0].demodulator
+    d = p.channels[0][0].demodulator
     result = {
         "calibration": kind,
-        "converged": p.converged,
+        "converged": p.calibration.converged if saved is None else saved.converged,
         "effects": [e.id for e in model.effects],
         "demodulator": {
             "name": d.name,
@@ -443,19 +402,19 @@ def compensate(m: Loaded, flights: Sequence[Flight], kind: Kind, demodulator: st
         },
         "flights": entries,
     }
-    if p.saved is not None and p.change is not None:
-        result["frozen"] = describe_saved(p.saved) | p.change.as_json()
+    if saved is not None and p.change is not None:
+        result["frozen"] = describe_saved(saved) | p.change.as_json()
         if not p.change.holds:
-            result["notes"] = [warn_of_change(p.saved.time, p.change)]
+            result["notes"] = [warn_of_change(saved.time, p.change)]
     if kind == "smoothed" and not find_starts(p.flights)[1]:
         result["notes"] = [describe_other.UNTIMED]
     return Compensation.of(m.name, result, series)
 
 
-def _require_alike(flights: Sequence[Flight], every: Sequence[Sequence[OutputChannel]]) -> None:
+def _require_alike(p: PreparedFlights) -> None:
     """UserError unless all flights have the same outputs."""
-    names = [[c.observation.output.name for c in channels] for channels in every]
-    for flight, own in zip(flights, names, strict=True):
+    names = [[c.observation.output.name for c in channels] for channels in p.channels]
+    for flight, own in zip(p.flights, names, strict=True):
         if own != names[0]:
             raise UserError(
                 "the flights do not have the same outputs",

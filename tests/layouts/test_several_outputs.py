@@ -20,7 +20,7 @@ from ragg_runtime import api
 from ragg_runtime.api import Loaded
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.channel import OutputChannel
-from ragg_runtime.compensation.compensate import Kind, PreparedFlights, make_channel, make_columns, prepare
+from ragg_runtime.compensation.compensate import Kind, PreparedFlights, make_columns, prepare
 from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
@@ -165,11 +165,11 @@ def test_a_step_is_found_in_several_outputs(hidden: str | None, values: dict[str
 @cache
 def compensated(
     which: str, kind: Kind
-) -> tuple[PreparedFlights, list[OutputChannel], dict[str, NDArray[Any]]]:
+) -> tuple[PreparedFlights, tuple[OutputChannel, ...], dict[str, NDArray[Any]]]:
     sheet, flight = flight_of(which)
     model, _ = derive.derived((), (), sheet.form, sheet.layout)
     p = prepare(model, sheet, [flight], kind)
-    channels = [make_channel(p, n, "fir") for n in p.of_flight(0)]
+    (channels,) = p.channels
     return p, channels, make_columns(sheet, channels, [c.compensate() for c in channels])
 
 
@@ -186,13 +186,13 @@ def true_tensor(flight: Flight) -> NDArray[np.float64]:
 @pytest.mark.parametrize(("which", "kind"), [("umbrella", "self"), ("complements", "crossed")])
 def test_channels_of_every_output_are_as_sure_as_they_say(which: str, kind: Kind) -> None:
     """Against the gradient that was flown over, by axes that are computed here."""
-    _, flight = flight_of(which)
+    sheet, flight = flight_of(which)
     p, channels, found = compensated(which, kind)
-    assert p.converged
+    assert p.calibration.converged
     G = true_tensor(flight)
     scores = []
     for x in channels:
-        disc = p.instrument.layout.discs[x.observation.output.disc]
+        disc = sheet.layout.discs[x.observation.output.disc]
         end = f"_{disc.name}"
         first = np.array(disc.zero)
         second = np.cross(disc.axis, first)
@@ -236,7 +236,7 @@ def test_two_complements_give_no_tensor() -> None:
 
 def test_a_disc_that_stands_still_is_left_out_and_alone_refused() -> None:
     p, _, found = compensated("odd", "self")
-    assert len(p.observations) == 2
+    assert len(p.channels[0]) == 1
     assert [n for n in found if n.startswith("inline")] == ["inline_A", "inline_A_std"]
     still = parse_instrument(
         sheets.sheet([sheets.disc("B", [sheets.accelerometer("B1", 0.0, 1)], spin=0.0)], 1)

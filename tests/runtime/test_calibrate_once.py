@@ -17,7 +17,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import drift, frozen
 from ragg_runtime.compensation.calibrate import calibrate, make_saved
 from ragg_runtime.compensation.channel import Quality
-from ragg_runtime.compensation.compensate import make_channel, prepare
+from ragg_runtime.compensation.compensate import prepare
 from ragg_runtime.compensation.saved import add_entry
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
@@ -243,7 +243,7 @@ def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
     x = s.simulate({"gain-drift": {"dK1_dt": [2e-10, -2e-10, 4e-11, -4e-11]}}).flight()  # 1/s: 1e-7 in 500 s
     rms = {}
     for kind in ("self", "smoothed"):
-        c = make_channel(prepare(load_packaged(), s.sheet, [x], kind), 0, "fir")  # type: ignore[arg-type]
+        ((c,),) = prepare(load_packaged(), s.sheet, [x], kind).channels  # type: ignore[arg-type]
         found = c.compensate()
         z = ((found.gradient - truth(x, c.demodulator)).real / found.std[0])[:: int(2 * RATE)]
         rms[kind] = np.sqrt(np.nanmean(z**2))
