@@ -29,7 +29,7 @@ from ragg_runtime.compensation.drift import Drift, smooth_drift
 from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.compensation.export.program import FORMS, write_export
 from ragg_runtime.compensation.frozen import Held
-from ragg_runtime.compensation.saved import add_entry, saved_calibration
+from ragg_runtime.compensation.saved import saved_calibration
 from ragg_runtime.estimation.scores import list_errors
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
@@ -48,7 +48,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.io.files import require_writable as check_output
 from ragg_runtime.model import derive
 from ragg_runtime.model.catalogue import Catalogue, effects
-from ragg_runtime.model.directory import CALIBRATION, HistoryStep, replace_model_dir
+from ragg_runtime.model.directory import HistoryStep, replace_model_dir
 from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import list_missing_channels
 from ragg_runtime.model.record import list_recorded_channels
@@ -436,7 +436,7 @@ def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | N
         d.text,
         generated=derive.list_files(d.instrument),
         step=step,
-        calibration=lambda text: add_entry(text, new, str(d.path / CALIBRATION)),
+        calibration=new.as_text(),
         mapping=mapping,
     )
     return Loaded(directory, m.model, m.notes)

@@ -89,17 +89,11 @@ class OutputChannel(ModelledOutput):
     flags: int = 0
 
     @property
-    def scale_factor(self) -> float:
-        """k_ggi, V/Eo, of the calibrated parameters."""
-        return self.find_scale_factor(self.about)
-
-    @property
-    def noise_std(self) -> tuple[float, float]:
-        """Standard deviations of inline and cross, Eo, that stationary noise of the output causes."""
+    def noise_std(self) -> Array:
+        """(2,): standard deviations of inline and cross, Eo, that stationary noise of the output causes."""
         carrier, signs = 2 * measure_spin_frequency(self.observation), self.observation.signs
         power = self.demodulator.pass_power(lambda f: self.noise.psd(f, signs), carrier)
-        cross = float(np.sqrt(power)) / self.scale_factor
-        return 2 * cross, cross
+        return np.array([2.0, 1.0]) * float(np.sqrt(power)) / self.find_scale_factor(self.about)
 
     def estimate_first(self, bare: Array) -> Complex:
         if self.recorded is None:
@@ -112,7 +106,7 @@ class OutputChannel(ModelledOutput):
         g = self.estimate_gradient()
         variance, bits = self.propagate_parameters(g), self.flag_samples()
         parameters = np.sqrt(variance)
-        std = np.sqrt(variance + np.square(self.noise_std)[:, None])
+        std = np.sqrt(variance + self.noise_std[:, None] ** 2)
         none = (bits & NO_VALUE) != 0
         g[none] = complex(np.nan, np.nan)
         parameters[:, none] = std[:, none] = np.nan

@@ -88,14 +88,6 @@ class Compensation:
     result: Mapping[str, Any]
     series: tuple[Mapping[str, NDArray[Any]], ...]
 
-    @staticmethod
-    def of(
-        name: str, result: Mapping[str, Any], series: Sequence[Mapping[str, NDArray[Any]]]
-    ) -> Compensation:
-        """The result for JSON, with what the bits of ``quality`` mean."""
-        meaning = {str(int(q)): f"{q.name}: {text}" for q, text in MEANING.items()}
-        return Compensation(name, {**result, "quality": meaning}, tuple(series))
-
     def __repr__(self) -> str:
         flights = ", ".join(x["flight"] for x in self.result["flights"])
         return f"<compensation of {flights} by {self.name}, {self.result['calibration']}>"
@@ -110,8 +102,9 @@ class Compensation:
         return {n: _unit_of(n) for n in self.series[0]}
 
     def as_json(self) -> dict[str, Any]:
-        """As ``ragg compensate --json`` writes it."""
-        return dict(self.result)
+        """As ``ragg compensate --json`` writes it, with what the bits of ``quality`` mean."""
+        meaning = {str(int(q)): f"{q.name}: {text}" for q, text in MEANING.items()}
+        return {**self.result, "quality": meaning}
 
     def write(self, path: Path | str) -> None:
         """The series of all flights, one after the other, into a file of the format that its ending names.
@@ -294,7 +287,7 @@ def find_seeing(instrument: Instrument, observations: Sequence[Observation]) -> 
 
 def describe_channel(c: OutputChannel, x: Compensated, instrument: Instrument) -> dict[str, Any]:
     """What was done and how good it is, for JSON."""
-    o, d, names = c.observation, c.demodulator, ("inline_Eo", "cross_Eo")
+    o, d = c.observation, c.demodulator
     there = np.isfinite(x.gradient.real)
     rms = np.sqrt(np.mean(x.parameters[:, there] ** 2, axis=1)) if there.any() else np.full(2, np.nan)
     sheet = make_vector(c.model, instrument)
@@ -312,17 +305,16 @@ def describe_channel(c: OutputChannel, x: Compensated, instrument: Instrument) -
             "band_Hz": list(BAND),
             "before": measure_density(before[::every], d.rate / every),
             "after": measure_density(x.gradient[::every], d.rate / every),
-            "noise": {
-                f"{n}_per_rtHz": finite(s / np.sqrt(d.bandwidth))
-                for n, s in zip(names, c.noise_std, strict=True)
-            },
+            "noise": name_both(c.noise_std / np.sqrt(d.bandwidth), "Eo_per_rtHz"),
         },
-        "std": {
-            "noise": {n: finite(s) for n, s in zip(names, c.noise_std, strict=True)},
-            "parameters": {n: finite(s) for n, s in zip(names, rms, strict=True)},
-        },
+        "std": {"noise": name_both(c.noise_std), "parameters": name_both(rms)},
         "contributions": list_contributions(c, instrument),
     }
+
+
+def name_both(values: Array, unit: str = "Eo") -> dict[str, float | None]:
+    """Numbers (2,) of inline and cross, for JSON."""
+    return {f"{name}_{unit}": finite(x) for name, x in zip(("inline", "cross"), values, strict=True)}
 
 
 def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
@@ -337,7 +329,7 @@ def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
         power += len(x) * np.mean(density[:, (f >= BAND[0]) & (f <= BAND[1])], axis=1)
         samples += len(x)
     mean = np.sqrt(power / samples) if samples else np.full(2, np.nan)
-    return {f"{name}_Eo_per_rtHz": finite(x) for name, x in zip(("inline", "cross"), mean, strict=True)}
+    return name_both(mean, "Eo_per_rtHz")
 
 
 def list_contributions(c: OutputChannel, instrument: Instrument) -> list[dict[str, Any]]:
@@ -356,12 +348,12 @@ def list_contributions(c: OutputChannel, instrument: Instrument) -> list[dict[st
             g = part.demodulate(whole - rest)[good]
             squares = np.array([np.sum(g.real**2), np.sum(g.imag**2)])
             totals[name, effect] = totals.get((name, effect), 0.0) + squares
-    found = []
-    for (name, effect), squares in totals.items() if count else ():
-        inline, cross = map(float, np.sqrt(squares / count))
-        if inline or cross:
-            found.append({"of": name, "effect": effect, "inline_Eo": inline, "cross_Eo": cross})
-    return sorted(found, key=lambda r: -(r["inline_Eo"] ** 2 + r["cross_Eo"] ** 2))
+    ordered = sorted(totals.items(), key=lambda x: -np.sum(x[1]))
+    return [
+        {"of": name, "effect": effect, **name_both(np.sqrt(squares / count))}
+        for (name, effect), squares in ordered
+        if np.any(squares > 0.0)
+    ]
 
 
 # --- the command ---------------------------------------------------------------------------------------
@@ -408,7 +400,7 @@ def compensate(m: Loaded, flights: Sequence[Flight], kind: Kind, demodulator: st
             result["notes"] = [warn_of_change(saved.time, p.change)]
     if kind == "smoothed" and not find_starts(p.flights)[1]:
         result["notes"] = [describe_other.UNTIMED]
-    return Compensation.of(m.name, result, series)
+    return Compensation(m.name, result, tuple(series))
 
 
 def _require_alike(p: PreparedFlights) -> None:

@@ -93,14 +93,13 @@ class CalibrationChange:
 class Held:
     """How a frozen calibration holds on flights.
 
-    In ``comparison``, ``calibrated`` and ``holdout`` are the frozen error; ``free``, ``free_holdout``: errors if parameters were
-    fitted to these flights.
+    In ``comparison``, ``calibrated`` and ``holdout`` are the frozen error; ``free``: the error if parameters were fitted to these
+    flights.
     """
 
     comparison: Comparison
     saved: Saved
     free: Error
-    free_holdout: Error
     change: CalibrationChange
 
     def as_json(self) -> dict[str, Any]:
@@ -111,7 +110,7 @@ class Held:
             **self.change.as_json(),
             "samples": c.rows,
             "suspects": self.change.find_suspects(c.columns),
-            "free": {"calibrated": self.free.as_json(), "holdout": self.free_holdout.as_json()},
+            "free": {"calibrated": self.free.as_json()},
         }
         return self.comparison.as_json() | {"frozen": frozen}
 
@@ -151,15 +150,12 @@ def compare_frozen(model: Model, instrument: Instrument, flights: Sequence[Fligh
         model, instrument, observations, make_calibration(saved, model, instrument, observations)
     )
     free = f.vector(f.coefficients(())[0])
-    frozen, fitted, held_out, nominal = comparison.score_with_nominal(
-        f, [np.zeros(f.size), free, f.fit_held_out()]
-    )
+    frozen, fitted, nominal = comparison.score_with_nominal(f, [np.zeros(f.size), free])
     return Held(
         # nothing of these flights was fitted: all of their time is held out
         comparison=comparison.conclude(f, nominal.whole, frozen, frozen.whole),
         saved=saved,
         free=fitted.whole,
-        free_holdout=held_out.held_out,
         change=measure_change(f, saved),
     )
 

@@ -202,7 +202,7 @@ def follow(
         "effects": [e.id for e in m.model.effects],
         "flights": entries,
     }
-    return Compensation.of(m.name, result, series)
+    return Compensation(m.name, result, tuple(series))
 
 
 def _known_noise(name: str, saved: Saved | None) -> float:

@@ -1,4 +1,4 @@
-"""calibration.json of a model directory: the calibrations that were kept, the last one in force."""
+"""calibration.json of a model directory: the calibration that was kept."""
 
 from __future__ import annotations
 
@@ -20,9 +20,6 @@ from ragg_runtime.model.model import Model
 from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]
-
-KEPT = 20
-"""Calibrations that are kept, the latest: each takes some 30 kB, most of it their information."""
 
 LEAST = 1e-3
 """Least diagonal number of the square root of the information: the sheet alone, in its own units, says 1."""
@@ -56,8 +53,12 @@ class Saved:
         """(size,), SI: the calibrated parameters."""
         return np.concatenate([*self.values.values()])
 
+    def as_text(self) -> str:
+        """The text of calibration.json."""
+        return f"{json.dumps(self.as_json(), allow_nan=False, ensure_ascii=False)}\n"
+
     def as_json(self) -> dict[str, Any]:
-        """The entry as in the file."""
+        """As in the file."""
         kept = ("time", "converged", "model", "values", "sheet", "validity", "flights", "error")
         return {
             **{name: getattr(self, name) for name in kept},
@@ -84,38 +85,8 @@ class Saved:
         return found
 
 
-def add_entry(text: str | None, new: Saved, where: object) -> str:
-    """The text of calibration.json with one more calibration, the oldest forgotten beyond :data:`KEPT`."""
-    before = [] if text is None else _read_entries(text, where)
-    lines = ",\n".join(
-        json.dumps(e, allow_nan=False, ensure_ascii=False) for e in [*before, new.as_json()][-KEPT:]
-    )
-    return f'{{"calibrations": [\n{lines}\n]}}\n'
-
-
-def _read_entries(text: str, where: object) -> list[Any]:
-    """The calibrations in the text of a calibration.json, at least one."""
-    try:
-        found = json.loads(text, parse_constant=_refuse)["calibrations"]
-        if not (isinstance(found, list) and found):
-            raise ValueError("no calibration in it")
-    except (ValueError, KeyError, TypeError, RecursionError) as error:
-        raise _damaged(error, where) from None
-    return found
-
-
 def _refuse(text: str) -> float:
     raise ValueError(f"{text} is not a number")
-
-
-def _damaged(error: Exception, where: object) -> UserError:
-    return UserError(
-        "the saved calibration is damaged",
-        where=str(where),
-        found=f"no {error}" if isinstance(error, KeyError) else str(error)[:200],
-        expected='{"calibrations": [...]}, as `ragg calibrate --save` writes it',
-        remedy="restore the file, or calibrate again: ragg calibrate MODEL FLIGHT... --save (after removing it)",
-    )
 
 
 def saved_calibration(m: Loaded) -> Saved:
@@ -130,15 +101,16 @@ def saved_calibration(m: Loaded) -> Saved:
     again = f"calibrate: ragg calibrate {where.parent} FLIGHT... --save"
     if kept is None:
         raise UserError("the model has no saved calibration", where=where.parent, remedy=again)
-    entry = _read_entries(kept, where)[-1]
+    refuse = partial(UserError, where=where, remedy=again)
     try:
-        return _read_entry(entry, m, partial(UserError, where=where, remedy=again))
-    except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError) as error:
-        raise _damaged(error, where) from None
+        return _read(json.loads(kept, parse_constant=_refuse), m, refuse)
+    except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
+        found = f"no {error}" if isinstance(error, KeyError) else str(error)[:200]
+        raise refuse("the saved calibration is damaged", found=found) from None
 
 
-def _read_entry(e: Mapping[str, Any], m: Loaded, refuse: Callable[..., UserError]) -> Saved:
-    """An entry as a calibration of the present model; what refuses it raises the error that ``refuse`` makes."""
+def _read(e: Mapping[str, Any], m: Loaded, refuse: Callable[..., UserError]) -> Saved:
+    """What was kept as a calibration of the present model; what speaks against it raises the error that ``refuse`` makes."""
     model, instrument = m.model, m.instrument
     effects, form = [x.id for x in model.effects], instrument.form.words()
     of, layout = e["model"], [(name, len(x)) for name, x in e["values"].items()]

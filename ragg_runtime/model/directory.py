@@ -10,7 +10,7 @@ import hashlib
 import json
 import secrets
 import shutil
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -216,14 +216,13 @@ def replace_model_dir(
     *,
     generated: Mapping[str, str],
     step: HistoryStep,
-    calibration: Callable[[str | None], str] | None = None,
+    calibration: str | None = None,
     mapping: str | None = None,
 ) -> ModelDir:
     """Put a new state in place of ``current``: all of it, or nothing if this fails or is killed. What is not given
     stays.
 
-    ``generated`` are path -> text; ``calibration`` is given the text of calibration.json as it is now. Raises UserError
-    if model.toml was changed since, or if the directory cannot be written.
+    ``generated`` are path -> text. Raises UserError if model.toml was changed since, or if the directory cannot be written.
     """
     path = current.path
     parse_instrument(text, path / MODEL)
@@ -236,10 +235,9 @@ def replace_model_dir(
                     where=path,
                     remedy="look at it with: ragg history, load it again and repeat the change",
                 )
-            kept = None if calibration is None else calibration(found.calibration)
-            changed = (found.text, text) if kept is None else (found.calibration, kept)
+            changed = (found.text, text) if calibration is None else (found.calibration, calibration)
             history = (*found.history, replace(step, digests=tuple(map(compute_digest, changed))))
-            files = {MAPPING: mapping, HISTORY: history_text(history), CALIBRATION: kept}
+            files = {MAPPING: mapping, HISTORY: history_text(history), CALIBRATION: calibration}
             _put(path, files | {MODEL: None if text == found.text else text}, generated)
     except TimeoutError:
         raise UserError(

@@ -18,7 +18,6 @@ from ragg_runtime.compensation import drift, frozen
 from ragg_runtime.compensation.calibrate import calibrate, make_saved
 from ragg_runtime.compensation.channel import Quality
 from ragg_runtime.compensation.compensate import prepare
-from ragg_runtime.compensation.saved import add_entry
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.model import model as load
@@ -62,8 +61,7 @@ def test_what_is_kept_is_what_was_found_to_the_last_bit_with_its_history(kept: t
     for column, place in zip(saved.columns, saved.index, strict=True):
         value = saved.p[place] / column.unit_factor
         assert value == pytest.approx(found[column.name, column.accelerometer], rel=1e-12)
-    text = add_entry(m.directory.calibration, saved, "here")
-    directory = dataclasses.replace(m.directory, calibration=text)
+    directory = dataclasses.replace(m.directory, calibration=saved.as_text())
     again = api.saved_calibration(dataclasses.replace(m, directory=directory))
     assert np.array_equal(again.information, saved.information)
     assert np.array_equal(again.p, saved.p)
@@ -148,7 +146,7 @@ def test_chi_square_is_one_a_direction_if_nothing_changed() -> None:
 def _set(*path: Any, to: Any) -> Callable[[str], str]:
     def edit(text: str) -> str:
         content = json.loads(text)
-        at: Any = content["calibrations"][0]
+        at: Any = content
         for key in path[:-1]:
             at = at[key]
         at[path[-1]] = to
@@ -159,7 +157,7 @@ def _set(*path: Any, to: Any) -> Callable[[str], str]:
 
 DAMAGED: dict[str, Callable[[str], str]] = {
     "no JSON": lambda text: text[:1000],
-    "nothing in it": lambda text: '{"calibrations": []}',
+    "nothing in it": lambda text: "[]",
     "NaN": _set("values", "K1", to=[float("nan")] * 4),
     "a parameter too few": _set("values", "K1", to=[1e-3] * 3),
     "singular": _set("square_root_information", 0, 0, to=0.0),
