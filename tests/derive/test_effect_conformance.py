@@ -22,6 +22,7 @@ from derive.symbols import ACCELEROMETER, DISC, MOTION
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.units import units
+from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.reference import CATALOGUE, MotionSignals, Sinusoids, disc_angle, simulate
 from ragg_runtime.reference.geometry import frame_rotation, mount
 from ragg_runtime.reference.gravity import Gradient
@@ -81,22 +82,15 @@ MOTION_TRUE = MotionSignals(_A, _OMEGA)
 GRAVITY = Gradient(np.array([300.0, 120.0, 50.0, 200.0, -80.0, -500.0]) * 1e-9)
 REFERENCE_VALUE = {"temperature": 293.15, "pressure": 101325.0}
 TEMPERATURE = _signal(_RNG, 294.0, 0.5)
-AUXILIARIES = {
-    "temperature": TEMPERATURE.value,
-    "roll": _signal(_RNG, 0.02, 0.03).value,
-    "pitch": _signal(_RNG, -0.01, 0.02).value,
-    "pressure": _signal(_RNG, 98000.0, 400.0).value,
-    "B_x": _signal(_RNG, 2e-5, 1e-5).value,
-    "B_y": _signal(_RNG, -1e-5, 1e-5).value,
-    "B_z": _signal(_RNG, 4e-5, 1e-5).value,
-    "yaw": _signal(_RNG, 0.7, 0.9).value,
-    "fuel_mass": _signal(_RNG, 400.0, 90.0).value,
-    "vibration_rms": _signal(_RNG, 0.3, 0.05).value,
-    "angular_vibration_rms": _signal(_RNG, 3e-4, 5e-5).value,
-    "balance_current": _signal(_RNG, 1e-3, 2e-4).value,
-    "second_order_current": _signal(np.random.default_rng(22), 1e-3, 2e-4).value,
-    **{f"mass_{k}": _signal(_RNG, 0.1, 0.2).value for k in "xyz"},
-}
+SIZES = {
+    "roll": (0.02, 0.03), "pitch": (-0.01, 0.02), "pressure": (98000.0, 400.0), "B_x": (2e-5, 1e-5), "B_y": (-1e-5, 1e-5),
+    "B_z": (4e-5, 1e-5), "yaw": (0.7, 0.9), "fuel_mass": (400.0, 90.0), "vibration_rms": (0.3, 0.05),
+    "angular_vibration_rms": (3e-4, 5e-5), "balance_current": (1e-3, 2e-4), "second_order_current": (1e-3, 3e-4),
+    "mass_x": (0.1, 0.2), "mass_y": (0.1, 0.2), "mass_z": (0.1, 0.2),
+}  # fmt: skip
+"""Mean and spread, SI."""
+
+AUXILIARIES = {"temperature": TEMPERATURE.value} | {n: _signal(_RNG, *s).value for n, s in SIZES.items()}
 
 _UNITS = {"a": "m/s^2", "omega": "rad/s", "omegadot": "rad/s^2"}
 RESPONSES = {
@@ -116,27 +110,13 @@ WITH_CONSTANT = {f"near_{n}__M": "m^3/s^2" for n in ("sphere", "cuboid")}
 SHAPES = ("f_0", "Q", "tau", "w")
 
 CHANNEL_UNIT = {
+    **SI_UNITS,
     **RESPONSES,
     **{f"{n}_by_{q}": unit for n, unit in RESPONSES.items() for q in SHAPES},
     "d_temperature": "K/s",
     "d_spin_angle": "rad/s",
     "d2_spin_angle": "rad/s^2",
-    **{c.name: c.unit for c in MOTION},
-    "temperature": "K",
-    "roll": "rad",
-    "pitch": "rad",
-    "pressure": "Pa",
-    "B_x": "T",
-    "B_y": "T",
-    "B_z": "T",
-    "yaw": "rad",
-    "fuel_mass": "kg",
-    "vibration_rms": "m/s^2",
-    "angular_vibration_rms": "rad/s",
-    "balance_current": "A",
-    "second_order_current": "A",
-    **{f"mass_{k}": "m" for k in "xyz"},
-    "G_out": "V",
+    **dict.fromkeys(("cos_phi", "sin_phi"), "1"),
 }
 
 
@@ -413,10 +393,8 @@ def test_units_are_consistent(effect: Effect) -> None:
     def channel_scale(name: str) -> float:
         if name in CHANNEL_UNIT:
             return scale(CHANNEL_UNIT[name])
-        derivatives = {"d": 1, "d2": 2}.get(name.split("_")[0], 0)
-        if derivatives:
-            return scale(CHANNEL_UNIT[name.split("_", 1)[1]]) / base["[time]"] ** derivatives
-        return {"time": base["[time]"], "cos_phi": 1.0, "sin_phi": 1.0}.get(name) or scale(CHANNEL_UNIT[name])
+        order, _, quantity = name.partition("_")
+        return scale(CHANNEL_UNIT[quantity]) / base["[time]"] ** {"d": 1, "d2": 2}[order]
 
     def convert(values: Mapping[str, Array | float]) -> dict[str, Array | float]:
         out: dict[str, Array | float] = {}

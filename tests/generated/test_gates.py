@@ -143,44 +143,14 @@ def test_manifest_lists_every_file_and_model() -> None:
     assert [e["id"] for e in MANIFEST["catalogue"]] == [e.id for e in catalogue()]
 
 
-def project(root: Path, version: str, code: str) -> Path:
-    (root / "generated").mkdir()
-    (root / "generated" / "chain.py").write_text(code)
-    (root / "generated" / "manifest.json").write_text(
-        pipeline.manifest_text({"sympy": version, "digest": "1"})
-    )
-    return root
 
 
-@pytest.fixture(autouse=True)
-def derived(monkeypatch: pytest.MonkeyPatch) -> None:
-    manifest = pipeline.manifest_text({"sympy": sp.__version__, "digest": "1"})
-    files = {"chain.py": "a + b\n", "manifest.json": manifest}
-    monkeypatch.setattr(pipeline, "derive_base", lambda: files)
 
 
-def test_the_same_code_of_another_sympy_is_the_same(tmp_path, capsys) -> None:
-    main(["derive", "--check", "--out", str(project(tmp_path, "1.0", "a + b\n"))])
-    assert "derived with SymPy 1.0, and is the same here" in capsys.readouterr().out
 
 
-def test_terms_in_another_order_are_told_with_the_versions(tmp_path, capsys) -> None:
-    with pytest.raises(SystemExit) as end:
-        main(["derive", "--check", "--out", str(project(tmp_path, "1.0", "b + a\n"))])
-    said = capsys.readouterr().err
-    assert end.value.code == 2
-    assert "-b + a" in said
-    assert "+a + b" in said
-    assert f"SymPy is {sp.__version__} here, and the code was derived with 1.0" in said
-    assert "50-digit test" in said
 
 
-@pytest.mark.parametrize("damage", ["", "[]", '{"sympy": 3}', "{"])
-def test_a_damaged_manifest_is_a_difference(tmp_path: Path, damage: str) -> None:
-    root = project(tmp_path, "1.0", "a + b\n")
-    (root / "generated" / "manifest.json").write_text(damage)
-    assert everything.difference(root)
-    assert everything.about_versions(root) is None
 
 
 USE = Path(__file__).with_name("use.c")

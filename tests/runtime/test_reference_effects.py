@@ -23,21 +23,14 @@ from ragg_runtime.reference.motion import recorded_motion
 RATE = 16.0
 GAIN = 1e9 * 1e-2 / 9.8
 GAMMA = Gradient(np.array([300, 120, 50, 200, -80, -500]) * 1e-9)
+CONSTANT = {
+    "roll": 0.1, "pitch": -0.2, "pressure": 101325.0 - 40.0, "B_x": 2e-5, "B_y": 3e-5, "B_z": -4e-5, "yaw": 0.7, "fuel_mass": 400.0,
+    "vibration_rms": 0.5, "angular_vibration_rms": 0.01, "balance_current": 0.01, "second_order_current": 0.01,
+}  # fmt: skip
 AUXILIARIES = {
     **{f"mass_{k}": (lambda t, n=n: 0.2 * np.sin(0.1 * t + n)) for n, k in enumerate("xyz")},
+    **{name: (lambda t, x=x: x + 0 * t) for name, x in CONSTANT.items()},
     "temperature": lambda t: 293.15 + 0.5 + 1e-3 * t,
-    "roll": lambda t: 0.1 + 0 * t,
-    "pitch": lambda t: -0.2 + 0 * t,
-    "pressure": lambda t: 101325.0 - 40.0 + 0 * t,
-    "B_x": lambda t: 2e-5 + 0 * t,
-    "B_y": lambda t: 3e-5 + 0 * t,
-    "B_z": lambda t: -4e-5 + 0 * t,
-    "yaw": lambda t: 0.7 + 0 * t,
-    "fuel_mass": lambda t: 400.0 + 0 * t,
-    "vibration_rms": lambda t: 0.5 + 0 * t,
-    "angular_vibration_rms": lambda t: 0.01 + 0 * t,
-    "balance_current": lambda t: 0.01 + 0 * t,
-    "second_order_current": lambda t: 0.01 + 0 * t,
 }
 
 
