@@ -7,8 +7,6 @@ from functools import cache
 from typing import Any
 
 import sympy as sp
-from sympy.core.exprtools import decompose_power
-from sympy.core.sorting import default_sort_key
 from sympy.printing.c import C99CodePrinter
 from sympy.printing.codeprinter import CodePrinter
 from sympy.printing.latex import LatexPrinter
@@ -18,38 +16,13 @@ from derive.layout import HEIGHT, TURN
 from derive.symbols import INSTRUMENT, MOTION, SPIN_ACCELERATION, SPIN_RATE
 
 
-@cache
-def _terms(e: sp.Expr) -> tuple[sp.Expr, ...]:
-    """As SymPy's ``as_ordered_terms``, which makes a complex number of each coefficient, in a third of the time."""
-    bases: set[sp.Expr] = set()
-    terms: list[tuple[sp.Expr, dict[sp.Expr, int], sp.Number]] = []
-    for term in sp.Add.make_args(e):
-        coefficient, rest = term.as_coeff_Mul()
-        factors = sp.Mul.make_args(rest)
-        if any(not f.is_Symbol and f.is_number for f in factors):  # 1, pi ...: seldom, and cases of their own
-            return tuple(e.as_ordered_terms())
-        powers = dict(map(decompose_power, factors))
-        bases.update(powers)
-        terms.append((term, powers, coefficient))
-    order = sorted(bases, key=default_sort_key)
-    return tuple(t for t, _, _ in sorted(terms, key=lambda t: ([-t[1].get(b, 0) for b in order], t[2])))
-
-
 class _Code(CodePrinter):
-    """What is the same in every language: sums in SymPy's order, which takes long to find, and numbers as decimals."""
-
-    def _as_ordered_terms(self, e: sp.Expr, order: str | None = None) -> tuple[sp.Expr, ...]:
-        return _terms(e)
-
-    def _handle_UnevaluatedExpr(self, e: sp.Expr) -> sp.Expr:
-        return e  # SymPy rebuilds each expression in search of some; the derivation makes none
+    """What is the same in every language: short decimals in the place of fractions."""
 
     def _print_Rational(self, e: sp.Rational) -> str:
         return _decimal(e) or str(super()._print_Rational(e))
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
-        if item.is_Symbol:  # most terms are alone
-            return str(self._print(item))
         if item.is_Rational and item.is_positive and _decimal(item):
             return _decimal(item)
         return str(super().parenthesize(item, level, strict))
