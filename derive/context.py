@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache
 
 import sympy as sp
 
@@ -87,7 +86,8 @@ class Context:
 
     def harmonic(self, n: int) -> tuple[sp.Expr, sp.Expr]:
         """cos(n phi), sin(n phi) of the disc angle, as polynomials in its cosine and sine."""
-        return _harmonic(n)
+        terms = [(-1) ** (k // 2) * math.comb(n, k) * COS_PHI ** (n - k) * SIN_PHI**k for k in range(n + 1)]
+        return sp.Add(*terms[::2]), sp.Add(*terms[1::2])
 
     def rate(self, e: sp.Expr) -> sp.Expr:
         """Total time derivative: the disc turns at Omega, the motion's rates are channels ``d_<name>``."""
@@ -106,12 +106,6 @@ class Context:
         """``e`` at the instant t + delta, to second order in delta."""
         first = self.rate(e)
         return e + delta * first + delta**2 / 2 * self.rate(first)
-
-
-@cache
-def _harmonic(n: int) -> tuple[sp.Expr, sp.Expr]:
-    terms = [(-1) ** (k // 2) * math.comb(n, k) * COS_PHI ** (n - k) * SIN_PHI**k for k in range(n + 1)]
-    return sp.Add(*terms[::2]), sp.Add(*terms[1::2])
 
 
 _MOVING = frozenset(c.name for c in MOTION if c.name.split("_")[0] not in _STATIONARY)

@@ -46,7 +46,7 @@ def partials(e: sp.Expr) -> Mapping[sp.Symbol, sp.Expr]:
         elif e.is_Mul:
             for n, part in enumerate(e.args):
                 if not part.is_Number:
-                    descend(part, _product(factor, (*e.args[:n], *e.args[n + 1 :])))
+                    descend(part, sp.Mul(factor, *e.args[:n], *e.args[n + 1 :]))
         elif isinstance(e, sp.Heaviside):
             pass  # flat but at the instant of the step itself
         elif isinstance(e, (sp.sign, sp.Abs)) and not e.args[0].is_extended_real:
@@ -66,13 +66,6 @@ def partials(e: sp.Expr) -> Mapping[sp.Symbol, sp.Expr]:
     descend(e, sp.Integer(1))
     sums = {s: sp.Add(*found[s]) for s in sorted(found, key=lambda s: s.name)}
     return {s: d for s, d in sums.items() if d != 0}
-
-
-def _product(factor: sp.Expr, others: tuple[sp.Expr, ...]) -> sp.Expr:
-    """A factor times the rest of a product; nothing needs to be done unless it is a number times a sum."""
-    if factor is sp.S.One and not others[0].is_Number:
-        return sp.Mul._from_args(others, is_commutative=True)
-    return sp.Mul(factor, *others)
 
 
 _OPEN = (sp.Derivative, sp.re, sp.im, sp.atan2)
@@ -231,24 +224,10 @@ class Settled:
 
     known: Mapping[sp.Symbol, sp.Expr]
     assignments: tuple[tuple[sp.Symbol, sp.Expr], ...]
-    _put: dict[sp.Expr, sp.Expr] = field(default_factory=dict, repr=False, compare=False)
 
     def put(self, e: sp.Expr) -> sp.Expr:
-        """An expression with what is known put in; parts that expressions share are looked up."""
-        if self.known.keys().isdisjoint(symbols(e)):
-            return e
-        if (found := self._put.get(e)) is None:
-            found = self._put[e] = self.known[e] if e in self.known else self._rebuilt(e)
-        return found
-
-    def _rebuilt(self, e: sp.Expr) -> sp.Expr:
-        new: list[sp.Expr] = []
-        for part in e.args:
-            new.append(self.put(part))
-            # of candidates most products vanish: the rest need not be looked at
-            if e.is_Mul and new[-1] is sp.S.Zero:
-                return new[-1]
-        return e.func(*new)
+        """An expression with what is known put in."""
+        return e if self.known.keys().isdisjoint(symbols(e)) else e.xreplace(self.known)
 
     def program(self, outputs: Iterable[tuple[str, sp.Expr]]) -> Program:
         """Share subexpressions, drop what nobody reads."""

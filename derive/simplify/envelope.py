@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache, lru_cache
+from functools import cache
 from typing import Any
 
 import sympy as sp
@@ -115,7 +115,7 @@ class Envelope:
 
     def motion(self) -> Mapping[str, Fraction]:
         """Bounds of a, T and S (:data:`MOTION_NUMBERS`) over the envelope, through Eq. 16."""
-        return _ranges(tuple(self.channel(n) for n in _channels(self.kinematics)), self.kinematics)
+        return ranges(self.channel, self.kinematics)
 
 
 def ranges(
@@ -125,11 +125,7 @@ def ranges(
 
     A square keeps its sign: T_1 = (omega_y^2 - omega_x^2 + ...) / 2 is smaller than the sum of its terms.
     """
-    return _ranges(tuple(Fraction(bound(name)) for name in _channels(kinematics)), kinematics)
-
-
-@lru_cache(maxsize=64)
-def _ranges(channels: tuple[Fraction, ...], kinematics: Kinematics) -> Mapping[str, Fraction]:
+    channels = [Fraction(bound(name)) for name in _channels(kinematics)]
     bounds = {}
     for name, terms in _polynomials(kinematics).items():
         low = high = Fraction(0)

@@ -119,7 +119,8 @@ def certified_bound(envelope: Envelope, model: Collected) -> Mapping[int, Fracti
             for p, c in coefficient.terms():
                 square = Fraction(int(c.numerator), int(c.denominator)) ** 2
                 amplitudes[n, motion, p] = amplitudes.get((n, motion, p), Fraction(0)) + square
-    motions = [envelope.motion()[n] for n in MOTION_NUMBERS]
+    bounds = envelope.motion()
+    motions = [bounds[n] for n in MOTION_NUMBERS]
     largest = [envelope.parameter(n) for n in COEFFICIENT_PARAMETERS]
     nominal = [envelope.nominal(n) for n in COEFFICIENT_PARAMETERS]
     harmonics: dict[int, Fraction] = {}
