@@ -14,7 +14,7 @@ import sympy as sp
 from sympy.polys.domains import QQ_I
 from sympy.polys.rings import PolyElement, PolyRing
 
-from derive.tape import variables
+from derive.tape import live
 
 
 @dataclass(frozen=True)
@@ -111,13 +111,7 @@ def series(
         raise NotHarmonic(f"{e} has no finite Fourier series in the disc angle")
 
     # Only what the output needs: an unused branch may hold symbols outside the ring.
-    needed = set(variables(output))
-    live: list[tuple[sp.Symbol, sp.Expr]] = []
-    for s, e in reversed(list(assignments)):
-        if s in needed and s not in values:
-            live.append((s, e))
-            needed.update(variables(e))
-    for s, e in reversed(live):
+    for s, e in live([(s, e) for s, e in assignments if s not in known], [("", output)]):
         values[s] = convert(e)
     return convert(output)
 

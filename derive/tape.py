@@ -232,7 +232,7 @@ class Settled:
     def program(self, outputs: Iterable[tuple[str, sp.Expr]]) -> Program:
         """Share subexpressions, drop what nobody reads."""
         final = [(name, self.put(sp.sympify(e, strict=True))) for name, e in outputs]
-        return _share(_live(self.assignments, final), final)
+        return _share(live(self.assignments, final), final)
 
 
 def settled(assignments: Iterable[tuple[sp.Symbol, sp.Expr]], values: Mapping[sp.Symbol, sp.Expr]) -> Settled:
@@ -249,9 +249,10 @@ def settled(assignments: Iterable[tuple[sp.Symbol, sp.Expr]], values: Mapping[sp
     return replace(whole, assignments=tuple(kept))
 
 
-def _live(
+def live(
     assignments: Sequence[tuple[sp.Symbol, sp.Expr]], outputs: list[tuple[str, sp.Expr]]
 ) -> list[tuple[sp.Symbol, sp.Expr]]:
+    """The assignments that the outputs need."""
     needed = {s for _, e in outputs for s in symbols(e)}
     kept = []
     for s, e in reversed(assignments):
