@@ -6,7 +6,6 @@ import html
 import math
 import re
 import warnings
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
 from html.parser import HTMLParser
@@ -15,8 +14,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
-from hypothesis import strategies as st
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.calibrate import list_combinations, list_parameters
@@ -162,13 +159,6 @@ def test_same_input_same_bytes(cubic: Case) -> None:
     assert draw_plot(plot) == draw_plot(plot)
 
 
-def test_two_figures_at_once_keep_their_text() -> None:
-    """The studio draws in threads, and Matplotlib's settings are the whole process's."""
-    figures = [Bars(f"{n}", "title", (Bar("a", n + 1.0),), "Eo") for n in range(6)]
-    with ThreadPoolExecutor(6) as pool:
-        assert [*pool.map(draw_plot, figures)] == [draw_plot(x) for x in figures]
-
-
 def test_clean_flight_is_adequate_in_words(clean: compare.Comparison) -> None:
     said = render_text(describe.describe_comparison(clean.as_json(), ["leg"]))
     assert said.startswith("The model is adequate")
@@ -276,19 +266,6 @@ def test_spectrum_has_the_density_of_white_noise_and_the_power_of_a_line() -> No
     assert s.frequency[np.argmax(s.density)] == pytest.approx(3.0, abs=0.05)
 
 
-@given(st.integers(1, 5000), st.integers(1, 700), st.integers(0, 2**31))
-def test_envelope_keeps_the_extremes_and_the_power(n: int, points: int, seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    x, valid = rng.normal(size=n), rng.random(n) < 0.7
-    assume(valid.any())
-    e = series.decimate(np.arange(n) / RATE, x, valid, points)
-    assert len(e.time) <= points
-    assert np.nanmax(e.high) == np.max(x[valid])
-    assert np.nanmin(e.low) == np.min(x[valid])
-    known = np.isfinite(e.rms)
-    assert np.all(e.rms[known] <= np.maximum(np.abs(e.low[known]), np.abs(e.high[known])) * (1 + 1e-12))
-
-
 def test_whiteness_has_99_percent_bounds_and_finds_what_is_not_noise(clean: compare.Comparison) -> None:
     f = clean.fitted
     rng = np.random.default_rng(8)
@@ -313,30 +290,6 @@ def test_whiteness_has_99_percent_bounds_and_finds_what_is_not_noise(clean: comp
     assert np.mean(against.axes[1].curves[1].y) == pytest.approx(1.0, abs=0.05)
     with pytest.raises(UserError, match="no such channel"):
         whiteness.plot_against(f, 0, noise, "humidity")
-
-
-FINITE = st.floats(-1e30, 1e30, allow_nan=False).filter(lambda x: x == 0 or abs(x) > 1e-30)
-
-
-def read(text: str) -> float:
-    """A printed number, read back."""
-    plain = text.replace(numbers.MINUS, "-")
-    mantissa, _, exponent = plain.partition(f"{numbers.THIN}×{numbers.THIN}10")
-    digits = exponent.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-"))
-    return float(mantissa.replace(numbers.THIN, "")) * 10.0 ** int(digits or 0)
-
-
-@given(FINITE, st.integers(1, 7))
-def test_number_reads_back_to_its_digits(x: float, digits: int) -> None:
-    assert read(numbers.number(x, digits)) == pytest.approx(x, rel=0.51 * 10.0 ** (1 - digits), abs=0.0)
-
-
-@given(FINITE, st.floats(1e-20, 1e20))
-def test_value_and_uncertainty_read_back(value: float, std: float) -> None:
-    assume(1e-6 < abs(value) / std < 1e9)
-    shown = numbers.rounded(value, std)
-    assert read(shown) == pytest.approx(value, abs=0.06 * std * (1 + 1e-6))
-    assert numbers.plus_minus(value, std).lstrip("(").startswith(shown.split(numbers.THIN + "×")[0])
 
 
 def test_numbers_a_reader_expects() -> None:
