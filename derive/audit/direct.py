@@ -8,11 +8,16 @@ first-order rotations multiplied out, second-order terms without angles, and bet
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
-Vector = tuple[Fraction, Fraction, Fraction]
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = NDArray[Any]
+"""(3,) or (3, 3) of :class:`Fraction`."""
 
 ACCELEROMETER_NUMBERS = (
     "k1", "R", "beta_x", "beta_z", "vartheta_x", "vartheta_y", "vartheta_z",
@@ -28,9 +33,13 @@ class NumericPoint:
     a: Vector
     omega: Vector
     omegadot: Vector
-    Gamma: tuple[Vector, Vector, Vector]
+    Gamma: Vector
     cosine: Fraction
     sine: Fraction
+
+    def of(self, j: int) -> dict[str, Fraction]:
+        """The numbers of one accelerometer."""
+        return {n: v[j] for n, v in self.accelerometers.items()}
 
 
 def points(count: int, seed: int) -> tuple[NumericPoint, ...]:
@@ -41,7 +50,7 @@ def points(count: int, seed: int) -> tuple[NumericPoint, ...]:
         return Fraction(draw.choice((-1, 1)) * draw.randint(1, 9), draw.randint(1, 5))
 
     def vector() -> Vector:
-        return number(), number(), number()
+        return np.array([number() for _ in range(3)])
 
     made = []
     for _ in range(count):
@@ -53,26 +62,12 @@ def points(count: int, seed: int) -> tuple[NumericPoint, ...]:
                 vector(),
                 vector(),
                 vector(),
-                ((xx, xy, xz), (xy, yy, yz), (xz, yz, -xx - yy)),
+                np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, -xx - yy]]),
                 (1 - half**2) / (1 + half**2),
                 2 * half / (1 + half**2),
             )
         )
     return tuple(made)
-
-
-def cross(u: Sequence[Fraction], v: Sequence[Fraction]) -> Vector:
-    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
-
-
-def dot(u: Sequence[Fraction], v: Sequence[Fraction]) -> Fraction:
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-
-
-def combine(*terms: tuple[Fraction | int, Sequence[Fraction]]) -> Vector:
-    """Sum of numbers times vectors."""
-    x, y, z = (sum((c * v[n] for c, v in terms), Fraction(0)) for n in range(3))
-    return x, y, z
 
 
 _PLACES = ((1, 0), (-1, 0), (0, 1), (0, -1))
@@ -87,50 +82,49 @@ def output(p: NumericPoint) -> Fraction:
 
 def _voltage(p: NumericPoint, j: int) -> Fraction:
     """V_j with beta_z to the first power: it is of the second degree, so a central difference is exact."""
-    b = p.accelerometers["beta_z"][j]
-    at_zero = _linear(p, j, Fraction(0))
-    first_power = at_zero + (_linear(p, j, b) - _linear(p, j, -b)) / 2
-    k = {n: v[j] for n, v in p.accelerometers.items()}
-    x, y, z = _force(p, j, Fraction(0), Fraction(0))
-    second = k["K2"] * x * x + k["K5"] * y * y + k["K7"] * z * z + k["K4"] * x * z + k["K6"] * x * y
-    return first_power + k["k1"] * (k["K0"] + second + k["K8"] * y * z)
+    k = p.of(j)
+    b = k["beta_z"]
+    first_power = _linear(p, j, Fraction(0)) + (_linear(p, j, b) - _linear(p, j, -b)) / 2
+    return first_power + k["k1"] * (k["K0"] + _second_order(k, _force(p, j, Fraction(0), Fraction(0))))
 
 
 def _linear(p: NumericPoint, j: int, beta_z: Fraction) -> Fraction:
     """k1 times f_i of Eq. 3."""
-    k = {n: v[j] for n, v in p.accelerometers.items()}
+    k = p.of(j)
     x, y, z = _force(p, j, k["beta_x"], beta_z)
     return k["k1"] * (x + y * k["vartheta_z"] - z * k["vartheta_y"])
+
+
+def _second_order(k: Mapping[str, Fraction], f: Vector) -> Fraction:
+    x, y, z = f
+    squares = k["K2"] * x * x + k["K5"] * y * y + k["K7"] * z * z
+    return Fraction(squares + k["K4"] * x * z + k["K6"] * x * y + k["K8"] * y * z)
 
 
 def _force(p: NumericPoint, j: int, beta_x: Fraction, beta_z: Fraction) -> Vector:
     """f_jx, f_jy, f_jz (Eq. 11 and 12)."""
     c, s = _PLACES[j]
     cosine, sine = p.cosine * c - p.sine * s, p.sine * c + p.cosine * s
-    up = (Fraction(0), Fraction(0), Fraction(1))
-    radial, tangential = (cosine, sine, Fraction(0)), (-sine, cosine, Fraction(0))
-    along, around = combine((1, radial), (beta_z, tangential)), combine((1, tangential), (-beta_z, radial))
-    r = combine((p.accelerometers["R"][j], combine((1, along), (beta_x, up))))
-    attraction = tuple(dot(row, r) for row in p.Gamma)
-    f = combine((1, p.a), (1, cross(p.omegadot, r)), (1, cross(p.omega, cross(p.omega, r))), (-1, attraction))
-    dipped, down = combine((1, along), (-beta_x, up)), combine((-1, up), (-beta_x, along))
-    return dot(f, around), dot(f, dipped), dot(f, down)
+    radial, tangential, up = np.array([cosine, sine, 0]), np.array([-sine, cosine, 0]), np.array([0, 0, 1])
+    along, around = radial + beta_z * tangential, tangential - beta_z * radial
+    r = p.accelerometers["R"][j] * (along + beta_x * up)
+    f = p.a + np.cross(p.omegadot, r) + np.cross(p.omega, np.cross(p.omega, r)) - p.Gamma @ r
+    return np.array([f @ around, f @ (along - beta_x * up), f @ (-up - beta_x * along)])
 
 
 def current(p: NumericPoint, j: int, f: Vector) -> Fraction:
     """I_j / K_j1 - K_j0 of Eq. 1 for a force in the nominal frame, its first-order rotations one by one."""
-    k = {n: v[j] for n, v in p.accelerometers.items()}
+    k = p.of(j)
     x, y, z = f
     x, y, z = x, y + k["vartheta_x"] * z, z - k["vartheta_x"] * y
     x, y, z = x - k["vartheta_y"] * z, y, z + k["vartheta_y"] * x
     x, y, z = x + k["vartheta_z"] * y, y - k["vartheta_z"] * x, z
-    second = k["K2"] * x * x + k["K5"] * y * y + k["K7"] * z * z + k["K4"] * x * z + k["K6"] * x * y
-    return x + second + k["K8"] * y * z
+    return Fraction(x + _second_order(k, np.array([x, y, z])))
 
 
 def rates(p: NumericPoint) -> dict[str, Fraction]:
     """The numbers of Eq. 16 by name: omega_x ..., omegadot_x ..., Gamma_xx ..., and omega_im^2."""
     vectors = {"omega": p.omega, "omegadot": p.omegadot}
     named = {f"{n}_{'xyz'[k]}": u[k] for n, u in vectors.items() for k in range(3)}
-    named |= {f"Gamma_{'xyz'[i]}{'xyz'[k]}": p.Gamma[i][k] for i in range(3) for k in range(i, 3)}
-    return named | {"omega_im^2": dot(p.omega, p.omega)}
+    named |= {f"Gamma_{'xyz'[i]}{'xyz'[k]}": p.Gamma[i, k] for i in range(3) for k in range(i, 3)}
+    return named | {"omega_im^2": p.omega @ p.omega}
