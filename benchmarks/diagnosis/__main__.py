@@ -18,6 +18,7 @@ import multiprocessing
 import subprocess
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import nullcontext, suppress
 from functools import partial
 from pathlib import Path
@@ -77,19 +78,22 @@ class Cache:
 Task = Callable[[], dict[str, Any]]
 
 
-def _carry_out(task: tuple[str, Task]) -> tuple[str, dict[str, Any]]:
-    return task[0], task[1]()
-
-
 def run(tasks: dict[str, Task], cache: Cache, jobs: int) -> None:
     """Do what is not done yet; an interruption loses only what is in the air."""
-    missing = [(k, t) for k, t in tasks.items() if k not in cache.lines]
+    missing = {k: t for k, t in tasks.items() if k not in cache.lines}
     at = {"commit": commit()}
-    with multiprocessing.get_context("spawn").Pool(jobs) if jobs > 1 else nullcontext() as pool:
-        results = map(_carry_out, missing) if pool is None else pool.imap_unordered(_carry_out, missing)
-        for n, (key, result) in enumerate(results):
-            cache.add(key, at | result)
-            print(f"\r{n + 1} of {len(missing)} of {len(tasks)}: {key}\033[K", end="", file=sys.stderr)
+    spawn = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(jobs, spawn) if jobs > 1 else nullcontext() as pool:
+        flying = {} if pool is None else {pool.submit(t): k for k, t in missing.items()}
+        done = ((flying[future], future.result()) for future in as_completed(flying))
+        try:
+            for n, (key, result) in enumerate(done if flying else ((k, t()) for k, t in missing.items())):
+                cache.add(key, at | result)
+                print(f"\r{n + 1} of {len(missing)} of {len(tasks)}: {key}\033[K", end="", file=sys.stderr)
+        except BaseException:
+            if pool is not None:
+                pool.shutdown(cancel_futures=True)
+            raise
 
 
 def read_rows(path: Path) -> list[Row]:
