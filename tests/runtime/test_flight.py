@@ -199,22 +199,6 @@ def test_empty_cells_are_marked(load: Load) -> None:
     assert any(note.startswith("temperature") and "interpolated" in note for note in found.notes)
 
 
-def test_jitter(load: Load) -> None:
-    table = columns()
-    rng = np.random.default_rng(3)
-    table["time"] = table["time"] + rng.uniform(-1e-4, 1e-4, N) / RATE
-    assert not any("jitters" in note for note in load(table).notes)
-    table["time"] = np.round(np.arange(N) / RATE, 3)
-    found = load(table)
-    assert any("the time stamps are rounded to 0.001 s" in note for note in found.notes)
-    assert found.rate == pytest.approx(RATE, rel=1e-9)
-    # jitter is noise of omegadot, which is derived poorly at the ends
-    assert found.valid[N // 8 : -N // 8].all()
-    table["time"] = table["time"] + rng.uniform(-0.4, 0.4, N) / RATE
-    with pytest.raises(UserError, match="not uniformly sampled"):
-        load(table)
-
-
 def edited(**changes: np.ndarray) -> dict[str, np.ndarray]:
     return columns() | changes
 
@@ -256,6 +240,7 @@ T = np.arange(N) / RATE
         ("\n".join(TEXT.splitlines()[:2]), ("too few samples", "1 row")),
         ("", ("empty",)),
         ("\n\n", ("no header",)),
+        (edited(time=T + np.random.default_rng(3).uniform(-0.4, 0.4, N) / RATE), ("not uniformly sampled",)),
         (edited(time=np.full(N, 3.0)), ("too coarse", "the clock stands still")),
         (edited(time=T[::-1]), ("backwards",)),
         (edited(time=swapped(10, 11)), ("runs back", "row 11", "row 12", "0.6875 s")),

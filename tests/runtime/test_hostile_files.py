@@ -22,15 +22,11 @@ from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import parse_mapping
 from ragg_runtime.io.record import distinct
-from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.survey import run
-from tests.runtime.foreign_files import ENDINGS, write
+from tests.runtime.foreign_files import ENDINGS, HEADER, make_lines, write
 
-NAMES = ("time", "a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z", "G_out")
-UNITS = ("s", "g", "g", "g", "deg/s", "deg/s", "deg/s", "V")
-HEADER = ",".join(f"{n} [{u}]" for n, u in zip(NAMES, UNITS, strict=True)) + "\n"
 MAPPING = """
 [time]
 column = "UTC"
@@ -45,16 +41,6 @@ z = "-z"
 SHEET = (Path(__file__).parents[2] / "ragg_runtime" / "example.toml").read_text("utf-8")
 
 
-def good(path: Path, lines: tuple[str, ...] = ()) -> Path:
-    rng = np.random.default_rng(1)
-    tables = []
-    for line in lines or (None,):
-        columns = [DataColumn(n, u, rng.normal(size=60)) for n, u in zip(NAMES, UNITS, strict=True)]
-        columns[0] = DataColumn("time", "s", np.arange(60) / 16)
-        tables.append(DataTable(tuple(columns), line))
-    return write(path, tables)
-
-
 def broken(data: bytes, trial: int, rng: np.random.Generator) -> bytes:
     """Cut off, or with some bytes changed."""
     if trial % 3 == 0:
@@ -67,7 +53,7 @@ def broken(data: bytes, trial: int, rng: np.random.Generator) -> bytes:
 
 @pytest.mark.parametrize("ending", ENDINGS)
 def test_a_damaged_file_is_read_or_refused_with_one_message(tmp_path: Path, ending: str) -> None:
-    path = good(tmp_path / f"x{ending}", ("1", "2"))
+    path = write(tmp_path / f"x{ending}", make_lines("1", "2"))
     data = path.read_bytes()
     assert all(len(s) == 60 for s in read_recordings(path))
     rng = np.random.default_rng(2)
@@ -95,7 +81,7 @@ def test_a_damaged_text_is_read_or_refused_with_one_message(parse, text) -> None
 def test_numbers_in_other_files_are_not_read(tmp_path: Path, trick: str) -> None:
     secret = tmp_path / "secret.bin"
     secret.write_bytes(np.arange(60.0).tobytes())
-    other, path = good(tmp_path / "other.h5"), good(tmp_path / "x.h5")
+    other, path = (write(tmp_path / n, make_lines()) for n in ("other.h5", "x.h5"))
     with h5py.File(path, "a") as file:
         del file["G_out"]
         if trick == "external":
@@ -111,7 +97,7 @@ def test_numbers_in_other_files_are_not_read(tmp_path: Path, trick: str) -> None
 
 
 def test_groups_in_a_circle_end(tmp_path: Path) -> None:
-    path = good(tmp_path / "x.h5")
+    path = write(tmp_path / "x.h5", make_lines())
     with h5py.File(path, "a") as file:
         file.create_group("deeper").create_group("deeper")["round"] = file["/"]
     assert len(read_flight(path, 9.8)) == 60
@@ -127,7 +113,9 @@ def test_differing_tables_ask_for_a_choice(tmp_path: Path) -> None:
     assert all(w in str(refused.value) for w in ("/imu", "/ggi", "[file] part"))
 
 
-@pytest.mark.parametrize("text", ["a" * (3 << 20), HEADER + "1" * (3 << 20), "# " + "a" * (3 << 20)])
+@pytest.mark.parametrize(
+    "text", ["a" * (3 << 20), ",".join(HEADER) + "\n" + "1" * (3 << 20), "# " + "a" * (3 << 20)]
+)
 def test_a_line_without_end(tmp_path: Path, text: str) -> None:
     (tmp_path / "flight.csv.gz").write_bytes(gzip.compress(text.encode()))
     with pytest.raises(UserError, match="not a table"):

@@ -82,41 +82,21 @@ def test_units_signs_scales_and_axes(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("time", "written", "origin"),
+    ("time", "head", "written", "start", "origin"),
     [
-        ("2026-03-01T12:00:{s:07.4f}Z", 'column = "T"\nformat = "iso"', datetime(2026, 3, 1, tzinfo=UTC)),
-        ("2026-03-01 12:00:{s:07.4f}", 'column = "T"\nformat = "iso"', datetime(2026, 3, 1, tzinfo=UTC)),
-        ("12:00:{s:07.4f}", 'column = "T"\nformat = "clock"', None),
-        ("1200{s:07.4f}", 'column = "T"\nformat = "clock"', None),
-        (
-            "{t:.4f}",
-            'column = "T"\nunit = "s"\norigin = 2026-03-01T12:00:00Z',
-            datetime(2026, 3, 1, 12, tzinfo=UTC),
-        ),
+        ("2026-03-01T12:00:{s:07.4f}Z", "T", 'column = "T"\nformat = "iso"', 43200.0, 1),
+        ("1200{s:07.4f}", "T", 'column = "T"\nformat = "clock"', 43200.0, None),
+        ("{t:.4f}", "T", 'column = "T"\nunit = "s"\norigin = 2026-03-01T00:00:00Z', 0.0, 1),
+        ("2408,{t:.4f}", "W,S", 'column = ["W", "S"]\nformat = "gps"', 0.0, 1),  # 1 March 2026 is a Sunday
     ],
 )
-def test_clocks(tmp_path: Path, time: str, written: str, origin: datetime | None) -> None:
+def test_clocks(tmp_path: Path, time: str, head: str, written: str, start: float, origin: int | None) -> None:
     path = tmp_path / "x.csv"
-    x = foreign(path, time)
-    text = TEXT.replace('column = "T"\nunit = "s"', written)
-    (source,) = read_recordings(path, parse(text))
-    assert source.origin == origin
-    found = read_flight(path, G0, mapping=parse(text))
-    assert np.diff(found.time) == pytest.approx(np.diff(x.time), abs=2e-4)
-    noon = 0.0 if "origin" in written else 43200.0
-    assert found.time[0] == pytest.approx(noon, abs=1e-4)
-
-
-def test_gps_week_and_midnight(tmp_path: Path) -> None:
-    path = tmp_path / "x.csv"
-    x = foreign(path, "2408,{t:.4f}", head="W,S")
-    weeks = parse(TEXT.replace('column = "T"\nunit = "s"', 'column = ["W", "S"]\nformat = "gps"'))
-    assert read_flight(path, G0, mapping=weeks).time == pytest.approx(x.time, abs=1e-4)
-    (source,) = read_recordings(path, weeks)
-    assert source.origin == datetime(2026, 3, 1, tzinfo=UTC)  # a Sunday
-    path.write_text("time,v [V]\n23:59:59.5,1\n00:00:00.0,2\n0:00:00.5,3\n")
-    (source,) = read_recordings(path)
-    assert source.columns[0].values.tolist() == [86399.5, 86400.0, 86400.5]
+    x = foreign(path, time, head)
+    mapping = parse(TEXT.replace('column = "T"\nunit = "s"', written))
+    (source,) = read_recordings(path, mapping)
+    assert source.origin == (None if origin is None else datetime(2026, 3, origin, tzinfo=UTC))
+    assert read_flight(path, G0, mapping=mapping).time == pytest.approx(start + x.time, abs=1e-4)
 
 
 def test_lines_become_flights(tmp_path: Path) -> None:
