@@ -54,6 +54,11 @@ class Finding:
     before: LinearFit
 
     @property
+    def what(self) -> str:
+        """In words, the others too."""
+        return self.best.what + (f" (or: {'; or: '.join(self.others)})" if self.others else "")
+
+    @property
     def factor(self) -> float:
         """By how much the part that the model cannot explain falls."""
         return self.before.share / max(self.best.fitted.share, 1e-300)
@@ -238,8 +243,8 @@ def _orders(count: int) -> Iterator[tuple[int, ...]]:
         yield from (tuple({i: j, j: i}.get(k, k) for k in straight) for i, j in combinations(straight, 2))
 
 
-DEFINED = (1.0, -1.0, 2.0, -2.0, 0.5, -0.5)
-"""Factors by which people define the channels otherwise: (Gamma_xx - Gamma_yy)/2, Gamma_yy - Gamma_xx, 2 Gamma_xy, ..."""
+FACTORS = (1.0, -1.0, 2.0, -2.0, 0.5, -0.5)
+"""By which people define the channels otherwise: (Gamma_xx - Gamma_yy)/2, Gamma_yy - Gamma_xx, 2 Gamma_xy, ..."""
 
 
 def list_channel_mistakes(rows: Rows) -> Iterator[ColumnMistake]:
@@ -252,24 +257,14 @@ def list_channel_mistakes(rows: Rows) -> Iterator[ColumnMistake]:
         lambda r: replace(r, data=np.stack([-r.data[1] / 2, -2 * r.data[0]])),
         1,
     )
-    for factors in product(DEFINED, DEFINED):
-        changed = [(n, x) for n, x in zip(("inline", "cross"), factors, strict=True) if x != 1.0]
-        what = "; ".join(_defined(n, x) for n, x in changed)
-        remedy = ", ".join(f"multiply {n} by {x:g}" for n, x in changed)
-        if factors == (-1.0, -1.0):
-            what, remedy = "the sign of inline and cross is reversed", "multiply inline and cross by -1"
+    meant = {"inline": "Gamma_xx - Gamma_yy", "cross": "Gamma_xy"}
+    for factors in product(FACTORS, FACTORS):
+        changed = [(n, x) for n, x in zip(meant, factors, strict=True) if x != 1.0]
         if changed:
+            what = "; ".join(f"{n} is {1 / x:g} times {meant[n]}" for n, x in changed)
+            remedy = ", ".join(f"multiply {n} by {x:g}" for n, x in changed)
             undo = _output_scaled(np.array(factors)[:, None])
-            yield ColumnMistake(what, remedy, undo, 2 if factors == (-1.0, -1.0) else 2 * len(changed))
-
-
-def _defined(name: str, undo: float) -> str:
-    """In words, what a channel is if so many times it is what it should be."""
-    component = {"inline": "Gamma_xx - Gamma_yy", "cross": "Gamma_xy"}[name]
-    size = {1.0: "", 2.0: "half of ", 0.5: "twice "}[abs(undo)]
-    if not size:
-        return f"the sign of {name} is reversed"
-    return f"{name} is {'minus ' if undo < 0 else ''}{size}{component}"
+            yield ColumnMistake(what, remedy, undo, 2 * len(changed))
 
 
 def _axes(derived: bool) -> Iterator[ColumnMistake]:

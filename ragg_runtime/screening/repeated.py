@@ -229,18 +229,9 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float, turning: bool) -> Ma
     for k in np.flatnonzero(expected < np.where(x[first] == 0.0, RARE_ZEROS, RARE)):
         reading = x[first[k]] != 0.0 and last[k] - first[k] < 3  # of which the others are copies
         found[first[k] + reading : last[k] + 1] = True
-    if len(x) * float(np.median(by_step)) < RARE:  # a column that hardly ever meets a value again
-        lost = _find_lost(x, there, found)
-        found |= lost & ~_on_its_way(x) if turning else lost
+    if not turning and len(x) * float(np.median(by_step)) < RARE:  # it hardly ever meets a value again
+        found |= _find_lost(x, there, found)
     return found
-
-
-def _on_its_way(angle: Array) -> Mask:
-    """(N,): samples of a disc's angle, rad, that it enters or leaves by its usual move: it passes the same angles in every turn."""
-    moves = np.angle(np.exp(1j * np.diff(angle)))
-    usual = np.median(moves)
-    even = np.abs(moves - usual) < abs(usual) / 2
-    return np.asarray(np.r_[False, even] | np.r_[even, False])
 
 
 def _find_lost(x: Array, there: Mask, stuck: Mask) -> Mask:

@@ -20,7 +20,7 @@ from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import EVEN
 from ragg_runtime.model.recorded import find_recorded
 from ragg_runtime.screening import checks
-from ragg_runtime.screening.linear_fit import INDEPENDENT, LinearFit, find_inliers, fit_rows
+from ragg_runtime.screening.linear_fit import INDEPENDENT, find_inliers, fit_rows
 from ragg_runtime.screening.mistakes import Finding, find_mistake
 from ragg_runtime.screening.motion_noise import smooth_noisy_motion
 from ragg_runtime.screening.repeated import leave_out_repeated
@@ -93,24 +93,15 @@ def _is_senseless(f: Finding, instrument: Instrument) -> bool:
 
 
 def _refuse(flight: Flight, f: Finding) -> UserError:
+    left = f"the model leaves {100 * f.before.share:.3g} % of the output unexplained"
     odd = "".join(f"; {x.reason}" for x in flight.flags)
     return UserError(
-        f"the record does not fit the instrument; the likely mistake: {f.best.what}{_others(f)}",
+        f"the record does not fit the instrument; the likely mistake: {f.what}",
         where=flight.path or flight.name,
-        found=f"{_left(f.before)}, {f.factor:.3g} times more than with the mistake undone{odd}",
+        found=f"{left}, {f.factor:.3g} times more than with the mistake undone{odd}",
         expected="units, signs, axes and spin rate as the header and model.toml say",
         remedy=f.best.remedy,
     )
-
-
-def _others(f: Finding) -> str:
-    return f" (or: {'; or: '.join(f.others)})" if f.others else ""
-
-
-def _left(e: LinearFit) -> str:
-    if e.share < 1:
-        return f"the model leaves {100 * e.share:.3g} % of the output unexplained"
-    return f"the model misses the output by {e.share:.2g} times its size"
 
 
 def _remark(f: Finding) -> Flag:
@@ -121,7 +112,7 @@ def _remark(f: Finding) -> Flag:
         gain = f"{100 * (f.best.fitted.kept - f.before.kept):.2g} % more of the samples are explained"
     if f.best.kind == "sheet":
         return Flag((), f"{f.best.what}; with a wider sheet {gain}; {f.best.remedy}")
-    reason = f"likely mistake: {f.best.what}{_others(f)}; undone, {gain}; {f.best.remedy}"
+    reason = f"likely mistake: {f.what}; undone, {gain}; {f.best.remedy}"
     return Flag((), reason, open=True, effects=f.best.effects)
 
 

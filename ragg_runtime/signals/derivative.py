@@ -12,6 +12,7 @@ from scipy import interpolate, linalg, ndimage
 from ragg_runtime.signals.fir import fill_gaps
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 WINDOW = 25
 """Samples that enter one derivative."""
@@ -23,7 +24,7 @@ _EDGE = 6  # samples at either end where the window is so one-sided that noise n
 _POLYNOMIAL = 4  # polynomials up to this degree are differentiated exactly
 
 
-def differentiate(x: Array, rate: float, valid: NDArray[np.bool_] | None = None) -> Array:
+def differentiate(x: Array, rate: float, valid: Mask | None = None) -> Array:
     """Time derivative of ``x`` along its last axis, in units of x per second.
 
     A window of 25 samples, weighted by least squares for motion below 65 % of the Nyquist frequency, exact
@@ -46,18 +47,16 @@ def differentiate(x: Array, rate: float, valid: NDArray[np.bool_] | None = None)
     (..., N); NaN at missing samples and in runs of a single sample.
     """
     x = np.asarray(x, dtype=np.float64)
-    if valid is None and x.shape[-1] > 1 and not np.any(x != x[..., :1]):  # a constant; NaN is none
-        return np.zeros_like(x)
-    present: NDArray[np.bool_] = np.asarray(np.isfinite(x).all(axis=tuple(range(x.ndim - 1))))
-    if valid is not None:
-        present = present & valid
+    present = np.asarray(np.isfinite(x).all(axis=tuple(range(x.ndim - 1)))) & (
+        True if valid is None else valid
+    )
     result = np.full_like(x, np.nan)
     for run in runs(present):
         result[..., run] = _derivative(x[..., run]) * rate
     return result
 
 
-def runs(present: NDArray[np.bool_], shortest: int = 1) -> list[slice]:
+def runs(present: Mask, shortest: int = 1) -> list[slice]:
     """The contiguous runs of True at least ``shortest`` long, in order."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], present.astype(np.int8), [0]])))
     return [slice(int(a), int(b)) for a, b in edges.reshape(-1, 2) if b - a >= shortest]
@@ -71,12 +70,9 @@ def _derivative(x: Array) -> Array:
     x = x - x[..., :1]  # a large constant would cost digits at the ends
     window = min(n, WINDOW)
     half = window // 2
-    result = np.empty_like(x)
-    if n >= WINDOW:
-        ndimage.correlate1d(x, weights(window, half), axis=-1, output=result, mode="nearest")
-    for k in range(half if n >= WINDOW else n):
+    result = np.asarray(ndimage.correlate1d(x, weights(window, half), axis=-1, mode="nearest"))
+    for k in range(half):
         result[..., k] = x[..., :window] @ weights(window, k)
-    for k in range(half if n >= WINDOW else 0):
         result[..., n - 1 - k] = -(x[..., : -window - 1 : -1] @ weights(window, k))
     return result
 
@@ -118,7 +114,7 @@ BRIDGE, FAR = 7, 16
 1e-4 of the standard deviation, a cubic one 4e-3 to 1e-2; between rates held for two samples a cubic one left 600 Eo."""
 
 
-def bridge_gaps(x: Array, there: NDArray[np.bool_], *, smooth: bool = False, turning: bool = False) -> Array:
+def bridge_gaps(x: Array, there: Mask, *, smooth: bool = False, turning: bool = False) -> Array:
     """A series (N,) between the samples that are there (N,): linearly, or by a spline where gaps are not too wide.
 
     The angle of a disc is ``turning``: whole turns may be missing in it, and it turns on beyond the ends.
@@ -142,7 +138,7 @@ PREDICTED = 24
 """Samples from which an autoregressive series predicts the next: as many as enter a derivative."""
 
 
-def predict_missing(x: Array, there: NDArray[np.bool_]) -> Array:
+def predict_missing(x: Array, there: Mask) -> Array:
     """A series (N,), and where up to ``PREDICTED`` samples are missing those that it predicts best: it is taken to be autoregressive,
     and the missing samples to be those that leave the least errors of prediction (A. Janssen, R. Veldhuis, L. Vries, IEEE Trans. ASSP
     34, 1986, 317). Elsewhere, and where few stretches are whole, by a spline.
@@ -271,8 +267,6 @@ def _gram(half: int, t: Array, degree: int) -> list[list[Array]]:
         found.append([a * (t * one[s] + slopes[s]) - b * two[s] for s in range(3)])
     return found
 
-
-Mask = NDArray[np.bool_]
 
 REACH = 64
 """Samples on either side that enter a derivative. Where there are fewer, next to an end or a gap, it is good to half the frequency and

@@ -6,7 +6,7 @@ import re
 import sys
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, wraps
 from typing import Any
 
 import numpy as np
@@ -46,28 +46,29 @@ def changed(x: Flight, change: Callable[[str, np.ndarray], np.ndarray]) -> Fligh
     return replace(x, channels={n: change(n, v) for n, v in x.channels.items()})
 
 
-@pytest.fixture
-def no_timing(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without the mistakes of time, whose search takes most of it: for what is about others."""
-    monkeypatch.setattr(timing, "propose_times", lambda *_: [])
+SEARCHES: dict[str, tuple[Any, str, Any]] = {
+    "timing": (timing, "propose_times", lambda _: []),
+    "slips": (timing, "_propose_slips", lambda _: []),
+    "columns": (mistakes, "list_mistakes", lambda _: iter(())),
+    "all": (sys.modules[screen.__module__], "find_mistake", lambda _: None),
+}
+"""Searches of mistakes that most tests can do without: they take nearly all of the time."""
 
 
-@pytest.fixture
-def timing_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without the mistakes of unit, sign and axis: for what is measured about those of time."""
-    monkeypatch.setattr(mistakes, "list_mistakes", lambda _: iter(()))
+def without(*names: str) -> Any:
+    """A test without these searches."""
 
+    def of(test: Any) -> Any:
+        @wraps(test)
+        def run(*args: Any, **options: Any) -> None:
+            with pytest.MonkeyPatch.context() as patch:
+                for name in names:
+                    patch.setattr(*SEARCHES[name])
+                test(*args, **options)
 
-@pytest.fixture
-def shifts_alone(monkeypatch: pytest.MonkeyPatch, timing_alone: None) -> None:
-    """Of those of time no slips, which have tests of their own and take two thirds of the search."""
-    monkeypatch.setattr(timing, "_propose_slips", lambda _: [])
+        return run
 
-
-@pytest.fixture
-def no_mistakes(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without any mistake, whose search takes nearly all of the time: for what is done before and after it."""
-    monkeypatch.setattr(sys.modules[screen.__module__], "find_mistake", lambda *_: None)
+    return of
 
 
 def test_a_good_flight_is_left_alone() -> None:
@@ -86,7 +87,7 @@ def test_a_hidden_effect_is_no_mistake() -> None:
     assert [f.columns for f in held.flags] == [("a_x", "a_y", "a_z")]
 
 
-@pytest.mark.usefixtures("no_timing")
+@without("timing")
 @pytest.mark.parametrize("trim", ["matched", "table-v"])
 def test_the_mistake_is_named_on_any_instrument(trim: str) -> None:
     x = flown(9, trim=trim, record_gradient=False)
@@ -101,7 +102,7 @@ def test_the_mistake_is_named_on_any_instrument(trim: str) -> None:
         assert words in str(caught.value)
 
 
-@pytest.mark.usefixtures("no_timing")
+@without("timing")
 def test_a_scale_factor_off_its_sheet_is_no_wrong_unit() -> None:
     """1 to 5 % off sheets that are sure to 1e-4, alike or each by itself; the sheet of another instrument; or a null bias, with which
     smaller outputs would stay closer to the sheet, but not explain the record.
@@ -125,14 +126,14 @@ def test_nothing_is_named_where_nothing_follows_the_motion() -> None:
     assert found_in(replace(x, outputs={"G_out": noise}), sheet) is None
 
 
-@pytest.mark.usefixtures("shifts_alone")
+@without("columns", "slips")
 def test_the_spin_rate_is_measured() -> None:
     found = found_in(flown(10), replace(drawn(10).sheet, layout=paper(0.1, 0.25 * 0.97)))
     assert found is not None
     assert float(found.best.what.split()[4]) == pytest.approx(0.25, rel=1e-6)
 
 
-@pytest.mark.usefixtures("shifts_alone")
+@without("columns", "slips")
 @pytest.mark.parametrize(("samples", "of"), [(1, ("a_", "om")), (-32, ("a_",)), (16, ("a_y",))])
 def test_what_is_late_is_measured_and_flagged(samples: int, of: tuple[str, ...]) -> None:
     x = changed(flown(11), lambda n, v: np.roll(v, samples) if n.startswith(of) else v)
@@ -155,7 +156,7 @@ def counted(x: Flight, rows: np.ndarray) -> Flight:
     )
 
 
-@pytest.mark.usefixtures("timing_alone")
+@without("columns")
 @pytest.mark.parametrize("gap", [0, 100])
 def test_a_lost_row_is_said_before_the_disc_is_blamed(gap: int) -> None:
     """With samples left out on both sides of it, too."""
@@ -169,7 +170,7 @@ def test_a_lost_row_is_said_before_the_disc_is_blamed(gap: int) -> None:
     assert "write spin_frequency" not in str(caught.value)
 
 
-@pytest.mark.usefixtures("timing_alone")
+@without("columns")
 def test_rows_that_lack_or_are_doubled_all_along_are_said() -> None:
     x, rng = flown(12), np.random.default_rng(1)
     few = rng.random(len(x)) < 0.02
@@ -187,7 +188,7 @@ def test_a_record_of_two_instruments_is_said_with_the_time() -> None:
         screen(MODEL, drawn(12).sheet, replace(x, outputs={"G_out": G}))
 
 
-@pytest.mark.usefixtures("timing_alone")
+@without("columns")
 @pytest.mark.parametrize(("start", "samples", "end"), [(("G_",), 2, np.inf), (("a_", "om"), -3, 150.0)])
 def test_a_recorder_that_slips_against_the_other_is_said_with_the_time(start, samples, end) -> None:
     """Of a few rows a robust fit sees nothing but that they are many outliers."""
@@ -211,7 +212,7 @@ CUBIC = {"cubic-input": {"K_iii": [2e-2 / 9.8**2, 0.0, 0.0, 0.0]}}
 """By either clock most is left: of the right one a half."""
 
 
-@pytest.mark.usefixtures("no_mistakes")
+@without("all")
 @pytest.mark.parametrize(("size", "hidden"), [(0.025, {}), (1.0, {}), (0.1, CUBIC)])
 def test_a_clock_that_was_set_is_said_with_its_time(size: float, hidden: dict[str, Any]) -> None:
     """Where rows seem to lack, as after a step of a second, none does."""
@@ -247,7 +248,7 @@ def test_samples_that_were_taken_unevenly_keep_their_instants() -> None:
     assert np.array_equal(screen(MODEL, s.sheet, uneven).time, uneven.time)
 
 
-@pytest.mark.usefixtures("no_timing")
+@without("timing")
 def test_columns_that_contradict_each_other_are_remarked() -> None:
     x = flown(12)
     c = x.channels
@@ -270,7 +271,7 @@ def test_columns_that_contradict_each_other_are_remarked() -> None:
         assert words in said
 
 
-@pytest.mark.usefixtures("no_mistakes")
+@without("all")
 def test_a_gradient_that_is_mostly_noise_is_not_used() -> None:
     s, rng = drawn(15), np.random.default_rng(3)
     x = s.simulate().flight()
@@ -293,27 +294,20 @@ def demodulated(s: Scenario, x: Flight, low_pass: Any = None) -> Flight:
     return replace(x, outputs=channels)
 
 
-@pytest.fixture
-def channels_alone(monkeypatch: pytest.MonkeyPatch, no_timing: None) -> None:
-    """Of all mistakes those of channels alone: each is tried on 3,000 rows."""
-    monkeypatch.setattr(mistakes, "list_mistakes", mistakes.list_channel_mistakes)
-
-
-@pytest.mark.usefixtures("channels_alone")
 def test_channels_that_are_defined_otherwise_are_named() -> None:
     s = scenario(13, duration=300.0, gradient_rms=20e-9)
     good = demodulated(s, s.simulate().flight())
     assert found_in(good, s.sheet) is None
     for (inline, cross), words in {
-        (1.0, -1.0): "the sign of cross is reversed",
-        (-1.0, 2.0): "the sign of inline is reversed; cross is twice Gamma_xy",
+        (1.0, -1.0): "cross is -1 times Gamma_xy",
+        (-1.0, 2.0): "inline is -1 times Gamma_xx - Gamma_yy; cross is 2 times Gamma_xy",
     }.items():
         o = {"inline": inline * good.outputs["inline"], "cross": cross * good.outputs["cross"]}
         found = found_in(replace(good, outputs=o), s.sheet)
         assert found is not None and (found.best.what, found.others) == (words, ())
 
 
-@pytest.mark.usefixtures("channels_alone")
+@without("timing")
 def test_another_demodulator_is_named_with_its_order_and_corner(monkeypatch: pytest.MonkeyPatch) -> None:
     own = [m for m in mistakes.list_low_passes() if m(0.1).order == 3]
     monkeypatch.setattr(mistakes, "list_low_passes", lambda: iter(own))
