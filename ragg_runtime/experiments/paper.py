@@ -103,6 +103,18 @@ DIFFERENCE: Mapping[str, Printed] = {
 """Differences of the demodulated outputs from the centre gradients."""
 
 
+BANDWIDTH = 0.2
+"""Hz, by which the paper turns a standard deviation into a noise density."""
+
+DENSITIES: tuple[tuple[str, int, Printed], ...] = (
+    ("analytical", 1, Printed("0.13", "Eo/sqrt(Hz)", "Section III.C")),
+    ("simplified", 1, Printed("0.25", "Eo/sqrt(Hz)", "Section III.C")),
+    ("simplified", 2, Printed("0.66", "Eo/sqrt(Hz)", "Section III.C")),
+    ("simplified", 3, Printed("1.24", "Eo/sqrt(Hz)", "Section III.C")),
+)
+"""Model, turbulence experiment, noise density of the inline channel."""
+
+
 # --- the printed numbers beside ours -------------------------------------------------------------------
 
 Range = tuple[float, float]

@@ -72,6 +72,7 @@ def repeat_turbulence() -> Experiment:
         values |= {(e, name): np.array([s[name] for s in each]) for name in _LABELS}
     reach = draw_moments()
     rows = [_compare_entry(e, name, values, reach) for e in EXPERIMENTS for name in _LABELS]
+    rows += _compare_densities(values, reach)
     settings = {
         "instrument": "Table V; vartheta_x = 0 (not stated)",
         "motion": "Table VII; independent Gaussian samples; horizontal mean and deviation 15 % of the "
@@ -107,6 +108,24 @@ def _compare_entry(e: int, name: str, values: Values, reach: Values) -> PrintedE
         open_input=_MEAN if simplified else _ANALYTICAL,
         unexplained=why,
     )
+
+
+def _compare_densities(values: Values, reach: Values) -> list[PrintedEntry]:
+    root, rows = float(np.sqrt(paper.BANDWIDTH)), []
+    for model, e, density in paper.DENSITIES:
+        v = values[e, f"sigma{MARKS[model]}_in"] / root
+        rows.append(
+            judge(
+                f"exp. {e}: noise density, {model}",
+                density,
+                float(v.mean()),
+                spread=bounds(v),
+                reach=bounds(reach[e, "sigma_in"] / root) if model == "analytical" else None,
+                open_input=_ANALYTICAL,
+                unexplained=_NO_ANGULAR_MOTION if e == 1 else "as sigma",
+            )
+        )
+    return rows
 
 
 def draw_moments() -> Values:
