@@ -20,11 +20,8 @@ PASSES = {"compare": 9.0, "diagnose": 10.5, "add": 17.0}
 QUIET = 4.0
 """A command that takes no longer than this shows no progress, s."""
 
-BEYOND = 0.99
-"""Share of the passes estimated from which nobody knows how many more there will be."""
-
 INTERVAL = 15.0
-"""Least time between two lines where stderr is a file, s."""
+"""Time between two lines where stderr is a file, s."""
 
 _listener: ContextVar[Callable[[float], None] | None] = ContextVar("listener", default=None)
 
@@ -61,12 +58,10 @@ def shown(command: str, samples: int) -> Iterator[None]:
     def tell(amount: float) -> None:
         nonlocal done, due
         done += amount
-        now, share = time.monotonic(), min(done / total, BEYOND)
-        rest = 0.02 / share if share < BEYOND else 0.5
-        pause = 1.0 if terminal else max(INTERVAL, rest * (now - start))
+        now = time.monotonic()
         if now >= due:
-            due = now + pause
-            text = f"... {_describe(share, now - start)}"
+            due = now + (1.0 if terminal else INTERVAL)
+            text = f"... {_describe(done / total, now - start)}"
             click.echo(f"\r{text:<60}" if terminal else text, err=True, nl=not terminal)
 
     with listening(tell):
@@ -76,10 +71,7 @@ def shown(command: str, samples: int) -> Iterator[None]:
 
 
 def _describe(share: float, spent: float) -> str:
-    if share >= BEYOND:
-        return f"{_duration(spent)} so far, longer than estimated"
-    return f"{100 * share:.0f} % done, about {_duration(spent * (1 / share - 1))} left"
-
-
-def _duration(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+    """``share``: of the passes estimated; nobody knows how many more there will be beyond them."""
+    if share > 0.99:
+        return f"{spent:.0f} s so far, longer than estimated"
+    return f"{100 * share:.0f} % done, about {spent * (1 / share - 1):.0f} s left"

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Literal
 
 from ragg_runtime.base.errors import UserError, at, check_choice, check_keys, check_table
-
-ANGLE_ORIGINS = ("zero", "first-sample")
 
 
 @dataclass(frozen=True)
@@ -33,14 +31,7 @@ class Form:
 
     @property
     def order(self) -> Mapping[str, int | str | bool]:
-        return {
-            "mounting": self.mounting,
-            "misalignment": self.misalignment,
-            "second_order_angles": self.second_order_angles,
-        }
-
-    def as_json(self) -> dict[str, object]:
-        return {"kinematics": self.kinematics, "order": dict(self.order)}
+        return {k: v for k, v in asdict(self).items() if k != "kinematics"}
 
     def words(self) -> str:
         """In half a sentence."""
@@ -57,28 +48,25 @@ PRESETS: Mapping[str, Mapping[str, int | str | bool]] = {
     "exact": Form(mounting="exact", misalignment="exact", second_order_angles=True).order,
 }
 
-
-def read_form(table: object, path: Path | None = None) -> tuple[Form, str | None]:
-    """``[model]`` of a parsed model.toml, and its ``angle_origin``; ``None``: it is not there, which means the paper's."""
-    if table is None:
-        return PAPER, None
-    where = at(path, "[model]")
-    table = check_table(table, "model", path, "[model]")
-    check_keys(table, ("kinematics", "order", "angle_origin"), where)
-    kinematics = check_choice(
-        table.get("kinematics", PAPER.kinematics), ("platform", "full"), f"{where} kinematics"
-    )
-    origin = table.get("angle_origin")
-    if origin is not None:
-        check_choice(origin, ANGLE_ORIGINS, f"{where} angle_origin")
-    return Form(kinematics=kinematics, **_read_order(table.get("order", "paper"), f"{where} order")), origin
-
-
 _CHOICES: Mapping[str, tuple[int | str | bool, ...]] = {
     "mounting": (1, 2, "exact"),
     "misalignment": (1, "exact"),
     "second_order_angles": (True, False),
 }
+
+
+def read_form(table: object, path: Path | None = None) -> tuple[Form, str | None]:
+    """``[model]`` of a parsed model.toml, and its ``angle_origin``; ``None``: it is not there, which means the paper's."""
+    where = at(path, "[model]")
+    table = check_table({} if table is None else table, "model", path, "[model]")
+    check_keys(table, ("kinematics", "order", "angle_origin"), where)
+    kinematics = check_choice(
+        table.get("kinematics", PAPER.kinematics), ("platform", "full"), f"{where} kinematics"
+    )
+    if "angle_origin" in table:
+        check_choice(table["angle_origin"], ("zero", "first-sample"), f"{where} angle_origin")
+    order = _read_order(table.get("order", {}), f"{where} order")
+    return Form(kinematics=kinematics, **order), table.get("angle_origin")
 
 
 def _read_order(order: object, where: str) -> dict[str, Any]:
@@ -88,4 +76,4 @@ def _read_order(order: object, where: str) -> dict[str, Any]:
         expected = '"paper", "exact" or { mounting = 1, misalignment = 1, second_order_angles = false }'
         raise UserError("the order is invalid", where=where, found=repr(order), expected=expected)
     check_keys(order, _CHOICES, where)
-    return {**PAPER.order, **{k: check_choice(v, _CHOICES[k], f"{where}: {k}") for k, v in order.items()}}
+    return {k: check_choice(v, _CHOICES[k], f"{where}: {k}") for k, v in order.items()}

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -45,7 +44,6 @@ class Catalogue:
 
 def effects() -> Catalogue:
     """List the packaged catalogue of effects and the user's own effects in Python."""
-    found = find_spec("generated")  # `resources` would import the models, and NumPy for them
-    assert found is not None and found.origin is not None
-    text = Path(found.origin).with_name("manifest.json").read_text("utf-8")
+    place = Path(__file__).parents[2] / "generated"  # `resources` would import the models, and NumPy for them
+    text = (place / "manifest.json").read_text("utf-8")
     return Catalogue(entries=(*json.loads(text)["catalogue"], *list_own_entries()))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from types import ModuleType
@@ -28,16 +28,9 @@ class ChainModule(Protocol):
     PARAMETERS: tuple[tuple[str, int], ...]
     ROWS: tuple[tuple[str, bool], ...]
     SIZE: int
-
-    def accelerometer(
-        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
-    ) -> Array: ...
-
-    def derivatives(
-        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
-    ) -> Array: ...
-
-    def values_of(self, j: int, p: Array) -> Array: ...
+    accelerometer: Callable[..., Array]
+    derivatives: Callable[..., Array]
+    values_of: Callable[[int, Array], Array]
 
 
 Inputs = Sequence[ArrayLike] | NDArray[np.floating]

@@ -11,6 +11,7 @@ import json
 import os
 import threading
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from functools import cache
 from importlib import metadata, resources
 from pathlib import Path
@@ -101,18 +102,19 @@ def load_model(instrument: Instrument, *, candidates: bool = True) -> Model:
     """The model for an instrument's list of effects: the packaged one, or one derived for it, with the signatures of the others."""
     if not (instrument.effects or list_own_sources()) and _is_packaged(instrument):
         return load_packaged(instrument.form.kinematics)
-    files = _derive_files(instrument, [s.id for s in instrument.effects], candidates=candidates)
-    return _execute_files(tuple(files.items()), instrument.layout)
+    return _load(instrument, [s.id for s in instrument.effects], candidates=candidates)
 
 
 def with_effects(
     instrument: Instrument, model: Model, further: Sequence[str], *, candidates: bool = False
 ) -> Model:
     """``model`` with further effects derived into it; with the signatures of the others only if ``candidates``."""
-    ids = [*(e.id for e in model.effects), *further]
-    return _execute_files(
-        tuple(_derive_files(instrument, ids, candidates=candidates).items()), instrument.layout
-    )
+    return _load(instrument, [*(e.id for e in model.effects), *further], candidates=candidates)
+
+
+def _load(instrument: Instrument, ids: Sequence[str], *, candidates: bool) -> Model:
+    files = _derive_files(instrument, ids, candidates=candidates)
+    return _execute_files(tuple(files.items()), instrument.layout)
 
 
 @cache
@@ -241,7 +243,7 @@ def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candida
         digest_sources("derive", suffixes=(".py", ".j2"), first=metadata.version("sympy")),
         [[i, expressions.get(i)] for i in chosen],
         sorted(map(compute_digest, list_own_sources().values())),
-        instrument.form.as_json(),
+        asdict(instrument.form),
         candidates and expressions,
     ]
     layout = instrument.layout

@@ -181,8 +181,8 @@ def _model(
 
     def chain(name: str) -> Chain:
         own = {n: text for n, text in c.items() if n.startswith("signatures.") == (name == "signatures")}
-        module = cast(ChainModule, modules[name])
-        return Chain(module, layout, name, own, quick, modules.get("folded") if name == "chain" else None)
+        folded = modules.get("folded") if name == "chain" else None
+        return Chain(cast(ChainModule, modules[name]), layout, name, own, quick, folded)
 
     searched = "signatures" in modules
     return Model(

@@ -168,21 +168,21 @@ class Record:
             return self.time
         if name == "phi":
             return np.asarray(np.mod(self.phi, 2 * np.pi))
-        if name in ("input", "input-rms") or name.startswith("input("):
+        if name.partition("(")[0] in ("input", "input-rms"):
             x, y, _ = self.along_disc()
             along, across = y * self.cos_phi - x * self.sin_phi, x * self.cos_phi + y * self.sin_phi
-            forces = [(w, np.abs(along * cosine - across * sine)) for cosine, sine, w in self.input_axes]
+            cosines, sines, weights = np.array(self.input_axes).T
+            forces = np.abs(np.outer(cosines, along) - np.outer(sines, across))
             if name == "input":
-                return np.asarray(sum(w * f for w, f in forces))
-            if name != "input-rms":
-                return forces[int(name[6:-1])][1]
-            return np.sqrt(sum((w * f**2 for w, f in forces), np.zeros(len(x))))
+                return np.asarray(weights @ forces)
+            return np.asarray(
+                np.sqrt(weights @ forces**2) if name == "input-rms" else forces[int(name[6:-1])]
+            )
         if name in self.channels:
             return self.channels[name]
         inner = name[4:-1]
-        if inner in self.channels:
-            return np.abs(self.channels[inner])
-        return np.sqrt(sum((self.channels[f"{inner}_{k}"] ** 2 for k in "xyz"), np.zeros(len(self.time))))
+        parts = [self.channels[n] for n in (inner, *(f"{inner}_{k}" for k in "xyz")) if n in self.channels]
+        return np.asarray(np.linalg.norm(parts, axis=0))
 
     @property
     def different_axes(self) -> list[int]:

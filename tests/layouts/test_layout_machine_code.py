@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +13,6 @@ from derive.symbols import MOTION
 from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import derive
-from ragg_runtime.model.chain import ChainModule
 from ragg_runtime.model.evaluate import make_vector, scale_factor
 from tests.generated import fifty_digits as fifty
 from tests.layouts import sheets
@@ -42,7 +42,7 @@ BALANCED = ("umbrella", "vertical")
 """Layouts whose accelerometers' places leave nothing of a specific force."""
 
 
-def true_outputs(i: Instrument, chain: ChainModule, p: Array, phi: Array, x: Array) -> NDArray[np.object_]:
+def true_outputs(i: Instrument, chain: Any, p: Array, phi: Array, x: Array) -> NDArray[np.object_]:
     """(outputs, N) at 50 digits: the channels as they are, the places as the sheet writes them."""
     turns = layouts.constants(i.layout)
     exact = i.form.preset == "exact"
@@ -76,7 +76,7 @@ UPRIGHT = [[np.full(12, float(a == b)) for b in range(3)] for a in range(3)]
 
 
 def unavoidable(
-    i: Instrument, chain: ChainModule, p: Array, phi: Array, x: Array, true: NDArray[np.object_]
+    i: Instrument, chain: Any, p: Array, phi: Array, x: Array, true: NDArray[np.object_]
 ) -> Array:
     """(outputs, N) V: what half a unit in the last place of each channel, of the angle and of the output is worth.
 

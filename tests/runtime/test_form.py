@@ -81,14 +81,10 @@ def test_new_writes_full_kinematics_where_the_sheet_has_no_form_and_says_so(tmp_
     assert 'kinematics = "full"' in said
     assert (tmp_path / "from-sheet" / "model.toml").read_text().startswith(sheet("").rstrip())
     (tmp_path / "platform.toml").write_text(sheet("[model]"))
-    said = ragg("new", tmp_path / "platform", "--from", tmp_path / "platform.toml").stderr
-    assert said == ""
-    assert api.load(tmp_path / "platform").model is load_packaged()
-    said = ragg("new", tmp_path / "own").stderr
-    assert said == ""
-    m = api.load(tmp_path / "own")
-    assert m.instrument.form == Form(kinematics="full")
-    assert m.model is load_packaged("full")
+    m = api.new(tmp_path / "platform", tmp_path / "platform.toml")
+    assert (m.model, m.notes) == (load_packaged(), ())
+    m = api.new(tmp_path / "own")
+    assert (m.instrument.form, m.model, m.notes) == (Form(kinematics="full"), load_packaged("full"), ())
     assert api.load(tmp_path / "from-sheet").model is load_packaged("full")
 
 

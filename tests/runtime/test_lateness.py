@@ -130,15 +130,12 @@ def test_what_was_found_for_all_samples_does_not_serve_those_that_are_kept(switc
     assert len(make_windows(kept, every, noise)[0].places) == np.sum(kept.record.valid)
 
 
-def test_a_model_that_does_not_switch_keeps_every_sample(switching_world) -> None:
-    s, _ = switching_world
-    o = observe(s.simulate().flight(), s.sheet)
-    assert leave_out_uncertain(load.load_packaged(), s.sheet, [o]) == [o]
-
-
-def test_a_sheet_that_knows_nothing_of_the_side_leaves_nothing_out(switching_world) -> None:
+def test_every_sample_is_kept_where_nothing_switches_or_the_sheet_knows_nothing_of_the_side(
+    switching_world,
+) -> None:
     s, model = switching_world
     o = observe(s.simulate().flight(), s.sheet)
+    assert leave_out_uncertain(load.load_packaged(), s.sheet, [o]) == [o]
     unsure = replace(s.sheet, sigmas={**s.sheet.sigmas, "K0": np.full(4, 0.2)})
     (kept,) = leave_out_uncertain(model, unsure, [o])
     assert np.array_equal(kept.record.valid, o.record.valid)

@@ -14,8 +14,8 @@ from ragg_runtime.cli.main import COMMANDS, cli
 @pytest.mark.parametrize(
     ("passes", "pause", "last"),
     [
-        ([0.05] * 10, 12.0, "... 50 % done, about 2 min left"),
-        ([1.0] * 2, 300.0, "... 10 min so far, longer than estimated"),
+        ([0.05] * 10, 12.0, "... 50 % done, about 120 s left"),
+        ([1.0] * 2, 300.0, "... 600 s so far, longer than estimated"),
         ([0.1], 1.0, ""),  # a short command
     ],
 )
@@ -29,16 +29,6 @@ def test_lines_tell_share_and_time_left(passes, pause, last, monkeypatch, capsys
     assert ["", *capsys.readouterr().err.splitlines()][-1] == last
     progress.step(1.0)  # nobody listens any more
     assert capsys.readouterr().err == ""
-
-
-def test_lines_beyond_the_estimate_become_rare(monkeypatch, capsys) -> None:
-    now = [100.0]
-    monkeypatch.setattr(time, "monotonic", lambda: now[0])
-    with progress.shown("diagnose", 1000):
-        for _ in range(120):
-            now[0] += 5.0
-            progress.step(progress.PASSES["diagnose"] * 1000)
-    assert len(capsys.readouterr().err.splitlines()) < 12  # in ten minutes
 
 
 def test_no_summary_is_cut_off() -> None:
