@@ -127,7 +127,7 @@ class Units:
 
     def _prepare(self, unit: str, si_unit: str, where: str | None) -> tuple[Any, Any, bool]:
         """Both units, of one dimension, and whether angles of the first are turns of the other; else UserError."""
-        unit = self._meant(unit, si_unit)
+        unit = self._find_meant(unit, si_unit) or unit
         given, si = self.parse(unit, where), self.parse(si_unit)
         if given.dimensionality != si.dimensionality:
             raise UserError(
@@ -160,18 +160,16 @@ class Units:
 
     def fits(self, unit: str, si_unit: str) -> bool:
         """Whether ``unit`` is a unit and has the dimension of ``si_unit``."""
-        return self._has_dimension(self._meant(unit, si_unit), si_unit)
+        return self._find_meant(unit, si_unit) is not None
 
-    def _meant(self, unit: str, si_unit: str) -> str:
+    def _find_meant(self, unit: str, si_unit: str) -> str | None:
         """What alone has the dimension: ``g`` for G of an acceleration, ``degC`` for C of a temperature, ``m/s2`` for M/S2."""
-        readings = (unit, _LETTERS.get(unit.strip(), unit), unit.casefold())
-        return next((u for u in readings if self._has_dimension(u, si_unit)), unit)
-
-    def _has_dimension(self, unit: str, si_unit: str) -> bool:
-        try:
-            return bool(self.parse(unit).dimensionality == self.parse(si_unit).dimensionality)
-        except UserError:
-            return False
+        wanted = self.parse(si_unit).dimensionality
+        for reading in (unit, _LETTERS.get(unit.strip(), unit), unit.casefold()):
+            with contextlib.suppress(UserError):
+                if self.parse(reading).dimensionality == wanted:
+                    return reading
+        return None
 
     def quantity(self, raw: object, where: str | None = None, *, count: int = 4) -> RawQuantity:
         """Read ``"0.1 m"`` or ``{ value = 0.1, unit = "m" }``, or with a list of ``count`` values; UserError for anything else."""

@@ -235,7 +235,7 @@ def test_what_is_converted_keeps_its_angle(stamp: str, tmp_path: Path) -> None:
     assert not second.instants
     assert second.time[0] == 0.0
     np.testing.assert_allclose(record(first, S.sheet).phi, record(second, S.sheet).phi, atol=1e-9)
-    assert any("time counts from" in n for n in told.notes)
+    assert any("time counts from" in n for n in told["notes"])
 
 
 def test_a_motion_that_is_flown_keeps_its_time(tmp_path: Path) -> None:
