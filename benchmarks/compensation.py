@@ -117,7 +117,7 @@ def calibrate_by_runs(seed: int) -> list[tuple[str, float, Array, Array]]:
 
     first, band = fitted(flight), (0.0, next_motion.HIGHEST * s.rate)
     tones = next_motion.list_tones(s.sheet.spin_frequency, next_motion.LIMITS, band)
-    designed = next_motion.find_motion(first.known, first.worth, tones, RUN)
+    designed = next_motion.find_motion(first.known, first.weigh_variance, tones, RUN)
     even = next_motion.share_evenly(tones)
     runs: list[tuple[str, Sequence[Sinusoid], float]] = [("none", (), 0.0), ("designed", designed, RUN)]
     runs += [("even", even, times * RUN) for times in (1, 2, 4)]

@@ -77,10 +77,12 @@ def next_flight(
     rate: float | None = None,
     band: tuple[float, float] | None = None,
     purpose: Literal["effects", "calibration"] = "effects",
+    criterion: Literal["A", "D"] = "A",
 ) -> NextFlight:
     """The motion that separates the alternatives left, or that calibrates best for motion such as that of the flights.
 
-    ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold.
+    ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold. ``criterion`` of a calibration: least mean
+    variance of the channels (A), or least volume of what is uncertain there (D).
     """
     rate = flights[0].rate if rate is None else rate
     tones = _list_possible(m, limits, rate, band)
@@ -89,8 +91,9 @@ def next_flight(
     if purpose == "calibration":
         f = fit(m.model, m.instrument, observe_flights(flights, m.instrument), candidates=False)
         wanted = ChannelVariance.of(f)
-        motion = find_motion(wanted.known, wanted.worth, tones, duration)
-        promise |= wanted.promise(motion, duration)
+        worth = {"A": wanted.weigh_variance, "D": wanted.weigh_volume}[criterion]
+        motion = find_motion(wanted.known, worth, tones, duration)
+        promise |= {"criterion": criterion} | wanted.promise(motion, duration)
     else:
         d = diagnose(m, flights)
         pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]

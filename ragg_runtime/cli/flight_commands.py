@@ -165,6 +165,8 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
 @click.option("--rate", type=click.FloatRange(1.0, 1000.0), default=None, help="Hz (default: the flights').")
 @click.option("--for", "purpose", type=click.Choice(["effects", "calibration"]), default="effects", show_default=True,
               help="Separate effects, or calibrate what the channels need.")  # fmt: skip
+@click.option("--criterion", type=click.Choice(["A", "D"]), default="A", show_default=True,
+              help="calibration: A: least mean variance of the channels; D: least volume.")  # fmt: skip
 @click.option("--run-sheet", type=OutputFile(), metavar="FILE.md",
               help="calibration: instructions for the crew.")  # fmt: skip
 @mapping_option

@@ -1,9 +1,9 @@
 """Which motion to fly next: sinusoids about the axes, within limits, that separate what the flights cannot, or that calibrate best.
 
-A motion adds rows to the R factor of the flights, from which both criteria are read (A. Atkinson, A. Donev, R. Tobias, Optimum
-Experimental Designs, 2007, ch. 10 and 21): how far effects are separated (D_s-optimal, compound over all pairs), or what the
-parameters add to the variance of the compensated channels (A-optimal). Its frequencies are found by exchange, one axis after the
-other (R. Meyer and C. Nachtsheim, Technometrics 37, 1995).
+A motion adds rows to the R factor of the flights, from which all criteria are read (A. Atkinson, A. Donev, R. Tobias, Optimum
+Experimental Designs, 2007, ch. 10 and 21): how far effects are separated (D_s-optimal, compound over all pairs), what the
+parameters add to the variance of the compensated channels (A-optimal), or the volume of what they leave uncertain there (D-optimal).
+Its frequencies are found by exchange, one axis after the other (R. Meyer and C. Nachtsheim, Technometrics 37, 1995).
 
 Separation is what of one effect's signal neither the model nor the other effect can imitate, in standard deviations: the root mean
 square over the posterior of the effect's coefficients. Their prior is Gaussian, of one variance that the evidence of the flights
@@ -79,6 +79,9 @@ ALTERNATIVES = 3
 DETERMINED = 3.0
 """Information of the flights about a direction, over that of the prior, from which it is determined: its standard deviation is
 halved."""
+
+MATTER = 1e-3
+"""Share of the channels' variance by parameters below which a direction does not count for D: its volume would be of nothing."""
 
 STRENGTHS = np.logspace(0.0, 12.0, 49)
 """Prior variances of the coefficients that are tried, over the variance with which flights determine the best direction."""
@@ -431,9 +434,16 @@ class ChannelVariance:
         inline, cross = (float(np.linalg.norm(G @ _invert(R))) for G in self.shown)
         return inline, cross
 
-    def worth(self, R: Array) -> float:
-        """A-criterion."""
+    def weigh_variance(self, R: Array) -> float:
+        """A-criterion: the less variance, the more."""
         return -sum(x**2 for x in self.rms(R))
+
+    def weigh_volume(self, R: Array) -> float:
+        """D-criterion: the less volume of the directions that make up the channels' variance by the flights so far, the more."""
+        shown = np.vstack([*self.shown])
+        U, s, _ = np.linalg.svd(shown @ _invert(self.known.root), full_matrices=False)
+        matter = U[:, s**2 > MATTER * np.sum(s**2)].T @ shown
+        return -2 * float(np.sum(np.log(np.linalg.svd(matter @ _invert(R), compute_uv=False))))
 
     def promise(self, motion: Sequence[Sinusoid], duration: float) -> Json:
         """What so much, s, of a motion promises of the channels, of the parameters, and of combinations of accelerometers."""

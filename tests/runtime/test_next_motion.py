@@ -151,10 +151,11 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     write_flight(simulate_flight(m.instrument, [], seed=3, duration=150.0, rate=RATE), tmp_path / "x.parquet")
     names = ("m", "x.parquet", "motion.csv", "y.parquet", "sheet.md", "plan.json", "c.json")
     files = {n: str(tmp_path / n) for n in names}
-    words = ["--for", "calibration", "--duration", 300]
+    words = ["--for", "calibration", "--criterion", "D", "--duration", 300]
     told = ["--run-sheet", files["sheet.md"], "--json", files["plan.json"]]
     ragg("next-motion", files["m"], files["x.parquet"], "-o", files["motion.csv"], *words, *told)
     plan = json.loads((tmp_path / "plan.json").read_text())
+    assert plan["criterion"] == "D"
     assert plan["channels"]["planned"]["inline_Eo"] < 0.5 * plan["channels"]["now"]["inline_Eo"]
     assert f"| {plan['sinusoids'][0]['axis']} |" in (tmp_path / "sheet.md").read_text()
     write_flight(
@@ -174,6 +175,8 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     assert all(f"| {q['name']} |" in (tmp_path / "sheet.md").read_text() for q in combinations)
     f = fit(m.model, m.instrument, observe_flights(api.read_flights(m, [files["x.parquet"]]), m.instrument))
     wanted, tones = ChannelVariance.of(f), next_motion.list_tones(0.25, next_motion.LIMITS, (0.0, 3.2))
-    best = next_motion.find_motion(wanted.known, wanted.worth, tones, 600.0)
+    criteria = wanted.weigh_variance, wanted.weigh_volume
+    A, D = (wanted.known.fly(next_motion.find_motion(wanted.known, c, tones, 600.0), 600.0) for c in criteria)
+    assert [c(A) > c(D) for c in criteria] == [True, False]
     even = next_motion.share_evenly(tones)
-    assert wanted.rms(wanted.known.fly(best, 600.0)) < wanted.rms(wanted.known.fly(even, 1200.0))
+    assert wanted.rms(A) < wanted.rms(wanted.known.fly(even, 1200.0))
