@@ -18,7 +18,6 @@ from ragg_runtime.estimation.scores import Error, list_errors
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.parameters import (
     SEEN,
-    Combination,
     find_combinations,
     list_parameter_values,
     own_name,
@@ -76,43 +75,29 @@ def count_directions(f: Fitted) -> tuple[int, int]:
 def list_parameters(f: Fitted) -> list[dict[str, Any]]:
     """Every fitted parameter with its prior, as in JSON."""
     c = f.calibration
-    values = c.in_scales
-    found = []
-    for k, (q, column) in enumerate(
-        zip(list_parameter_values(c.columns, values, c.covariance), c.columns, strict=True)
-    ):
+    values, found = list_parameter_values(c.columns, c.in_scales, c.covariance), []
+    for q, column, off, variance in zip(values, c.columns, f.to_nominal, np.diag(c.covariance), strict=True):
         factor = column.scale / column.unit_factor
-        sheet = float(values[k] + f.to_nominal[k]) * factor
-        said_by = "record" if c.covariance[k, k] < LEARNED**2 else "sheet"
-        own = {"effect": column.effect, "sheet": sheet, "sheet_sigma": factor, "said_by": said_by}
-        found.append({**q.as_json(), **own})
+        own = {"effect": column.effect, "sheet": q.value + float(off) * factor, "sheet_sigma": factor}
+        found.append({**q.as_json(), **own, "said_by": "record" if variance < LEARNED**2 else "sheet"})
     return found
 
 
 def list_combinations(f: Fitted) -> list[dict[str, Any]]:
     """What the record determines: combinations of accelerometers', and single values, as JSON has them."""
-    columns, layout = f.calibration.columns, f.model.layout
-    values, root = f.calibration.in_scales, invert_root(information(f))
-    found = find_combinations(f.model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ root)))
+    columns, values, root = f.calibration.columns, f.calibration.in_scales, invert_root(information(f))
+    together = find_combinations(f.model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ root)))
+    found = [(q.name, q.weights, q.unit) for q in together]
     single = np.linalg.norm(root, axis=1) < SEEN
     for name in dict.fromkeys(c.name for c in columns):
         places = [k for k, c in enumerate(columns) if c.name == name]
-        if len(places) == layout.size and not np.all(single[places]):
-            continue
-        for k in (k for k in places if single[k]):
-            c = columns[k]
-            label = own_name(c) if c.accelerometer is None else f"{own_name(c)}[{c.accelerometer}]"
-            w = np.zeros(len(columns))
-            w[k] = c.scale / c.unit_factor
-            found.append(Combination(name=label, weights=w, unit=c.unit))
+        if len(places) != f.model.layout.size or np.all(single[places]):
+            for k, c in ((k, columns[k]) for k in places if single[k]):
+                label = own_name(c) if c.accelerometer is None else f"{own_name(c)}[{c.accelerometer}]"
+                found.append((label, c.scale / c.unit_factor * np.eye(len(columns))[k], c.unit))
     return [
-        {
-            "name": q.name,
-            "value": float(q.weights @ values),
-            "std": float(np.linalg.norm(q.weights @ root)),
-            "unit": q.unit,
-        }
-        for q in found
+        {"name": name, "value": float(w @ values), "std": float(np.linalg.norm(w @ root)), "unit": unit}
+        for name, w, unit in found
     ]
 
 

@@ -42,14 +42,14 @@ from ragg_runtime.estimation.observation import (
 )
 from ragg_runtime.estimation.scores import finite
 from ragg_runtime.estimation.seen_gradient import Block
-from ragg_runtime.identification.budget import list_groups
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, sees
+from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.io import Flight
 from ragg_runtime.io.files import write_tables
 from ragg_runtime.io.record import GRADIENT, distinct
 from ragg_runtime.io.tables import DataColumn, DataTable
-from ragg_runtime.model.evaluate import make_vector, scale_factor
+from ragg_runtime.model.evaluate import find_unit_factor, make_vector, scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulators import find_demodulator
 from ragg_runtime.signals.derivative import runs
@@ -332,11 +332,29 @@ def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
     return name_both(mean, "Eo_per_rtHz")
 
 
+def list_groups(model: Model, instrument: Instrument, p: Array) -> Iterator[tuple[str, str | None, Array]]:
+    """Parameters that do something together: name, effect, and the vector (size,) without them.
+
+    They are at zero, an effect where it is absent, scale factors at their mean, which carries the gradient itself.
+    """
+    places = model.chain.places
+    for q in (q for q in PARAMETERS if q.name in places):
+        without = p.copy()
+        without[places[q.name]] = np.mean(p[places[q.name]]) if q.relative else 0.0
+        yield f"imbalance of {q.name}" if q.relative else q.name, None, without
+    for e in model.effects:
+        without = p.copy()
+        for x in (x for x in e.parameters if x.symbol in places and x.fitted):
+            factor = find_unit_factor(x.unit, instrument.units)
+            without[places[x.symbol]] = (x.neutral or 0.0) * factor
+        yield e.id, e.id, without
+
+
 def list_contributions(c: OutputChannel, instrument: Instrument) -> list[dict[str, Any]]:
     """What was removed: root mean squares of inline and cross, Eo, on two segments of the flight, largest first."""
     p, count = c.blocks[0].p, 0
     totals: dict[tuple[str, str | None], Array] = {}
-    groups = [(x.name, x.effect, x.without) for x in list_groups(c.model, instrument, p)]
+    groups = [x for x in list_groups(c.model, instrument, p) if not np.array_equal(x[-1], p)]
     most = max(ROWS, 4 * len(c.demodulator.taps))
     for s in spread(divide_into_segments(len(c.observation.record.time), most), 2):
         some = slice(0, s.rows.stop - s.rows.start)
