@@ -143,15 +143,13 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
     rounded = unround(time, index)
     if rounded is None:
         whole = time if size == len(time) else np.interp(np.arange(size), index, time)
-        notes += _describe_gaps(time, jumps, step) + _describe_jitter(time, jumps, off, step)
-        return Grid(index, whole, step, tuple(notes))
-    unit, first, step = rounded
-    notes += _describe_gaps(time, jumps, step)
-    if unit > JITTER_NOTED * step:
-        notes.append(
-            f"the time stamps are rounded to {unit:g} s; they are replaced by an even grid of {1 / step:.6g} Hz"
-        )
-    return Grid(index, np.asarray(first + step * np.arange(size), dtype=np.float64), step, tuple(notes))
+        odd = _describe_jitter(time, jumps, off, step)
+    else:
+        unit, first, step = rounded
+        whole = np.asarray(first + step * np.arange(size), dtype=np.float64)
+        said = f"the time stamps are rounded to {unit:g} s; they are replaced by an even grid of {1 / step:.6g} Hz"
+        odd = [said] if unit > JITTER_NOTED * step else []
+    return Grid(index, whole, step, (*notes, *_describe_gaps(time, jumps, step), *odd))
 
 
 def _unroll(time: Array) -> tuple[Array, list[str]]:

@@ -340,14 +340,19 @@ def read_excel(path: Path) -> list[DataTable]:
             parts = zipfile.ZipFile(stream).infolist()
             size = sum(p.file_size for p in parts if p.filename.startswith("xl/worksheets/"))
             require_memory(path, _CELL_OF_XML * size)
-            book = openpyxl.load_workbook(stream, data_only=True)
-        return [t for sheet in book.worksheets if (t := _read_sheet(sheet.title, sheet.values)) is not None]
+            book = openpyxl.load_workbook(stream, read_only=True, data_only=True)
+            found = []
+            for sheet in book.worksheets:
+                sheet.reset_dimensions()  # what a file says of them may be wrong
+                found.append(_read_sheet(sheet.title, sheet.values))
+        return [t for t in found if t is not None]
 
 
 def _read_sheet(name: str, cells: Iterable[Sequence[Any]]) -> DataTable | None:
     """What a sheet holds; ``None`` if there is no table in it."""
     rows = [(n, list(map(write_cell, r))) for n, r in enumerate(cells, 1)]
-    rows = [(n, r) for n, r in rows if any(r)]
+    width = max((len(r) for _, r in rows), default=0)
+    rows = [(n, r + [""] * (width - len(r))) for n, r in rows if any(r)]
     header = find_header([r for _, r in rows[:_LOOKED_AT]])
     if header is None:
         return None
