@@ -10,7 +10,7 @@ change, so that its couplings with misalignment and second-order coefficients ar
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
@@ -126,26 +126,14 @@ def shared_components(
     )
 
 
-class Values(Mapping[str, sp.Expr]):
+class Values(dict[str, Expr]):
     """The symbols of an effect's parameters: ``p.K_iii`` or ``p["K_iii"]``."""
 
-    def __init__(self, effect: Effect) -> None:
-        self._symbols = {q.name: effect.symbol(q) for q in effect.parameters}
-
-    def __getattr__(self, name: str) -> sp.Expr:
+    def __getattr__(self, name: str) -> Expr:
         try:
-            return self._symbols[name]
+            return self[name]
         except KeyError:
             raise AttributeError(f"the effect has no parameter {name}") from None
-
-    def __getitem__(self, name: str) -> sp.Expr:
-        return self._symbols[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._symbols)
-
-    def __len__(self) -> int:
-        return len(self._symbols)
 
 
 @dataclass(frozen=True)
@@ -251,7 +239,7 @@ class Effect:
 
     @property
     def values(self) -> Values:
-        return Values(self)
+        return Values({q.name: self.symbol(q) for q in self.parameters})
 
 
 def _shown(name: object) -> str:

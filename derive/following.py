@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 import sympy as sp
 
-from derive.context import Context
-from derive.effect import Values
+from derive.effect import Context, EffectParameter, Parameters, Values
 
 REFERENCE_KELVIN = sp.Rational(29315, 100)
 """Temperature at which the test sheet's values hold; another one is absorbed by them."""
@@ -15,8 +14,11 @@ REFERENCE_KELVIN = sp.Rational(29315, 100)
 REFERENCE_PASCAL = sp.Integer(101325)
 """Pressure at which they hold."""
 
+T_STEP = EffectParameter("t_step", "t_s", "s", "instant of the step", 1.0, shared=True, fitted=False)
+"""Of every effect that begins at once; the diagnosis estimates it."""
+
 Driver = Callable[[Values, Context], sp.Expr]
-Instrument = Callable[[Mapping[str, sp.Expr], Values, Context], Mapping[str, sp.Expr]]
+Instrument = Callable[[Parameters, Values, Context], Parameters]
 
 
 def elapsed(p: Values, c: Context) -> sp.Expr:
@@ -42,7 +44,7 @@ def begun(p: Values, c: Context) -> sp.Expr:
 def following(name: str, slope: str, driver: Driver) -> Instrument:
     """The hook of an effect by whose parameter ``slope`` that of the accelerometers follows; K1 relatively."""
 
-    def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> Mapping[str, sp.Expr]:
+    def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
         change = p[slope] * driver(p, c)
         return {name: k[name] * (1 + change) if name == "K1" else k[name] + change}
 

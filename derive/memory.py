@@ -19,38 +19,28 @@ from derive.symbols import COS_J, SIN_J
 FREQUENCY, QUALITY = 5.0, 10.0
 """Hz, and 1: where a search begins. Isolators and stabilised platforms resonate at 2 to 20 Hz, with Q from 3 to 30."""
 
+
+def _shape(
+    name: str, latex: str, unit: str, meaning: str, plausible: float, neutral: float
+) -> EffectParameter:
+    return EffectParameter(name, latex, unit, meaning, plausible, shared=True, neutral=neutral, shape=True)
+
+
 RESONANCE = (
-    EffectParameter(
-        "f_0", "f_0", "Hz", "frequency of the resonance", 3.0, shared=True, neutral=FREQUENCY, shape=True
-    ),
-    EffectParameter("Q", "Q", "1", "its quality factor", 5.0, shared=True, neutral=QUALITY, shape=True),
+    _shape("f_0", "f_0", "Hz", "frequency of the resonance", 3.0, FREQUENCY),
+    _shape("Q", "Q", "1", "its quality factor", 5.0, QUALITY),
 )
 
-HEAT = (
-    EffectParameter(
-        "tau", r"\tau", "s", "time constant of the heat", 20.0, shared=True, neutral=40.0, shape=True
-    ),
-)
+HEAT = (_shape("tau", r"\tau", "s", "time constant of the heat", 20.0, 40.0),)
 """A search begins at 40 s: a torquer in its housing takes from ten seconds to ten minutes."""
 
-RELAXATION = (
-    EffectParameter(
-        "tau", r"\tau", "s", "time constant of the creep", 20.0, shared=True, neutral=20.0, shape=True
-    ),
-)
+RELAXATION = (_shape("tau", r"\tau", "s", "time constant of the creep", 20.0, 20.0),)
 """Creep goes on in every decade of time: one that a record of minutes shows is of seconds to minutes."""
 
-SLIP = (
-    EffectParameter(
-        "w", "w", "m/s^2", "force at which it slips", 0.02, shared=True, neutral=0.01, shape=True
-    ),
-)
+SLIP = (_shape("w", "w", "m/s^2", "force at which it slips", 0.02, 0.01),)
 """A milli-g; a search begins at a share of what the record's force changes by."""
 
-
-THERMAL_SLIP = (
-    EffectParameter("w", "w", "K", "change at which it slips", 0.1, shared=True, neutral=0.1, shape=True),
-)
+THERMAL_SLIP = (_shape("w", "w", "K", "change at which it slips", 0.1, 0.1),)
 
 
 def response(name: str, p: Values, c: Context, by: Sequence[EffectParameter] = ()) -> sp.Expr:

@@ -107,14 +107,12 @@ def turn(axis: Vector, angle: sp.Expr, order: int | None) -> sp.Matrix:
     """Right-handed rotation by ``angle`` about a unit ``axis``, expanded to a power of the angle."""
     sine, one_minus_cosine = sp.sin(angle), 1 - sp.cos(angle)
     if order is not None:
-        sine = sum(
-            (sp.Rational((-1) ** (n // 2), sp.factorial(n)) * angle**n for n in range(1, order + 1, 2)),
-            sp.Integer(0),
-        )
-        one_minus_cosine = -sum(
-            (sp.Rational((-1) ** (n // 2), sp.factorial(n)) * angle**n for n in range(2, order + 1, 2)),
-            sp.Integer(0),
-        )
+
+        def series(first: int) -> sp.Expr:
+            powers = range(first, order + 1, 2)
+            return sp.Add(*(sp.Rational((-1) ** (n // 2), sp.factorial(n)) * angle**n for n in powers))
+
+        sine, one_minus_cosine = series(1), -series(2)
     k = skew(axis)
     return sp.eye(3) + sine * k + one_minus_cosine * k * k
 

@@ -24,7 +24,7 @@ def catalogue() -> tuple[Effect, ...]:
     names = sorted(m.name for m in pkgutil.iter_modules(__path__))
     modules = [importlib.import_module(f"{__name__}.{n}") for n in names]
     found = [_effect_of(m, n, inspect.getsource(m)) for m, n in zip(modules, names, strict=True)]
-    return tuple(sorted(found, key=_id))
+    return tuple(sorted(found, key=lambda e: e.id))
 
 
 def of_module(module: ModuleType, text: str) -> Effect:
@@ -54,7 +54,3 @@ def _effect_of(module: ModuleType, stem: str | None, text: str) -> Effect:
     if not callable(getattr(module, "present", None)):
         raise ValueError(f"{module.__file__}: an effect of the output needs present(values, valid, noise)")
     return replace(effect, recogniser=numbers_only(text))
-
-
-def _id(effect: Effect) -> str:
-    return effect.id

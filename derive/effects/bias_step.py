@@ -1,5 +1,5 @@
 from derive.effect import Effect, EffectParameter
-from derive.following import begun, following
+from derive.following import T_STEP, begun, following
 
 EFFECT = Effect(
     id="bias-step",
@@ -14,7 +14,7 @@ EFFECT = Effect(
     kind="step",
     parameters=(
         EffectParameter("dK0", r"\Delta K_0", "ug", "step of the null bias", 0.01),
-        EffectParameter("t_step", "t_s", "s", "instant of the step", 1.0, shared=True, fitted=False),
+        T_STEP,
     ),
     instrument=following("K0", "dK0", begun),
 )

@@ -1,5 +1,5 @@
 from derive.effect import Effect, EffectParameter
-from derive.following import begun, following
+from derive.following import T_STEP, begun, following
 
 EFFECT = Effect(
     id="gain-step",
@@ -14,7 +14,7 @@ EFFECT = Effect(
     kind="step",
     parameters=(
         EffectParameter("dK1", r"\Delta K_1", "1", "relative step of the scale factor", 1e-6),
-        EffectParameter("t_step", "t_s", "s", "instant of the step", 1.0, shared=True, fitted=False),
+        T_STEP,
     ),
     instrument=following("K1", "dK1", begun),
 )

@@ -1,11 +1,11 @@
 import sympy as sp
 
 from derive.effect import Context, Effect, EffectParameter, Motion, Values
-from derive.following import REFERENCE_KELVIN
+from derive.following import warmth
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
-    warmer = c.channel("temperature") - REFERENCE_KELVIN
+    warmer = warmth(p, c)
     true = [(m.a[n] - p[f"db_{k}_dT"] * warmer) / (1 + p[f"ds_{k}_dT"] * warmer) for n, k in enumerate("xy")]
     return m._replace(a=sp.Matrix([*true, m.a[2]]))
 

@@ -1,5 +1,5 @@
 from derive.effect import Effect, EffectParameter
-from derive.following import begun, following
+from derive.following import T_STEP, begun, following
 
 EFFECT = Effect(
     id="misalignment-step",
@@ -16,7 +16,7 @@ EFFECT = Effect(
         EffectParameter(
             "dvartheta_y", r"\Delta\vartheta_y", "urad", "step of vartheta_y", 1.0, like="vartheta_y"
         ),
-        EffectParameter("t_step", "t_s", "s", "instant of the step", 1.0, shared=True, fitted=False),
+        T_STEP,
     ),
     instrument=following("vartheta_y", "dvartheta_y", begun),
 )

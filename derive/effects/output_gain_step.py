@@ -1,10 +1,9 @@
-import sympy as sp
+from derive.effect import Context, Effect, EffectParameter, Expr, SensedForce, Values
+from derive.following import T_STEP, begun
 
-from derive.effect import Context, Effect, EffectParameter, SensedForce, Values
 
-
-def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
-    return i * (1 + p.g * sp.Heaviside(c.time - p.t_step, 1))
+def transducer(i: Expr, f: SensedForce, p: Values, c: Context) -> Expr:
+    return i * (1 + p.g * begun(p, c))
 
 
 EFFECT = Effect(
@@ -19,7 +18,7 @@ EFFECT = Effect(
     kind="step",
     parameters=(
         EffectParameter("g", "g", "1", "relative step of the output's gain", 1e-4, shared=True),
-        EffectParameter("t_step", "t_s", "s", "instant of the step", 1.0, shared=True, fitted=False),
+        T_STEP,
     ),
     transducer=transducer,
 )

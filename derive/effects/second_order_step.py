@@ -1,5 +1,5 @@
 from derive.effect import Effect, EffectParameter
-from derive.following import begun, following
+from derive.following import T_STEP, begun, following
 
 EFFECT = Effect(
     id="second-order-step",
@@ -14,7 +14,7 @@ EFFECT = Effect(
     kind="step",
     parameters=(
         EffectParameter("dK2", r"\Delta K_2", "ug/g^2", "step of K2", 1.0, like="K2"),
-        EffectParameter("t_step", "t_s", "s", "instant of the step", 1.0, shared=True, fitted=False),
+        T_STEP,
     ),
     instrument=following("K2", "dK2", begun),
 )
