@@ -14,10 +14,9 @@ import sympy as sp
 from derive import stages
 from derive.context import OMEGA, Context
 from derive.effect import Effect, Values
-from derive.layout import AXES, HEIGHT, TURN, SymbolicLayout
-from derive.layout import PAPER as FOUR
+from derive.layout import AXES, HEIGHT, PAPERS, TURN, SymbolicForm, SymbolicLayout
 from derive.names import id_in_code
-from derive.stages import PAPER, Force, Geometry, Kinematics, Motion, Order, SensedForce, Spin
+from derive.stages import Force, Geometry, Motion, Order, SensedForce, Spin
 from derive.symbols import (
     ACCELEROMETER,
     COMPONENTS,
@@ -52,30 +51,25 @@ class Accelerometer:
 
 
 def accelerometer(
-    effects: Sequence[Effect] = (),
-    order: Order = PAPER,
-    tape: Tape | None = None,
-    kinematics: Kinematics = "platform",
-    layout: SymbolicLayout = FOUR,
-    candidates: Sequence[Effect] = (),
+    effects: Sequence[Effect] = (), form: SymbolicForm = PAPERS, candidates: Sequence[Effect] = ()
 ) -> Accelerometer:
     """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape.
 
     Of ``candidates`` among them only the first order in their parameters is kept where these are zero. From the end of
     the stage ``sensing`` on, everything is resolved along the axes of the disc at rest.
     """
-    tape = Tape() if tape is None else tape
+    tape, layout = Tape(), form.layout
     hooked = [(e, e.values) for e in effects]
-    c = Context(tape, recorded_motion(), Omega=OMEGA if kinematics == "platform" else SPIN_RATE)
+    c = Context(tape, recorded_motion(), Omega=OMEGA if form.kinematics == "platform" else SPIN_RATE)
     c.small = frozenset(s for e in candidates for s in _fitted(e) if e.at_zero)
     c.enter(frozenset())
     _sensing(hooked, c, layout)
     _turn_disc(hooked, c)
-    M = stages.gradient(c.motion if kinematics == "platform" else c.case).applyfunc(sp.sympify)
+    M = stages.gradient(c.motion if form.kinematics == "platform" else c.case).applyfunc(sp.sympify)
     at = _Place(
         hooked=hooked,
         c=c,
-        order=order,
+        order=form.order,
         layout=layout,
         M=tape.let_each("M", M),
         cos_psi=tape.let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J),
@@ -91,7 +85,7 @@ def accelerometer(
                 k |= {n: tape.let(f"{n}_{id_in_code(e.id)}", v) for n, v in changed.items()}
     c.geometry, f, c.force = at.forces(k, "f")
     c.sensed, c.parameters = f, dict(k)
-    q = f if order.second_order_angles else at.forces(k, "q")[1]
+    q = f if form.order.second_order_angles else at.forces(k, "q")[1]
     i = _transducer(hooked, c, f, q, k)
     return Accelerometer(tape, tape.let("V", k["k_VI"] * k["K1"] * i), f)
 

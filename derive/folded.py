@@ -24,7 +24,7 @@ from derive import stages
 from derive.chain import accelerometer, auxiliary_channel, recorded_motion
 from derive.context import RECORDED_SPIN
 from derive.harmonics import NotHarmonic, split
-from derive.layout import AXES, SymbolicLayout, instrument_parameters
+from derive.layout import AXES, SymbolicForm, SymbolicLayout, instrument_parameters
 from derive.layout import PAPER as FOUR
 from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS, part, readable, voltage_of_one
 from derive.stages import PAPER, Kinematics, Order
@@ -105,21 +105,18 @@ class Folded:
         return len(self.coefficients) or len(self.own.outputs)
 
 
-def folded(
-    name: str,
-    title: str,
-    order: Order = PAPER,
-    kinematics: Kinematics = "platform",
-    layout: SymbolicLayout = FOUR,
-) -> Folded:
+def folded(form: SymbolicForm) -> Folded:
     """Derive the folded form of an instrument's outputs."""
+    kinematics, layout = form.kinematics, form.layout
+    title = "The analytical model of the RAGG, folded for evaluation (paper, Eq. 1-15"
+    title += ")." if kinematics == "platform" else ", with the rate of the disc in Eq. 9)."
     inputs = MOTION if kinematics == "platform" else (*MOTION, *SPIN_CHANNELS)
-    if layout.is_paper and order == PAPER:
-        return _in_parts(name, title, kinematics, inputs)
-    found = standing(TURNED, order, layout)
+    if layout.is_paper and form.order == PAPER:
+        return _in_parts(title, kinematics, inputs)
+    found = standing(TURNED, form.order, layout)
     used = tuple(any(m[n] for m in found.monomials) for n in range(len(TURNED)))
     return Folded(
-        name=name,
+        name="folded",
         title=title,
         expressions=(),
         coefficients=(),
@@ -132,9 +129,9 @@ def folded(
     )
 
 
-def _in_parts(name: str, title: str, kinematics: Kinematics, inputs: tuple[Channel, ...]) -> Folded:
+def _in_parts(title: str, kinematics: Kinematics, inputs: tuple[Channel, ...]) -> Folded:
     """That of the paper's instrument, whose quarter turns only swap numbers: coefficients as sums of few expressions."""
-    own = _standing(PAPER)
+    own = _standing()
     expressions: dict[sp.Expr, int] = {}
     sums: dict[tuple[int, ...], list[AccelerometerTerm]] = {}
     for nominal in (True, False):  # equal parts of the coefficients first: little is lost when they cancel
@@ -148,7 +145,7 @@ def _in_parts(name: str, title: str, kinematics: Kinematics, inputs: tuple[Chann
     keys = sorted(sums, key=lambda m: (sum(m), tuple(-k for k in m)))
     value = _nested({m: symbol(f"c[{n}]") for n, m in enumerate(keys)}, 0)
     return Folded(
-        name=name,
+        name="folded",
         title=title,
         expressions=tuple(expressions),
         coefficients=tuple(tuple(sums[m]) for m in keys),
@@ -158,7 +155,7 @@ def _in_parts(name: str, title: str, kinematics: Kinematics, inputs: tuple[Chann
     )
 
 
-def _standing(order: Order) -> Mapping[tuple[int, ...], PolyElement]:
+def _standing() -> Mapping[tuple[int, ...], PolyElement]:
     """V_j of an accelerometer by the numbers along its own directions: powers of TURNED -> coefficient."""
     ring = PolyRing([symbol(n) for n in (*COEFFICIENT_PARAMETERS, *TURNED)], QQ_I, lex)
     spin = _spin()
@@ -166,7 +163,7 @@ def _standing(order: Order) -> Mapping[tuple[int, ...], PolyElement]:
     M = spin * sp.Matrix(3, 3, [symbol(n) for n in TURNED[3:]]) * spin.T
     motion = {f"a_{x}": a[i] for i, x in enumerate("xyz")}
     motion |= {f"M_{x}{y}": M[i, k] for i, x in enumerate("xyz") for k, y in enumerate("xyz")}
-    voltage = voltage_of_one(ring, motion, order)
+    voltage = voltage_of_one(ring, motion)
     if voltage.highest:
         raise ValueError(
             "in the disc's frame the output still depends on the angle: the model is not symmetric about its axis"
@@ -256,11 +253,8 @@ def standing(numbers: Sequence[str], order: Order, layout: SymbolicLayout) -> St
     Monomials that vanish for every place of the layout are left out.
     """
     on_disc = {s.name for s in AXES}
-    chain = accelerometer(
-        (),
-        order,
-        layout=replace(layout, constants={n: v for n, v in layout.constants.items() if n not in on_disc}),
-    )
+    level = replace(layout, constants={n: v for n, v in layout.constants.items() if n not in on_disc})
+    chain = accelerometer((), SymbolicForm(order, layout=level))
     tape, named = Tape(), chain.tape.assignments
     names = [*(f"a_{i}" for i in "xyz"), *(f"M_{i}{k}" for i in "xyz" for k in "xyz")]
     one: Monomial = (0,) * len(numbers)

@@ -17,10 +17,9 @@ from derive.chain import accelerometer, auxiliary_channel
 from derive.effect import Effect, EffectParameter
 from derive.folded import Folded
 from derive.layout import PAPER as FOUR
-from derive.layout import SymbolicLayout, instrument_parameters
+from derive.layout import PAPERS, SymbolicForm, SymbolicLayout, instrument_parameters
 from derive.names import channel_of
 from derive.propagation import COEFFICIENT_PARAMETERS, Collected, monomial, motion_numbers, part, readable
-from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter
 from derive.tape import Program, settled
 
@@ -149,19 +148,15 @@ def chain(
     effects: Sequence[Effect],
     name: str,
     title: str,
-    order: Order = PAPER,
+    form: SymbolicForm = PAPERS,
     candidates: Sequence[Effect] = (),
-    kinematics: Kinematics = "platform",
-    layout: SymbolicLayout = FOUR,
 ) -> ChainProgram:
     """V_j of the instrument with ``effects``, and its derivatives.
 
     Without ``candidates``: by every fitted parameter. With them: by every parameter of the candidates, at
     their neutral values, that is, the signature that each would leave in this instrument.
     """
-    a = accelerometer(
-        [*effects, *candidates], order, kinematics=kinematics, layout=layout, candidates=candidates
-    )
+    a, layout = accelerometer([*effects, *candidates], form, candidates), form.layout
     neutral = dict(layout.common) | {e.symbol(q): _neutral(e, q) for e in candidates for q in e.parameters}
     at = settled(a.tape.assignments, neutral)
     value = at.program([("V", a.voltage)])

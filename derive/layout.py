@@ -13,6 +13,8 @@ from functools import cached_property
 
 import sympy as sp
 
+from derive.stages import PAPER as PAPER_ORDER
+from derive.stages import Kinematics, Order
 from derive.symbols import INSTRUMENT, QUARTER_TURNS, SIGNS, Parameter, symbol
 
 HEIGHT = symbol("height_j")
@@ -126,6 +128,18 @@ PAPER = SymbolicLayout(
     outputs=(SymbolicOutput("G_out", (0, 1, 2, 3), SIGNS),),
 )
 """Four quarter turns, G_out = V_1 + V_2 - V_3 - V_4 (Eq. 15)."""
+
+
+@dataclass(frozen=True)
+class SymbolicForm:
+    """The form of a model: its order, whose rotation its accelerometers sense, and where they are."""
+
+    order: Order = PAPER_ORDER
+    kinematics: Kinematics = "platform"
+    layout: SymbolicLayout = PAPER
+
+
+PAPERS = SymbolicForm()
 
 
 def instrument_parameters(layout: SymbolicLayout) -> tuple[Parameter, ...]:

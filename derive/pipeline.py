@@ -10,7 +10,6 @@ import dataclasses
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 
 import sympy as sp
@@ -25,10 +24,9 @@ from derive.emit import c as _c
 from derive.emit import numpy as _numpy
 from derive.emit.target import Files, write_form
 from derive.folded import Folded, folded
-from derive.layout import PAPER as FOUR
-from derive.layout import SymbolicLayout
+from derive.layout import PAPERS, SymbolicForm
 from derive.propagation import collect, ideal
-from derive.stages import PAPER, Kinematics, Order
+from derive.stages import PAPER
 from derive.symbols import SECOND_ORDER, symbol
 
 FORMAT = 1
@@ -39,18 +37,6 @@ FITS = "fits"
 
 FULL = "full"
 """Folder of the packaged model of full kinematics."""
-
-
-@dataclass(frozen=True)
-class SymbolicForm:
-    """The form of a model: its order, and whose rotation its accelerometers sense."""
-
-    order: Order = PAPER
-    kinematics: Kinematics = "platform"
-    layout: SymbolicLayout = FOUR
-
-
-PAPERS = SymbolicForm()
 
 
 def derive_base() -> Files:
@@ -105,7 +91,7 @@ def _derive(
     below: Sequence[str] = (),
 ) -> Files:
     candidates = offered(candidates, form)
-    forms = [] if _active(effects) else [_folded(form)]
+    forms = [] if _active(effects) else [folded(form)]
     chains = _chains(form, effects, candidates)
     files: dict[str, str] = {}
     for m in harmonics:
@@ -123,12 +109,6 @@ def _derive(
     return whole | {f"{FITS}/{n.rpartition('/')[2]}": text for c in signatures for n, text in c.items()}
 
 
-def _folded(form: SymbolicForm) -> Folded:
-    title = "The analytical model of the RAGG, folded for evaluation (paper, Eq. 1-15"
-    title += ")." if form.kinematics == "platform" else ", with the rate of the disc in Eq. 9)."
-    return folded("folded", title, form.order, form.kinematics, form.layout)
-
-
 def _active(effects: Sequence[Effect]) -> list[Effect]:
     """Those that change the voltages."""
     return [e for e in effects if e.kind in ("deterministic", "step")]
@@ -139,22 +119,12 @@ def _chains(
 ) -> list[ir.ChainProgram]:
     active = _active(effects)
     title = "The instrument as a chain of stages (paper, Eq. 1-15)."
-    chains = [ir.chain(active, "chain", title, form.order, kinematics=form.kinematics, layout=form.layout)]
+    chains = [ir.chain(active, "chain", title, form)]
     known = {e.id for e in effects}
     open_ = [e for e in candidates if e.id not in known and e.kind != "output" and e.searched]
     if open_:
         title = "Signatures: what each candidate effect would add to V_j."
-        chains.append(
-            ir.chain(
-                active,
-                "signatures",
-                title,
-                form.order,
-                candidates=open_,
-                kinematics=form.kinematics,
-                layout=form.layout,
-            )
-        )
+        chains.append(ir.chain(active, "signatures", title, form, open_))
     return chains
 
 

@@ -23,7 +23,7 @@ from derive import stages
 from derive.chain import accelerometer, recorded_motion
 from derive.context import RECORDED_SPIN
 from derive.harmonics import Series, constant, rotating, series, split
-from derive.stages import PAPER, Kinematics, Order
+from derive.stages import Kinematics
 from derive.symbols import COS_J, COS_PHI, QUARTER_TURNS, SIGNS, SIN_J, SIN_PHI, symbol
 
 Combination = Literal["D12", "D34", "D1234", "Sigma"]
@@ -141,15 +141,15 @@ _ALL = PolyRing([symbol(n) for n in COEFFICIENT_PARAMETERS + MOTION_NUMBERS], QQ
 
 
 @cache
-def collect(order: Order = PAPER) -> Collected:
-    """Derive Eq. 17-19 under an order counting (``order.rotation`` must be finite).
+def collect() -> Collected:
+    """Derive Eq. 17-19 with the paper's order counting.
 
     They hold for either kinematics: the spin is in the motion numbers alone.
     """
-    return from_generic(_generic(voltage_of_one(_ALL, gradient_in_motion_numbers(), order)))
+    return from_generic(_generic(voltage_of_one(_ALL, gradient_in_motion_numbers())))
 
 
-def voltage_of_one(ring: PolyRing, motion: Mapping[str, sp.Expr], order: Order) -> Series:
+def voltage_of_one(ring: PolyRing, motion: Mapping[str, sp.Expr]) -> Series:
     """V_j at the disc angle of A1, in k1 = k_VI K1 and R = radius + dR (Eq. 6a).
 
     ``motion`` are a and M, as far as they are no generators of the ring, by generators and the cosine and sine of the angle.
@@ -160,7 +160,7 @@ def voltage_of_one(ring: PolyRing, motion: Mapping[str, sp.Expr], order: Order) 
     known = turning | {symbol(n): series((), e, ring, turning) for n, e in motion.items()}
     known |= {COS_J: one, SIN_J: zero, symbol("k_VI"): one, symbol("radius"): zero}
     known |= {symbol("K1"): generator["k1"], symbol("dR"): generator["R"]}
-    a = accelerometer((), order)
+    a = accelerometer()
     return series(a.tape.assignments, a.voltage, ring, known)
 
 

@@ -31,8 +31,7 @@ from ragg_runtime.model.model import Model, load_files, load_packaged
 
 if TYPE_CHECKING:
     from derive.effect import Effect as SymbolicEffect
-    from derive.layout import SymbolicLayout
-    from derive.pipeline import SymbolicForm
+    from derive.layout import SymbolicForm, SymbolicLayout
 
 
 E = TypeVar("E")
@@ -152,7 +151,7 @@ def derived(
 
 
 def _make_symbolic_form(form: Form, layout: Layout) -> SymbolicForm:
-    from derive.pipeline import SymbolicForm
+    from derive.layout import SymbolicForm
     from derive.stages import Order
 
     order = Order(

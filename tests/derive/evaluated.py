@@ -13,6 +13,7 @@ from sympy.printing.numpy import NumPyPrinter
 
 from derive.chain import accelerometer
 from derive.effect import Effect
+from derive.layout import SymbolicForm
 from derive.stages import Kinematics, Order
 from derive.symbols import QUARTER_TURNS
 from derive.tape import Program, settled
@@ -71,7 +72,7 @@ def neutral_values(effects: Sequence[Effect]) -> dict[sp.Symbol, sp.Expr]:
 @cache
 def voltage(effects: tuple[Effect, ...], order: Order, kinematics: Kinematics = "platform") -> Evaluated:
     """V of the generic accelerometer with ``effects``, their parameters open."""
-    a = accelerometer(effects, order, kinematics=kinematics)
+    a = accelerometer(effects, SymbolicForm(order, kinematics))
     return Evaluated(settled(a.tape.assignments, {}).program([("V", a.voltage)]))
 
 
@@ -81,7 +82,7 @@ def signatures(effects: tuple[Effect, ...], order: Order) -> Evaluated:
 
     Derived as candidates, as signatures are in use; ``test_tape.py`` holds that to the derivatives of the whole model.
     """
-    a = accelerometer(effects, order, candidates=effects)
+    a = accelerometer(effects, SymbolicForm(order), effects)
     at, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, neutral_values(effects)))
     rows = [(e.symbol(q).name, by(e.symbol(q))) for e in effects for q in e.parameters if q.fitted]
     return Evaluated(at.program([("V", a.voltage), *rows]))

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from derive.chain import accelerometer
 from derive.effects import catalogue
+from derive.layout import SymbolicForm
 from derive.propagation import (
     COEFFICIENT_PARAMETERS,
     MOTION_NUMBERS,
@@ -68,7 +69,7 @@ def bound_of(envelope: Envelope, model: Collected) -> float:
 @cache
 def voltage(kinematics: Kinematics) -> Callable[..., Array]:
     """V_j of the chain of stages (Eq. 1-14), as a function of numbers."""
-    a = accelerometer((), kinematics=kinematics)
+    a = accelerometer((), SymbolicForm(kinematics=kinematics))
     inputs = [*MOTION_NAMES, "radius", "dR", *OWN, "K1", "k_VI", "cos_phi", "sin_phi", "cos_j", "sin_j"]
     f: Callable[..., Array] = sp.lambdify(inputs, a.voltage, "numpy", cse=lambda e: (a.tape.assignments, e))
     return f

@@ -14,6 +14,7 @@ from derive import ir
 from derive.chain import recorded_motion
 from derive.context import Context
 from derive.effects import catalogue
+from derive.layout import SymbolicForm
 from derive.rotation import small_rotation
 from derive.stages import EXACT
 from derive.symbols import ACCELEROMETER, MOTION, SPIN_ACCELERATION, SPIN_RATE
@@ -86,6 +87,7 @@ def test_a_name_holds_one_value() -> None:
     assert tape.let("a_x", X**2).name != "a_x", "a channel has this name"
 
 
+FULL = SymbolicForm(kinematics="full")
 # those that differentiate by time, and some whose parameters stand under their derivatives
 NESTED = ("encoder-harmonic", "gyro-delay", "time-offset", "lag")
 
@@ -93,8 +95,8 @@ NESTED = ("encoder-harmonic", "gyro-delay", "time-offset", "lag")
 def test_signatures_are_the_derivatives_of_the_whole_model_at_neutral_values() -> None:
     effects = [e for e in catalogue() if e.id in NESTED]
     assert len(effects) == len(NESTED)
-    short = ir.chain((), "s", "", candidates=effects, kinematics="full").derivatives
-    whole = ir.chain(effects, "w", "", kinematics="full").derivatives
+    short = ir.chain((), "s", "", FULL, effects).derivatives
+    whole = ir.chain(effects, "w", "", FULL).derivatives
     rng = np.random.default_rng(1)
     names = sorted({s.name for program in (short, whole) for s in program.inputs})
     values = {n: rng.normal(size=5) for n in names}

@@ -301,7 +301,7 @@ def test_chain_and_signatures_equal_numpy(start: float, library: Mapping[str, co
 
 def list_constructs(e: Effect) -> set[str]:
     """Functions and powers in the chain of an effect, and the stages that it changes."""
-    values = [value for _, value in accelerometer((e,), PAPER).tape.assignments]
+    values = [value for _, value in accelerometer((e,)).tape.assignments]
     found = {type(x).__name__ for v in values for x in v.atoms(sp.Function)}
     found |= {str(x.exp) for v in values for x in v.atoms(sp.Pow)}
     return found | {stage for stage in STAGES if getattr(e, stage) is not None}

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from derive.expression import from_expression
-from derive.layout import PAPER, SymbolicOutput
+from derive.layout import PAPER, SymbolicForm, SymbolicOutput
 from derive.names import EXPECTED, channel_in_code, channel_of, id_in_code, is_name, parameter_in_code
-from derive.pipeline import SymbolicForm, derive_model, derive_plain
+from derive.pipeline import derive_model, derive_plain
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.io import read_flight
