@@ -43,11 +43,10 @@ def recorded_motion() -> Motion:
 
 @dataclass(frozen=True)
 class Accelerometer:
-    """The recorded chain of one accelerometer: its tape, V_j in volts, and the specific forces."""
+    """The recorded chain of one accelerometer: its tape, and V_j in volts."""
 
     tape: Tape
     voltage: sp.Expr
-    sensed: SensedForce
 
 
 def accelerometer(
@@ -87,7 +86,7 @@ def accelerometer(
     c.sensed, c.parameters = f, dict(k)
     q = f if form.order.second_order_angles else at.forces(k, "q")[1]
     i = _transducer(hooked, c, f, q, k)
-    return Accelerometer(tape, tape.let("V", k["k_VI"] * k["K1"] * i), f)
+    return Accelerometer(tape, tape.let("V", k["k_VI"] * k["K1"] * i))
 
 
 Hooked = Sequence[tuple[Effect, Values]]

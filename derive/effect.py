@@ -32,7 +32,7 @@ __all__ = [
     "Parameters",
     "SensedForce",
     "Values",
-    "shared_components",
+    "components",
 ]
 
 Parameters: TypeAlias = Mapping[str, Expr]
@@ -96,33 +96,40 @@ class EffectParameter:
     shape: bool = False
 
 
-def shared_components(
-    letter: str, components: Iterable[str], unit: str, meaning: str, plausible: float, **further: Any
+def components(
+    letter: str,
+    names: Iterable[str],
+    unit: str,
+    meaning: str,
+    plausible: float,
+    latex: str = "",
+    **further: Any,
 ) -> tuple[EffectParameter, ...]:
-    """A shared parameter for each component of a vector or tensor.
+    """A parameter for each component of a vector or tensor, shared unless it is said not to be.
 
     Parameters
     ----------
     letter
         What all are called: ``G`` gives ``G_xx`` ...
-    components
-        Names of the components, ``x`` or ``xy`` ...
+    names
+        Of the components, ``x`` or ``xy`` ...
     meaning
         With ``{k}`` for the component, ``{0}``, ``{1}`` for its letters.
+    latex
+        Letter in formulas, if it is another one.
     further
         Of all parameters alike, as :class:`EffectParameter` has them.
     """
     return tuple(
         EffectParameter(
             f"{letter}_{k}",
-            f"{letter}_{k}" if len(k) == 1 else f"{letter}_{{{k}}}",
+            f"{latex or letter}_{k}" if len(k) == 1 else f"{latex or letter}_{{{k}}}",
             unit,
             meaning.format(*k, k=k),
             plausible,
-            shared=True,
-            **further,
+            **{"shared": True} | further,
         )
-        for k in components
+        for k in names
     )
 
 

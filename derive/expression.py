@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ast
 import keyword
+import operator
 import re
 import warnings
 from collections.abc import Collection, Mapping
@@ -36,6 +37,7 @@ FUNCTIONS = {
     "sqrt": sp.sqrt,
     "sign": sp.sign,
 }
+OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv}
 STAGES = ("transducer",)
 FORCES = ("f_i", "f_o", "f_p")
 DEEPEST = 60
@@ -206,7 +208,7 @@ def _translate(node: ast.expr, name: Any, depth: int = 0, degree: int = 1) -> sp
     if (
         isinstance(node, ast.Constant)
         and isinstance(node.value, (int, float))
-        and not isinstance(node.value, bool)
+        and type(node.value) is not bool
     ):
         return _constant(node.value)
     if isinstance(node, ast.Name):
@@ -223,18 +225,11 @@ def _translate(node: ast.expr, name: Any, depth: int = 0, degree: int = 1) -> sp
         if base.is_Rational and n * _bits(base) > _BITS:
             raise ExpressionError("a power of a number is out of range")
         return _sized(base**n)
-    if isinstance(node, ast.BinOp):
+    if isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:
         left, right = inner(node.left), inner(node.right)
-        if isinstance(node.op, ast.Add):
-            return _sized(left + right)
-        if isinstance(node.op, ast.Sub):
-            return _sized(left - right)
-        if isinstance(node.op, ast.Mult):
-            return _sized(left * right)
-        if isinstance(node.op, ast.Div):
-            if right == 0:
-                raise ExpressionError("division by zero")
-            return _sized(left / right)
+        if isinstance(node.op, ast.Div) and right == 0:
+            raise ExpressionError("division by zero")
+        return _sized(OPERATORS[type(node.op)](left, right))
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in FUNCTIONS:
         if len(node.args) != 1 or node.keywords or isinstance(node.args[0], ast.Starred):
             raise ExpressionError(f"{node.func.id} takes one argument")

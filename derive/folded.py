@@ -113,18 +113,18 @@ def folded(form: SymbolicForm) -> Folded:
     inputs = MOTION if kinematics == "platform" else (*MOTION, *SPIN_CHANNELS)
     if layout.is_paper and form.order == PAPER:
         return _in_parts(title, kinematics, inputs)
-    found = standing(TURNED, form.order, layout)
-    used = tuple(any(m[n] for m in found.monomials) for n in range(len(TURNED)))
+    monomials, own = standing(TURNED, form.order, layout)
+    used = tuple(any(m[n] for m in monomials) for n in range(len(TURNED)))
     return Folded(
         name="folded",
         title=title,
         expressions=(),
         coefficients=(),
         numbers=_numbers(kinematics, layout, used),
-        value=_nested({m: symbol(f"c[{n}]") for n, m in enumerate(found.monomials)}, 0, _names(layout)),
+        value=_nested({m: symbol(f"c[{n}]") for n, m in enumerate(monomials)}, 0, _names(layout)),
         inputs=inputs,
         parameters=instrument_parameters(layout),
-        own=found.coefficients,
+        own=own,
         layout=layout.without_common(),
     )
 
@@ -239,18 +239,13 @@ Monomial = tuple[int, ...]
 Polynomial = Mapping[Monomial, sp.Expr]
 
 
-@dataclass(frozen=True)
-class Standing:
-    """V_j by the motion numbers: the monomials that occur, and the program that gives their coefficients."""
+def standing(
+    numbers: Sequence[str], order: Order, layout: SymbolicLayout
+) -> tuple[Sequence[Monomial], Program]:
+    """V_j by ``numbers``: a (3) and M (3 x 3) along the directions r, t, z of the disc, in this order.
 
-    monomials: tuple[Monomial, ...]
-    coefficients: Program
-
-
-def standing(numbers: Sequence[str], order: Order, layout: SymbolicLayout) -> Standing:
-    """Derive V_j by ``numbers``: a (3) and M (3 x 3) along the directions r, t, z of the disc, in this order.
-
-    Monomials that vanish for every place of the layout are left out.
+    The monomials that occur, and the program that gives their coefficients. What vanishes for every place of the layout is
+    left out.
     """
     on_disc = {s.name for s in AXES}
     level = replace(layout, constants={n: v for n, v in layout.constants.items() if n not in on_disc})
@@ -274,9 +269,7 @@ def standing(numbers: Sequence[str], order: Order, layout: SymbolicLayout) -> St
     kept = _occurring(tape, outputs, layout)
     monomials = sorted((m for m, (n, _) in zip(found, outputs, strict=True) if n in kept), key=_reading)
     at = dict(zip(found, outputs, strict=True))
-    return Standing(
-        tuple(monomials), settled(tape.assignments, dict(layout.common)).program([at[m] for m in monomials])
-    )
+    return monomials, settled(tape.assignments, dict(layout.common)).program([at[m] for m in monomials])
 
 
 def _reading(m: Monomial) -> tuple[object, ...]:

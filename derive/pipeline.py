@@ -93,6 +93,7 @@ def _derive(
     candidates = offered(candidates, form)
     forms = [] if _active(effects) else [folded(form)]
     chains = _chains(form, effects, candidates)
+    models: list[ir.Harmonic | ir.ChainProgram | Folded] = [*harmonics, *forms, *chains]
     files: dict[str, str] = {}
     for m in harmonics:
         write_form(files, "harmonic", m)
@@ -102,11 +103,25 @@ def _derive(
         write_form(files, "chain", x, packaged=packaged)
     if harmonics:
         write_form(files, "paper", starred(), ideal(collect()))
-    every = [*candidates, *(e for e in effects if e not in candidates)]
-    models: list[ir.Harmonic | ir.ChainProgram | Folded] = [*harmonics, *forms, *chains]
-    whole = _complete(form, files, effects, every, models, below, packaged=packaged)
-    signatures = [] if packaged else [_c.chain(x, packaged=True) for x in chains if x.name == "signatures"]
-    return whole | {f"{FITS}/{n.rpartition('/')[2]}": text for c in signatures for n, text in c.items()}
+    files["__init__.py"] = _numpy.package_file([m.name for m in models])
+    text = "".join(f"{name}\0{files[name]}\0" for name in sorted(files))
+    manifest: dict[str, object] = {
+        "format": FORMAT,
+        "sympy": sp.__version__,
+        "digest": hashlib.sha256(text.encode()).hexdigest(),
+        **({} if form == PAPERS else {"form": _told(form)}),
+        "effects": [e.id for e in effects],
+        "files": sorted([*files, *below, "manifest.json"]),
+        "models": {m.name: ir.manifest_of_model(m) for m in models},
+        "catalogue": [
+            ir.manifest_of_effect(e) for e in (*candidates, *(e for e in effects if e not in candidates))
+        ],
+    }
+    files["manifest.json"] = json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
+    if not packaged:
+        (of_fits,) = [_c.chain(x, packaged=True) for x in chains if x.name == "signatures"] or [{}]
+        files |= {f"{FITS}/{n.rpartition('/')[2]}": text for n, text in of_fits.items()}
+    return files
 
 
 def _active(effects: Sequence[Effect]) -> list[Effect]:
@@ -128,33 +143,6 @@ def _chains(
     return chains
 
 
-def _complete(
-    form: SymbolicForm,
-    files: dict[str, str],
-    effects: Sequence[Effect],
-    candidates: Sequence[Effect],
-    models: Sequence[ir.Harmonic | ir.ChainProgram | Folded],
-    below: Sequence[str],
-    *,
-    packaged: bool,
-) -> dict[str, str]:
-    """Add the package file and the manifest, which names everything that was derived, what is ``below`` too."""
-    files["__init__.py"] = _numpy.package_file([m.name for m in models])
-    text = "".join(f"{name}\0{files[name]}\0" for name in sorted(files))
-    manifest: dict[str, object] = {
-        "format": FORMAT,
-        "sympy": sp.__version__,
-        "digest": hashlib.sha256(text.encode()).hexdigest(),
-        **({} if form == PAPERS else {"form": _told(form)}),
-        "effects": [e.id for e in effects],
-        "files": sorted([*files, *below, "manifest.json"]),
-        "models": {m.name: ir.manifest_of_model(m) for m in models},
-        "catalogue": [ir.manifest_of_effect(e) for e in candidates],
-    }
-    files["manifest.json"] = manifest_text(manifest)
-    return dict(sorted(files.items()))
-
-
 def _told(form: SymbolicForm) -> Mapping[str, object]:
     """A form as the manifest lists it; the paper's layout is left out."""
     described = dataclasses.asdict(form)
@@ -162,11 +150,6 @@ def _told(form: SymbolicForm) -> Mapping[str, object]:
     if form.layout.is_paper:
         del described["layout"]
     return described
-
-
-def manifest_text(manifest: Mapping[str, object]) -> str:
-    """A manifest as text."""
-    return json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
 
 
 STARRED: Mapping[str, tuple[int, int, int]] = {

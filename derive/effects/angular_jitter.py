@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 from derive.symbols import COMPONENTS, symmetric
 
 
@@ -24,7 +24,7 @@ EFFECT = Effect(
         "not change looks like gradient-offset."
     ),
     channels=("angular_vibration_rms",),
-    parameters=shared_components(
+    parameters=components(
         "W", COMPONENTS, "1", "covariance {k} of the rate over the square of the level", 1.0
     ),
     sensing=sensing,

@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 from derive.stages import turn
 from derive.symbols import TRACELESS, traceless
 
@@ -34,10 +34,8 @@ EFFECT = Effect(
     channels=("roll", "pitch", "yaw"),
     either=True,
     parameters=(
-        *shared_components("G", TRACELESS, "Eo", "gradient {k} of the level carrier", 100.0),
-        *shared_components(
-            "F", TRACELESS, "Eo/kg", "gradient {k} of fuel, per mass", 0.01, channel="fuel_mass"
-        ),
+        *components("G", TRACELESS, "Eo", "gradient {k} of the level carrier", 100.0),
+        *components("F", TRACELESS, "Eo/kg", "gradient {k} of fuel, per mass", 0.01, channel="fuel_mass"),
     ),
     sensing=sensing,
 )

@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, EffectParameter, SensedForce, Values
+from derive.effect import Context, Effect, SensedForce, Values, components
 
 MONOMIALS: tuple[str, ...] = ("iio", "iip", "ioo", "iop", "ipp", "ooo", "oop", "opp", "ppp")
 """All monomials of third degree in f_i, f_o, f_p but f_i^3, which is the effect ``cubic-input``."""
@@ -28,16 +28,8 @@ EFFECT = Effect(
         "(cubic-input), K_iio like their K_ioo. Under a steady weight K_iip, K_iop and K_oop are K2, K6 and K5; K_ipp and K_opp are K1 "
         "and vartheta_z, K_ppp is K0."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"K_{m}",
-            f"K_{{{m}}}",
-            "ug/g^3",
-            "third-order coefficient of " + " ".join(f"f_{axis}" for axis in m),
-            5.0,
-            like="K2",
-        )
-        for m in MONOMIALS
+    parameters=components(
+        "K", MONOMIALS, "ug/g^3", "third-order coefficient of f_{0} f_{1} f_{2}", 5.0, shared=False, like="K2"
     ),
     transducer=transducer,
 )

@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 from derive.symbols import TRACELESS, traceless
 
 
@@ -17,6 +17,6 @@ EFFECT = Effect(
         "that does not change looks like gradient-offset."
     ),
     channels=("fuel_mass",),
-    parameters=shared_components("G", TRACELESS, "Eo/kg", "gradient {k} per mass of fuel", 0.01),
+    parameters=components("G", TRACELESS, "Eo/kg", "gradient {k} per mass of fuel", 0.01),
     sensing=sensing,
 )

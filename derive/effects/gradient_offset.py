@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 from derive.symbols import TRACELESS, traceless
 
 
@@ -19,6 +19,6 @@ EFFECT = Effect(
         "Constant, at rest in the measurement frame. A well-made instrument responds only to G_xx - G_yy and G_xy; any other constant "
         "signal at twice the spin rate looks the same, for example that of rectified vibration."
     ),
-    parameters=shared_components("G", TRACELESS, "Eo", "constant gradient {k}", 100.0),
+    parameters=components("G", TRACELESS, "Eo", "constant gradient {k}", 100.0),
     sensing=sensing,
 )

@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -17,6 +17,6 @@ EFFECT = Effect(
         "Constant over the record. It acts through the product with the rate, and in full kinematics with the spin; null biases absorb "
         "the constant part."
     ),
-    parameters=shared_components("b", "xyz", "deg/h", "bias of the gyroscope about {k}", 1.0, like="K0"),
+    parameters=components("b", "xyz", "deg/h", "bias of the gyroscope about {k}", 1.0, like="K0"),
     sensing=sensing,
 )

@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, EffectParameter, Motion, Values
+from derive.effect import Context, Effect, Motion, Values, components
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -22,18 +22,14 @@ EFFECT = Effect(
         r" \dot{\bm\omega}_{im} = \dot{\bm\omega}_{rec} - \bm D\,\dot{\bm a}"
     ),
     limits="Linear in the force at the disc centre; the square of the force is neglected.",
-    parameters=tuple(
-        EffectParameter(
-            f"d_{i}{k}",
-            f"D_{{{i}{k}}}",
-            "deg/h/g",
-            f"rate about {i} per specific force along {k}",
-            1.0,
-            shared=True,
-            like="K0",
-        )
-        for i in "xyz"
-        for k in "xyz"
+    parameters=components(
+        "d",
+        [i + k for i in "xyz" for k in "xyz"],
+        "deg/h/g",
+        "rate about {0} per specific force along {1}",
+        1.0,
+        latex="D",
+        like="K0",
     ),
     sensing=sensing,
 )

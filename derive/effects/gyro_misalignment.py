@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 from derive.effects.imu_acceleration_misalignment import PAIRS
 
 
@@ -26,7 +26,7 @@ EFFECT = Effect(
         "To second order in m. A common rotation of gyroscopes and accelerometers is imu-misalignment, of the accelerometers only "
         "imu-acceleration-misalignment; the force distinguishes them."
     ),
-    parameters=shared_components(
+    parameters=components(
         "m",
         PAIRS,
         "rad",

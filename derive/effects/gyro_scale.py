@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -17,7 +17,7 @@ EFFECT = Effect(
     source="IEEE Std 528, scale-factor error of a gyroscope",
     equation=r"\omega_k = \omega_{k,rec}/(1 + s_k),\; \dot\omega_k = \dot\omega_{k,rec}/(1 + s_k)",
     limits="Exact in s; one scale an axis, no asymmetry between the senses of turning.",
-    parameters=shared_components(
+    parameters=components(
         "s", "xyz", "1", "relative scale error of the gyroscope about {k}", 1e-4, like="K1"
     ),
     sensing=sensing,

@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -17,6 +17,6 @@ EFFECT = Effect(
         "Constant over the record. Horizontal biases look like a constant force that turns in the disc's frame; b_z is "
         "absorbed by null biases."
     ),
-    parameters=shared_components("b", "xyz", "ug", "bias of the accelerometer along {k}", 50.0, like="K0"),
+    parameters=components("b", "xyz", "ug", "bias of the accelerometer along {k}", 50.0, like="K0"),
     sensing=sensing,
 )

@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 
 PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
 
@@ -23,7 +23,7 @@ EFFECT = Effect(
         "To second order in m. A common rotation of the three accelerometers is imu-misalignment without the gyroscopes; only the "
         "angular rate distinguishes the two."
     ),
-    parameters=shared_components(
+    parameters=components(
         "m",
         PAIRS,
         "rad",

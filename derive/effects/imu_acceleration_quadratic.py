@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -18,8 +18,6 @@ EFFECT = Effect(
         "It does not turn with the disc: the square of a horizontal force appears at the spin frequency, where the instrument's K2 ... "
         "K8 have no term. For a_z, which hardly changes, it is a bias, and neglected."
     ),
-    parameters=shared_components(
-        "q", "xy", "ug/g^2", "curvature of the accelerometer along {k}", 20.0, like="K2"
-    ),
+    parameters=components("q", "xy", "ug/g^2", "curvature of the accelerometer along {k}", 20.0, like="K2"),
     sensing=sensing,
 )

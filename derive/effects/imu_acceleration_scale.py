@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -17,7 +17,7 @@ EFFECT = Effect(
         "Exact in s; one scale an axis, the same for both signs. What is common to s_x and s_y acts like a scale factor common to the "
         "four accelerometers; only gradients and rates distinguish them."
     ),
-    parameters=shared_components(
+    parameters=components(
         "s",
         "xyz",
         "1",

@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -21,6 +21,6 @@ EFFECT = Effect(
         "The gradient between the two places, Gamma l (3e-7 m/s^2 for 0.1 m), is neglected: it is constant and below any "
         "accelerometer's bias."
     ),
-    parameters=shared_components("l", "xyz", "m", "position of the motion sensor, {k}", 0.01),
+    parameters=components("l", "xyz", "m", "position of the motion sensor, {k}", 0.01),
     sensing=sensing,
 )

@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Motion, Values, shared_components
+from derive.effect import Context, Effect, Motion, Values, components
 from derive.rotation import small_rotation
 
 
@@ -23,8 +23,6 @@ EFFECT = Effect(
         "Rotation to second order in e, one for accelerometers and gyroscopes; gradients are not turned. "
         "only gradients distinguish e_x, e_y from spin-axis-tilt, and e_z from spin-phase-offset."
     ),
-    parameters=shared_components(
-        "e", "xyz", "rad", "turn of the motion sensor about {k}", 1e-4, like="vartheta_z"
-    ),
+    parameters=components("e", "xyz", "rad", "turn of the motion sensor about {k}", 1e-4, like="vartheta_z"),
     sensing=sensing,
 )

@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, Parameters, Values
+from derive.effect import Context, Effect, Parameters, Values, components
 
 
 def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
@@ -22,12 +22,13 @@ EFFECT = Effect(
         "Static and linear. To first order f_i gains (c_z. f) f_y - (c_y. f) f_z, which are second-order "
         "terms: K4 absorbs c_yx, K7 c_yz, K6 c_zx, K5 c_zy, and K8 c_yy and c_zz."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"c_{a}{b}", f"c_{{{a}{b}}}", "rad/g", f"vartheta_{a} per specific force along {b}", 1e-6
-        )
-        for a in "yz"
-        for b in "xyz"
+    parameters=components(
+        "c",
+        ("yx", "yy", "yz", "zx", "zy", "zz"),
+        "rad/g",
+        "vartheta_{0} per specific force along {1}",
+        1e-6,
+        shared=False,
     ),
     instrument=instrument,
 )

@@ -1,5 +1,5 @@
 from derive.attraction import CHANNELS, MASS, PLACE, gradient_of_cuboid, gradient_of_point
-from derive.effect import Context, Effect, EffectParameter, Motion, Values
+from derive.effect import Context, Effect, Motion, Values, components
 from derive.effects.near_sphere import field
 
 
@@ -27,20 +27,7 @@ EFFECT = Effect(
     parameters=(
         MASS,
         *PLACE,
-        *(
-            EffectParameter(
-                f"l_{k}",
-                f"l_{k}",
-                "m",
-                f"its edge along {k}",
-                0.1,
-                shared=True,
-                neutral=0.5,
-                fitted=False,
-                shape=True,
-            )
-            for k in "xyz"
-        ),
+        *components("l", "xyz", "m", "its edge along {k}", 0.1, neutral=0.5, fitted=False, shape=True),
     ),
     field=field,
     sensing=sensing,

@@ -2,7 +2,7 @@ from functools import cache
 
 import sympy as sp
 
-from derive.effect import Context, Effect, Values, shared_components
+from derive.effect import Context, Effect, Values, components
 
 INDEPENDENT = ("xxx", "xxy", "xxz", "xyy", "xyz", "yyy", "yyz")
 FOURTH = ("xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz")
@@ -46,8 +46,8 @@ EFFECT = Effect(
         "the second adds up, at twice the spin rate, where it looks like a constant gradient, and at four times it."
     ),
     parameters=(
-        *shared_components("T", INDEPENDENT, "Eo/m", "third derivative {k} of the potential", 10.0),
-        *shared_components("T", FOURTH, "Eo/m^2", "fourth derivative {k} of the potential", 30.0),
+        *components("T", INDEPENDENT, "Eo/m", "third derivative {k} of the potential", 10.0),
+        *components("T", FOURTH, "Eo/m^2", "fourth derivative {k} of the potential", 30.0),
     ),
     field=field,
 )

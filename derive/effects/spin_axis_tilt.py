@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, EffectParameter, Motion, Values
+from derive.effect import Context, Effect, Motion, Values, components
 from derive.rotation import small_rotation
 
 
@@ -30,16 +30,8 @@ EFFECT = Effect(
         "Rotation to second order in alpha. The same as rotating the motion record back (imu-misalignment), except for the gradients, "
         "which alpha rotates too."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"alpha_{k}",
-            rf"\alpha_{k}",
-            "rad",
-            f"lean about the {k} axis of the disc at rest",
-            1e-4,
-            shared=True,
-        )
-        for k in "xy"
+    parameters=components(
+        "alpha", "xy", "rad", "lean about the {k} axis of the disc at rest", 1e-4, latex=r"\alpha"
     ),
     sensing=sensing,
 )

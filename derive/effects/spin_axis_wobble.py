@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, Geometry, Values, shared_components
+from derive.effect import Context, Effect, Geometry, Values, components
 from derive.rotation import lean
 
 
@@ -22,6 +22,6 @@ EFFECT = Effect(
         "Rotation to second order in w; the shaft about which the disc turns is unchanged. To first order it "
         "is a pattern of the mounting angles of the four accelerometers, which beta_x and vartheta_y absorb."
     ),
-    parameters=shared_components("w", "xy", "rad", "lean of the disc about its own {k} axis", 1e-5),
+    parameters=components("w", "xy", "rad", "lean of the disc about its own {k} axis", 1e-5),
     geometry=geometry,
 )

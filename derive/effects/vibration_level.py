@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, Expr, SensedForce, Values, shared_components
+from derive.effect import Context, Effect, Expr, SensedForce, Values, components
 from derive.rectified import rectified
 from derive.symbols import COMPONENTS, symmetric
 
@@ -23,6 +23,6 @@ EFFECT = Effect(
         "constant is vibration-rectification."
     ),
     channels=("vibration_rms",),
-    parameters=shared_components("L", COMPONENTS, "1", "covariance {k} over the square of the level", 1.0),
+    parameters=components("L", COMPONENTS, "1", "covariance {k} over the square of the level", 1.0),
     transducer=transducer,
 )

@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, Expr, SensedForce, Values, shared_components
+from derive.effect import Context, Effect, Expr, SensedForce, Values, components
 from derive.rectified import rectified
 from derive.symbols import COMPONENTS, symmetric
 
@@ -24,6 +24,6 @@ EFFECT = Effect(
         "Covariance constant over the record (else vibration-level), zero mean, fast against the turn of the disc; exact for Eq. 1, "
         "rectification by third-order terms is neglected. P must be positive semidefinite."
     ),
-    parameters=shared_components("P", COMPONENTS, "g^2", "covariance {k} of the unrecorded vibration", 1e-4),
+    parameters=components("P", COMPONENTS, "g^2", "covariance {k} of the unrecorded vibration", 1e-4),
     transducer=transducer,
 )
