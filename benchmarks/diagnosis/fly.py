@@ -8,7 +8,7 @@ import time
 import traceback
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from types import FrameType
@@ -203,8 +203,7 @@ def diagnosed(p: Prepared) -> dict[str, Any]:
     """What ``ragg diagnose`` says of sheet and flight in files."""
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
-        sheet = replace(p.world.scenario.sheet, effects=())
-        (place / "sheet.toml").write_text(model_text(sheet), "utf-8")
+        (place / "sheet.toml").write_text(model_text(p.world.scenario.sheet), "utf-8")
         records.write(p.table, SI_UNITS, place / "flight.parquet")
         try:
             m = ragg.new(place / "model", place / "sheet.toml")

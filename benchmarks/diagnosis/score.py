@@ -21,6 +21,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from scipy import stats
 
 from benchmarks.diagnosis import records
 from benchmarks.diagnosis.outside import SINCE
@@ -53,13 +54,9 @@ class Share:
     def value(self) -> float:
         return self.hits / self.total if self.total else float("nan")
 
-    def interval(self, z: float = 1.6449) -> tuple[float, float]:
-        n, p = self.total, self.value
-        if not n:
-            return (float("nan"), float("nan"))
-        middle = (p + z**2 / (2 * n)) / (1 + z**2 / n)
-        half = z / (1 + z**2 / n) * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))
-        return (float(max(0.0, middle - half)), float(min(1.0, middle + half)))
+    def interval(self, confidence: float = 0.9) -> tuple[float, float]:
+        found = stats.binomtest(self.hits, self.total).proportion_ci(confidence, "wilson")
+        return float(found.low), float(found.high)
 
     def __str__(self) -> str:
         if not self.total:

@@ -113,7 +113,7 @@ def test_scoring(x: dict[str, Any], outcome: str) -> None:
 
 
 def test_the_interval_of_a_share_is_that_of_published_tables() -> None:
-    assert score.Share(3, 60).interval(1.96) == pytest.approx((0.0171, 0.1370), abs=1e-4)
+    assert score.Share(3, 60).interval(0.95) == pytest.approx((0.0171, 0.1370), abs=1e-4)
     assert score.Share(0, 60).interval()[0] == 0.0
 
 
