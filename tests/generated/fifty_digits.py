@@ -9,13 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import mpmath
 import numpy as np
 from numpy.typing import NDArray
 
-from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected
+from derive.audit import proof
+from derive.audit.compare import derived_amplitude, derived_motion
+from derive.propagation import Collected
+from derive.symbols import MOTION
 
 Array = NDArray[np.float64]
 
@@ -147,67 +151,20 @@ def output(t: Any, x: Sequence[Any], p: Sequence[Any]) -> Any:
     return sum((s * v for s, v in zip(SIGNS, voltages(t, x, p), strict=True)), real(0))
 
 
-def motion_numbers(x: Sequence[Any]) -> Mapping[str, Any]:
-    """T_1 ... T_6, S_1, S_2, S_4 from the matrix M = [omegadot]x + [omega]x[omega]x - Gamma (Eq. 9, 16)."""
-    omega, omegadot = x[3:6], x[6:9]
-    Gamma = _gradient(x)
-    unit = [[real(int(n == k)) for n in range(3)] for k in range(3)]
-    columns = [
-        _plus(_cross(omegadot, e), _cross(omega, _cross(omega, e)), [-row[k] for row in Gamma])
-        for k, e in enumerate(unit)
-    ]
-    M = [[columns[k][i] for k in range(3)] for i in range(3)]
-    return {
-        "a_x": x[0], "a_y": x[1], "a_z": x[2],
-        "T_1": (M[1][1] - M[0][0]) / 2, "T_2": (M[0][1] + M[1][0]) / 2,
-        "T_3": -M[2][1], "T_4": -M[2][0],
-        "T_5": -(M[0][0] + M[1][1]) / 2, "T_6": (M[1][0] - M[0][1]) / 2,
-        "S_1": -M[0][2], "S_2": -M[1][2], "S_4": -M[2][2],
-    }  # fmt: skip
+def of_model(c: Collected, t: Any, x: Sequence[Any], p: Sequence[Any]) -> Any:
+    """G_out of a collected model (Eq. 17), its exact rational polynomials put into numbers."""
 
+    def number(f: Fraction) -> Any:
+        return real(f.numerator) / f.denominator
 
-_WEIGHTS = {"Sigma": (1, 1, 1, 1), "D1234": (1, 1, -1, -1), "D12": (1, -1, 0, 0), "D34": (0, 0, 1, -1)}
-
-
-def amplitudes(c: Collected, x: Sequence[Any], p: Sequence[Any]) -> dict[str, Any]:
-    """The amplitudes of a collected model, its exact rational polynomials put into numbers."""
-    numbers = motion_numbers(x)
-    motion = [numbers[n] for n in MOTION_NUMBERS]
-    own = []
-    for j in range(4):
-        k = {name: p[2 + 4 * n + j] for n, name in enumerate(PER_ACCELEROMETER)}
-        k |= {"k1": k["k_VI"] * k["K1"], "R": p[0] + k["dR"]}
-        own.append([k[n] for n in COEFFICIENT_PARAMETERS])
-
-    def power(base: Sequence[Any], exponents: Sequence[int]) -> Any:
-        product = real(1)
-        for b, n in zip(base, exponents, strict=True):
-            if n:
-                product *= b**n
-        return product
-
-    def coefficient(t: Any) -> Any:
-        total = real(0)
-        for weight, k in zip(_WEIGHTS[t.combination], own, strict=True):
-            if weight:
-                for monomial, factor in t.coefficient.terms():
-                    total += (
-                        weight * real(int(factor.numerator)) / int(factor.denominator) * power(k, monomial)
-                    )
-        return total
-
-    return {
-        name: sum((coefficient(t) * power(motion, t.motion) for t in terms), real(0))
-        for name, terms in c.amplitudes.items()
-    }
-
-
-def from_amplitudes(A: Mapping[str, Any], t: Any, spin_frequency: Any) -> Any:
-    """G_out of the amplitudes (Eq. 17)."""
-    phi = 2 * CONTEXT.pi * spin_frequency * t
-    total = real(0)
-    for name, value in A.items():
-        n = int(name[2:].rstrip("cs"))
+    rates = dict(zip((m.name for m in MOTION), x, strict=True))
+    motion = rates | {n: proof.value(q, rates, number) for n, q in derived_motion().items()}
+    own = {name: p[2 + 4 * n : 6 + 4 * n] for n, name in enumerate(PER_ACCELEROMETER)}
+    own["k1"] = [k * gain for k, gain in zip(own["K1"], own["k_VI"], strict=True)]
+    own["R"] = [p[0] + dR for dR in own["dR"]]
+    phi, total = 2 * CONTEXT.pi * p[1] * t, real(0)
+    for name in c.amplitudes:
         wave = CONTEXT.sin if name.endswith("s") else CONTEXT.cos
-        total += value * wave(n * phi)
+        value = proof.amplitude_value(derived_amplitude(c, name), own, motion, number)
+        total += value * wave(int(name[2]) * phi)
     return total

@@ -356,7 +356,7 @@ def true_output(t: Array, inputs: Array, p: Array, model: Collected | None) -> l
         if model is None:
             found.append(fifty.output(instant, x, q))
         else:
-            found.append(fifty.from_amplitudes(fifty.amplitudes(model, x, q), instant, q[1]))
+            found.append(fifty.of_model(model, instant, x, q))
     return found
 
 
