@@ -7,7 +7,6 @@ of 64 bytes. What each yields is compared with the 50-digit value first: heyoka 
 
 from __future__ import annotations
 
-import math
 import os
 import sys
 import time
@@ -65,20 +64,10 @@ def interleave(
 
 def instrument_and_motion(n: int) -> tuple[Any, Any, Any]:
     """(t, inputs, p): Tables V and VI of the paper, at random; t from START s on."""
-    from ragg_runtime.model.model import load_packaged
+    from tests.generated import draws
 
     draw = np.random.default_rng(5)
-    arcsec, per_g, g = math.pi / 648000, 1e-6 / 9.8, 9.8
-    sizes = {"dR": 35e-6, "K0": 10e-6 * g, "k_VI": 0.0, "K1": 1e-3 / g}
-    middle = {"k_VI": 1e9, "K1": 11e-3 / g}
-    p = [0.1, 0.25]
-    for name, size in load_packaged().chain.PARAMETERS[2:]:
-        spread = sizes.get(name, 20 * (per_g if name.startswith("K") else arcsec))
-        p += list(middle.get(name, 0.0) + spread * draw.uniform(-1, 1, size))
-    rate = 2000 * arcsec
-    scale = [0.8, 0.8, 1.5, *[rate] * 3, *[rate * math.pi / 2] * 3, *[1e-6] * 6]
-    inputs = draw.uniform(-1, 1, (15, n)) * np.array(scale)[:, None]
-    return START + np.arange(n) / RATE, inputs, np.array(p)
+    return START + np.arange(n) / RATE, draws.motion(draw, n), draws.instrument(draw)
 
 
 def contenders(p: NDArray[np.float64]) -> dict[str, Rival]:
