@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import combinations, permutations, product
+from itertools import combinations, permutations, product, starmap
 
 import numpy as np
 from numpy.typing import NDArray
@@ -306,10 +306,14 @@ def _turned(rows: Rows, group: tuple[str, ...], order: tuple[int, ...], signs: t
 
 # --- channels that another demodulator has made ---------------------------------------------------------
 
-CORNERS = np.linspace(np.log(0.02), np.log(0.35), 6)
-"""Logarithms of corners, Hz, that are tried first of every low-pass; the best is then refined, to ``FINE`` of its size."""
+LOWEST, HIGHEST = 0.02, 0.35
+"""Hz: corners of low-passes that are looked for; ``FEW_CORNERS`` are tried first of a Butterworth filter, ``MANY`` of a moving average,
+which lets through what its length makes of the harmonics of the spin: at 10 s it must be right to a tenth. The best is then refined."""
+
+FEW_CORNERS, MANY = 6, 60
 
 FINE = 1e-3
+"""Relative precision of a corner."""
 
 ORDERS = (1, 2, 3, 4, 6, 8)
 """Of Butterworth filters, causal, or in each direction."""
@@ -331,11 +335,12 @@ def _propose_demodulator(s: Sampler) -> Hypothesis:
         taps = taps[spare:-spare] if spare > 0 else np.pad(taps, -spare)
         return fit_rows(replace(rows, sampler=replace(s, taps=taps)))
 
-    def find_corner(low_pass: Callable[[float], Demodulation]) -> Demodulation:
-        return low_pass(float(np.exp(find_least(lambda x: fit(low_pass(np.exp(x))).share, corners, FINE))))
+    def find_corner(low_pass: Callable[[float], Demodulation], corners: int) -> Demodulation:
+        grid = np.linspace(np.log(LOWEST), np.log(min(HIGHEST, rate / 4)), corners)
+        return low_pass(float(np.exp(find_least(lambda x: fit(low_pass(np.exp(x))).share, grid, FINE))))
 
-    none, corners = Demodulation(kind="none"), CORNERS[np.log(rate / 4) > CORNERS]
-    made = map(find_corner, list_low_passes()) if len(corners) > 1 else ()
+    none = Demodulation(kind="none")
+    made = starmap(find_corner, list_low_passes()) if rate / 4 > LOWEST else ()
     tried = [(fit(how), how) for how in (none, *made)]
     best, how = min(tried, key=lambda x: x[0].share / (CLEARLY if x[1] is none else 1.0))
     words = "have passed" if how.kind == "none" else "were made by another demodulator, such as"
@@ -343,14 +348,16 @@ def _propose_demodulator(s: Sampler) -> Hypothesis:
     return Hypothesis(f"inline and cross {words} {how.words()}", remedy, best, timing.COST, calming=True)
 
 
-def list_low_passes() -> Iterator[Callable[[float], Demodulation]]:
-    """Every kind of low-pass, by its corner, Hz; a causal one also with what it delays slow things by taken back."""
+def list_low_passes() -> Iterator[tuple[Callable[[float], Demodulation], int]]:
+    """Every kind of low-pass, by its corner, Hz, and how many corners are tried first; a causal one also with what it delays slow things
+    by taken back.
+    """
     for n in ORDERS:
         slow = 1.0 / (2 * np.pi * np.sin(np.pi / (2 * n)))
         for kind, early in (("causal", 0.0), ("causal", slow), ("butterworth", 0.0)):
-            yield partial(_make_butterworth, kind, early, n)
-    yield lambda corner: Demodulation("average", length=FLAT / corner)
-    yield lambda corner: Demodulation("causal average", length=FLAT / corner)
+            yield partial(_make_butterworth, kind, early, n), FEW_CORNERS
+    yield lambda corner: Demodulation("average", length=FLAT / corner), MANY
+    yield lambda corner: Demodulation("causal average", length=FLAT / corner), MANY
 
 
 def _make_butterworth(kind: str, early: float, order: int, corner: float) -> Demodulation:

@@ -41,6 +41,9 @@ SLIP_ROWS, SWITCH, MOST_SLIPS = 800, 30.0, 4
 """Rows on which slips of one recorder against another are looked for; what a change of the lag costs, from a third to three times of
 which finds the same (docs/contributors/decisions.md); most of them in a record."""
 
+ROUNDS = 4
+"""Times that lags are followed again by the model as fitted with those of the time before, and with lags beside them."""
+
 SLIP_PARTS, SLIP_TURNS = 16, 4
 """Most parts of a record whose lags are looked for, and turns of the disc in each: a slip must fill one."""
 
@@ -323,14 +326,16 @@ def _propose_slips(s: Sampler) -> list[Hypothesis]:
     if not tried:
         return []
     _, x, rows, late = min(tried, key=lambda one: one[0])
-    here = np.flatnonzero(np.diff(late))
-    alone = [(rows[a:b], [int(late[a])]) for a, b in pairwise([0, *(here + 1), len(rows)])]
-    lags = {0, *late.tolist(), *(_find_lag(s, some, near, x) for some, near in alone)}
-    beside = [s.rows(int(rows[k]), int(rows[k + 1]) + 1, SLIP_ROWS) for k in here]
-    rows, reach = np.union1d(rows, np.concatenate(beside)).astype(np.intp), x.reach(lags, n)
-    rows = rows[(rows >= reach) & (rows < n - reach)]
-    ways = _follow_lags(s, rows, sorted(lags), x)
-    late = min(ways, key=lambda late: _fit(s, rows, **x.options(s, late)).misfit)
+    for _ in range(ROUNDS):
+        beside = [
+            s.rows(int(rows[k]), int(rows[k + 1]) + 1, SLIP_ROWS) for k in np.flatnonzero(np.diff(late))
+        ]
+        more = np.union1d(rows, np.concatenate([rows, *beside])).astype(np.intp)
+        near = sorted({0, *(int(k) + d for k in np.unique(late) for d in (-2, -1, 0, 1, 2))})
+        reach = x.reach(near, n)
+        more = more[(more >= reach) & (more < n - reach)]
+        late = late[np.minimum(np.searchsorted(rows, more), len(rows) - 1)]
+        rows, late = more, next(_follow_lags(s, more, near, x, late))
     slips = [
         (float(s.flight.time[rows[k]]), *late[k - 1 : k + 1].tolist())
         for k in np.flatnonzero(np.diff(late)) + 1
@@ -377,21 +382,29 @@ def _find_lag(s: Sampler, rows: Index, lags: Sequence[int], x: _Late) -> int:
     return best
 
 
-def _follow_lags(s: Sampler, rows: Index, lags: Sequence[int], x: _Late) -> Iterator[Index]:
-    """By how many samples, (rows,) of ``lags`` each, some columns are late all along: by the model as fitted to the first third as it is,
-    and to the last third with the lag that suits it best.
+def _follow_lags(
+    s: Sampler, rows: Index, lags: Sequence[int], x: _Late, late: Index | None = None
+) -> Iterator[Index]:
+    """By how many samples, (rows,) of ``lags`` each, some columns are late all along: by the model as fitted with the lags known so far;
+    else as fitted to the first third as it is, and to the last third with the lag that suits it best.
     """
-    third = len(rows) // 3
     systems = [linearise(s.take(rows, **x.options(s, np.full(len(rows), k)))) for k in lags]
-    ends = [slice(0, third), slice(len(rows) - third, None)]
-    for end, some in zip(ends, ([lags.index(0)], range(len(lags))), strict=True):
-        fits = [_fit_end(*systems[k], end) for k in some]
-        theta, rms = min(fits, key=lambda x: x[1])
+    third, every = len(rows) // 3, np.arange(len(rows))
+    ways = [
+        [(*systems[lags.index(0)], slice(0, third))],
+        [(X, y, slice(len(rows) - third, None)) for X, y in systems],
+    ]
+    if late is not None:
+        at = np.searchsorted(lags, late)
+        X, y = (np.moveaxis(np.stack(z)[at, ..., every], 0, -1) for z in zip(*systems, strict=True))
+        ways = [[(X, y, slice(None))]]
+    for way in ways:
+        theta, rms = min((_fit_some(*one) for one in way), key=lambda x: x[1])
         square = np.array([np.sum((y - np.tensordot(theta, X, 1)) ** 2, axis=0) for X, y in systems])
         yield np.asarray(lags)[find_path(np.log1p(square / rms**2), SWITCH)]
 
 
-def _fit_end(X: Array, y: Array, end: slice) -> tuple[Array, float]:
+def _fit_some(X: Array, y: Array, end: slice) -> tuple[Array, float]:
     """Coefficients (n,) of columns (n, m, N) by some of their rows, and the size of what they leave there, Eo."""
     some, left = X[:, :, end].reshape(len(X), -1), y[:, end].reshape(-1)
     theta, kept, _ = fit_robustly(some, left)

@@ -157,17 +157,23 @@ def counted(x: Flight, rows: np.ndarray) -> Flight:
 
 
 @without("columns")
-@pytest.mark.parametrize("gap", [0, 100])
-def test_a_lost_row_is_said_before_the_disc_is_blamed(gap: int) -> None:
-    """With samples left out on both sides of it, too."""
-    x = flown(12)
-    lost = counted(x, np.r_[0:1088, 1089 : len(x)])
-    lost = replace(lost, valid=lost.valid & (np.abs(np.arange(len(lost)) - 1087.5) > gap))
-    with pytest.raises(UserError, match=r"rows are missing at t = (\d+)(\.\d+)? s: 1 row is") as caught:
-        screen(MODEL, drawn(12).sheet, lost)
-    at = float(str(caught.value).partition("at t = ")[2].split()[0])
-    assert abs(at - 68.0) < 1.0 + gap / x.rate
-    assert "write spin_frequency" not in str(caught.value)
+@pytest.mark.parametrize(
+    ("gap", "lost"), [(0, {1088: 1}), (100, {1088: 1}), (0, {2720: 5}), (0, {640: 4, 1600: 9, 2560: 1})]
+)
+def test_lost_rows_are_said_before_the_disc_is_blamed(gap: int, lost: dict[int, int]) -> None:
+    """At one place, with samples left out on both sides of it, too, or at several."""
+    x, gone = flown(12), np.concatenate([k + np.arange(n) for k, n in lost.items()])
+    wrong = counted(x, np.delete(np.arange(len(x)), gone))
+    wrong = replace(wrong, valid=wrong.valid & (np.abs(np.arange(len(wrong)) - 1087.5) > gap))
+    try:
+        said = " ".join(screen(MODEL, drawn(12).sheet, wrong).notes)
+    except UserError as refused:
+        said = str(refused)
+    found = [(float(at), int(rows)) for at, rows in re.findall(r"at t = ([\d.]+) s: (\d+) row", said)]
+    assert "rows are missing" in said and [rows for _, rows in found] == [*lost.values()]
+    before = np.cumsum([0, *lost.values()])[:-1]
+    assert np.allclose([at for at, _ in found], (np.array([*lost]) - before) / 16, atol=1.0 + gap / 16)
+    assert "write spin_frequency" not in said
 
 
 @without("columns")
@@ -307,16 +313,27 @@ def test_channels_that_are_defined_otherwise_are_named() -> None:
         assert found is not None and (found.best.what, found.others) == (words, ())
 
 
+CAUSAL = signal.butter(3, 0.15, fs=16, output="sos")
+
+
 @without("timing")
-def test_another_demodulator_is_named_with_its_order_and_corner(monkeypatch: pytest.MonkeyPatch) -> None:
-    own = [m for m in mistakes.list_low_passes() if m(0.1).order == 3]
+@pytest.mark.parametrize(
+    ("kind", "low_pass", "words"),
+    [
+        ("causal", lambda z: signal.sosfilt(CAUSAL, z), 'kind = "causal", cutoff = "0.15 Hz", order = 3;'),
+        (
+            "average",
+            lambda z: np.convolve(z, np.ones(161) / 161, "same"),
+            'kind = "average", length = "10.06 s"',
+        ),
+    ],
+)
+def test_another_demodulator_is_named_with_its_size(monkeypatch, kind, low_pass, words) -> None:
+    """Of an average the length must be right to a tenth for less to be left."""
+    own = [x for x in mistakes.list_low_passes() if (x[0](0.1).kind, x[0](0.1).order or 3) == (kind, 3)]
     monkeypatch.setattr(mistakes, "list_low_passes", lambda: iter(own))
-    s, x = drawn(14), flown(14)
-    sections = signal.butter(3, 0.15, fs=x.rate, output="sos")
-    found = found_in(demodulated(s, x, lambda z: signal.sosfilt(sections, z)), s.sheet)
-    assert found is not None
-    assert found.best.what.endswith("such as a causal Butterworth low-pass of order 3 at 0.15 Hz")
-    assert 'kind = "causal", cutoff = "0.15 Hz", order = 3;' in found.best.remedy
+    found = found_in(demodulated(drawn(14), flown(14), low_pass), drawn(14).sheet)
+    assert found is not None and words in found.best.remedy
 
 
 def test_outputs_that_are_recorded_more_seldom_than_the_motion() -> None:
