@@ -82,7 +82,7 @@ def make_flight(
     kept = tuple(c for c in made.columns if is_column(c.name) and c.name not in leave)
     made = replace(made, columns=kept, notes=(*made.notes, *_pass_over(made.names)))
     si, si_units = _convert(made, g0, accelerometers)
-    doubled = _leave_out_doubled(si)
+    doubled = [*_leave_out_doubled(si), *_leave_out_misplaced(si)]
     grid = make_grid(si.pop("time"), made.place)
     notes = [*made.notes, *doubled, *_leave_out_impossible(si, si_units), *grid.notes]
     placed = {c: _place(v, grid) for c, v in si.items()}
@@ -194,6 +194,19 @@ def _leave_out_doubled(si: dict[str, Array]) -> list[str]:
     first = time[np.setdiff1d(np.arange(len(time)), kept)[0]]
     si |= {n: x[kept] for n, x in si.items()}
     return [f"{count(lost, 'row')} that the file has twice left out (the first at t = {first:.10g} s)"]
+
+
+def _leave_out_misplaced(si: dict[str, Array]) -> list[str]:
+    """Leave out rows whose stamp alone does not lie between those beside it, with a note; where time increases without them."""
+    time = si["time"]
+    before, after = time[:-2], time[2:]
+    wrong = np.zeros(len(time), dtype=np.bool_)
+    wrong[1:-1] = (before < after) & ((time[1:-1] < before) | (time[1:-1] > after))
+    if not wrong.any() or np.any(np.diff(time[~wrong]) <= 0):
+        return []
+    si |= {n: x[~wrong] for n, x in si.items()}
+    lost, first = count(int(np.sum(wrong)), "row"), before[wrong[1:-1]][0]
+    return [f"{lost} whose time stamp is out of order left out (the first after t = {first:.10g} s)"]
 
 
 def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> list[str]:

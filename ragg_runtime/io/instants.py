@@ -55,7 +55,7 @@ _NUMBERS = re.compile(r"(\d{1,4})([-/. ])(\d{1,2})\2(\d{1,4})")
 _PACKED = re.compile(
     r"(?:19|20)\d\d(?:0[1-9]|1[0-2])(?:0[1-9]|[12]\d|3[01])(?:[01]\d|2[0-3])[0-5]\d[0-5]\d(?:\.?\d{0,9})"
 )
-_YEAR_DAY = re.compile(r"(\d{4})-?(\d{3})")
+_YEAR_DAY = re.compile(r"(\d{4})[-/.]?(\d{3})")
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,9 @@ from ragg_runtime.io.tables import (
 NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
 """Columns that every flight has."""
 
+PARTS = ("year", "month", "day", "hour", "minute", "second")
+"""Columns that are together the time of a sample."""
+
 ISOLATED = 10.0
 """Steps into and out of a missing-value code, over the largest step of all other values: those of readings are at most
 a few times it, those of a code (-9999 among temperatures) hundreds or more."""
@@ -115,6 +118,10 @@ def _read_plain(table: DataTable) -> DataTable:
     notes = list(table.notes)
     by_name = {c.name: c for c in reversed(table.columns)}
     time, index = by_name.get("time"), by_name.get(table.index or "")
+    parts = [c for c in table.columns if c.name.casefold() in PARTS and c.is_number]
+    if time is None and len(parts) == len(PARTS):
+        table = replace(table, columns=tuple(c for c in table.columns if c not in parts))
+        time = _join_parts(parts)
     if (
         time is None
         and index is not None
@@ -139,6 +146,15 @@ def _read_plain(table: DataTable) -> DataTable:
     chosen = {n: (c, Entry(n, c.unit)) for n, c in found.items()}
     named = replace(table, notes=tuple(notes))
     return _read_columns(named, [] if time is None else [time], TimeEntry(()), chosen)
+
+
+def _join_parts(parts: Sequence[DataColumn]) -> DataColumn:
+    """The instants of which columns are the parts, as texts."""
+    values = {c.name.casefold(): c.values for c in parts}
+    rows = zip(*(values[n] for n in PARTS), strict=True)
+    written = "{:04.0f}-{:02.0f}-{:02.0f}T{:02.0f}:{:02.0f}:{:012.9f}"
+    texts = ["" if np.isnan(row).any() else written.format(*row) for row in rows]
+    return DataColumn("time", "", np.array(texts, dtype=object))
 
 
 def _read_mapped(table: DataTable, mapping: Mapped) -> DataTable:

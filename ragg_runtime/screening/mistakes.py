@@ -31,9 +31,6 @@ SURPRISING = 150.0
 FEW, MOST_TRIED = 400, 24
 """Rows on which all mistakes of unit, sign and axis are tried, and how many of the best are tried on more."""
 
-LARGE = 0.2
-"""Share of the output that the model leaves from which a record may be two: effects, a step of the gain too, leave a hundredth."""
-
 NAMED = INDEPENDENT * float(np.log(5.0))
 """Gain in log evidence from which a hypothesis is named: a residual five times smaller. No missing effect looks like that."""
 
@@ -70,9 +67,12 @@ def find_mistake(s: Sampler) -> Finding | None:
     if before.rms < SUSPICIOUS and before.surprise < SURPRISING and before.kept > 1.0 - RARE:
         return None
     tried = [*_sheets(s), *_columns(s), *timing.propose_times(s)]
-    if before.share > LARGE and not s.recorded.demodulated:
-        tried += timing.propose_parts(s)
-    found = _choose(before, tried)
+    parts: list[Hypothesis] = []
+    if (before.kept < 1.0 - RARE or before.share > timing.LARGE) and not s.recorded.demodulated:
+        parts = timing.propose_parts(s)
+    found = _choose(before, [*tried, *parts])
+    if found is None and parts:  # few enough rows for a robust fit to have passed over them
+        found = Finding(parts[0], (), before)
     if not s.recorded.demodulated or (found is not None and found.factor > 5.0):
         return found
     return _choose(before, [*tried, _propose_demodulator(s)])  # takes a while: if nothing else would do

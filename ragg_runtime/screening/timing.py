@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Any
 
 import numpy as np
@@ -60,7 +60,7 @@ TURNED = np.array([-15, -8, -4, -2, 2, 4, 8, 15, *range(30, 360, 30)]) / 360
 """Turns by which the disc may be ahead where rows were lost, or behind where some were doubled, that are tried first."""
 
 INSTANTS = 16
-"""Instants at which a record may be two that are tried first; the best is then refined."""
+"""Parts of a record of which some neighbours may be of another one, that are tried first; the best are then refined."""
 
 TELLING_PHASE = 3e-5
 """Angle, rad, that an error of the spin rate may add up to over a record and stay unseen: of a gradient of 3000 Eo that is
@@ -74,6 +74,10 @@ TURNS, FEWEST_BLOCKS = 2, 8
 
 BACK = 1.0
 """Angle, rad, by which an estimate may lie behind the one before: four times its error; beyond it the disc has run ahead."""
+
+PART_ROWS, LARGE, SMALL = 400, 0.2, 0.02
+"""Rows by which a part of another record is looked for, and shares of the output that the model leaves of it at least, and of the rest at
+most: effects, a step of the gain too, leave a hundredth."""
 
 ALIKE = 3.0
 """Factor of what they leave within which both are said: a gap of a third of a turn looks nearly like two thirds twice."""
@@ -228,31 +232,45 @@ def _propose_losses(s: Sampler) -> list[Hypothesis]:
 
 
 def propose_parts(s: Sampler) -> list[Hypothesis]:
-    """The record is two: what comes before some instant and what comes after are each explained alone, with parameters of their own."""
-    rows, spacing = s.rows(most=800), len(s.flight) / (INSTANTS + 1)
+    """What lies between two instants is of another record: of it the model leaves more than of effects, the rest it explains without it."""
+    rows, n = s.rows(most=PART_ROWS), len(s.flight)
+    some = s.take(rows)
+    X, y = (x.reshape(*x.shape[:-2], -1) for x in linearise(some))
+    place, size = np.tile(rows, len(some.data)), fit_rows(some).size
 
-    def judge(at: float) -> LinearFit:
-        both = [rows[rows < at], rows[rows >= at]]
-        share = np.array([len(x) for x in both]) / len(rows)
-        one, two = fits = [_fit(s, x) for x in both]
-        return LinearFit(
-            rms=float(np.sqrt(share @ [x.rms**2 for x in fits])),
-            size=float(np.sqrt(share @ [x.size**2 for x in fits])),
-            p=one.p,
-            surprise=one.surprise + two.surprise,
-            volume=one.volume + two.volume,
-            kept=float(share @ [x.kept for x in fits]),
-        )
+    def judge(first: float, last: float) -> tuple[float, float]:
+        """The mean misfit, of the part that of a model that predicts nothing; and rms of what is left of the part, over the output."""
+        inside = (place >= first) & (place < last)
+        if not inside.any():
+            return np.inf, 0.0
+        theta, kept, _ = fit_robustly(X[:, ~inside], y[~inside])
+        left = y - theta @ X
+        rms, part = (float(np.sqrt(np.mean(x**2))) for x in (left[~inside][kept], left[inside]))
+        rest = LinearFit(rms, size, theta, 0.0, 0.0, float(np.mean(kept)))
+        return (1.0 - float(np.mean(inside))) * rest.misfit, part / size
 
-    everywhere = spacing * np.arange(1, INSTANTS + 1)
-    first, last = everywhere[0], everywhere[-1]  # each part needs rows
-    at = find_least(lambda k: judge(k).misfit if first <= k <= last else np.inf, everywhere, spacing / 64)
-    what = (
-        f"the record is two: the model explains what comes before t = {s.flight.time[int(at)]:.4g} s, and what comes after, but not"
-        " both together (another instrument, range, sign or wiring from there on?)"
-    )
-    remedy = "cut the record there into two flights, and diagnose each by itself"
-    return [Hypothesis(what, remedy, judge(at), COST + 1.0, effects=("gain-step",))]
+    def refine(first: float, last: float) -> tuple[float, float]:
+        if first > 0:
+            first = find_least(lambda a: judge(a, last)[0], first + near, spacing / 64)
+        if last < n:
+            last = find_least(lambda b: judge(first, b)[0], last + near, spacing / 64)
+        return max(first, 0.0), min(last, float(n))
+
+    edges, spacing = np.linspace(0, n, INSTANTS + 1), n / INSTANTS
+    near = spacing * np.array([-1.0, 0.0, 1.0])
+    windows = [(a, b) for a, b in combinations(edges, 2) if b - a <= n / 2 + 1]
+    first, last = refine(*refine(*min(windows, key=lambda x: judge(*x)[0])))
+    rest = _fit(s, rows[(rows < first) | (rows >= last)])
+    if judge(first, last)[1] < LARGE or rest.share > SMALL:
+        return []
+    begins, ends = (f"t = {s.flight.time[min(int(k), n - 1)]:.4g} s" for k in (first, last))
+    part = f"lies between {begins} and {ends}"
+    if first == 0 or last == n:
+        part = f"comes before {ends}" if first == 0 else f"comes after {begins}"
+    what = f"the model explains the record, but not what {part} (another instrument, range, sign, axis or wiring there?)"
+    remedy = "cut the record there, and diagnose its parts by themselves"
+    fitted = replace(rest, rms=rest.size * rest.share ** (1.0 - (last - first) / n))
+    return [Hypothesis(what, remedy, fitted, COST + 1.0, effects=("gain-step",))]
 
 
 @dataclass(frozen=True)
