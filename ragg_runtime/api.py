@@ -34,7 +34,7 @@ from ragg_runtime.estimation.scores import list_errors
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
 from ragg_runtime.identification.comparison import Comparison
-from ragg_runtime.identification.next_motion import LIMITS
+from ragg_runtime.identification.next_motion import LIMITS, UNITS
 from ragg_runtime.identification.parameters import Estimates, ParameterValue
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.identification.result import Diagnosis
@@ -141,29 +141,21 @@ def diagnose(
     return heed_flags(d, flights)
 
 
-LIMIT_UNITS = {
-    "a": "m/s^2",
-    "omega": "rad/s",
-    "jerk": "m/s^3",
-    "alpha": "rad/s^2",
-}
-
-
 def parse_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
     """Largest amplitudes of a motion to fly next, and of its rates of change, SI, from texts such as ``a=50mg`` or ``a_z=1mg``."""
     found = dict(LIMITS)
     for text in texts:
         name, _, size = text.partition("=")
         kind = name.partition("_")[0]
-        if kind not in LIMIT_UNITS or name not in (kind, *(f"{kind}_{k}" for k in "xyz")) or not size:
+        if kind not in UNITS or name not in (kind, *(f"{kind}_{k}" for k in "xyz")) or not size:
             raise UserError(
                 "the limit of a motion cannot be read",
                 where="--limit",
                 found=text,
-                expected="a=50mg, omega=500deg/h, jerk=1m/s^3 or alpha=1deg/s^2; of one axis a_z=50mg",
+                expected="a=50mg, omega=500deg/h, jerk=1m/s^3, alpha=1deg/s^2, mass=0.5m or speed=0.1m/s; of one axis a_z=50mg",
             )
         q = read_quantity(size, f"--limit {name}", count=1)
-        value = m.instrument.units.to_si(np.asarray(q.value), q.unit, LIMIT_UNITS[kind], f"--limit {name}")
+        value = m.instrument.units.to_si(np.asarray(q.value), q.unit, UNITS[kind], f"--limit {name}")
         if not float(value) > 0.0:
             raise UserError("the limit of a motion must be positive", where=f"--limit {name}", found=size)
         found[name] = float(value)

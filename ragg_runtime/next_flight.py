@@ -20,6 +20,7 @@ from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification.next_motion import (
     AXES,
     HIGHEST,
+    MASS,
     Alternatives,
     ChannelVariance,
     Sinusoid,
@@ -40,13 +41,14 @@ CHANNELS = ("inline_Eo", "cross_Eo")
 
 @dataclass(frozen=True)
 class NextFlight:
-    """Sinusoids about the mean of the flights, and what they promise."""
+    """Sinusoids about the mean of the flights, and what they promise; ``body``: what is moved beside the instrument, in words."""
 
     sinusoids: Sequence[Sinusoid]
     promise: Json
     mean: Mapping[str, float]
     duration: float
     rate: float
+    body: str = ""
 
     def motion(self) -> Flight:
         """The motion as a flight without output."""
@@ -87,6 +89,9 @@ def next_flight(
     rate = flights[0].rate if rate is None else rate
     tones = _list_possible(m, limits, rate, band)
     mean = {n: float(np.mean([np.mean(x.channels[n][x.valid]) for x in flights])) for n in AXES}
+    body = _name_body(m) if any(t[0] in MASS for t in tones) else ""
+    if body:
+        mean |= dict.fromkeys(MASS, 0.0)
     promise: dict[str, Any] = {"separations": []}
     if purpose == "calibration":
         f = fit(m.model, m.instrument, observe_flights(flights, m.instrument), candidates=False)
@@ -102,7 +107,21 @@ def next_flight(
         if asked.pairs:
             motion = find_motion(asked.known, asked.worth, tones, duration)
             promise = {"separations": [s.as_json() for s in asked.promise(motion, duration)]}
-    return NextFlight(motion, promise, mean, duration, rate)
+    return NextFlight(motion, promise, mean, duration, rate, body)
+
+
+def _name_body(m: Loaded) -> str:
+    """What the model has beside the instrument, and where; UserError if that is nothing."""
+    bodies = {e.id for e in m.model.effects if e.channels == MASS}
+    for e in m.instrument.effects:
+        if e.id in bodies:
+            return f"{e.id}, {', '.join(f'{n} = {value}' for n, value in e.values.items())}"
+    raise UserError(
+        "the model has no body that could be moved",
+        where="--limit mass",
+        expected="near-sphere or near-cuboid among the effects of model.toml, with its mass and place",
+        remedy="ragg effects near-sphere says how it is listed",
+    )
 
 
 def _list_possible(

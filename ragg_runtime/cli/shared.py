@@ -96,7 +96,8 @@ limit_option = click.option(
     "limits",
     multiple=True,
     metavar="WHAT=SIZE",
-    help="Largest motion to fly next: a=50mg, omega=500deg/h, jerk=1m/s^3, alpha=1deg/s^2; of one axis a_z=1mg.",
+    help="Largest motion to fly next: a=50mg, omega=500deg/h, jerk=1m/s^3, alpha=1deg/s^2; of one axis a_z=1mg; "
+    "mass=0.5m, speed=0.1m/s: of a body beside the instrument.",
 )
 _JSON = click.Option(
     ["--json", "json_file"], type=OutputFile(), metavar="FILE", help="Write the result as JSON (- is stdout)."

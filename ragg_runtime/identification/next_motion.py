@@ -49,11 +49,16 @@ WORTHWHILE = 1.05
 
 AXES = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
 
+MASS = ("mass_x", "mass_y", "mass_z")
+"""How far a body beside the instrument is moved, an effect of the model that has these channels; axes where a limit says so."""
+
+UNITS = {"a": "m/s^2", "omega": "rad/s", "mass": "m", "jerk": "m/s^3", "alpha": "rad/s^2", "speed": "m/s"}
+
 LIMITS: Mapping[str, float] = {"a": 0.49, "omega": 2.4e-3}
 """Largest amplitudes, m/s^2 and rad/s: 50 mg and 500 deg/h, what a stabilised platform lets through."""
 
-SLOPES = {"a": "jerk", "omega": "alpha"}
-"""The limit of the rate of change of each kind of motion, m/s^3 and rad/s^2; where it is not given there is none."""
+SLOPES = {"a": "jerk", "omega": "alpha", "mass": "speed"}
+"""The limit of the rate of change of each kind of motion; where it is not given there is none."""
 
 SIMULATED = 96.0
 """Length of the motion that is computed while the best one is sought, s."""
@@ -92,7 +97,7 @@ STRENGTHS = np.logspace(0.0, 12.0, 49)
 
 def find_unit(axis: str) -> str:
     """SI unit of the motion about an axis."""
-    return {"a": "m/s^2", "omega": "rad/s"}[axis.partition("_")[0]]
+    return UNITS[axis.partition("_")[0]]
 
 
 def find_limit(limits: Mapping[str, float], kind: str, k: str) -> float:
@@ -103,9 +108,11 @@ def find_limit(limits: Mapping[str, float], kind: str, k: str) -> float:
 def list_tones(spin: float, limits: Mapping[str, float], band: tuple[float, float]) -> list[Sinusoid]:
     """The sinusoids of multiples of the spin frequency within a band, Hz, each as large as the limits let it be."""
     found = []
-    for axis in AXES:
+    for axis in (*AXES, *MASS):
         kind, _, k = axis.partition("_")
         most, steepest = find_limit(limits, kind, k), find_limit(limits, SLOPES[kind], k)
+        if most == np.inf:
+            continue
         for ratio in RATIOS:
             frequency = ratio * (abs(spin) or AT_REST)
             if band[0] <= frequency <= band[1]:
@@ -146,9 +153,9 @@ def _continue_channels(f: Fitted, samples: int) -> dict[str, Array]:
     """
     r = f.prepared[0].observation.record
     first = r.part(slice(0, min(len(r.time), samples)))
-    found = {}
+    found = {name: np.zeros(samples) for name in MASS}  # a body is where it was put up
     for name, x in first.channels.items():
-        if is_disc_angle(name):
+        if is_disc_angle(name) or name in MASS:
             continue
         if name.partition("_")[0] in ("a", "omega", "omegadot", "Gamma"):
             found[name] = np.full(samples, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)

@@ -21,7 +21,7 @@ from ragg_runtime.identification.next_motion import Alternatives, ChannelVarianc
 from ragg_runtime.identification.selection import ProjectedProblem, make_problem
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model.model import load_packaged
-from ragg_runtime.next_flight import next_flight
+from ragg_runtime.next_flight import next_flight, write_run_sheet
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -180,3 +180,39 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     assert [c(A) > c(D) for c in criteria] == [True, False]
     even = next_motion.share_evenly(tones)
     assert wanted.rms(A) < wanted.rms(wanted.known.fly(even, 1200.0))
+
+
+def test_a_body_that_is_moved_is_weighed_as_planned(tmp_path: Path) -> None:
+    """Its mass is a parameter here: as sure as planned, and what it truly is."""
+    m = api.new(tmp_path / "m")
+    with pytest.raises(UserError, match="no body that could be moved"):
+        limits = api.parse_limits(m, ["mass_x=0.3m"])
+        next_flight(m, [simulate_flight(m.instrument, [], duration=60.0)], limits, purpose="calibration")
+    place = (("x", 1.0), ("y", 0.0), ("z", 0.0))
+    body = ", ".join(f'{n} = {{ value = {v}, unit = "m", fixed = true }}' for n, v in place)
+    text = (tmp_path / "m" / "model.toml").read_text()
+    (tmp_path / "sheet.toml").write_text(
+        text.replace("effects = []", f'effects = [{{ id = "near-sphere", {body} }}]')
+    )
+    m = api.new(tmp_path / "with-body", tmp_path / "sheet.toml")
+    x = simulate_flight(m.instrument, [], seed=3, duration=150.0, rate=4.0)
+    x = replace(x, channels={**x.channels, "mass_x": np.full(len(x), 1e6)})
+    limits = api.parse_limits(m, ["mass_x=0.3m", "speed=0.1m/s"])
+    n = next_flight(m, [x], limits, duration=300.0, purpose="calibration")
+    assert "near-sphere, x = 1.0 m" in write_run_sheet(n) and "| mass_x |" in write_run_sheet(n)
+    n = replace(n, sinusoids=(("mass_x", 0.05, 0.3, 0.0), ("a_z", 0.1, 0.3, 0.0)))
+    write_flight(n.motion(), tmp_path / "motion.csv")
+    run = ["near-sphere:M=500,x=1,y=0,z=0"]
+    y = simulate_flight(m.instrument, run, seed=3, motion=tmp_path / "motion.csv")
+    assert y.channels["mass_x"] == pytest.approx(0.3 * np.sin(0.1 * np.pi * y.time), abs=1e-3)
+    first, both = (
+        fit(m.model, m.instrument, observe_flights(some, m.instrument), candidates=False)
+        for some in ([x], [x, y])
+    )
+    (k,) = (k for k, q in enumerate(first.calibration.columns) if q.name == "near-sphere.M")
+    planned = ChannelVariance.of(first).promise(n.sinusoids, 300.0)["parameters"][k]
+    q, c = both.calibration.columns[k], both.calibration
+    std = float(np.sqrt(c.covariance[k, k])) * q.scale
+    assert planned["then"] * q.unit_factor == pytest.approx(std, rel=0.2)
+    assert std < 50.0
+    assert c.p[c.index[k]] == pytest.approx(500.0, abs=4 * std)
