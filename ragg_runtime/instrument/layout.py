@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
@@ -127,10 +126,8 @@ class Output:
 
     def combined(self, v: Array) -> Array:
         """(N,): its members' voltages (members, N) with their signs; equal signs are added first (Eq. 15)."""
-        added = [v[k] for k, sign in enumerate(self.signs) if sign > 0]
-        taken = [v[k] for k, sign in enumerate(self.signs) if sign < 0]
-        total = np.sum(added, axis=0) if added else np.zeros(v.shape[1])
-        return np.asarray(total - np.sum(taken, axis=0) if taken else total)
+        signs = np.array(self.signs)
+        return np.asarray(v[signs > 0].sum(axis=0) - v[signs < 0].sum(axis=0))
 
 
 @dataclass(frozen=True)
@@ -301,17 +298,6 @@ def constants(layout: Layout) -> Mapping[str, tuple[float, ...]]:
     if not all(d.level for d in layout.discs):
         found |= _entries("axes", [axes(layout.discs[p.disc]) for p in places])
     return found
-
-
-PARTS = 1_000_000
-"""Of a degree: what an angle on the disc is written in."""
-
-
-def degrees(layout: Layout) -> tuple[Fraction | None, ...]:
-    """The exact angle of each accelerometer, as it was written; ``None``: it was not written in millionths of a degree."""
-    parts = [math.degrees(p.angle) * PARTS for p in layout.places]
-    # a part in 1e12: what turning degrees into radians rounds off
-    return tuple(Fraction(round(x), PARTS) if abs(x - round(x)) < 1e-12 * PARTS else None for x in parts)
 
 
 def _entries(name: str, matrices: list[Array]) -> dict[str, tuple[float, ...]]:

@@ -15,6 +15,7 @@ from typing import Any, Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from generated.output_effects import RECOGNISERS
 from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.model.chain import Chain, ChainModule
 
@@ -104,8 +105,8 @@ def list_missing_channels(e: Any, recorded: Container[str]) -> tuple[str, ...]:
 class Model:
     """A derived model.
 
-    ``effects``: in the model beyond the paper's instrument; ``candidates``: not in it, with ``signatures``. ``own_recognisers``: of
-    effects of the user's own, by id.
+    ``effects``: in the model beyond the paper's instrument; ``candidates``: not in it, with ``signatures``. ``recognisers``: of those
+    that act on the output channel, by id.
     """
 
     effects: tuple[DerivedEffect, ...]
@@ -113,20 +114,12 @@ class Model:
     chain: Chain
     signatures: Chain
     digest: str
-    own_recognisers: Mapping[str, Recogniser] = field(default_factory=dict, repr=False)
+    recognisers: Mapping[str, Recogniser] = field(default_factory=dict, repr=False)
 
     @property
     def layout(self) -> Layout:
         """Whose accelerometers the chain is."""
         return self.chain.layout
-
-    @property
-    def recognisers(self) -> Mapping[str, Recogniser]:
-        """Effect id -> what recognises it, of the candidates that act on the output channel, in the order of their ids."""
-        from generated.output_effects import RECOGNISERS
-
-        every = {**cast(Mapping[str, Recogniser], RECOGNISERS), **self.own_recognisers}
-        return {i: every[i] for i in sorted(e.id for e in self.candidates if e.kind == "output")}
 
     def effect(self, identifier: str) -> DerivedEffect | None:
         """The effect of this id, in the model or not; ``None`` if unknown."""
@@ -154,10 +147,7 @@ def load_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
     The texts are executed: pass only what the derivation of this program has just yielded or what is the same bytes.
     """
     modules = {}
-    output_effects = sorted(n for n in files if n.startswith("output_effects/") and n.endswith(".py"))
-    for name in ("chain.py", "signatures.py", "folded.py", *output_effects):
-        if name not in files:
-            continue
+    for name in sorted(n for n in files if n.endswith(".py") and n != "__init__.py"):
         stem = name.removesuffix(".py")
         module = ModuleType(f"ragg_derived_{stem.replace('/', '_')}")
         sys.modules[module.__name__] = module
@@ -185,16 +175,18 @@ def _model(
         return Chain(cast(ChainModule, modules[name]), layout, name, own, quick, folded)
 
     searched = "signatures" in modules
+    candidates = tuple(e for i, e in effects.items() if i not in present) if searched else ()
+    of_file = {n.partition("/")[2].replace("_", "-"): m for n, m in modules.items() if "/" in n}
+    recognisers = {**RECOGNISERS, **of_file}
     return Model(
         effects=tuple(effects[i] for i in present),
-        candidates=tuple(e for i, e in effects.items() if i not in present) if searched else (),
+        candidates=candidates,
         chain=chain("chain"),
         signatures=chain("signatures" if searched else "chain"),
         digest=manifest["digest"],
-        own_recognisers={
-            stem.partition("/")[2].replace("_", "-"): cast(Recogniser, module)
-            for stem, module in modules.items()
-            if "/" in stem
+        recognisers={
+            i: cast(Recogniser, recognisers[i])
+            for i in sorted(e.id for e in candidates if e.kind == "output")
         },
     )
 
