@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 Vector3 = tuple[float, float, float]
@@ -257,21 +257,16 @@ def _sum_gains(o: Output, k1: Array, R: Array) -> float:
     return float(np.sum(np.abs(k1[list(o.members)] * R[list(o.members)])))
 
 
-def unit(v: Sequence[float]) -> Vector3:
-    """A vector (3,) scaled to length 1; one along an axis stays exact."""
-    length = math.sqrt(math.fsum(x * x for x in v))
-    return (v[0] / length, v[1] / length, v[2] / length)
+def unit(v: ArrayLike) -> Vector3:
+    """A vector (3,) scaled to length 1."""
+    x = np.asarray(v, dtype=np.float64)
+    a, b, c = (x / np.linalg.norm(x)).tolist()
+    return a, b, c
 
 
-def perpendicular(v: Sequence[float], axis: Vector3) -> Vector3:
-    """The direction of ``v`` less its part along a unit vector."""
-    along = math.fsum(a * b for a, b in zip(v, axis, strict=True))
-    return unit([a - along * b for a, b in zip(v, axis, strict=True)])
-
-
-def axes(disc: Disc) -> Array:
-    """(3, 3): its columns are the axes of a disc at rest (angle 0, a quarter turn on, spin) in the measurement frame."""
-    return np.column_stack([*disc.across, disc.axis])
+def perpendicular(v: ArrayLike, axis: Vector3) -> Vector3:
+    """The direction of ``v`` (3,) less its part along a unit vector."""
+    return unit(np.asarray(v) - np.dot(v, axis) * np.array(axis))
 
 
 def least_rotation(start: Vector3, end: Vector3, spare: Vector3) -> Array:
@@ -296,7 +291,8 @@ def constants(layout: Layout) -> Mapping[str, tuple[float, ...]]:
     if any(p.direction != TANGENTIAL for p in places):
         found |= _entries("turn", [least_rotation(TANGENTIAL, p.direction, AXIAL) for p in places])
     if not all(d.level for d in layout.discs):
-        found |= _entries("axes", [axes(layout.discs[p.disc]) for p in places])
+        discs = [layout.discs[p.disc] for p in places]
+        found |= _entries("axes", [np.column_stack([*d.across, d.axis]) for d in discs])
     return found
 
 
