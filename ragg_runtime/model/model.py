@@ -114,7 +114,7 @@ class Model:
     chain: Chain
     signatures: Chain
     digest: str
-    recognisers: Mapping[str, Recogniser] = field(default_factory=dict, repr=False)
+    recognisers: Mapping[str, Recogniser] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def layout(self) -> Layout:
