@@ -100,29 +100,20 @@ class Drift:
 
     def as_json(self) -> dict[str, Any]:
         """The rates of those that walk, and their values in every block."""
-        columns = self.f.calibration.columns
         names = {o.flight: o.flight_name for o in self.f.observations}
-        values = self.f.calibration.in_scales + self.steps
+        columns, values = self.f.calibration.columns, self.f.calibration.in_scales + self.steps
         rates, states = [], []
         for name, rate in self.rates.items():
             own = [q for q in columns if q.name == name]
             per_root_hour = rate * max(q.scale / q.unit_factor for q in own)
             rates.append({"name": name, "per_root_hour": per_root_hour, "unit": own[0].unit})
-        for n, q in enumerate(columns):
-            for k, epoch in enumerate(self.epochs if q.name in self.rates else ()):
-                factor = q.scale / q.unit_factor
-                states.append(
-                    {
-                        "flight": names[epoch.flight],
-                        "time_s": epoch.middle,
-                        "elapsed_s": epoch.elapsed,
-                        "name": q.name,
-                        "accelerometer": q.accelerometer,
-                        "value": float(values[k, n]) * factor,
-                        "std": float(np.linalg.norm(self.roots[k, n])) * factor,
-                        "unit": q.unit,
-                    }
-                )
+        for n, q in ((n, q) for n, q in enumerate(columns) if q.name in self.rates):
+            factor = q.scale / q.unit_factor
+            stds = factor * np.linalg.norm(self.roots[:, n], axis=1)
+            for e, value, std in zip(self.epochs, factor * values[:, n], stds, strict=True):
+                state = {"flight": names[e.flight], "time_s": e.middle, "elapsed_s": e.elapsed}
+                state |= {"name": q.name, "accelerometer": q.accelerometer}
+                states.append({**state, "value": float(value), "std": float(std), "unit": q.unit})
         return {"timed": self.timed, "rates": rates, "states": states}
 
 
@@ -144,14 +135,15 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
     starts, timed = find_starts(flights)
     d = _smooth(f, starts, timed, None)
     for turn in range(TURNS):
-        if not d.rates or (turn and np.max(np.abs(np.mean(d.steps, axis=0))) < NEAR):
+        mean = np.mean(d.steps, axis=0)
+        if not d.rates or (turn and np.max(np.abs(mean)) < NEAR):
             break
         c = d.f.calibration
         p = c.p.copy()
-        p[c.index] += np.mean(d.steps, axis=0) * np.array([q.scale for q in c.columns])
-        c = replace(c, p=p) if turn else replace(c, p=p, noise=tuple(_estimate_noise(d)))
+        p[c.index] += mean * np.array([q.scale for q in c.columns])
+        c = replace(c, p=p, noise=c.noise if turn else tuple(_estimate_noise(d)))
         f = prepare_evidence(f.model, f.instrument, f.observations, c, candidates=False)
-        d = _smooth(f, starts, timed, dict(d.rates) if turn else None)
+        d = _smooth(f, starts, timed, d.rates if turn else None)
     return d
 
 
@@ -171,7 +163,7 @@ def _estimate_noise(d: Drift) -> list[NoiseModel]:
     return estimate_noises(f.model, f.instrument, left, f.calibration.p)
 
 
-def _smooth(f: Fitted, starts: Sequence[float], timed: bool, rates: dict[str, float] | None) -> Drift:
+def _smooth(f: Fitted, starts: Sequence[float], timed: bool, rates: Mapping[str, float] | None) -> Drift:
     """The parameters in each block of time, everything linear about a fit; how fast they walk is sought if ``rates`` is ``None``."""
     blocks = []
     for n, start in enumerate(starts):
@@ -186,8 +178,7 @@ def _smooth(f: Fitted, starts: Sequence[float], timed: bool, rates: dict[str, fl
                 blocks.append((Epoch(n, rows, middle, start + middle), known))
     blocks.sort(key=lambda x: x[0].elapsed)
     epochs, measured = zip(*blocks, strict=True)
-    elapsed = [e.elapsed for e in epochs]
-    hours = np.diff(elapsed) / HOUR
+    hours = np.diff([e.elapsed for e in epochs]) / HOUR
     prior = np.column_stack([np.eye(f.n_base), f.to_nominal])
     names = [q.name for q in f.calibration.columns]
     if rates is None:
@@ -199,8 +190,9 @@ def _smooth(f: Fitted, starts: Sequence[float], timed: bool, rates: dict[str, fl
         np.asarray(np.linalg.qr(np.vstack(both), mode="r"))[: f.n_base]
         for both in zip(forward, backward[::-1], strict=True)
     ]
+    roots = np.array([invert_root(R[:, :-1]) for R in whole])
     steps = np.array([np.linalg.solve(R[:, :-1], R[:, -1]) for R in whole])
-    return Drift(f, rates, epochs, steps, np.array([invert_root(R[:, :-1]) for R in whole]), timed)
+    return Drift(f, rates, epochs, steps, roots, timed)
 
 
 def find_starts(flights: Sequence[Flight]) -> tuple[list[float], bool]:

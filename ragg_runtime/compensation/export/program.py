@@ -35,8 +35,12 @@ SPELLINGS: Mapping[str, str] = {
 """How people write an SI unit; of channels of no fixed meaning, the units that an effect is likely to need."""
 
 
-def make_program(c: Contents) -> dict[str, str]:
-    """File name -> text of everything that `make` needs."""
+Files = Mapping[str, str]
+"""File name -> text."""
+
+
+def make_c(c: Contents) -> Files:
+    """A C program with its tests."""
     model = next(n.removesuffix(".c") for n in c.sources if n.endswith(".c"))
     outputs = c.outputs()
     tolerance = TOLERANCE_EO * min(abs(o["scale_factor"]["value"]) for o in outputs)
@@ -48,6 +52,7 @@ def make_program(c: Contents) -> dict[str, str]:
         **{n: _packaged(n) for n in PROGRAM},
         **c.sources,
         "values.h": write_values(c, model),
+        **make_tests(c),
     }
 
 
@@ -100,18 +105,6 @@ def write_values(c: Contents, name: str) -> str:
         spin_most=HALO,
         degrees=DEGREES,
     )
-
-
-# --- all forms ---------------------------------------------------------------------------------------
-
-
-Files = Mapping[str, str]
-"""File name -> text."""
-
-
-def make_c(c: Contents) -> Files:
-    """A C program with its tests."""
-    return {**make_program(c), **make_tests(c)}
 
 
 def make_numpy(c: Contents) -> Files:
