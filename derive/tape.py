@@ -19,13 +19,7 @@ from derive.symbols import is_taken, symbol
 
 def variables(e: sp.Expr) -> list[sp.Symbol]:
     """The symbols of an expression, by name: never iterate over ``free_symbols`` (its order is hashed)."""
-    return sorted(symbols(e), key=lambda s: s.name)
-
-
-@cache
-def symbols(e: sp.Expr) -> frozenset[sp.Symbol]:
-    """The symbols of an expression, to be looked up: their order is hashed."""
-    return frozenset((e,)) if e.is_Symbol else frozenset().union(*map(symbols, e.args))
+    return sorted(e.free_symbols, key=lambda s: s.name)
 
 
 @cache
@@ -93,7 +87,7 @@ class Program:
     def inputs(self) -> tuple[sp.Symbol, ...]:
         """Symbols that are read but never assigned, by name."""
         assigned = {s for s, _ in self.assignments}
-        read = {s for _, e in (*self.assignments, *self.outputs) for s in symbols(e)}
+        read = {s for _, e in (*self.assignments, *self.outputs) for s in e.free_symbols}
         return tuple(sorted(read - assigned, key=lambda s: s.name))
 
 
@@ -119,10 +113,14 @@ ByInput = Callable[[sp.Symbol], sp.Expr]
 class Tape:
     """Records assignments, with their partial and total time derivatives."""
 
-    assignments: list[tuple[sp.Symbol, sp.Expr]] = field(default_factory=list)
     _values: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
     _rates: dict[tuple[sp.Symbol, About], sp.Expr] = field(default_factory=dict)
     _degrees: dict[frozenset[sp.Symbol], dict[sp.Expr, int]] = field(default_factory=dict)
+
+    @property
+    def assignments(self) -> list[tuple[sp.Symbol, sp.Expr]]:
+        """Names and values, in order."""
+        return [*self._values.items()]
 
     def let(self, name: str, value: sp.Expr) -> sp.Expr:
         """Name a value. Constants, symbols and their negatives are passed through.
@@ -137,9 +135,6 @@ class Tape:
         while is_taken(s.name) or self._values.get(s, value) != value:
             tried += 1
             s = symbol(f"V{tried}__{name}")
-        if s in self._values:
-            return s
-        self.assignments.append((s, value))
         self._values[s] = value
         return s
 
@@ -206,15 +201,15 @@ class Tape:
 
         def scatter(e: sp.Expr, seed: sp.Expr) -> None:
             for s, d in partials(e).items():
-                if (slope := at.put(d)) != 0:
+                if (slope := d.xreplace(at.known)) != 0:
                     adjoint.setdefault(s, []).append(seed * slope)
 
         scatter(output, sp.Integer(1))
-        forward = len(self.assignments)
-        for s, e in self.assignments[forward - 1 :: -1]:
+        forward = self.assignments
+        for s, e in reversed(forward):
             if s in adjoint and (seed := sp.Add(*adjoint[s])) != 0:
                 scatter(e, self.let(f"{prefix}_{s.name}", seed))
-        both = replace(at, assignments=(*at.assignments, *self.assignments[forward:]))
+        both = replace(at, assignments=(*at.assignments, *self.assignments[len(forward) :]))
         return both, lambda s: sp.Add(*adjoint.get(s, []))
 
 
@@ -225,13 +220,9 @@ class Settled:
     known: Mapping[sp.Symbol, sp.Expr]
     assignments: tuple[tuple[sp.Symbol, sp.Expr], ...]
 
-    def put(self, e: sp.Expr) -> sp.Expr:
-        """An expression with what is known put in."""
-        return e if self.known.keys().isdisjoint(symbols(e)) else e.xreplace(self.known)
-
     def program(self, outputs: Iterable[tuple[str, sp.Expr]]) -> Program:
         """Share subexpressions, drop what nobody reads."""
-        final = [(name, self.put(sp.sympify(e, strict=True))) for name, e in outputs]
+        final = [(name, sp.sympify(e, strict=True).xreplace(self.known)) for name, e in outputs]
         return _share(live(self.assignments, final), final)
 
 
@@ -239,26 +230,25 @@ def settled(assignments: Iterable[tuple[sp.Symbol, sp.Expr]], values: Mapping[sp
     """Put ``values`` in and propagate what became constant."""
     known = dict(values)
     kept: list[tuple[sp.Symbol, sp.Expr]] = []
-    whole = Settled(known, ())
     for s, e in assignments:
-        value = whole.put(e)
+        value = e.xreplace(known)
         if _is_plain(value):
             known[s] = value
         else:
             kept.append((s, value))
-    return replace(whole, assignments=tuple(kept))
+    return Settled(known, tuple(kept))
 
 
 def live(
     assignments: Sequence[tuple[sp.Symbol, sp.Expr]], outputs: list[tuple[str, sp.Expr]]
 ) -> list[tuple[sp.Symbol, sp.Expr]]:
     """The assignments that the outputs need."""
-    needed = {s for _, e in outputs for s in symbols(e)}
+    needed = {s for _, e in outputs for s in e.free_symbols}
     kept = []
     for s, e in reversed(assignments):
         if s in needed:
             kept.append((s, e))
-            needed |= symbols(e)
+            needed |= e.free_symbols
     return kept[::-1]
 
 
