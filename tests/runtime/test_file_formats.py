@@ -158,6 +158,11 @@ def test_netcdf_of_other_tools(tmp_path: Path, classic: bool) -> None:
         "crs": ((), np.int32(4326), {}),
         "count": ("t", np.full(50, -2, np.int16), {"units": "1", "_Unsigned": "true"}),
         "line": ("k", np.arange(2.0), {}),
+        "state": (
+            "t",
+            np.arange(50, dtype=np.int8) % 2,
+            {"flag_values": np.int8([1, 0]), "flag_meanings": "on off"},
+        ),
     }
 
     def save(change: dict = {}, drop: str = "") -> None:  # noqa: B006
@@ -184,6 +189,7 @@ def test_netcdf_of_other_tools(tmp_path: Path, classic: bool) -> None:
     there = np.setdiff1d(np.arange(50), [3, 11] if classic else [3, 9, 11])
     assert found.channels["a_x"][there[:3]] == pytest.approx(G0 * (0.5 * packed[there[:3]] + 1.0))
     assert np.flatnonzero(~found.valid).tolist() == ([3, 11] if classic else [3, 9, 11])
+    assert "state holds text; it is left out" in found.notes
     (note,) = (n for n in found.notes if n.startswith("skipped"))
     assert "'crs' (a single value)" in note and "'line' (2)" in note
     for change, drop, what in (
@@ -261,6 +267,13 @@ def test_a_workspace_of_matlab(tmp_path: Path) -> None:
     assert {"time", "a_x", "a_z", "G_out"} <= {*table.names}
     assert table.column("a_y").unit == "m/s^2"
     assert any("'window' (16)" in n for n in table.notes)
+    with h5py.File(tmp_path / "y.mat", "w") as file:  # version 7.3: texts are numbers
+        for n, v in whole["units"].items():
+            file[n], letters = np.atleast_2d(whole[n]), np.array([[ord(c)] for c in v], np.uint16)
+            file.create_dataset(f"units/{n}", data=letters).attrs["MATLAB_class"] = np.bytes_("char")
+        file["#refs#/a"] = np.zeros(60)
+    found = read_flight(tmp_path / "y.mat", G0)
+    assert np.array_equal(found.channels["a_z"], x.channels["a_z"]) and "a" not in found.channels
 
 
 def test_structures_in_a_record_belong_to_it(tmp_path: Path) -> None:

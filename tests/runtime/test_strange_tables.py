@@ -101,7 +101,11 @@ CSV = {
     "units in the cells": text(",".join(UNITS), [[f"{c} {u}" for c, u in zip(r, UNITS.values(), strict=True)] for r in rows()]),
     "units in the cells, as they fit": text(
         ";".join(UNITS),
-        [[f"{t}s", f"{1000 * x:.3f} mg", *(f"{c} {u}" for c, u in zip(r, [*UNITS.values()][2:], strict=True))] for t, x, *r in rows()],
+        [
+            [f"{t}s", f"{1000 * x:.3f} mg", f"{y} g" if t % 1 else f"{1000 * y:.3f} mg"]
+            + [f"{c} {u}" for c, u in zip(r, [*UNITS.values()][3:], strict=True)]
+            for t, x, y, *r in rows()
+        ],
         ";",
     ).replace(".", ","),
     "numbers before the header": text(
@@ -203,6 +207,7 @@ def test_excel_as_people_write_it(tmp_path: Path) -> None:
             ([timedelta(hours=23, minutes=59, seconds=58 + t) for t in VALUES["time"]], False),
             ([(day + timedelta(hours=10, seconds=t)).time() for t in VALUES["time"]], True),
             ([day + timedelta(hours=10, seconds=t) for t in VALUES["time"]], True),
+            ([datetime(1900, 1, 1, 10) + timedelta(seconds=t) for t in VALUES["time"]], False),
         )
     ):
         write_sheets(tmp_path / f"{k}.xlsx", {"a": [["of a survey"], *merged, *rows(times)]})
