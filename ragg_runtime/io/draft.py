@@ -18,7 +18,6 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.names import LONGEST, is_column
@@ -27,7 +26,7 @@ from ragg_runtime.io.files import read_tables
 from ragg_runtime.io.instants import are_packed, find_order, find_parts
 from ragg_runtime.io.mapping import UNKNOWN
 from ragg_runtime.io.record import ANGULAR_RATE, DEMODULATED, SI_UNITS, SPECIFIC_FORCE
-from ragg_runtime.io.tables import DataColumn, DataTable, is_unit, parse_quantities, split_lines
+from ragg_runtime.io.tables import DataColumn, DataTable, is_unit, parse_quantities
 
 OUTPUTS = ("G_out", "V_", "inline")
 """How channels begin of which one must be there."""
@@ -232,12 +231,7 @@ def _draft_file(table: DataTable, tables: Sequence[DataTable], name: str | None)
     if table.part:
         lines.append(f'part = "{_quoted(table.part)}"  # likely: the file holds several tables that differ')
     if name is not None:
-        line = f'line = "{_quoted(name)}"  # likely: names the flight lines; remove it if it does not'
-        try:
-            split_lines([table], name, None)
-        except UserError:
-            line = f"# {line}"
-        lines.append(line)
+        lines.append(f'line = "{_quoted(name)}"  # likely: names the flight lines; remove it if it does not')
     return [*above, "[file]", *lines, ""] if lines else above
 
 
@@ -277,7 +271,7 @@ def _draft_time(
 
 def _find_instants(table: DataTable, roles: Roles) -> tuple[tuple[str, ...], str, str] | None:
     """Columns that hold instants as such, their format (``?``: one of two), and how sure that is."""
-    if any(c.name == "time" and c.is_number and c.unit and not are_packed(c.values) for c in table.columns):
+    if any(c.name == "time" and not c.is_text and c.unit and not are_packed(c.values) for c in table.columns):
         return None
     by_role = {r: c for c in reversed(table.columns) for r in _TIMES[2:] if _has(roles[c.name], r)}
     if "week" in by_role and "second_of_week" in by_role:
@@ -296,19 +290,10 @@ def _find_instants(table: DataTable, roles: Roles) -> tuple[tuple[str, ...], str
             return (c.name,), _find_form(c), "certain: a date and a time"
     if pair is not None:
         return pair
-    if clock is not None and clock.is_number and not clock.unit and _is_hhmmss(clock.values):
-        return (clock.name,), "clock", "likely: hhmmss"
     for c in texts:
         if find_parts(_first_cell(c))[1]:
             return (c.name,), "clock", "certain: a time of the day, or an elapsed time"
     return None
-
-
-def _is_hhmmss(values: NDArray[np.float64]) -> bool:
-    """Whether numbers are times of the day such as 132850.4; below 100 they could be seconds."""
-    x = values[np.isfinite(values)]
-    whole = len(x) > 0 and 100 <= np.max(x) < 240000 and np.min(x) >= 0
-    return bool(whole and np.all(x % 100 < 61) and np.all(x // 100 % 100 < 60))
 
 
 def _find_form(c: DataColumn) -> str:
