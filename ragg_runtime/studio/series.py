@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.compensation.calibrate import information, invert_root
 from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.identification import predict
 from ragg_runtime.identification import series as reported
@@ -43,6 +44,9 @@ RESOLUTION = 0.25
 LEAST = 0.9
 """Share of the samples under a window that must be valid."""
 
+MODELS = 12
+"""Models that are drawn from the posterior."""
+
 
 @dataclass(frozen=True)
 class Asked:
@@ -64,7 +68,10 @@ HEAD = struct.Struct("<4sIddI")
 
 @dataclass(frozen=True)
 class Sampled:
-    """A uniformly sampled series (N,), NaN where there is none, from ``start`` in steps of ``step`` (s); single precision draws all."""
+    """A uniformly sampled series (N,), NaN where there is none, from ``start`` in steps of ``step`` (s); single precision draws all.
+
+    Of a fan of models the values are (2, N), the least and the greatest.
+    """
 
     start: float
     step: float
@@ -72,16 +79,17 @@ class Sampled:
 
     def window(self, first: float, last: float, points: int) -> bytes:
         """The series between two abscissae, as :data:`HEAD` and floats: its samples, or the extremes of about ``points`` segments."""
-        n = len(self.values)
+        rows = np.atleast_2d(self.values)
+        n = rows.shape[1]
         a = int(np.clip(np.floor((first - self.start) / self.step), 0, n))
         b = int(np.clip(np.ceil((last - self.start) / self.step) + 1, a, n))
         if b - a <= 2 * points:
-            return self._pack(self.values[None, a:b], float(a), 1)
+            return self._pack(rows[:, a:b], float(a), 1)
         length = -(-(b - a) // points)
         a -= a % length  # segments stay the same ones where the window moves
-        x = self.values[a:b]
-        parts = np.pad(x, (0, -len(x) % length), constant_values=np.nan).reshape(-1, length)
-        extremes = np.stack([np.fmin.reduce(parts, axis=1), np.fmax.reduce(parts, axis=1)])
+        x = np.pad(rows[:, a:b], ((0, 0), (0, -(b - a) % length)), constant_values=np.nan)
+        parts = x.reshape(len(rows), -1, length)
+        extremes = np.stack([np.fmin.reduce(parts[0], axis=1), np.fmax.reduce(parts[-1], axis=1)])
         return self._pack(extremes, a + 0.5 * (length - 1), length)
 
     def _pack(self, values: NDArray[np.float32], first: float, length: int) -> bytes:
@@ -143,9 +151,21 @@ class View:
                 raise UserError("the flight has no such channel", found=repr(name[:40]))
             return sample(float(r.time[0]), 1.0 / r.rate, np.where(r.valid, r.wide[name], np.nan))
         effects = self.a.effects if kind in ("effect", "left") else ()
-        make = lambda: self._convert(self.volts(self.a.what))  # noqa: E731
+        make = self._draw_fan if kind == "fan" else lambda: self._convert(self.volts(self.a.what))
         found: Sampled = self.remember(("drawn", self.a.what, self.a.unit, effects), make)
         return found
+
+    def _draw_fan(self) -> Sampled:
+        """The outermost residuals of models drawn from the posterior of the parameters, the same ones each time."""
+        if self.kept:
+            raise UserError("no model is drawn for a validation flight")
+        draws = np.random.default_rng(0).standard_normal((MODELS, self.f.n_base))
+        root = invert_root(information(self.f))
+        lean, w = self.prepared.for_residuals(np.stack([self.f.vector(root @ x) for x in draws]))
+        left = np.concatenate([*lean.each(lambda piece: piece.left(w), whitened=False)], axis=1)
+        each = [self._convert(x) for x in left]
+        values = [x.values for x in each]
+        return replace(each[0], values=np.stack([np.fmin.reduce(values), np.fmax.reduce(values)]))
 
     def _convert(self, x: Array) -> Sampled:
         """A series, V, in the unit that is asked for."""

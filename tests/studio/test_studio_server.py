@@ -16,6 +16,7 @@ from serving import Served, brief, compared, new, served, settled
 from ragg_runtime import api
 from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.model.directory import load_model_dir
+from ragg_runtime.studio.series import HEAD
 
 
 @pytest.fixture(scope="module")
@@ -253,6 +254,13 @@ def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(clien
     brief(second, 4000)
     assert client.post("/api/do/open", json={"flights": [str(demo), str(second)]}).status_code == 202
     both = compared(client)
+    drawn = {}
+    for what in ("fan", "residual"):
+        answer = client.get("/api/series", params={"what": what, "points": 20000}).content
+        _, n, _, _, kind = HEAD.unpack_from(answer)
+        drawn[what] = np.frombuffer(answer, "<f4", offset=HEAD.size).reshape(kind + 1, n)
+    inside = (drawn["fan"][0] < drawn["residual"]) & (drawn["residual"] < drawn["fan"][1])
+    assert np.nanmean(inside) > 0.9
     assert client.post("/api/do/validate", json={"flight": 0}).status_code == 202
     state = compared(client)
     assert [(f["name"], f["kept"]) for f in state["flights"]] == [("b", False), ("demo-flight", True)]

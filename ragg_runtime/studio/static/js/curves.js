@@ -180,16 +180,18 @@ function zigzag(u, k, first, last) {
 }
 
 /**
- * @param lines [{name, colour, dash, alpha}] in the order in which they are drawn
+ * @param lines [{name, colour, dash, alpha, band}] in the order in which they are drawn; a band is filled between its edges
  * @param moved is given the limits that the user wants
  */
 export function timePlot(box, { label, lines, moved, level, limits, unit }) {
-  const series = [{}];
+  const series = [{}], bands = [];
   for (const line of lines) {
     const stroke = () => colour(line.colour) + (line.dimmed && line.dimmed() ? "70" : line.alpha || "");
     // one pixel: wider strokes take ten times as long where no graphics card paints
-    const common = { stroke, width: 1, dash: line.dash, points: { show: false }, spanGaps: false };
-    series.push({ ...common, label: line.name, paths: zigzag, paired: true }, { ...common, label: `${line.name} `, paths: () => null });
+    const common = { stroke, width: line.band ? 0 : 1, dash: line.dash, points: { show: false }, spanGaps: false };
+    const drawn = line.band ? [{}, {}] : [{ paths: zigzag, paired: true }, { paths: () => null }];
+    series.push({ ...common, label: line.name, ...drawn[0] }, { ...common, label: `${line.name} `, ...drawn[1] });
+    if (line.band) bands.push({ series: [series.length - 1, series.length - 2], fill: stroke });
   }
   const made = mounted(
     box,
@@ -198,7 +200,7 @@ export function timePlot(box, { label, lines, moved, level, limits, unit }) {
         x: { time: false, range: () => limits() },
         y: { range: (u, low, high) => reach(low, high, level ? level() : 0) },
       },
-      series,
+      series, bands,
       axes: [axis(label), axis("", { side: 3, label: undefined, labelSize: 0, size: LEFT })],
       padding: [null, RIGHT, null, null],
       cursor: { sync: { key: SYNC }, drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },

@@ -24,6 +24,12 @@ const marks = () => {
   return { gaps: gaps.filter(([a, b]) => !cuts.some(([from, to]) => a > from - near && b < to + near)), alone, cuts };
 };
 
+/** How far the models are from the residual, rms over the window. */
+const spread = (fan, now) => {
+  const apart = Array.from(fan.high, (x, k) => x - now.high[k]).filter(Number.isFinite);
+  return Math.sqrt(apart.reduce((sum, x) => sum + x * x, 0) / Math.max(1, apart.length));
+};
+
 export function figures(box) {
   const head = h("div.figure-head");
   const panel = (id, title) => frame({ id, title, body: h(`div.plot.${id}`) });
@@ -46,7 +52,7 @@ export function figures(box) {
     measured: timePlot(measured.body, { limits, moved, unit: unitName, lines: [{ name: "measured", colour: "before" }, { name: "model", colour: "residual" }] }),
     residual: timePlot(residual.body, {
       label: "time since the first sample, s", limits, moved, level, unit: unitName,
-      lines: [{ name: "before", colour: "before" }, { name: "residual", colour: "residual", dimmed: () => Boolean(laid()) }, { name: "laid over it", colour: "effect", alpha: "d0" }],
+      lines: [{ name: "models", colour: "beside", band: true, alpha: "60" }, { name: "before", colour: "before" }, { name: "residual", colour: "residual", dimmed: () => Boolean(laid()) }, { name: "laid over it", colour: "effect", alpha: "d0" }],
     }),
     spectrum: spectrumPlot(spectrum.body, { band, banded, harmonic }),
     spectrogram: spectrogramPlot(gram.body, { limits, moved, band, banded, harmonic, spin }),
@@ -104,16 +110,17 @@ export function figures(box) {
     if (!ready()) return;
     const common = asked(points()), over = laid();
     const began = performance.now();
-    const [before, now, effect] = await Promise.all([
+    const [fan, before, now, effect] = await Promise.all([
+      view.fan && !flight().kept ? series({ ...common, what: "fan" }).catch(() => null) : null,
       server.state.before ? series({ ...common, what: "before" }).catch(() => null) : null,
       series({ ...common, what: "residual" }),
       over ? series({ ...common, ...over }).catch((e) => (note("residual", [e.facts.what, e.facts.remedy].filter(Boolean).join(": ")), null)) : null,
     ]);
     if (!over || effect) note("residual", "");
-    plots.residual.show([before, now, effect]);
+    plots.residual.show([fan, before, now, effect]);
     document.documentElement.dataset.series = (performance.now() - began).toFixed(1);
     legend("residual", [
-      before && ["before the last step", "before"], [`residual, ${unitName()}`, "residual"],
+      fan && [`models within the uncertainty: ± ${number(spread(fan, now), 2)} ${unitName()} rms`, "band"], before && ["before the last step", "before"], [`residual, ${unitName()}`, "residual"],
       effect && [over.words, "effect"], level() && ["± noise, 1 σ", "noise", "dashed"],
     ]);
   });
@@ -212,6 +219,7 @@ export function figures(box) {
   const offs = [
     on("from to", inFrames()),
     on("flight output unit", all),
+    on("fan", () => (heading(), drawResidual())),
     on("ticked", () => (drawResidual(), slow(), calmHeat())),
     on("pointed", pointing),
     on("term", () => (drawResidual(), plots.spectrum.marked(), plots.spectrogram.marked(), drawHeatTable())),
@@ -362,6 +370,7 @@ export function windowHead(box) {
       h("button", { type: "button", onclick: () => pan(-0.5), "aria-label": "Earlier", title: "Earlier ([)" }, "‹"),
       h("button", { type: "button", onclick: () => pan(0.5), "aria-label": "Later", title: "Later (])" }, "›"),
       h("button", { type: "button", onclick: () => moved(null), title: "The whole flight (0)" }, "all")),
+    state && state.banner && !(f && f.kept) ? h("label.fan", { title: "What models within the uncertainty of the parameters leave" }, h("input", { type: "checkbox", checked: Boolean(view.fan), onchange: (e) => look({ fan: e.target.checked ? 1 : 0 }) }), " spread of models") : null,
     cuts(f, state),
     flights.length > 1 && f ? validated(f, state) : null,
     flights.length > 1 && flights.length <= MOST_LINES ? lines(flights) : null,
