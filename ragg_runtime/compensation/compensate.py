@@ -96,11 +96,6 @@ class Compensation:
         online = self.result["calibration"] == "online"
         return None if online else render_notebook(describe_other.describe_compensation(self.as_json(), ""))
 
-    @property
-    def units(self) -> dict[str, str]:
-        """Columns and their units, in order."""
-        return {n: _unit_of(n) for n in self.series[0]}
-
     def as_json(self) -> dict[str, Any]:
         """As ``ragg compensate --json`` writes it, with what the bits of ``quality`` mean."""
         meaning = {str(int(q)): f"{q.name}: {text}" for q, text in MEANING.items()}
@@ -112,8 +107,8 @@ class Compensation:
         Each begins and ends where there are values, which have the digits that their uncertainty warrants, and one more.
         """
         parts = [_with_values(s) for s in self.series]
-        whole = {n: np.concatenate([s[n] for s in parts]) for n in self.units}
-        columns = [DataColumn(n, unit, _round(n, whole)) for n, unit in self.units.items()]
+        whole = {n: np.concatenate([s[n] for s in parts]) for n in parts[0]}
+        columns = [DataColumn(n, _unit_of(n), _round(n, whole)) for n in whole]
         write_tables(Path(path), [DataTable(tuple(columns))])
 
 
@@ -272,10 +267,7 @@ def find_seeing(instrument: Instrument, observations: Sequence[Observation]) -> 
         raise UserError(
             "there is no gradient to compensate: no output of a spinning disc is sensitive to it",
             where=instrument.path,
-            found=", ".join(
-                f"{o.output.name}: disc {'spins' if o.record.turning else 'does not spin'}"
-                for o in observations
-            ),
+            found=", ".join(o.name for o in observations),
             expected="a turning disc with accelerometers whose sum does not cancel the gradient",
             remedy="use calibrate and compare for such an instrument",
         )

@@ -207,17 +207,15 @@ def follow(
 
 def _known_noise(name: str, saved: Saved | None) -> float:
     """The noise of a saved calibration in the cross channel, Eo/sqrt(Hz); UserError if it is unknown."""
-    left = None if saved is None else saved.error.get("calibrated", {}).get("cross_Eo_per_rtHz")
-    if not isinstance(left, float) or not left > 0.0:
+    left = None if saved is None else saved.error["calibrated"]["cross_Eo_per_rtHz"]
+    if left is None:
         raise UserError(
             "the noise is not known",
             where=name,
-            found="no saved calibration"
-            if saved is None
-            else "a saved calibration without a demodulated error",
+            found="no saved calibration, or one of records that cannot be demodulated",
             remedy="give it: --noise 2 (Eo/sqrt(Hz) of the cross channel), or calibrate first: ragg calibrate ... --save",
         )
-    return left
+    return float(left)
 
 
 def _follow_flight(

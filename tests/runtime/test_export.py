@@ -394,6 +394,6 @@ def test_the_command_follows_a_flight_within_its_uncertainty(
     gap = dataclasses.replace(flight.part(slice(0, 400)), outputs={"G_out": G})
     w = api.compensate(api.load(fresh), [gap], "online", noise=2.0, forget=100.0)
     assert (w.as_json()["started"], w.as_json()["forget_s"]) == ("sheet", 100.0)
-    assert list(w.units) == ["time", "inline", "cross", "inline_std", "cross_std", "quality"]
+    assert list(w.series[0]) == ["time", "inline", "cross", "inline_std", "cross_std", "quality"]
     bridged = w.series[0]["time"][w.series[0]["quality"] > 0]
     assert flight.time[199] < bridged.min() < bridged.max() < flight.time[240] + UPDATE

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import Output
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io import Flight
@@ -65,7 +64,7 @@ class Contents:
 
     def outputs(self) -> list[Json]:
         """In the order of model.toml; accelerometers are counted from 0."""
-        layout = self.instrument.layout
+        layout, discs = self.instrument.layout, self.discs()
         return [
             {
                 "name": o.name,
@@ -74,16 +73,19 @@ class Contents:
                 "accelerometers": list(o.members),
                 "signs": list(o.signs),
                 "spin_angle": layout.discs[o.disc].angle_column,
-                "spin_frequency": float(self.p[self.find_spin(o)]),
+                "spin_frequency": float(self.p[discs[layout.discs[o.disc].angle_column]]),
                 "scale_factor": {"value": scale_factor(self.model, self.p, k), "unit": "V/Eo"},
             }
             for k, o in enumerate(layout.outputs)
         ]
 
-    def find_spin(self, o: Output) -> int:
-        """Place of the rate of an output's disc in the parameter vector."""
+    def discs(self) -> dict[str, int]:
+        """The columns of the discs' angles, and the places of their rates in the parameter vector."""
         layout = self.instrument.layout
-        return 1 if layout.like_paper else layout.size + o.members[0]
+        return {
+            layout.discs[o.disc].angle_column: 1 if layout.like_paper else layout.size + o.members[0]
+            for o in layout.outputs
+        }
 
     def parameters(self) -> list[Json]:
         """The parameters in the order of the vector, SI."""
@@ -120,10 +122,6 @@ class Contents:
             found.append({"name": name, "column": column, "derivative": order, "unit": unit_of(column)})
         return found
 
-    def angles(self) -> list[str]:
-        """The columns of disc angles."""
-        return list(dict.fromkeys(o["spin_angle"] for o in self.outputs()))
-
     def columns(self) -> list[str]:
         """The columns of a flight that the model reads, besides ``time`` and the disc angles."""
         return list(dict.fromkeys(x["column"] for x in self.inputs() if x["column"] != DISC))
@@ -155,9 +153,9 @@ class Contents:
                 columns[change] = size * 2 * np.pi * f * np.cos(2 * np.pi * f * t + angle)
         if derived:
             columns = {n: x for n, x in columns.items() if n not in ANGULAR_ACCELERATION}
-            for o in self.outputs():
-                turned = 2 * np.pi * o["spin_frequency"] * t + 1e-3 * np.sin(0.7 * t)
-                columns[o["spin_angle"]] = np.mod(turned, 2 * np.pi)
+            for name, k in self.discs().items():
+                turned = 2 * np.pi * float(self.p[k]) * t + 1e-3 * np.sin(0.7 * t)
+                columns[name] = np.mod(turned, 2 * np.pi)
         return columns, self._answer(columns)
 
     def _answer(self, columns: Mapping[str, Array]) -> dict[str, Array]:
@@ -185,13 +183,7 @@ class Contents:
             "angle_origin": self.instrument.angle_origin or "zero",
             "g0": {"value": self.instrument.g0, "unit": "m/s^2"},
             "effects": [
-                {
-                    "id": e.id,
-                    "title": e.title,
-                    "physics": e.physics,
-                    "equation": e.equation,
-                    "source": e.source,
-                }
+                {name: getattr(e, name) for name in ("id", "title", "physics", "equation", "source")}
                 for e in self.model.effects
             ],
             "parameters": self.parameters(),

@@ -73,11 +73,11 @@ def _is_needed(column: str) -> bool:
 
 def write_values(c: Contents, name: str) -> str:
     """values.h of a model whose C is ``name``.c."""
-    outputs, angles, motion = c.outputs(), c.angles(), c.columns()
+    outputs, discs, motion = c.outputs(), c.discs(), c.columns()
     if {*motion} & {*ANGULAR_ACCELERATION}:  # three and three, one after the other
         whole = [*ANGULAR_RATE, *ANGULAR_ACCELERATION]
         motion = [*whole, *(n for n in motion if n not in whole)]
-    columns = ["time", *angles, *motion, *(o["name"] for o in outputs)]
+    columns = ["time", *discs, *motion, *(o["name"] for o in outputs)]
     parameters = [
         (x, v["name"] if len(v["values"]) == 1 else f"{v['name']}[{j}]", v["unit"], v["meaning"])
         for v in c.parameters()
@@ -88,10 +88,7 @@ def write_values(c: Contents, name: str) -> str:
         c=c,
         name=name,
         outputs=outputs,
-        discs={
-            o["spin_angle"]: c.find_spin(of)
-            for o, of in zip(outputs, c.instrument.layout.outputs, strict=True)
-        },
+        discs=discs,
         columns=columns,
         place={n: k for k, n in enumerate(columns)} | {DISC: -1},
         needed={"time", *filter(_is_needed, motion)},
@@ -118,7 +115,7 @@ def make_numpy(c: Contents) -> Files:
     return {
         **make_json(c),
         "chain.py": c.module,
-        "derivative.json": json.dumps(slopes) + "\n",
+        "derivative.json": f"{json.dumps(slopes)}\n",
         "ragg_model.py": here.joinpath("python", "ragg_model.py").read_text("utf-8"),
         **make_tests(c),
     }
