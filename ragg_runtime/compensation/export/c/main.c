@@ -58,7 +58,7 @@ int main(int count, char **arguments) {
     static ragg_record r;
     if (count == 2 && strcmp(arguments[1], "--values") == 0) {
         for (size_t k = 0; k < PARAMETERS; ++k) {
-            printf("%s = %.17g %s\n", PARAMETER_NAME[k], PARAMETER[k], PARAMETER_UNIT[k]);
+            printf("%s = %.17g %s\n", PARAMETER_LABEL[k].name, PARAMETER[k], PARAMETER_LABEL[k].unit);
         }
         return 0;
     }
