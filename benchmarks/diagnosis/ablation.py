@@ -143,7 +143,7 @@ def _significant(x: Any) -> bool:
 
 
 def _level(*args: Any) -> Any:
-    from ragg_runtime.estimation.noise_level import Level
+    from ragg_runtime.estimation.noise import Level
 
     return Level()
 

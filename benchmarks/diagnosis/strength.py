@@ -22,7 +22,7 @@ from benchmarks.diagnosis.plan import World
 from benchmarks.diagnosis.records import Loudness
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.observation import observe
-from ragg_runtime.estimation.regressors import Column, LinearisationPoint, linearise
+from ragg_runtime.estimation.regressors import Column, linearise, make_point
 from ragg_runtime.io import Flight
 from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import load_packaged
@@ -93,11 +93,8 @@ class Oracle:
         self.taps = whitening(noise_rms, flight.rate, len(flight))
         p = make_vector(self.model, w.known)
         every, ids = design.list_candidate_columns(self.model, w.known), {e.id for e in known}
-        only = tuple(n for n, c in enumerate(every) if c.effect in ids)
-        self.raw = linearise(
-            LinearisationPoint(self.model, w.known, p, with_candidates=True, only=only), self.o
-        )[:-1]
-        self.columns = [every[n] for n in only]
+        self.columns = [c for c in every if c.effect in ids]
+        self.raw = linearise(make_point(self.model, w.known, p, self.columns), self.o)[:-1]
         self.n = len(self.raw) - len(self.columns)
         white = self.whitened(self.raw)
         self.rows = white.shape[1]

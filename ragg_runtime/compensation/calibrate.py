@@ -173,4 +173,4 @@ def fit_some(f: Fitted, r_factors: Sequence[Array]) -> tuple[Array, Array]:
     """The posterior of some R factors [base | residual] and the prior: the step (n,) from here, and a root (n, n) of its covariance."""
     whole = add_prior(join(r_factors), range(f.n_base), f.to_nominal)
     R = whole[:-1, :-1]
-    return Linear(R=R, y=whole[:-1, -1], rest=0.0).step, invert_root(R)
+    return Linear(whole).step, invert_root(R)

@@ -348,9 +348,9 @@ def list_contributions(c: OutputChannel, instrument: Instrument) -> list[dict[st
     totals: dict[tuple[str, str | None], Array] = {}
     groups = [x for x in list_groups(c.model, instrument, p) if not np.array_equal(x[-1], p)]
     most = max(ROWS, 4 * len(c.demodulator.taps))
-    for s in spread(divide_into_segments(len(c.observation.record.time), most), 2):
-        some = slice(0, s.rows.stop - s.rows.start)
-        part = replace(c, observation=c.observation.part(s.rows), blocks=(Block(some, p),))
+    for rows in spread(divide_into_segments(len(c.observation.record.time), most), 2):
+        some = slice(0, rows.stop - rows.start)
+        part = replace(c, observation=c.observation.part(rows), blocks=(Block(some, p),))
         good, whole = (part.flag_samples() & NO_VALUE) == 0, part.predict()
         count += int(np.sum(good))
         for name, effect, without in [("everything", None, None), *groups]:

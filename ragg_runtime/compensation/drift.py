@@ -156,7 +156,7 @@ def _estimate_noise(d: Drift) -> list[NoiseModel]:
             steps[rows] = step
 
         def drift(piece: Piece, steps: Array = steps) -> Array:
-            return np.asarray(np.einsum("nmk,kn->mk", piece.columns[: f.n_base], steps[piece.segment.rows]))
+            return np.asarray(np.einsum("nmk,kn->mk", piece.columns[: f.n_base], steps[piece.rows]))
 
         walked = np.concatenate([*x.each(drift, whitened=False)], axis=1)
         left.append(replace(o, series=tuple(np.atleast_2d(o.data) - walked)))

@@ -18,7 +18,7 @@ from ragg_runtime.estimation.fitted import Fitted, prepare_evidence
 from ragg_runtime.estimation.least_squares import join
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation, divide_into_segments, observe_flights, spread
-from ragg_runtime.estimation.regressors import Column, LinearisationPoint
+from ragg_runtime.estimation.regressors import Column, list_candidate_columns, make_point
 from ragg_runtime.estimation.scores import Error, log_sf
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.comparison import Comparison
@@ -126,7 +126,7 @@ def make_calibration(
 ) -> Calibration:
     """The saved parameters as the calibration of these flights, of which the noise alone is estimated."""
     root = invert_root(saved.information)
-    at = LinearisationPoint(model, instrument, saved.p, with_candidates=True)
+    at = make_point(model, instrument, saved.p, list_candidate_columns(model, instrument))
     noise = tuple(estimate_noise(at, o, most=SEGMENTS, samples=SAMPLES, slow=False) for o in observations)
     return Calibration(
         p=saved.p,
@@ -182,7 +182,7 @@ def retest_change(
         n = len(o.record.time)
         blocks = [slice(0, n)]
         if n > BLOCKS * TESTED:
-            blocks = [s.rows for s in spread(divide_into_segments(n, TESTED), BLOCKS)]
+            blocks = spread(divide_into_segments(n, TESTED), BLOCKS)
         # of the observation, not of the flight: the disc's angle counts from its beginning
         parts += [o.part(rows) for rows in blocks]
         noise += [own] * len(blocks)

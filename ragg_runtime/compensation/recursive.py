@@ -24,10 +24,10 @@ from ragg_runtime.compensation.saved import Saved, saved_calibration
 from ragg_runtime.estimation.least_squares import marginalise
 from ragg_runtime.estimation.observation import ROWS, Observation, combine_output, observe_flights
 from ragg_runtime.estimation.regressors import (
-    LinearisationPoint,
     linearise,
     list_base_columns,
     list_own_columns,
+    make_point,
 )
 from ragg_runtime.identification.parameters import list_parameter_values
 from ragg_runtime.instrument.instrument import Instrument
@@ -129,9 +129,7 @@ class Online:
         """(N, n + 3): every sample as a row of the least squares, over the noise."""
         r = o.record
         bare = replace(o, record=replace(r, wide={n: x for n, x in r.wide.items() if n not in GRADIENT}))
-        columns = combine_output(
-            bare, linearise(LinearisationPoint(self.model, self.instrument, self.p, False), bare)
-        )
+        columns = combine_output(bare, linearise(make_point(self.model, self.instrument, self.p), bare))
         zero, one = np.zeros(len(r.time)), np.ones(len(r.time))
         gradient = [put_on_carriers(*x, r, self.k_ggi) for x in ((one, zero), (zero, one))]
         noise = self.tuning.noise / np.sqrt(2.0) * self.k_ggi * np.sqrt(r.rate / 2)

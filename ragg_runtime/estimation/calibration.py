@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property, partial
 from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation import regressors as design
-from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.least_squares import Linear, Minimum, add_prior, join, minimise
+from ragg_runtime.estimation.least_squares import Linear, add_prior, join, minimise
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import Observation
-from ragg_runtime.estimation.regressors import Column, LinearisationPoint, list_tested_columns, spell_name
-from ragg_runtime.estimation.unknown_gradient import Window
-from ragg_runtime.estimation.whitening import Piece, find_segments, pass_over
+from ragg_runtime.estimation.regressors import (
+    Column,
+    LinearisationPoint,
+    find_null_biases,
+    level_biases,
+    list_base_columns,
+    list_tested_columns,
+    make_point,
+    spell_name,
+)
+from ragg_runtime.estimation.whitening import Piece, pass_over
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.evaluate import make_vector, scale_factor
@@ -66,12 +72,11 @@ class Calibration:
 
 @dataclass(frozen=True)
 class _Fall(Linear):
-    """A fit linearised about a point: R factor ``data`` (n + 1, n + 1) of [base | residual] without the prior, the prior's centre
-    ``to_nominal`` (n,) as seen from the point, in scales, and ``sums`` (n + 1,), V, of the columns and residual of each output.
+    """A fit linearised about a point: R factor ``data`` (n + 1, n + 1) of [base | residual] without the prior, which is in ``T``, the
+    ``sums`` (n + 1,), V, of the columns and residual of each output, and the number of whitened ``rows``.
     """
 
     data: Array
-    to_nominal: Array
     sums: Mapping[int, Array]
     rows: int
 
@@ -85,33 +90,16 @@ class _Fall(Linear):
         """The same at the end of the step that the data ask for without the prior."""
         return float(self.data[-1, -1] ** 2) / max(self.rows, 1)
 
-    def over(self, size: float) -> _Fall:
-        """The same with a noise so many times as large."""
-        fall = _make_linear(self.data / size, self.to_nominal)
-        rest = fall.rest if np.isfinite(self.rest) else np.inf
-        return replace(self, R=fall.R, y=fall.y, rest=rest, data=self.data / size)
-
 
 @dataclass(frozen=True)
 class _Task:
     """What is fitted: chi-square as a function of the parameters' distance x (n,) from the sheet, in scales."""
 
     model: Model
-    instrument: Instrument
     observations: Sequence[Observation]
-
-    @cached_property
-    def columns(self) -> tuple[Column, ...]:
-        return tuple(c for c, _ in design.list_base_columns(self.model, self.instrument))
-
-    @cached_property
-    def index(self) -> NDArray[np.intp]:
-        """(n,): places of the fitted parameters in the parameter vector."""
-        return np.array([i for _, i in design.list_base_columns(self.model, self.instrument)])
-
-    @cached_property
-    def nominal(self) -> Array:
-        return make_vector(self.model, self.instrument)
+    nominal: Array
+    columns: tuple[Column, ...]
+    index: NDArray[np.intp]
 
     @cached_property
     def scale(self) -> Array:
@@ -123,53 +111,27 @@ class _Task:
         p[self.index] += x * self.scale
         return p
 
-    def linearisation(self, noise: Sequence[NoiseModel]) -> Callable[[Array], _Fall]:
-        """The fit with a noise as a function of the point about which it is linearised."""
-        found = [find_segments(o) for o in self.observations]
-        # what an unknown gradient spans of a flight of one segment is the same at every point
-        windows = [
-            unknown_gradient.make_windows(o, s[0].rows, n) if len(s) == 1 else None
-            for o, n, s in zip(self.observations, noise, found, strict=True)
-        ]
-        return lambda x: self.at(x, noise, windows)
-
-    def at(self, x: Array, noise: Sequence[NoiseModel], windows: Sequence[Sequence[Window] | None]) -> _Fall:
-        """Linearised about x."""
-        p = self.vector(x)
-        places = {o.place for o in self.observations}
-        if not all(scale_factor(self.model, p, place) > 0.0 for place in places):
-            return self._nowhere(x)
-        point = LinearisationPoint(self.model, self.instrument, p, with_candidates=False)
-        r_factors, rows = [], 0
-        sums = {o.place: np.zeros(len(x) + 1) for o in self.observations}
-        for o, n, w in zip(self.observations, noise, windows, strict=True):
-            for T, count, part in pass_over(point, o, n, _r_factor, chosen=find_segments(o), windows=w):
-                r_factors.append(T)
-                rows += count
-                sums[o.place] += part
-        data = join(r_factors)
+    def linearise(self, x: Array, noise: Sequence[NoiseModel]) -> _Fall:
+        """The fit about x; where the model is no instrument it is infinitely far from any record."""
+        p, n = self.vector(x), len(x)
+        data, rows = np.full((n + 1, n + 1), np.nan), 0
+        sums = {o.place: np.zeros(n + 1) for o in self.observations}
+        if all(scale_factor(self.model, p, place) > 0.0 for place in sums):
+            point, r_factors = LinearisationPoint(self.model, p, self.columns), []
+            for o, own in zip(self.observations, noise, strict=True):
+                for T, count, part in pass_over(point, o, own, _r_factor):
+                    r_factors.append(T)
+                    rows += count
+                    sums[o.place] += part
+            data = join(r_factors)
         if not np.isfinite(data).all():
-            return self._nowhere(x)
-        fall = _make_linear(data, -x)
-        return _Fall(R=fall.R, y=fall.y, rest=fall.rest, data=data, to_nominal=-x, sums=sums, rows=rows)
+            return _Fall(np.diag([*np.ones(n), np.inf]), np.zeros_like(data), {}, 1)
+        return _Fall(add_prior(data, range(n), -x), data, sums, rows)
 
-    def size(self, noise: Sequence[NoiseModel]) -> float:
-        """Root of the mean power of what no column explains, V, lines included."""
-        records = [o.record for o in self.observations]
-        powers = [n.power * n.swell(r) + n.line_power for n, r in zip(noise, records, strict=True)]
-        return float(np.sqrt(np.mean(powers)))
-
-    def _nowhere(self, x: Array) -> _Fall:
-        """A point at which the model is no instrument: infinitely far from any record."""
-        n = len(x)
-        return _Fall(
-            R=np.eye(n),
-            y=np.zeros(n),
-            rest=np.inf,
-            data=np.zeros((n + 1, n + 1)),
-            to_nominal=-x,
-            sums={},
-            rows=1,
+    def linearise_evenly(self, x: Array, size: float = 1.0) -> _Fall:
+        """The same with white noise of such a size, V, in every series."""
+        return self.linearise(
+            x, [NoiseModel.white(o.record.rate, len(o.series), size) for o in self.observations]
         )
 
 
@@ -178,8 +140,8 @@ def estimate_noises(
 ) -> list[NoiseModel]:
     """The noise of every observation: what neither parameters nor candidates explain about a parameter vector, SI."""
     tested = list_tested_columns(model, instrument, [o.record for o in observations])
-    everything = LinearisationPoint(model, instrument, p, with_candidates=True, only=tested)
-    return [estimate_noise(everything, o) for o in observations]
+    at = make_point(model, instrument, p, tested)
+    return [estimate_noise(at, o) for o in observations]
 
 
 def fit(
@@ -196,33 +158,29 @@ def fit(
     First every sample weighs the same; from what is left the noise is estimated, and the fit goes on whitened, unless ``unweighted``
     is asked for, so that the rms is as small as it can be.
     """
-    task = _Task(model, instrument, observations)
-    x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
-    white = [NoiseModel.white(o.record.rate, len(o.series)) for o in observations]
+    columns, index = zip(*list_base_columns(model, instrument), strict=True)
+    task = _Task(model, observations, make_vector(model, instrument), columns, np.array(index))
+    x = np.zeros(len(index)) if start is None else (start - task.nominal)[task.index] / task.scale
     if noise is None:
-        volts = task.linearisation(white)
-        size = float(np.sqrt(volts(x).unheld))
-        x = minimise(lambda at: volts(at).over(size), x).x
+        size = float(np.sqrt(task.linearise_evenly(x).unheld))
+        x = minimise(partial(task.linearise_evenly, size=size), x).x
         noise = estimate_noises(model, instrument, observations, task.vector(x))
+    linearise = partial(task.linearise, noise=noise)
     if unweighted:
-        volts = task.linearisation(white)
-        size = max(task.size(noise), float(np.sqrt(volts(x).excess)) / LEAN)
-        return _make_calibration(task, minimise(lambda at: volts(at).over(size), x), noise)
-    return _make_calibration(task, minimise(task.linearisation(noise), x), noise)
-
-
-def _make_calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[NoiseModel]) -> Calibration:
-    """The end of a fit as parameters, levelled."""
-    at = found.at
-    step = found.last
+        size = float(np.sqrt(task.linearise_evenly(x).excess)) / LEAN
+        pairs = [(n, o.record) for n, o in zip(noise, observations, strict=True)]
+        power = np.mean([n.power * n.swell(r) + n.line_power for n, r in pairs])
+        linearise = partial(task.linearise_evenly, size=max(size, float(np.sqrt(power))))
+    found = minimise(linearise, x)
+    at, step = found.at, found.last
     for sums in at.sums.values():
-        step = design.level_biases(step, sums, design.find_null_biases(task.columns))
-    covariance = _make_linear(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
+        step = level_biases(step, sums, find_null_biases(task.columns))
+    known = Linear(add_prior(at.data / np.sqrt(max(1.0, at.excess)), range(len(x))))
     return Calibration(
         p=task.vector(found.x + step),
         columns=task.columns,
         index=task.index,
-        covariance=covariance,
+        covariance=known.covariance,
         noise=tuple(noise),
         rows=at.rows,
         chi2=at.cost,
@@ -235,12 +193,6 @@ def _make_calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[NoiseM
 
 def _r_factor(piece: Piece) -> tuple[Array, int, Array]:
     return piece.r_factor(), piece.white.shape[1], piece.sums()
-
-
-def _make_linear(T: Array, to_nominal: Array) -> Linear:
-    """The fit of an R factor [base (n) | residual], the prior in it: its centre is ``to_nominal`` away, its width one scale."""
-    R = add_prior(T, range(len(to_nominal)), to_nominal)
-    return Linear(R[:-1, :-1], R[:-1, -1], float(R[-1, -1] ** 2))
 
 
 FAR = 5.0
@@ -260,15 +212,8 @@ class OffSheet:
     accelerometer_name: str = ""
 
     def as_json(self) -> dict[str, object]:
-        return {
-            "name": self.name,
-            "accelerometer": self.accelerometer,
-            "sigmas": self.sigmas,
-            "value": self.value,
-            "sheet": self.sheet,
-            "unit": self.unit,
-            **spell_name(self.accelerometer, self.accelerometer_name),
-        }
+        name = spell_name(self.accelerometer, self.accelerometer_name)
+        return {k: v for k, v in asdict(self).items() if k != "accelerometer_name"} | name
 
 
 def measure_to_nominal(model: Model, instrument: Instrument, c: Calibration) -> Array:
@@ -279,18 +224,18 @@ def measure_to_nominal(model: Model, instrument: Instrument, c: Calibration) -> 
 
 def list_off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffSheet]:
     """The instrument's parameters that ended more than :data:`FAR` sigmas from their sheet, farthest first."""
-    sheet = make_vector(model, instrument)
+    sheet, to_nominal = make_vector(model, instrument), measure_to_nominal(model, instrument, c)
     found = [
         OffSheet(
             name=q.name,
             accelerometer=q.accelerometer,
-            sigmas=float((c.p[k] - sheet[k]) / q.scale) * instrument.widths.get(q.name, 1.0),
+            sigmas=-float(far) * instrument.widths.get(q.name, 1.0),
             value=float(c.p[k] / q.unit_factor),
             sheet=float(sheet[k] / q.unit_factor),
             unit=q.unit,
             accelerometer_name=q.accelerometer_name,
         )
-        for q, k in zip(c.columns, c.index, strict=True)
+        for q, k, far in zip(c.columns, c.index, to_nominal, strict=True)
         if q.effect is None
     ]
     return sorted((x for x in found if abs(x.sigmas) > FAR), key=lambda x: -abs(x.sigmas))
@@ -345,10 +290,9 @@ def _estimate_widths(model: Model, instrument: Instrument, c: Calibration) -> di
     kinds |= {q.name: q.name for q in c.columns if q.effect is not None}
     squares = dict.fromkeys(kinds.values(), 0.0)
     told = dict.fromkeys(kinds.values(), 0.0)
-    sheet = make_vector(model, instrument)
-    for q, k, variance in zip(c.columns, c.index, np.diag(c.covariance), strict=True):
-        x = float((c.p[k] - sheet[k]) / q.scale) * instrument.widths.get(q.name, 1.0)
-        squares[kinds[q.name]] += x**2
+    to_nominal = measure_to_nominal(model, instrument, c)
+    for q, far, variance in zip(c.columns, to_nominal, np.diag(c.covariance), strict=True):
+        squares[kinds[q.name]] += float(far * instrument.widths.get(q.name, 1.0)) ** 2
         told[kinds[q.name]] += max(0.0, 1.0 - float(variance))
     width = {k: float(np.sqrt(x / max(told[k], 1.0))) for k, x in squares.items()}
     wide = {k: w >= WIDE and squares[k] >= FAR**2 for k, w in width.items()}

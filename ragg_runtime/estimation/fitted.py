@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import linalg
 
-from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import one_thread
+from ragg_runtime.base.threads import one_thread, split_range
 from ragg_runtime.estimation import calibration, regressors, whitening
 from ragg_runtime.estimation.calibration import QUIET, Calibration, widen_priors
-from ragg_runtime.estimation.least_squares import add_prior, fold, make_prior
+from ragg_runtime.estimation.least_squares import Linear, add_prior, fold, make_prior
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, Observation
 from ragg_runtime.estimation.regressors import Column
-from ragg_runtime.estimation.scores import Error, Tally, pool_errors
+from ragg_runtime.estimation.scores import Error, measure_errors, pool_errors
 from ragg_runtime.estimation.thinning import leave_out_extrapolated, leave_out_uncertain, measure_beyond
-from ragg_runtime.estimation.whitening import Piece, PreparedFlight, prepare_flight
+from ragg_runtime.estimation.whitening import PreparedFlight, prepare_flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import make_vector, scale_factor
 from ragg_runtime.model.model import Model
@@ -30,6 +28,9 @@ Array = NDArray[np.float64]
 FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
 HELD_OUT_BLOCKS = tuple(b for b in range(BLOCKS) if b not in FITTED_BLOCKS)
 """Blocks of time on which a held-out fit is made; the others, in turn with them, score it."""
+
+TOGETHER = 1 << 27
+"""Residuals that are held in memory together."""
 
 WIDENED = 3
 """Most times that a sheet is taken to be less sure than it says."""
@@ -111,28 +112,20 @@ class Fitted:
             measure_beyond(self.model, self.instrument, self.calibration.p, o) for o in self.observations
         )
 
-    @cached_property
-    def _fitted_part(self) -> Array:
-        return fold([t[b] for t in self.r_factors for b in FITTED_BLOCKS])
-
-    @cached_property
-    def data(self) -> Array:
-        """R factor of all flights, without the prior."""
-        return fold([self._fitted_part, *(t[b] for t in self.r_factors for b in HELD_OUT_BLOCKS)])
+    def _join(self, blocks: Sequence[int]) -> Array:
+        """R factor of some blocks of all flights, the prior in it."""
+        prior = make_prior(range(self.n_base), self.size + 1, self.to_nominal)
+        return fold([*(t[b] for t in self.r_factors for b in blocks), prior])
 
     @cached_property
     def whole(self) -> Array:
         """R factor of all flights, the prior in it."""
-        return fold([self.data, self._prior])
+        return self._join(range(BLOCKS))
 
     @cached_property
     def half(self) -> Array:
         """The same over the blocks on which a held-out fit is made."""
-        return fold([self._fitted_part, self._prior])
-
-    @property
-    def _prior(self) -> Array:
-        return make_prior(range(self.n_base), self.size + 1, self.to_nominal)
+        return self._join(FITTED_BLOCKS)
 
     def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
         """Fit of base and ``extra`` candidate regressors, in scales, with its covariance, priors included.
@@ -141,19 +134,15 @@ class Fitted:
         """
         T, n = self.half if held_out else self.whole, self.n_base
         picked = [*range(n), *(n + k for k in extra)]
-        k = len(picked)
-        # the base columns are triangular already: what the extra ones leave below them is all that is new
-        below = add_prior(T[n:, [*picked[n:], -1]], range(k - n))
-        R = np.vstack([T[:n, picked], np.hstack([np.zeros((k - n, n)), below[: k - n, : k - n]])])
-        inverse, _ = linalg.lapack.dtrtri(R)
+        known = Linear(add_prior(T[:, [*picked, -1]], range(n, len(picked))))
+        coefficients = known.step
         blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
         biases = regressors.find_null_biases(self.calibration.columns)
-        coefficients = inverse @ np.concatenate([T[:n, -1], below[: k - n, -1]])
         for place in dict.fromkeys(o.place for o in self.observations):
             own = [x[blocks] for x, o in zip(self.sums, self.observations, strict=True) if o.place == place]
             sums = np.sum(own, axis=(0, 1))[[*picked, -1]]
             coefficients = regressors.level_biases(coefficients, sums, biases)
-        return coefficients, inverse @ inverse.T
+        return coefficients, known.covariance
 
     def vector(self, coefficients: Array, extra: Sequence[int] = ()) -> Array:
         """(size,): coefficients of base and ``extra`` candidates among those of all columns."""
@@ -169,59 +158,35 @@ class Fitted:
     def residuals(self, v: Array | None = None) -> list[Array]:
         """Residual of G_out, (N,) V, of every flight, also once regressors have coefficients (size,)."""
         v = np.zeros(self.size) if v is None else v
-        flights = [x.for_residuals(v[None]) for x in self.prepared]
-        return [
-            np.concatenate([*lean.each(lambda piece, w=w: piece.left(w)[0], whitened=False)])  # type: ignore[misc]
-            for lean, w in flights
-        ]
+        return [x.residuals(v[None])[0] for x in self.prepared]
 
-    def score(
-        self, vectors: Sequence[Array], further: Callable[[Piece], Array] | None = None, count: int = 0
-    ) -> list[Scored]:
-        """How large the residuals are with these coefficients (size,), in one pass over the flights.
+    def score(self, vectors: Sequence[Array]) -> list[Scored]:
+        """How large the residuals are with these coefficients (size,)."""
+        most = max(1, TOGETHER // sum(len(o.record.time) for o in self.observations))
+        found = []
+        for some in split_range(len(vectors), most):
+            flights = [x.residuals(np.stack(vectors[some])) for x in self.prepared]
+            found += [self.score_residuals(own) for own in zip(*flights, strict=True)]
+        return found
 
-        ``further`` yields ``count`` more residuals (count, N), V, of a piece.
-        """
-        V = np.stack(vectors) if vectors else np.empty((0, self.size))
-        k = len(V) + count
-        tallies, blocks = [], np.full((len(self.prepared), BLOCKS, k), np.nan)
-        for n, x in enumerate(self.prepared):
+    def score_residuals(self, residuals: Sequence[Array]) -> Scored:
+        """How large residuals (N,), V, are, one of each flight."""
+        blocks, squares, samples, errors = [], [], [], []
+        for x, e, k_ggi, beyond in zip(self.prepared, residuals, self.scales, self.beyond, strict=True):
             r = x.observation.record
-            tally = Tally(k, 2, r.rate, turning=r.turning, beyond=self.beyond[n])
             of_block = np.repeat(np.arange(BLOCKS), np.diff(x.edges))
-            squares, samples = np.zeros((BLOCKS, k)), np.bincount(of_block[r.valid], minlength=BLOCKS)
-            lean, W = x.for_residuals(V)
-
-            def residuals(piece: Piece, W: Array = W) -> tuple[Piece, Array]:
-                e = piece.left(W)
-                return piece, e if further is None else np.concatenate([e, further(piece)])
-
-            for piece, e in lean.each(residuals, whitened=False):
-                part, own = piece.observation.record, of_block[piece.segment.rows]
-                e[:, ~part.valid] = 0.0
-                for b in np.unique(own):
-                    squares[b] += np.sum(e[:, own == b] ** 2, axis=1)
-                held_out = np.isin(own, HELD_OUT_BLOCKS)
-                selected = np.stack([np.ones_like(held_out), held_out])
-                tally.add(e, part.demodulation_angle, selected, part.valid)
-            tallies.append(tally)
-            some = samples > 0
-            blocks[n, some] = np.sqrt(squares[some] / samples[some, None] + self.beyond[n])
-        return [
-            Scored(
-                self._pooled(tallies, j, 0),
-                self._pooled(tallies, j, 1),
-                tuple(float(t.squares[0, j] / t.samples[0]) for t in tallies),
-                blocks[:, :, j],
-            )
-            for j in range(k)
-        ]
-
-    def _pooled(self, tallies: Sequence[Tally], series: int, group: int) -> Error:
-        errors = [t.error(series, k, group) for t, k in zip(tallies, self.scales, strict=True)]
-        if len(errors) == 1:
-            return errors[0]
-        return pool_errors(errors, [float(t.samples[group]) for t in tallies])
+            held_out = np.isin(of_block, HELD_OUT_BLOCKS)
+            power = np.bincount(of_block, e**2, BLOCKS)
+            count = np.bincount(of_block, r.valid, BLOCKS)
+            with np.errstate(invalid="ignore"):
+                blocks.append(np.sqrt(power / count + beyond))
+            squares.append(float(np.sum(power) / np.sum(count)))
+            samples.append([np.sum(r.valid), np.sum(r.valid & held_out)])
+            errors.append(measure_errors(e, r, k_ggi, [np.ones_like(held_out), held_out], beyond))
+        whole, held = (
+            pool_errors(x, n) for x, n in zip(zip(*errors, strict=True), np.transpose(samples), strict=True)
+        )
+        return Scored(whole, held, tuple(squares), np.stack(blocks))
 
 
 def calibrate_certain(
@@ -281,14 +246,6 @@ def fit(
     observations, instrument, c = calibrate_certain(
         model, instrument, observations, noise=noise, start=start, unweighted=unweighted
     )
-    if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):
-        raise UserError(
-            "the calibration does not converge: the record does not match this instrument",
-            where=", ".join(o.name for o in observations),
-            found="a scale factor of the gradiometer below zero",
-            expected="the disc angle, spin frequency, axes and signs of the model",
-            remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
-        )
     return prepare_evidence(model, instrument, observations, c, candidates=candidates)
 
 
@@ -303,7 +260,7 @@ def prepare_evidence(
 ) -> Fitted:
     """The evidence about a calibration, however it was found; of its parameters alone without ``candidates``."""
     tested = regressors.list_tested_columns(model, instrument, [o.record for o in observations])
-    at = regressors.LinearisationPoint(model, instrument, c.p, with_candidates=candidates, only=tested)
+    at = regressors.make_point(model, instrument, c.p, tested if candidates else ())
     prepared = tuple(prepare_flight(o, own, at) for o, own in zip(observations, c.noise, strict=True))
     r_factors, sums = zip(*(whitening.factor_blocks(x) for x in prepared), strict=True)
     return Fitted(
@@ -339,11 +296,8 @@ def measure_swell(f: Fitted) -> float:
 
 def measure_lines(f: Fitted) -> float:
     """rms of the lines that are taken for noise, Eo."""
-    power = [
-        x.noise.line_power_of(x.observation.signs) / k_ggi**2
-        for x, k_ggi in zip(f.prepared, f.scales, strict=True)
-    ]
-    return float(np.sqrt(np.mean(power)))
+    power = [x.noise.line_power_of(x.observation.signs) for x in f.prepared]
+    return float(np.sqrt(np.mean(power / np.square(f.scales))))
 
 
 def estimate_variance(x: PreparedFlight) -> float:
@@ -354,7 +308,5 @@ def estimate_variance(x: PreparedFlight) -> float:
 
 def measure_noise_floor(f: Fitted) -> float:
     """rms of the noise of G_out before demodulation, Eo."""
-    variances = []
-    for x, k_ggi, fast in zip(f.prepared, f.scales, f.beyond, strict=True):
-        variances.append((estimate_variance(x) + fast) / (k_ggi / f.k_ggi) ** 2)
-    return float(np.sqrt(np.mean(variances))) / f.k_ggi
+    power = np.add([estimate_variance(x) for x in f.prepared], f.beyond)
+    return float(np.sqrt(np.mean(power / np.square(f.scales))))

@@ -146,26 +146,32 @@ gain falls with the square of the way that is left, which at the pace of these t
 
 @dataclass(frozen=True)
 class Linear:
-    """A sum of squares about a point: |y - R step|^2 + rest; R (n, n) is regular."""
+    """A sum of squares about a point: |y - R step|^2 and what is left; ``T`` (n + 1, n + 1): R factor of [columns | residual]."""
 
-    R: Array
-    y: Array
-    rest: float
+    T: Array
+
+    @property
+    def R(self) -> Array:
+        return self.T[:-1, :-1]
+
+    @property
+    def y(self) -> Array:
+        return self.T[:-1, -1]
 
     @property
     def cost(self) -> float:
         """The sum of squares at the point itself."""
-        return float(self.y @ self.y) + self.rest
+        return float(self.T[:, -1] @ self.T[:, -1])
 
     @cached_property
     def _factors(self) -> tuple[Array, Array, Array]:
         U, s, Vt = np.linalg.svd(self.R)
         return s, U.T @ self.y, Vt.T
 
-    @property
+    @cached_property
     def step(self) -> Array:
         """(n,): to where the sum of squares is least."""
-        return np.asarray(np.linalg.solve(self.R, self.y))
+        return np.asarray(linalg.solve_triangular(self.R, self.y))
 
     @property
     def decrement(self) -> float:
@@ -178,17 +184,11 @@ class Linear:
         inverse = np.linalg.inv(self.R)
         return np.asarray(inverse @ inverse.T)
 
-    def damped(self, damping: float) -> Array:
-        """(n,): the step that minimises |y - R step|^2 + damping |step|^2."""
-        s, d, V = self._factors
-        return np.asarray(V @ (s * d / (s**2 + damping)))
-
     def within(self, radius: float) -> Array:
-        """(n,): the best step no longer than ``radius``."""
-        free = self.damped(0.0)
-        if np.linalg.norm(free) <= radius:
-            return free
-        s, d, _ = self._factors
+        """(n,): the best step no longer than ``radius``: that of |y - R step|^2 + damping |step|^2 with the right damping."""
+        if np.linalg.norm(self.step) <= radius:
+            return self.step
+        s, d, V = self._factors
 
         def excess(log_damping: float) -> float:
             # Moré: one over the length is nearly linear in the damping
@@ -196,15 +196,12 @@ class Linear:
             return 1.0 / radius - 1.0 / max(length, 1e-300)
 
         low, high = 2 * np.log(float(s[-1])) - 60.0, np.log(float(np.linalg.norm(s * d)) / radius) + 1.0
-        return self.damped(float(np.exp(optimize.brentq(excess, min(low, high - 1.0), high, xtol=1e-6))))
+        damping = float(np.exp(optimize.brentq(excess, min(low, high - 1.0), high, xtol=1e-6)))
+        return np.asarray(V @ (s * d / (s**2 + damping)))
 
     def promised(self, step: Array) -> float:
         """Decrease that a step promises."""
         return self.decrement - float(np.sum((self.y - self.R @ step) ** 2))
-
-    def slope(self, step: Array) -> float:
-        """Half of the rate at which the sum of squares falls at the beginning of a step."""
-        return float(self.y @ (self.R @ step))
 
 
 L = TypeVar("L", bound=Linear)
@@ -227,7 +224,7 @@ class Minimum(Generic[L]):
     def last(self) -> Array:
         """(n,): the step to the optimum of the linearised problem, where that is below what noise does."""
         trusted = self.faithful and self.at.decrement < SETTLED
-        return self.at.damped(0.0) if trusted else np.zeros(len(self.x))
+        return self.at.step if trusted else np.zeros(len(self.x))
 
 
 def is_settled(at: Linear) -> bool:
@@ -257,7 +254,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
         fallen = at.cost - ahead.cost
         ratio = fallen / at.promised(step) if np.isfinite(fallen) else -np.inf
         if ratio < POOR:
-            radius = length * _shrink(at.slope(step), fallen)
+            radius = length * _shrink(float(at.y @ (at.R @ step)), fallen)
         elif ratio > GOOD:
             radius = max(radius, 2.0 * length)
         if ratio > ACCEPTED:
@@ -266,7 +263,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
             creeps = ratio <= GOOD and fallen < RELATIVE * at.cost and at.decrement < SLOW * at.cost
             if creeps or (fallen < SETTLED and at.decrement < VALLEY):
                 return ended(True, "no significant gain")
-        elif radius < _smallest(x):
+        elif radius < 1e-9 * (1.0 + float(np.linalg.norm(x))):
             # where samples come and go with the parameters, or all is rounding, what is promised is not there
             if at.decrement < INDISTINGUISHABLE:
                 return ended(True, "no significant gain")
@@ -298,11 +295,7 @@ def _correct_second_order(
 
 
 def _shrink(slope: float, fallen: float) -> float:
-    """Factor for the radius after a poor step: where the parabola with this slope and this fall has its minimum."""
+    """Factor for the radius after a poor step: where the parabola with this slope (half of it) and this fall has its minimum."""
     if not np.isfinite(fallen):
         return 0.1
     return float(np.clip(slope / max(2.0 * slope - fallen, 1e-300), 0.1, 0.5))
-
-
-def _smallest(x: Array) -> float:
-    return 1e-9 * (1.0 + float(np.linalg.norm(x)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -11,39 +11,41 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.estimation import noise_level, unknown_gradient
+from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.least_squares import add_prior
-from ragg_runtime.estimation.noise import NoiseModel, SpectralLine, level_quantities
-from ragg_runtime.estimation.noise_level import Level
+from ragg_runtime.estimation.noise import (
+    Level,
+    NoiseModel,
+    SpectralLine,
+    describe_level,
+    estimate_level,
+    level_quantities,
+)
 from ragg_runtime.estimation.observation import (
     ROWS,
-    THINNER,
     Observation,
-    Segment,
     measure_information_per_sample,
     spread,
-    take_beginnings,
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint
 from ragg_runtime.estimation.residual import (
-    Disturbance,
     ProjectedResidual,
     describe_disturbances,
     fit_columns,
-    place_valid,
+    project_columns,
 )
 from ragg_runtime.estimation.spectrum import (
     LOWEST,
-    Averages,
     Spectrum,
+    Stretch,
     compute_periodogram,
     cut_lines,
     estimate,
 )
-from ragg_runtime.estimation.whitening import Piece, divide_flight, is_long, pass_over
+from ragg_runtime.estimation.whitening import Piece, pass_over
 from ragg_runtime.io.record import ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import take_quantities
-from ragg_runtime.signals.fir import fill_gaps
+from ragg_runtime.signals.fir import fill_gaps, find_nonzero
 
 Array = NDArray[np.float64]
 
@@ -103,9 +105,9 @@ def estimate_noise(
             remedy="give a longer or cleaner recording",
         )
     chosen = _choose_segments(o, most, samples)
-    parts = _fit_segments(at, o, None, chosen)
     if o.recorded.demodulated:
-        return _estimate_of_channels(parts, o)
+        return _estimate_of_channels(at, o)
+    parts = _fit_segments(at, o, None, chosen)
     apart: Array | None = None
     for _ in range(TURNS_OF_AXES):
         turn = _find_principal_components(parts)
@@ -121,14 +123,12 @@ def estimate_noise(
     ):  # what is loud has been in the fit: of what is quiet columns have left more than the noise
         parts = _fit_segments(at, o, apart, chosen, level)
         noise = _estimate_spectra(parts, o, level, means)
-    noise = replace(noise, combinations=apart, lines=_list_lines(parts, o))
+    noise = replace(noise, combinations=apart, lines=_list_lines(parts, o, level))
     if level.parts:
         either = (replace(noise, level_first=x) for x in (False, True))
         noise = max(either, key=lambda n: _compute_evidence(at, o, n, chosen))
-    said = (
-        describe_disturbances(_collect_disturbances(parts, o.record.rate)),
-        noise_level.describe_level(level),
-    )
+    disturbances = [d.later(p.rows.start / o.record.rate) for p in parts for x in p.outputs for d in x.found]
+    said = describe_disturbances(disturbances), describe_level(level)
     words = "; ".join(w for w in said if w is not None) or None
     free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
     return replace(noise, disturbed=words, freedom=free)
@@ -136,20 +136,20 @@ def estimate_noise(
 
 @dataclass(frozen=True)
 class _Part:
-    """What is left of a segment: of every output, at its ``rows``; ``taken`` are degrees of freedom of an unknown gradient.
+    """What is left of a segment over the level: of every output, at its ``rows``; ``taken``: degrees of freedom of an unknown gradient.
 
-    ``random``: variance (valid,) that each random effect would add to every output, by its id.
+    ``random``: variance (rows,) that each random effect would add, one output after the other, by its id.
     """
 
     rows: slice
-    valid: NDArray[np.bool_]
     outputs: tuple[ProjectedResidual, ...]
     taken: float
-    random: Mapping[str, tuple[Array, ...]]
+    random: Mapping[str, Array]
 
-    def rest(self, m: int) -> Array:
-        """(N,): of an output, zero where a sample is not valid."""
-        return place_valid(self.outputs[m].rest, self.valid)
+    @property
+    def valid(self) -> NDArray[np.bool_]:
+        """(N,): which samples are."""
+        return self.outputs[0].valid
 
 
 SHARED = 0.1
@@ -188,12 +188,13 @@ def compute_line_width(o: Observation) -> float:
     return RESOLVED / min(seconds, unknown_gradient.WINDOW_SECONDS)
 
 
-def _list_lines(parts: Sequence[_Part], o: Observation) -> tuple[SpectralLine, ...]:
+def _list_lines(parts: Sequence[_Part], o: Observation, level: Level) -> tuple[SpectralLine, ...]:
     """The lines of the output that are none of the motion's: where that has lines itself, they may be."""
     r, width = o.record, compute_line_width(o)
     spin = unknown_gradient.measure_spin_frequency(o) if r.turning else np.inf
     found: list[SpectralLine] = []
     for p in parts:
+        loud = np.broadcast_to(level.of(take_quantities(o.record, p.rows)), p.valid.shape)[p.valid]
         for m, x in enumerate(p.outputs):
             lines = np.array([d.at if d.kind == "line" else np.inf for d in x.found])
             for f in lines[np.isfinite(lines)]:
@@ -202,7 +203,7 @@ def _list_lines(parts: Sequence[_Part], o: Observation) -> tuple[SpectralLine, .
                 if 1 <= turns <= TURNS and abs(f - turns * spin) < width:
                     continue
                 # several next to each other are one that wanders
-                own = np.sum(x.shapes[np.abs(lines - f) < width], axis=0)
+                own = loud * np.sum(x.shapes[np.abs(lines - f) < width], axis=0)
                 found.append(SpectralLine(m, float(f), 0.0 if near else float(np.sqrt(2 * np.mean(own**2)))))
     return () if found and any(_has_lines(o, p) for p in parts) else tuple(found)
 
@@ -227,33 +228,34 @@ def _has_lines(o: Observation, p: _Part) -> bool:
 
 
 def _estimate_spectra(
-    parts: Sequence[_Part], o: Observation, level: Level, means: Sequence[Averages] | None
+    parts: Sequence[_Part], o: Observation, level: Level, means: Sequence[Stretch] | None
 ) -> NoiseModel:
     """The noise's spectra, given how its level changes."""
     rate, band = o.record.rate, unknown_gradient.find_band(o)
     spin = unknown_gradient.measure_spin_frequency(o) if o.record.turning else None
-    loud = [level.of(take_quantities(o.record, p.rows)) for p in parts]
-    mean = float(np.sqrt(np.mean([np.mean(np.square(x)) for x in loud])))
+    loud = [np.mean(np.square(level.of(take_quantities(o.record, p.rows)))) for p in parts]
+    mean = float(np.sqrt(np.mean(loud)))
     models, filters = [], []
     for m in range(len(o.series)):
-        rest = [p.rest(m) / x for p, x in zip(parts, loud, strict=True)]
-        slow = None if means is None else replace(means[m], rest=means[m].rest / mean)
-        model = estimate(rest, rate, band, [p.outputs[m].kept for p in parts], slow, spin)
+        own = [p.outputs[m] for p in parts]
+        slow = [] if means is None else [replace(means[m], rest=means[m].rest / mean)]
+        low = slow[0].high if slow else 0.0
+        whole = [Stretch(x.series, rate, x.kept, low) for x in own]
+        model = estimate([*whole, *slow], band, spin)
         for _ in range(AGAIN):
-            coloured = model.red > RED and parts[0].outputs[m].columns.size > 0
-            if not coloured and all(p.valid.all() for p in parts):
+            coloured = model.red > RED and own[0].columns.size > 0
+            if not coloured and all(x.valid.all() for x in own):
                 break
-            filled = [_fill(x, p.valid, model) for p, x in zip(parts, rest, strict=True)]
-            kept = [
-                np.maximum(p.outputs[m].kept_of(model if coloured else None) - lost, 0.0)
-                for p, (_, lost) in zip(parts, filled, strict=True)
-            ]
-            model = estimate([x for x, _ in filled], rate, band, kept, slow, spin)
+            filled = []
+            for x in own:
+                there, lost = _fill(x.series, x.valid, model)
+                kept = np.maximum(x.kept_of(model if coloured else None) - lost, 0.0)
+                filled.append(Stretch(there, rate, kept, low))
+            model = estimate([*filled, *slow], band, spin)
         models.append(model)
-        taps = TAPS if o.thin is None else TAPS // THINNER
         if o.smoothed:  # what little there is above the band of the motion is motion below its sensors' noise, and not stationary
             model = model.raise_floor()
-        filters.append(model.whitening_filter(int(min(taps, len(o.record.time)))))
+        filters.append(model.whitening_filter(min(TAPS, len(o.record.time))))
     return NoiseModel(spectra=tuple(models), filters=tuple(filters), level=level)
 
 
@@ -272,50 +274,39 @@ def _fill(rest: Array, valid: NDArray[np.bool_], model: Spectrum) -> tuple[Array
     return fill_gaps(rest[None], valid, taps)[0], share
 
 
-def _choose_segments(o: Observation, most: int, samples: int) -> list[Segment]:
+def _choose_segments(o: Observation, most: int, samples: int) -> list[slice]:
     """The beginnings of at ``most`` so many segments, spread over the flight, with at most so many ``samples`` in all."""
-    found = spread(divide_flight(o), most)
+    found = spread(o.segments, most)
     if not o.recorded.demodulated:  # their columns pass a two-sided filter and are not divided
-        found = take_beginnings(found, samples)
-    return [s for s in found if np.sum(o.record.valid[s.rows]) >= SHORTEST]
+        found = [slice(x.start, min(x.stop, x.start + samples // len(found))) for x in found]
+    return [rows for rows in found if np.sum(o.record.valid[rows]) >= SHORTEST]
 
 
 def _fit_segments(
     at: LinearisationPoint,
     o: Observation,
     apart: Array | None,
-    chosen: Sequence[Segment],
+    chosen: Sequence[slice],
     level: Level = CONSTANT,
 ) -> list[_Part]:
     """What is left of some segments of the flight, of the series as they are or in combinations, by a fit that weighs by a level."""
     band = unknown_gradient.find_band(o)
-    rate = None if o.recorded.demodulated else o.record.rate
     random = {e.id for e in at.model.candidates if e.kind == "random"}
     shown = [(n, c.effect) for n, c in enumerate(at.candidates, len(at.base)) if c.effect in random]
 
-    def kept(x: ProjectedResidual, loud: Array) -> ProjectedResidual:
-        x = replace(x, rest=x.rest * loud, shapes=x.shapes * loud)
-        # of several segments only the means show what is slow
-        return x if len(chosen) == 1 else replace(x, columns=np.empty(0), directions=np.empty(0))
-
     def part(piece: Piece) -> _Part:
-        r = piece.observation.record
-        valid, loud = r.valid, np.broadcast_to(level.of(r.quantity), r.valid.shape)[r.valid]
-        each = np.split(piece.white[piece.nonzero], len(o.series), axis=1)
-        known = [partial(_divide_by_level, piece, m, len(each), loud) for m in range(len(each))]
+        r, outputs = piece.observation.record, []
+        loud = np.broadcast_to(level.of(r.quantity), r.valid.shape)[r.valid]
+        for m, flat in enumerate(np.split(piece.white, len(o.series), axis=1)):
+            through = partial(_divide_by_level, piece, m, len(o.series), loud)
+            x = fit_columns(flat, r.valid, r.rate, band, through, raised=o.smoothed)
+            # of several segments only the means show what is slow
+            outputs.append(x if len(chosen) == 1 else replace(x, columns=np.empty(0), directions=np.empty(0)))
         return _Part(
-            rows=piece.segment.rows,
-            valid=valid,
-            outputs=tuple(
-                kept(fit_columns(x, valid, rate, band, t, raised=o.smoothed), loud)
-                for x, t in zip(each, known, strict=True)
-            ),
+            rows=piece.rows,
+            outputs=tuple(outputs),
             taken=sum(w.white.shape[1] for w in piece.windows) / len(o.series),
-            random={
-                e: tuple(piece.white[place].reshape(len(o.series), -1) ** 2)
-                for place, e in shown
-                if e is not None
-            },
+            random={e: piece.white[place] ** 2 for place, e in shown if e is not None},
         )
 
     return list(pass_over(at, o, _make_unit_noise(o, apart, level), part, chosen=chosen))
@@ -323,8 +314,7 @@ def _fit_segments(
 
 def _make_unit_noise(o: Observation, apart: Array | None, level: Level = CONSTANT) -> NoiseModel:
     """What leaves the series as they are, or in combinations, over a level."""
-    plain = replace(NoiseModel.white(o.record.rate, len(o.series)), level=level)
-    return plain if apart is None else replace(plain, combinations=apart)
+    return replace(NoiseModel.white(o.record.rate, len(o.series)), level=level, combinations=apart)
 
 
 def _divide_by_level(piece: Piece, m: int, outputs: int, loud: Array, columns: Array) -> Array:
@@ -339,56 +329,40 @@ def _divide_by_level(piece: Piece, m: int, outputs: int, loud: Array, columns: A
     return np.asarray(flat.reshape(wide.shape)[:, m])
 
 
-def _estimate_of_channels(parts: Sequence[_Part], o: Observation) -> NoiseModel:
+def _estimate_of_channels(at: LinearisationPoint, o: Observation) -> NoiseModel:
     """Within the demodulator's band the noise of G_out is taken as white; a sample of a seldom recorded channel counts for more."""
-    gain, more = o.recorded.noise_share(o.record), measure_information_per_sample(o.record)
-    squares = free = 0.0
-    for p in parts:
-        (x,) = p.outputs
-        squares += float(np.sum(x.rest**2)) / gain
+
+    def left(piece: Piece) -> tuple[Array, float]:
+        white = piece.white[[*find_nonzero(piece.white[:-1]), True]]
+        x = project_columns(white, piece.observation.record.valid)
         # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
-        free += len(x.rest) * max(0.1, 1 - (x.rank + p.taken) / (gain * more * len(x.rest)))
-    sigma = float(np.sqrt(squares / free))
-    density = np.full(2, np.log(2 * sigma**2 / o.record.rate))
-    model = Spectrum(o.record.rate, np.array([-20.0, 20.0]), density, np.zeros(2))
+        return x.rest, x.rank + sum(w.white.shape[1] for w in piece.windows)
+
+    gain, more = o.recorded.noise_share(o.record), measure_information_per_sample(o.record)
+    ((rest, taken),) = pass_over(at, o, _make_unit_noise(o, None), left)
+    free = len(rest) * max(0.1, 1 - taken / (gain * more * len(rest)))
+    sigma = float(np.sqrt(np.sum(rest**2) / gain / free))
+    white = NoiseModel.white(o.record.rate, 1, sigma)
     freedom = max(1.0, gain * more * free)
-    return NoiseModel(spectra=(model,), filters=(np.array([np.sqrt(more) / sigma]),), freedom=freedom)
-
-
-def _collect_disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:
-    """Lines and jumps of all segments, in order."""
-    found = [
-        replace(d, at=d.at + p.rows.start / rate) if d.kind == "jump" else d
-        for p in parts
-        for x in p.outputs
-        for d in x.found
-    ]
-    return sorted(found, key=lambda d: d.at)
+    return replace(white, filters=(np.array([np.sqrt(more) / sigma]),), freedom=freedom)
 
 
 def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
     """Estimate the noise level from sample to sample."""
-    names = level_quantities(o.record)
-    white: list[Array] = []
-    quantities: dict[str, list[Array]] = {n: [] for n in names}
-    alternatives: dict[str, list[Array]] = {}
-    for p in parts:
-        r = o.record.part(p.rows)
-        rests = np.stack([p.rest(m) for m in range(noise.outputs)])
-        white.append(noise.whiten(rests[None], p.valid)[0])
-        for m in range(noise.outputs):
-            for n in names:
-                quantities[n].append(r.quantity(n)[p.valid])
-            for e, variance in p.random.items():
-                alternatives.setdefault(e, []).append(variance[m])
-    z = np.concatenate(white)
+    z = [noise.whiten(np.stack([x.series for x in p.outputs])[None], p.valid)[0] for p in parts]
     # neighbours are alike where a part of the band has hardly any noise
-    every = max(1, round(1.0 / float(np.mean(z**2))))
-    return noise_level.estimate_level(
-        z[::every],
-        {n: np.concatenate(x)[::every] for n, x in quantities.items()},
-        {e: np.concatenate(x)[::every] for e, x in alternatives.items()},
-    )
+    every = max(1, round(1.0 / float(np.mean(np.concatenate(z) ** 2))))
+
+    def join(each: Iterable[Array]) -> Array:
+        return np.concatenate([*each])[::every]
+
+    records = [(o.record.part(p.rows), p.valid) for p in parts]
+    quantities = {
+        n: join(np.tile(r.quantity(n)[valid], noise.outputs) for r, valid in records)
+        for n in level_quantities(o.record)
+    }
+    alternatives = {e: join(p.random[e] for p in parts) for e in parts[0].random}
+    return estimate_level(join(z), quantities, alternatives)
 
 
 VAGUE = 1e3
@@ -396,7 +370,7 @@ VAGUE = 1e3
 
 
 def _compute_evidence(
-    at: LinearisationPoint, o: Observation, noise: NoiseModel, chosen: Sequence[Segment]
+    at: LinearisationPoint, o: Observation, noise: NoiseModel, chosen: Sequence[slice]
 ) -> float:
     """Of a noise against one of the same filters and level: logarithm, whatever the coefficients of the columns in each segment are.
 
@@ -427,44 +401,32 @@ ENOUGH = 2
 """Means for every column, at least."""
 
 
-def average_residuals(
-    at: LinearisationPoint, o: Observation, unwhitened: NoiseModel
-) -> list[Averages] | None:
+def average_residuals(at: LinearisationPoint, o: Observation, unwhitened: NoiseModel) -> list[Stretch] | None:
     """What all columns leave of each output's means; ``None`` of a flight seen in one piece, or in too few means.
 
     ``unwhitened``: the noise that makes the columns as they are, or in combinations.
     """
-    if not is_long(o):
+    if len(o.segments) == 1:
         return None
     n, m = len(o.record.time), len(o.series)
     every = -(-n // MEANS)
     count = np.bincount(np.flatnonzero(o.record.valid) // every, minlength=-(-n // every))
-    sums: Array | None = None
+    sums = np.zeros((len(at.base) + len(at.candidates) + 1, m, len(count)))
 
-    def summed(piece: Piece) -> tuple[int, Array]:
-        boxes = piece.sample[: len(piece.sample) // m] // every
-        each = piece.white.reshape(len(piece.white), m, -1)
-        if not len(boxes):
-            return 0, np.zeros((len(each), m, 0))
-        starts = np.searchsorted(boxes, np.arange(boxes[0], boxes[-1] + 1))
-        ends = np.append(starts[1:], len(boxes))
-        found = np.add.reduceat(each, starts, axis=2)
-        found[:, :, starts == ends] = 0.0  # of no sample
-        return int(boxes[0]), found
+    def add(piece: Piece) -> None:
+        plain = np.zeros_like(piece.columns)
+        plain[:, :, piece.observation.record.valid] = piece.white.reshape(len(sums), m, -1)
+        boxes = slice(piece.rows.start // every, (piece.rows.stop - 1) // every + 1)
+        edges = np.arange(boxes.start, boxes.stop) * every - piece.rows.start
+        sums[:, :, boxes] += np.add.reduceat(plain, np.maximum(edges, 0), axis=2)
 
-    for first, part in pass_over(at, o, unwhitened, summed):
-        if sums is None:
-            sums = np.zeros((len(part), m, len(count)))
-        sums[:, :, first : first + part.shape[2]] += part
+    for _ in pass_over(at, o, unwhitened, add):
+        pass
     valid = count >= FULL * every
-    if sums is None or np.sum(valid) < ENOUGH * len(sums):
+    if np.sum(valid) < ENOUGH * len(sums):
         return None
     rate = o.record.rate / every
-    longest = max(s.rows.stop - s.rows.start for s in divide_flight(o)) / o.record.rate
+    longest = max(rows.stop - rows.start for rows in o.segments) / o.record.rate
     below = min(PERIODS / longest, rate / MEANS_A_PERIOD)
-    found = []
-    for k in range(m):
-        flat = sums[:, k, valid] / count[valid]
-        left = fit_columns(flat, valid, rate, None)
-        found.append(Averages(rest=place_valid(left.rest, valid), kept=left.kept, rate=rate, below=below))
-    return found
+    each = [fit_columns(sums[:, k, valid] / count[valid], valid, rate, None) for k in range(m)]
+    return [Stretch(x.series, rate, x.kept, high=below) for x in each]

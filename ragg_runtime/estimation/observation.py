@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -25,27 +25,16 @@ BLOCKS = 24
 ROWS = 30000
 """Most samples of a segment: a few hundred columns of them in float64 take less than 100 MB."""
 
-THINNER = 4
-"""Times that segments and filters of a thinned flight have fewer samples: its samples are as much further apart, and its columns
-take as much less memory."""
-
-
-@dataclass(frozen=True)
-class Segment:
-    """Samples ``rows`` of a flight that are in memory together."""
-
-    rows: slice
-
 
 def make_block_edges(samples: int) -> NDArray[np.intp]:
     """(BLOCKS + 1,): samples at which the blocks of time begin and end."""
     return np.linspace(0, samples, BLOCKS + 1).astype(np.intp)
 
 
-def divide_into_segments(samples: int, most: int = ROWS) -> list[Segment]:
+def divide_into_segments(samples: int, most: int = ROWS) -> list[slice]:
     """The segments of a flight, in order, of nearly the same length."""
     edges = np.linspace(0, samples, max(1, -(-samples // most)) + 1).astype(int).tolist()
-    return [Segment(slice(a, b)) for a, b in pairwise(edges)]
+    return [slice(a, b) for a, b in pairwise(edges)]
 
 
 def split_at_blocks(rows: slice, samples: int) -> list[tuple[int, slice]]:
@@ -55,17 +44,11 @@ def split_at_blocks(rows: slice, samples: int) -> list[tuple[int, slice]]:
     return [(b, part) for b, part in parts if part.start < part.stop]
 
 
-def spread(found: Sequence[Segment], most: int) -> list[Segment]:
+def spread(found: Sequence[slice], most: int) -> list[slice]:
     """At most so many of the segments, evenly spread."""
     if len(found) <= most:
         return list(found)
     return [found[k] for k in np.linspace(0, len(found) - 1, most).round().astype(int)]
-
-
-def take_beginnings(found: Sequence[Segment], samples: int) -> list[Segment]:
-    """As much of the beginnings of segments as makes at most so many samples together."""
-    each = samples // max(1, len(found))
-    return [Segment(slice(s.rows.start, min(s.rows.stop, s.rows.start + each))) for s in found]
 
 
 Array = NDArray[np.float64]
@@ -92,15 +75,14 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     k_ggi = scale(o, a["k_VI"] * a["K1"], instrument.radii + a["dR"])
     columns = form.columns(layout, o, flight.outputs) or ()
     if form.demodulated:
-        there = np.isfinite([flight.outputs[c] for c in columns]).all(axis=0) & r.valid
-        r = replace(r, every=_spacing(there))
+        there = np.flatnonzero(np.isfinite([flight.outputs[c] for c in columns]).all(axis=0) & r.valid)
+        every = int(np.median(np.diff(there))) if len(there) > 1 else 1
+        inside = np.zeros(len(r.time), dtype=bool)  # elsewhere the demodulator has not seen enough
+        inside[r.low_pass.before : len(r.time) - r.low_pass.ahead] = True
+        r = replace(r, every=every, valid=r.valid & inside)
     series = form.series([flight.outputs[c] for c in columns], r, k_ggi)
     if not (form.demodulated or form.separate):
         r = replace(r, reading=series[0])
-    if form.demodulated:
-        inside = np.zeros(len(r.time), dtype=bool)  # elsewhere the demodulator has not seen enough
-        inside[r.low_pass.before : len(r.time) - r.low_pass.ahead] = True
-        r = replace(r, valid=r.valid & inside)
     valid = _find_usable(flight, o, r.valid, series)
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
         r = replace(r, wide={n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()})
@@ -159,6 +141,12 @@ class Observation:
         return np.stack([np.where(self.record.valid, x, 0.0) for x in self.series])
 
     @property
+    def segments(self) -> list[slice]:
+        """Samples that are in memory together. Demodulated channels are not divided: their columns pass a two-sided filter."""
+        n = len(self.record.time)
+        return divide_into_segments(n, max(n, ROWS) if self.recorded.demodulated else ROWS)
+
+    @property
     def unthinned(self) -> Observation:
         """The observation as it was recorded."""
         return self if self.thin is None else self.thin.whole
@@ -178,13 +166,13 @@ class Observation:
         """(m,): how much of a common term of G_out each series sees (for voltages each is searched as one)."""
         return np.asarray(self.signs / len(self.signs))
 
-    def part(self, rows: slice, only: Container[str] | None = None) -> Observation:
-        """Some of the samples; ``only`` some of their channels."""
+    def part(self, rows: slice) -> Observation:
+        """Some of the samples."""
         if (rows.start, rows.stop) == (0, len(self.record.time)):
             return self
         return replace(
             self,
-            record=self.record.part(rows, only),
+            record=self.record.part(rows),
             series=tuple(np.array(x[rows]) for x in self.series),
             thin=None if self.thin is None else self.thin.part(rows),
         )
@@ -206,24 +194,15 @@ class Thin:
         first = self.rows.start
         return replace(self, rows=slice(first + rows.start, first + rows.stop))
 
-    @property
-    def span(self) -> slice:
-        """Which samples of the whole these are made of."""
-        return slice(self.rows.start * self.every, (self.rows.stop - 1) * self.every + len(self.taps))
-
-    def source(self, only: Container[str] | None = None) -> Observation:
-        """The part of the whole that these are made of; ``only`` some of its channels."""
-        return self.whole.part(self.span, only)
+    def source(self) -> Observation:
+        """The part of the whole that these are made of."""
+        return self.whole.part(
+            slice(self.rows.start * self.every, (self.rows.stop - 1) * self.every + len(self.taps))
+        )
 
     def kept(self, x: Array) -> Array:
-        """Series (..., N) over the :attr:`span`, thinned: (..., n)."""
+        """Series (..., N) over the :meth:`source`, thinned: (..., n)."""
         return convolve(x, self.taps)[..., :: self.every]
-
-
-def _spacing(there: NDArray[np.bool_]) -> int:
-    """Samples from one of channels to the next."""
-    at = np.flatnonzero(there)
-    return max(1, int(np.median(np.diff(at)))) if len(at) > 1 else 1
 
 
 def measure_information_per_sample(r: Record) -> float:

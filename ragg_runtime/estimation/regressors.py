@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import split_range
-from ragg_runtime.estimation.observation import Observation, Thin
+from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Output
 from ragg_runtime.instrument.parameters import PARAMETERS
@@ -19,7 +18,7 @@ from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.evaluate import evaluate_voltages, find_unit_factor
 from ragg_runtime.model.memory import add_responses, first_memories, move_record
 from ragg_runtime.model.model import DerivedEffect, Model
-from ragg_runtime.model.record import Record, list_channels
+from ragg_runtime.model.record import Record
 from ragg_runtime.model.recorded import RecordedSeries
 from ragg_runtime.signals.derivative import bridge_gaps
 
@@ -64,23 +63,13 @@ def list_base_columns(model: Model, instrument: Instrument) -> list[tuple[Column
     known = units(instrument.g0)
     found: list[tuple[Column, int]] = []
     start = {name: place.start for name, place in model.chain.places.items()}
-    places = instrument.layout.names
     for q in PARAMETERS:
         if q.name in UNOBSERVABLE or q.name in instrument.fixed:
             continue
-        factor = find_unit_factor(q.display_unit, known)
-        scales = instrument.sigma(q.name)
-        for j in range(instrument.layout.size):
-            column = Column(
-                name=q.name,
-                accelerometer=j + 1,
-                scale=float(scales[j]),
-                unit=q.display_unit,
-                unit_factor=factor,
-                effect=None,
-                accelerometer_name=places[j],
-            )
-            found.append((column, start[q.name] + j))
+        factor, scales = find_unit_factor(q.display_unit, known), instrument.sigma(q.name)
+        for j, place in enumerate(instrument.layout.names):
+            c = Column(q.name, j + 1, float(scales[j]), q.display_unit, factor, None, place)
+            found.append((c, start[q.name] + j))
     for e in model.effects:
         if e.kind in ("deterministic", "step"):
             setting = instrument.effect(e.id)
@@ -105,8 +94,8 @@ def list_candidate_columns(model: Model, instrument: Instrument) -> list[Column]
     return [c for e in searched for c, _ in _list_effect_columns(e, known, instrument)]
 
 
-def list_tested_columns(model: Model, instrument: Instrument, records: Sequence[Record]) -> tuple[int, ...]:
-    """Places among the candidates' columns of those of which all records have what the effect needs: others are zero."""
+def list_tested_columns(model: Model, instrument: Instrument, records: Sequence[Record]) -> list[Column]:
+    """The candidates' columns of which all records have what the effect needs: others are zero."""
     have = [r.recorded for r in records]
     effects = {e.id: e for e in model.candidates}
 
@@ -116,37 +105,21 @@ def list_tested_columns(model: Model, instrument: Instrument, records: Sequence[
         there = q.channel is None or any(q.channel in h for h in have)
         return there and not q.shape and not any(e.missing(h) for h in have)
 
-    return tuple(n for n, c in enumerate(list_candidate_columns(model, instrument)) if is_tested(c))
+    return [c for c in list_candidate_columns(model, instrument) if is_tested(c)]
 
 
 def _list_effect_columns(e: DerivedEffect, known: Units, instrument: Instrument) -> list[tuple[Column, str]]:
     columns = []
-    places = instrument.layout.names
     for q in e.parameters:
         if not q.fitted:
             continue
-        factor = find_unit_factor(q.unit, known)
-        scale = EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like)
-        scale *= instrument.widths.get(f"{e.id}.{q.name}", 1.0)
-        for j in (None,) if q.shared else range(1, instrument.layout.size + 1):
-            column = Column(
-                name=f"{e.id}.{q.name}",
-                accelerometer=j,
-                scale=scale,
-                unit=q.unit,
-                unit_factor=factor,
-                effect=e.id,
-                accelerometer_name="" if j is None else places[j - 1],
-            )
-            columns.append((column, q.symbol))
+        name, factor = f"{e.id}.{q.name}", find_unit_factor(q.unit, known)
+        scale = (
+            EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like) * instrument.widths.get(name, 1.0)
+        )
+        for j, place in [(None, "")] if q.shared else enumerate(instrument.layout.names, 1):
+            columns.append((Column(name, j, scale, q.unit, factor, e.id, place), q.symbol))
     return columns
-
-
-def find_nonzero(columns: Sequence[Column], instrument: Instrument, place: int) -> slice | NDArray[np.intp]:
-    """Which of these columns, and of the residual after them, are not zero in an output; a slice if there is one output."""
-    if len(instrument.layout.outputs) == 1:
-        return slice(None)
-    return np.array([*list_own_columns(columns, instrument, place), len(columns)], dtype=np.intp)
 
 
 def observe_voltages(o: Observation, v: Array) -> Array:
@@ -156,8 +129,7 @@ def observe_voltages(o: Observation, v: Array) -> Array:
 
 def predict_observed(model: Model, o: Observation, p: Array) -> Array:
     """(m, N), V: what a model with parameters p (size,), SI, predicts of what is observed; no unknown gradient."""
-    record, rest = move_record(model, o.record, p)
-    return observe_voltages(o, evaluate_voltages(model.chain, record, rest, o.output))
+    return observe_voltages(o, evaluate_voltages(model.chain, *move_record(model, o.record, p), o.output))
 
 
 def find_null_biases(columns: Sequence[Column]) -> list[int]:
@@ -189,50 +161,32 @@ def group_by_effect(columns: Iterable[Column]) -> dict[str, list[tuple[int, Colu
 
 @dataclass(frozen=True)
 class LinearisationPoint:
-    """About what a flight is linearised.
+    """About what a flight is linearised: ``p`` is the parameter vector of the model's chain, SI.
 
-    ``instrument`` gives the columns their scales; ``p`` is the parameter vector of the model's chain, SI; ``instants`` are those of
-    steps, by effect, s since the first sample; ``only`` the places of the wanted candidates' columns (``None``: all).
+    ``base`` are the model's columns, ``candidates`` those of effects that are not in it; ``instants`` those of steps, by effect, s
+    since the first sample.
     """
 
     model: Model
-    instrument: Instrument
     p: Array
-    with_candidates: bool
+    base: Sequence[Column]
+    candidates: Sequence[Column] = ()
     instants: Mapping[str, float] = field(default_factory=dict)
-    only: tuple[int, ...] | None = None
-
-    @cached_property
-    def base(self) -> list[Column]:
-        """The parameters of the model."""
-        return [c for c, _ in list_base_columns(self.model, self.instrument)]
-
-    @cached_property
-    def candidates(self) -> list[Column]:
-        """Those of the candidate effects whose columns are wanted."""
-        if not self.with_candidates:
-            return []
-        every = list_candidate_columns(self.model, self.instrument)
-        return every if self.only is None else [every[n] for n in self.only]
-
-    @cached_property
-    def channels(self) -> frozenset[str]:
-        """What of a record the outputs are made of."""
-        return list_channels(self.model.chain.INPUTS)
 
 
-PART = 4096
-"""Samples of a thinned record that are made of the whole one at a time."""
+def make_point(
+    model: Model, instrument: Instrument, p: Array, candidates: Sequence[Column] = ()
+) -> LinearisationPoint:
+    """The point with parameters p (size,), SI, and the columns of the model and of ``candidates``."""
+    return LinearisationPoint(model, p, [c for c, _ in list_base_columns(model, instrument)], candidates)
+
 
 CACHED = 4096
 """Samples at which a generated module is evaluated at a time: enough for what a call costs besides, few enough for the cache."""
 
 
-def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = None) -> Array:
-    """Base columns, candidates (if wanted), each times its parameter's scale, and residual: (n + 1, m, N), V.
-
-    ``residual`` (m, N): that of a thinned observation, where it is known already.
-    """
+def linearise(at: LinearisationPoint, o: Observation) -> Array:
+    """Base columns, candidates, each times its parameter's scale, and residual: (n + 1, m, N), V."""
     r, p = move_record(at.model, o.record, at.p)
     V = evaluate_voltages(at.model.chain, r, p, o.output)
     if r.reading is not None:  # in a column of what was read the noise would explain itself
@@ -253,8 +207,8 @@ def linearise(at: LinearisationPoint, o: Observation, residual: Array | None = N
         column[:] = o.recorded.through(column, r)
     if o.thin is None:
         columns[-1] = o.data - observe_voltages(o, V)
-    else:
-        columns[-1] = thin_residual(at, o.thin) if residual is None else residual
+    else:  # that of the whole record, thinned, for the outputs are a million times the noise
+        columns[-1] = o.thin.kept(compute_residual(at, o.thin.source()))
     for k, c in enumerate((*at.base, *at.candidates)):
         instant = at.instants.get(c.effect or "")
         if instant is not None:
@@ -293,14 +247,7 @@ def put_derivatives(
                 columns[n, series, some] += scale * slopes[of]
 
 
-def thin_residual(at: LinearisationPoint, thin: Thin) -> Array:
-    """Residual (m, n), V, of a thinned record: that of the whole one, thinned, for the outputs are a million times the noise."""
-    parts = [thin.part(some) for some in split_range(thin.rows.stop - thin.rows.start, PART)]
-    return np.concatenate([x.kept(compute_residual(at, x.source(at.channels))) for x in parts], axis=1)
-
-
 def compute_residual(at: LinearisationPoint, o: Observation) -> Array:
     """Residual (m, N), V, at a point; between its neighbours where a sample is not valid."""
-    r, p = move_record(at.model, o.record, at.p)
-    left = o.data - observe_voltages(o, evaluate_voltages(at.model.chain, r, p, o.output))
-    return np.stack([bridge_gaps(x, r.valid) for x in left])
+    left = o.data - predict_observed(at.model, o, at.p)
+    return np.stack([bridge_gaps(x, o.record.valid) for x in left])

@@ -15,6 +15,7 @@ from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.spectrum import (
     LOWEST,
     Spectrum,
+    Stretch,
     compute_periodogram,
     cut_lines,
     estimate,
@@ -36,6 +37,10 @@ class Disturbance:
 
     kind: str
     at: float
+
+    def later(self, seconds: float) -> Disturbance:
+        """The same of a segment that begins so much later."""
+        return replace(self, at=self.at + seconds) if self.kind == "jump" else self
 
     def columns(self, time: Array) -> Array:
         """(k, N): what it spans; a line may be off its frequency a little."""
@@ -92,7 +97,8 @@ class ProjectedResidual:
 
     ``rest`` (rows,) is at the valid samples; ``rank`` the degrees of freedom of the columns; ``kept`` the share of white noise that
     they leave at each frequency of the periodogram; ``found`` the lines and jumps fitted jointly; ``shapes`` (k, rows) their
-    fitted series. ``columns`` (n, rows) times ``directions`` (n, k) are orthonormal. ``valid`` (N,) marks the rows.
+    fitted series. ``columns`` (n, rows) have ``coefficients`` (n,) and, times ``directions`` (n, k), are orthonormal. ``valid`` (N,)
+    marks the rows.
     """
 
     rest: Array
@@ -100,9 +106,15 @@ class ProjectedResidual:
     kept: Array
     found: list[Disturbance]
     shapes: Array
+    coefficients: Array
     columns: Array = field(repr=False)
     directions: Array = field(repr=False)
     valid: NDArray[np.bool_] = field(repr=False)
+
+    @property
+    def series(self) -> Array:
+        """(N,): what is left, zero where a sample is not valid."""
+        return place_valid(self.rest, self.valid)
 
     def kept_of(self, noise: Spectrum | None) -> Array:
         """As ``kept``, but gaps are not lost, and of ``noise`` that is not white: power at each frequency over its density.
@@ -139,7 +151,7 @@ class ProjectedResidual:
 def fit_columns(
     flat: Array,
     valid: NDArray[np.bool_],
-    rate: float | None,
+    rate: float,
     band: tuple[float, float] | None,
     through: Callable[[Array], Array] = lambda columns: columns,
     *,
@@ -147,66 +159,33 @@ def fit_columns(
 ) -> ProjectedResidual:
     """Project the first n of flat (n + 1, rows), and lines and jumps, out of the last.
 
-    No line is looked for in ``band``; ``through`` does to columns (k, rows) what was done to ``flat``. Without ``rate`` neither
-    lines nor ``kept`` are looked for. ``raised``: jumps are judged by the noise's raised spectrum (:meth:`Spectrum.raise_floor`).
+    No line is looked for in ``band``; ``through`` does to columns (k, rows) what was done to ``flat``. ``raised``: jumps are judged by
+    the noise's raised spectrum (:meth:`Spectrum.raise_floor`).
     """
     flat = flat[[*find_nonzero(flat[:-1]), True]]
-    left = _fitted(flat, flat, valid, rate, [])
-    if rate is None:
-        return replace(left, columns=np.empty(0), directions=np.empty(0))
     time = np.flatnonzero(valid) / rate
-
-    def beside(found: list[Disturbance]) -> ProjectedResidual:
-        wide = np.vstack([*(through(d.columns(time)) for d in found), flat])
-        return _fitted(wide, flat, valid, rate, found)
-
+    left = project_columns(flat, valid)
     for _ in range(ROUNDS):
-        more = find_lines(place_valid(left.rest, valid), rate, band)
+        more = find_lines(left.series, rate, band)
         if not more:
-            jump = _find_best_jump(left, valid, rate)
-            if jump is None:
-                break
-            with_it = _and(left, through(jump.columns(time))[0], valid)
-            if not _is_significant(left, with_it, valid, rate, band, raised):
+            jump = _find_best_jump(left, rate)
+            if jump is None or not _is_significant(left, through(jump.columns(time))[0], rate, band, raised):
                 break
             more = [jump]
-        left = beside([*left.found, *more])
+        found = [*left.found, *more]
+        spanned = [through(d.columns(time)) for d in found]
+        left = project_columns(np.vstack([*spanned, flat]), valid)
+        ends = np.cumsum([0, *(len(x) for x in spanned)])
+        shapes = [left.coefficients[a:b] @ left.columns[a:b] for a, b in pairwise(ends)]
+        left = replace(left, found=found, shapes=np.array(shapes))
     return left
 
 
-def _and(left: ProjectedResidual, column: Array, valid: NDArray[np.bool_]) -> ProjectedResidual:
-    """What is left once one more column (rows,) is fitted: what is new in it takes its share of residual and noise."""
-    new = column - (left.directions @ (left.directions.T @ (left.columns @ column))) @ left.columns
-    new /= np.linalg.norm(new)
-    nothing = _share_kept(new[None], np.zeros((1, 1)), valid)
-    kept = np.maximum(left.kept + _share_kept(new[None], np.ones((1, 1)), valid) - nothing, 0.0)
-    return replace(left, rest=left.rest - new * float(new @ left.rest), kept=kept)
-
-
 def place_valid(rest: Array, valid: NDArray[np.bool_]) -> Array:
-    """(N,): what is left, zero where a sample is not valid."""
+    """(N,): of valid samples, zero where a sample is not valid."""
     e = np.zeros(len(valid))
     e[valid] = rest
     return e
-
-
-def _fitted(
-    wide: Array, flat: Array, valid: NDArray[np.bool_], rate: float | None, found: list[Disturbance]
-) -> ProjectedResidual:
-    fit = _solve(wide)
-    ends = np.cumsum([0, *(len(d.columns(np.zeros(1))) for d in found)])
-    return ProjectedResidual(
-        rest=np.asarray(flat[-1] - fit.solution @ wide[:-1]),
-        rank=fit.rank,
-        kept=_share_kept(wide[:-1], fit.directions, valid) if rate else np.empty(0),
-        found=found,
-        shapes=np.array([fit.solution[a:b] @ wide[a:b] for a, b in pairwise(ends)]).reshape(
-            -1, wide.shape[1]
-        ),
-        columns=wide[:-1],
-        directions=fit.directions,
-        valid=valid,
-    )
 
 
 JUMP = 32.0
@@ -216,7 +195,7 @@ INSTANTS = 96
 """Instants among which it is sought, and again about the best of them, to the sample."""
 
 
-def _find_best_jump(left: ProjectedResidual, valid: NDArray[np.bool_], rate: float) -> Disturbance | None:
+def _find_best_jump(left: ProjectedResidual, rate: float) -> Disturbance | None:
     """The jump that would explain most of the residual, fitted jointly with the columns; ``None`` if white noise would do."""
     n = len(left.rest)
     low, high = 0, n
@@ -238,31 +217,30 @@ def _find_best_jump(left: ProjectedResidual, valid: NDArray[np.bool_], rate: flo
     variance = float(left.rest @ left.rest) / max(1.0, n - left.rank)
     if not float(after[best] ** 2 / own[best]) > JUMP * variance:
         return None
-    return Disturbance("jump", float(np.flatnonzero(valid)[edges[best]] / rate))
+    return Disturbance("jump", float(np.flatnonzero(left.valid)[edges[best]] / rate))
 
 
 def _is_significant(
-    before: ProjectedResidual,
-    after: ProjectedResidual,
-    valid: NDArray[np.bool_],
-    rate: float,
-    band: tuple[float, float] | None,
-    raised: bool,
+    left: ProjectedResidual, column: Array, rate: float, band: tuple[float, float] | None, raised: bool
 ) -> bool:
-    """Whether what was fitted last is significant against the noise without it: red noise looks like jumps, too."""
-    model = estimate([place_valid(after.rest, valid)], rate, band, [after.kept])
-    taps = (model.raise_floor() if raised else model).whitening_filter(len(valid))
-    gone = filter_columns(place_valid(before.rest - after.rest, valid)[None], taps)[0][valid]
-    return float(gone @ gone) > JUMP
+    """Whether a further column (rows,) is significant against the noise beside it: red noise looks like jumps, too."""
+    new = column - (left.directions @ (left.directions.T @ (left.columns @ column))) @ left.columns
+    new /= np.linalg.norm(new)
+    gone = new * float(new @ left.rest)
+    kept = np.maximum(left.kept - _measure_taken(new[None], np.ones((1, 1)), left.valid), 0.0)
+    model = estimate([Stretch(place_valid(left.rest - gone, left.valid), rate, kept)], band)
+    taps = (model.raise_floor() if raised else model).whitening_filter(len(left.valid))
+    white = filter_columns(place_valid(gone, left.valid)[None], taps)[0][left.valid]
+    return float(white @ white) > JUMP
 
 
 EVERY = 1024
 """Bins of a periodogram for which the share that columns leave is computed; it is interpolated in between."""
 
 
-def _share_kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
-    """Share of white noise left at each frequency once columns (n, rows) are fitted, |v|^2 - |Q'v|^2 of windowed waves v, gaps
-    counted as lost; columns times ``directions`` (n, k) are Q.
+def _measure_taken(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
+    """Share of white noise that columns (n, rows) take at each frequency, |Q'v|^2 of windowed waves v; columns times ``directions``
+    (n, k) are Q.
     """
     n = len(valid)
     window = signal.windows.hann(n, sym=False)
@@ -280,8 +258,7 @@ def _share_kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> 
         waves[group] = fft.rfft(part, size, axis=1)[:, some]
     spanned = directions.T @ waves.view(np.float64)  # real and imaginary parts side by side: half the work
     taken = np.einsum("ij,ij->j", spanned, spanned).reshape(-1, 2).sum(axis=1)
-    left = (np.sum(window[valid] ** 2) - taken) / np.sum(window**2)
-    return np.asarray(np.interp(np.arange(n // 2 + 1) * (size / n), some, np.maximum(left, 0.0)))
+    return np.asarray(np.interp(np.arange(n // 2 + 1) * (size / n), some, taken / np.sum(window**2)))
 
 
 ABSENT = 1e-11
@@ -291,29 +268,28 @@ NOTHING = 1e-7
 """Share of the noise along a direction that is not worth counting: a hundred of them change no periodogram by 1e-5."""
 
 
-@dataclass(frozen=True)
-class _Fit:
-    """Coefficients (n,), how many they count as, and ``directions`` (n, n): columns times it are orthonormal (or fade)."""
-
-    solution: Array
-    rank: float
-    directions: Array
-
-
-def _solve(columns: Array) -> _Fit:
-    """The fit of columns (n + 1, rows) to the last of them; numerically absent directions are faded out."""
+def project_columns(columns: Array, valid: NDArray[np.bool_]) -> ProjectedResidual:
+    """Project the first n of columns (n + 1, rows) out of the last; numerically absent directions are faded out."""
     R = compute_r_factor(columns)
-    n = len(R) - 1
+    n, window = len(R) - 1, signal.windows.hann(len(valid), sym=False)
     norms = np.linalg.norm(R[:, :n], axis=0)
     norms[norms == 0.0] = 1.0
     U, s, Vt = linalg.svd(R[:n, :n] / norms)
     faded = s**2 / (s**2 + (ABSENT * s[0]) ** 2)
     inverse = Vt.T / np.maximum(s, 1e-300) / norms[:, None]
-    solution = inverse @ (faded * (U.T @ R[:n, n]))
+    coefficients = inverse @ (faded * (U.T @ R[:n, n]))
     lost = faded * (2.0 - faded)  # what a faded fit takes of the noise's power
     some = lost > NOTHING
-    return _Fit(
-        solution=solution,
+    directions = inverse[:, some] * np.sqrt(lost[some])
+    there = np.sum(window[valid] ** 2) / np.sum(window**2)  # gaps count as lost
+    return ProjectedResidual(
+        rest=np.asarray(columns[-1] - coefficients @ columns[:-1]),
         rank=float(np.sum(faded)),
-        directions=inverse[:, some] * np.sqrt(lost[some]),
+        kept=np.maximum(there - _measure_taken(columns[:-1], directions, valid), 0.0),
+        found=[],
+        shapes=np.empty((0, columns.shape[1])),
+        coefficients=coefficients,
+        columns=columns[:-1],
+        directions=directions,
+        valid=valid,
     )

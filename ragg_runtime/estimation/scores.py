@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, astuple, dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from ragg_runtime.base.threads import split_range
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.demodulators import CUTOFF, Demodulator, find_demodulator, low_pass
-from ragg_runtime.signals.fir import convolve
+from ragg_runtime.signals.demodulators import CUTOFF, Demodulator, find_demodulator
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -51,123 +50,65 @@ def finite(x: float) -> float | None:
 def demodulate_residual(e: Array, r: Record, k_ggi: float) -> Complex:
     """Inline + i cross (N,), Eo, of a residual of an output (N,), V; NaN where a sample under the low-pass is missing."""
     found = np.full(len(e), complex(np.nan, np.nan))
-    if r.turning and len(e) >= shortest_demodulated(r.rate):
+    if r.turning:
         d = find_demodulator("fir", r.rate)
         cosine, sine = r.quadratures
-        there = find_whole(r.valid, d)
+        there = find_whole(np.ones_like(r.valid), r.valid, d)
         found[there] = d.low_passed(np.where(r.valid, e, 0.0) * (4 * sine - 2j * cosine) / k_ggi)[there]
     return found
-
-
-def find_whole(valid: NDArray[np.bool_], d: Demodulator) -> NDArray[np.bool_]:
-    """(N,): where the whole of a low-pass lies on valid samples (N,)."""
-    there = np.zeros(len(valid), dtype=np.bool_)
-    there[d.before : len(valid) - d.ahead] = find_supported(valid[None], valid, len(d.taps))[0]
-    return there
 
 
 HOLES = 0.05
 """Share of the samples under the low-pass that may be missing, as spikes are: it takes zeros in their place."""
 
 
-def find_supported(selected: NDArray[np.bool_], valid: NDArray[np.bool_], taps: int) -> NDArray[np.bool_]:
-    """(groups, N - taps + 1): where a filter of so many taps lies within a selection (groups, N), mostly valid (N,)."""
+def find_whole(selected: NDArray[np.bool_], valid: NDArray[np.bool_], d: Demodulator) -> NDArray[np.bool_]:
+    """(N,): where the whole of a low-pass lies on samples of a selection (N,), mostly valid (N,)."""
+    taps, there = len(d.taps), np.zeros(len(valid), dtype=np.bool_)
 
     def under(x: NDArray[np.bool_]) -> NDArray[np.int64]:
-        seen = np.cumsum(np.pad(x.astype(np.int64), ((0, 0), (1, 0))), axis=1)
-        return np.asarray(seen[:, taps:] - seen[:, :-taps])
+        seen = np.cumsum(np.pad(x.astype(np.int64), (1, 0)))
+        return np.asarray(seen[taps:] - seen[:-taps])
 
-    return np.asarray((under(selected) == taps) & (under(valid[None]) >= (1 - HOLES) * taps))
-
-
-def shortest_demodulated(rate: float) -> int:
-    """Samples that a segment needs for the demodulator's low-pass to fit and leave something."""
-    return len(low_pass(rate)) + int(2 * rate)
+    there[d.before : max(d.before, len(valid) - d.ahead)] = (under(selected) == taps) & (
+        under(valid) >= (1 - HOLES) * taps
+    )
+    return there
 
 
-def measure_error(residual: Array, r: Record, k_ggi: float) -> Error:
-    """The error object of a residual of G_out.
+def measure_errors(
+    e: Array, r: Record, k_ggi: float, selections: Sequence[NDArray[np.bool_]], beyond: float = 0.0
+) -> list[Error]:
+    """The error object of a residual (N,), V, over each of some selections of samples (N,).
 
-    Parameters
-    ----------
-    residual
-        (N,) V.
-    k_ggi
-        V/Eo.
+    ``k_ggi``: V/Eo; ``beyond``: mean square, V^2, that the residual has lost before (:mod:`ragg_runtime.estimation.thinning`).
     """
-    tally = Tally(1, 1, r.rate, turning=r.turning)
-    everything = np.ones_like(r.valid)[None]
-    tally.add(np.where(r.valid, residual, 0.0)[None], r.demodulation_angle, everything, r.valid)
-    return tally.error(0, k_ggi)
+    seen = demodulate_residual(e, r, k_ggi)
+    found = []
+    for selected in selections:
+        counted = selected & r.valid
+        rms = float(np.sqrt(np.mean(e[counted] ** 2) + beyond)) if counted.any() else float("nan")
+        g = seen[find_whole(selected, r.valid, find_demodulator("fir", r.rate))] if r.turning else seen[:0]
+        channels = (np.std(g.real), np.std(g.imag)) if len(g) > 1 else (np.nan, np.nan)
+        found.append(Error(rms, rms / k_ggi, float(channels[0]), float(channels[1])))
+    return found
 
 
-def pool_errors(errors: list[Error], weights: list[float]) -> Error:
+def measure_error(e: Array, r: Record, k_ggi: float) -> Error:
+    """The error object of a residual (N,), V, of a whole record; ``k_ggi``: V/Eo."""
+    return measure_errors(e, r, k_ggi, [np.ones_like(r.valid)])[0]
+
+
+def pool_errors(errors: Sequence[Error], weights: Sequence[float]) -> Error:
     """One error of several flights: quadratic mean, weighted by their samples."""
+    if len(errors) == 1:
+        return errors[0]
     w = np.asarray(weights) / np.sum(weights)
-    values = np.array([[getattr(e, k) for k in Error.__dataclass_fields__] for e in errors])
+    values = np.array([astuple(e) for e in errors])
     counted = np.where(np.isfinite(values), w[:, None], 0.0)
-    total = np.sum(counted, axis=0)
     squares = np.sum(counted * np.nan_to_num(values) ** 2, axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return Error(*(float(v) for v in np.sqrt(squares / total)))
-
-
-SERIES = 8
-"""Series that are demodulated at a time: they stay in the cache."""
-
-
-class Tally:
-    """Sums of squares of k residual series of a flight, before and after demodulation, for ``groups`` of samples.
-
-    ``beyond`` is a mean square, V^2, that each of the series has lost before (:mod:`ragg_runtime.estimation.thinning`). Of a disc that
-    is at rest (not ``turning``) there is nothing to demodulate.
-    """
-
-    def __init__(
-        self, k: int, groups: int, rate: float, *, turning: bool = True, beyond: float = 0.0
-    ) -> None:
-        self._beyond = beyond
-        self._taps = low_pass(rate) if turning else np.empty(0)
-        self.samples = np.zeros(groups)
-        self.squares = np.zeros((groups, k))
-        self.demodulated = np.zeros(groups)
-        self._sums = np.zeros((2, groups, 2, k))  # first and second moment, group, channel, series
-        none = np.empty((groups, 0), dtype=np.bool_)
-        self._tail: tuple[NDArray[Any], ...] = (np.empty((k, 0)), np.empty(0), none, none[0])
-
-    def add(self, e: Array, phi: Array, selected: NDArray[np.bool_], valid: NDArray[np.bool_]) -> None:
-        """Count in the samples that follow those before: e (k, N) V, zero where not valid (N,); phi (N,) rad; selected (groups, N)."""
-        counted = selected & valid
-        self.samples += np.sum(counted, axis=1)
-        self.squares += np.where(counted, 1.0, 0.0) @ (e**2).T
-        if self._taps.size:
-            new = (e, phi, selected, valid)
-            joined = tuple(np.concatenate(x, axis=-1) for x in zip(self._tail, new, strict=True))
-            self._demodulate(*joined)
-            self._tail = tuple(x[..., 1 - len(self._taps) :].copy() for x in joined)
-
-    def _demodulate(
-        self, e: Array, phi: Array, selected: NDArray[np.bool_], valid: NDArray[np.bool_]
-    ) -> None:
-        if len(phi) < len(self._taps):
-            return
-        whole = np.where(find_supported(selected, valid, len(self._taps)), 1.0, 0.0)
-        self.demodulated += np.sum(whole, axis=1)
-        for c, carrier in enumerate((4 * np.sin(2 * phi), -2 * np.cos(2 * phi))):
-            for some in split_range(len(e), SERIES):
-                x = convolve(e[some] * carrier, self._taps)
-                self._sums[0, :, c, some] += whole @ x.T
-                self._sums[1, :, c, some] += whole @ (x**2).T
-
-    def error(self, series: int, k_ggi: float, group: int = 0) -> Error:
-        """The error object of one series; ``k_ggi`` in V/Eo."""
-        n, m = self.samples[group], self.demodulated[group]
-        rms = float(np.sqrt(self.squares[group, series] / n + self._beyond)) if n else float("nan")
-        i = c = float("nan")
-        if m > 1:
-            mean, square = self._sums[:, group, :, series] / m
-            i, c = (float(x) / k_ggi for x in np.sqrt(np.maximum(0.0, square - mean**2)))
-        return Error(rms, rms / k_ggi, i, c)
+        return Error(*(float(v) for v in np.sqrt(squares / np.sum(counted, axis=0))))
 
 
 INDISTINGUISHABLE = 9.0

@@ -99,78 +99,53 @@ class Spectrum:
 
 
 @dataclass(frozen=True)
-class Averages:
-    """The residual of a long record's means over neighbouring samples: noise slower than the segments are long.
+class Stretch:
+    """A contiguous residual, ``rest`` (N,) at a ``rate``, Hz, which tells the noise from ``low`` to ``high``, Hz.
 
-    Attributes
-    ----------
-    rest, kept
-        (n,), and the share of white noise that is left at each frequency of its periodogram.
-    rate
-        How many there are a second, Hz.
-    below
-        Frequency below which they, not the segments, determine the noise, Hz.
+    ``kept``: the share of the noise that a fit has left it at each frequency of its periodogram; ``None``: all.
     """
 
     rest: Array
-    kept: Array
     rate: float
-    below: float
+    kept: Array | None = None
+    low: float = 0.0
+    high: float = np.inf
 
 
 def estimate(
-    residuals: Sequence[Array],
-    rate: float,
-    without: tuple[float, float] | None = None,
-    kept: Sequence[Array] | None = None,
-    slow: Averages | None = None,
-    spin: float | None = None,
+    residual: Sequence[Stretch], without: tuple[float, float] | None = None, spin: float | None = None
 ) -> Spectrum:
-    """Spectrum of the noise from contiguous segments of residual, by Whittle fits.
+    """Spectrum of the noise, at the rate of the first of several stretches of residual, by Whittle fits.
 
-    Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise. ``kept``: for
-    every segment the share of the noise that a fit has left it at each frequency of its periodogram (default: all). ``slow``: of
-    a record of which the segments are parts. ``spin``: the spin rate, Hz; about one and two times it the spectrum is resolved
-    finely where it asks for that.
+    Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise. ``spin``: the spin rate,
+    Hz; about one and two times it the spectrum is resolved finely where it asks for that.
 
     First alpha f^-b + omega_T (paper, Eq. 53), b from 1 to 2, which also extrapolates the noise below the lowest
     frequency of the record; then a smooth correction, a spline of the logarithm over log frequency, fitted
     as a gamma generalised linear model. Neither bends to a single line.
     """
-    f, p, count = _pool_periodograms(residuals, rate, without, kept, slow)
-    low = _lower(f, p, count)
-    choices = [
-        _fit_correction(f, p, count, _fit_red_and_white(*some), dense, humps)
-        for humps in _list_humps(spin)
-        for some, dense in (
-            (_leave_out_humps(humps, f, p, count), None),
-            (_leave_out_humps(humps, *low), rate),
-        )
-    ]
+    rate = residual[0].rate
+    f, p, count = _pool_periodograms(residual, without)
+    every, low = np.ones_like(f, dtype=bool), f <= np.sqrt(f[0] * f[-1])
+    choices = []
+    for humps in _list_humps(spin):
+        # what a steep end does to the lower half, in the logarithm, is none of its matter
+        for some, dense in ((every, None), (low, rate)):
+            own = _leave_out_humps(humps, f, some)
+            base = _fit_red_and_white(f[own], p[own], count[own])
+            choices.append((*_fit_correction(f, p, count, base, dense, humps), humps))
     # twice the log likelihood against the number of coefficients (BIC)
-    chosen = min(choices, key=lambda c: c.cost + c.size * np.log(len(f)))
+    _, log_density, humps = min(choices, key=lambda c: c[0])
     x = np.log(f)
     grid = np.linspace(x[0] - BELOW, x[-1], 513)
     near = np.abs(np.clip(grid, x[0], x[-1])[:, None] - x[None, :]) < SMOOTH
-    hump = np.any(_hats(np.exp(grid), chosen.humps), axis=1)
+    hump = np.any(_hats(np.exp(grid), humps), axis=1)
     near[hump] = np.abs(np.exp(grid[hump])[:, None] - f[None, :]) < APART
     spread = 1 / np.sqrt(np.maximum(near @ count, 1.0))
-    log_psd = np.asarray(np.log(chosen.base(np.exp(grid))) + chosen.at(np.exp(np.clip(grid, x[0], x[-1]))))
-    model = Spectrum(rate, grid, log_psd, spread)
+    model = Spectrum(rate, grid, log_density(np.exp(grid)), spread)
     # the level once more alone: the penalties must not bias it
     level = float(np.sum(count * p / model.psd(f)) / np.sum(count))
-    return Spectrum(rate, grid, model.log_psd + np.log(level), spread)
-
-
-@dataclass(frozen=True)
-class _Correction:
-    """A spline of the logarithm of a spectrum's departure from ``base``; ``cost`` is minus twice the log likelihood."""
-
-    base: Callable[[Array], Array]
-    at: Callable[[Array], Array]
-    size: int
-    cost: float
-    humps: tuple[float, ...]
+    return replace(model, log_psd=model.log_psd + np.log(level))
 
 
 FREE = 0.1
@@ -194,16 +169,10 @@ def _hats(f: Array, humps: Sequence[float]) -> Array:
     return np.stack(found, axis=1) if found else np.empty((len(f), 0))
 
 
-def _leave_out_humps(humps: Sequence[float], f: Array, p: Array, count: Array) -> tuple[Array, Array, Array]:
-    """The frequencies outside the humps."""
-    beside = ~np.any(_hats(f, humps), axis=1)
-    return (f[beside], p[beside], count[beside]) if 2 * np.sum(beside) > len(f) else (f, p, count)
-
-
-def _lower(f: Array, p: Array, count: Array) -> tuple[Array, Array, Array]:
-    """The lower half, in the logarithm, of the frequencies: what a steep end does to the rest is none of its matter."""
-    low = f <= np.sqrt(f[0] * f[-1])
-    return f[low], p[low], count[low]
+def _leave_out_humps(humps: Sequence[float], f: Array, some: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Those of some of the frequencies (n,) that are outside the humps, if that is most of them."""
+    beside = some & ~np.any(_hats(f, humps), axis=1)
+    return beside if 2 * np.sum(beside) > np.sum(some) else some
 
 
 def _fit_correction(
@@ -212,9 +181,9 @@ def _fit_correction(
     count: Array,
     base: Callable[[Array], Array],
     dense: float | None,
-    humps: tuple[float, ...] = (),
-) -> _Correction:
-    """The correction of ``base`` to the periodogram p (n,) at f (n,).
+    humps: Sequence[float],
+) -> tuple[float, Callable[[Array], Array]]:
+    """The correction of ``base`` to the periodogram p (n,) at f (n,): its BIC, and the logarithm of the density that it makes.
 
     Knots are evenly spaced in the logarithm of the frequency, or, for a ``dense`` sampling rate, Hz, in that for low
     frequencies and in the frequency itself for high ones, FINE intervals to the Nyquist frequency.
@@ -228,21 +197,19 @@ def _fit_correction(
     inner = np.linspace(x[0], x[-1], size - 2)
     knots = np.concatenate([[x[0]] * 4, inner[1:-1], [x[-1]] * 4])
     X = interpolate.BSpline.design_matrix(np.clip(x, x[0], x[-1]), knots, 3).toarray()
-    roughness = np.diff(np.eye(X.shape[1]), 2, axis=0)
-    b: Array = np.zeros(X.shape[1])
-    held = np.ones(X.shape[1])
+    roughness = np.diff(np.eye(size), 2, axis=0)
+    held = np.ones(size)
     if dense is not None:
         # What asks for it may be steep by decades near the top, and is held back little there. Low frequencies, of which
         # determined by few bins, of which a fit has absorbed some, are held to their base as usual.
-        centre = np.array([np.mean(knots[k + 1 : k + 4]) for k in range(len(b))])
+        centre = np.array([np.mean(knots[k + 1 : k + 4]) for k in range(size)])
         held[centre > scale(np.array(dense / (2 * FINE)))] = LOOSE
     penalty = 20.0 * (roughness.T * held[1:-1]) @ roughness + 2.0 * np.diag(held)
     hats = _hats(f, humps)
     X = np.hstack([X, hats])
     penalty = linalg.block_diag(penalty, FREE * np.eye(hats.shape[1]))
-    b = np.zeros(X.shape[1])
-    if dense is not None:  # the search begins near its end
-        b[:] = np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ np.log(p / level))
+    # the search begins near its end
+    b = np.asarray(np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ np.log(p / level)))
     for _ in range(50):
         ratio = p / (level * np.exp(X @ b))
         step = np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ (ratio - 1) - penalty @ b)
@@ -254,10 +221,11 @@ def _fit_correction(
     cost = 2 * float(np.sum(count * (np.log(level) + fitted + p / (level * np.exp(fitted)))))
     spline, over = interpolate.BSpline(knots, b[:size], 3), b[size:]
 
-    def at(g: Array) -> Array:
-        return np.asarray(spline(np.clip(scale(g), x[0], x[-1])) + _hats(g, humps) @ over)
+    def log_density(g: Array) -> Array:
+        near = np.clip(g, f[0], f[-1])
+        return np.asarray(np.log(base(g)) + spline(scale(near)) + _hats(near, humps) @ over)
 
-    return _Correction(base, at, X.shape[1], cost, humps)
+    return cost + X.shape[1] * float(np.log(len(f))), log_density
 
 
 LEFT = 0.1
@@ -265,39 +233,24 @@ LEFT = 0.1
 
 
 def _pool_periodograms(
-    residuals: Sequence[Array],
-    rate: float,
-    without: tuple[float, float] | None,
-    kept: Sequence[Array] | None,
-    slow: Averages | None,
+    residual: Sequence[Stretch], without: tuple[float, float] | None
 ) -> tuple[Array, Array, Array]:
     """Frequencies, densities and numbers of averaged bins (in equal steps of log frequency).
 
     The power in a group of bins over what a fit has left of unit noise there is its density without bias, and as many
     remaining bins determine it.
     """
-    longest = max(len(r) for r in residuals)
-    usable = [k for k, r in enumerate(residuals) if len(r) >= max(64, longest // 4)]
-    if not usable:
-        raise ValueError("no segment is long enough to estimate the noise")
     frequency, density, share = [], [], []
-    for k in usable:
-        f, p = compute_periodogram(residuals[k], rate)
+    for x in residual:
+        f, p = compute_periodogram(x.rest, x.rate)
+        used = (f >= x.low) & (f < x.high)
+        if without is not None:
+            used &= (f < without[0]) | (f > without[1])
         # The lowest bins are bent by the mean, the taper and the drifts that a fit takes out.
-        used = np.ones(len(f), dtype=np.bool_) if without is None else (f < without[0]) | (f > without[1])
         used[:LOWEST] = used[-1:] = False
-        if slow is not None:
-            used &= f >= slow.below
         frequency.append(f[used])
         density.append(cut_lines(p[used]))
-        share.append(np.ones(len(f))[used] if kept is None else kept[k][used])
-    if slow is not None:
-        f, p = compute_periodogram(slow.rest, slow.rate)
-        used = f < slow.below
-        used[:LOWEST] = False
-        frequency.append(f[used])
-        density.append(cut_lines(p[used]))
-        share.append(slow.kept[used])
+        share.append((np.ones(len(f)) if x.kept is None else x.kept)[used])
     f, p, left = np.concatenate(frequency), np.concatenate(density), np.concatenate(share)
     which = np.digitize(f, np.geomspace(f.min() * 0.999, f.max() * 1.001, 120))
     n, power, free, log_f = (

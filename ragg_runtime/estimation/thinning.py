@@ -14,18 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.observation import (
     Observation,
-    Segment,
     Thin,
     divide_into_segments,
     spread,
 )
-from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual, linearise
+from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual, linearise, make_point
 from ragg_runtime.estimation.residual import STD_OF_MEDIAN, find_lines
-from ragg_runtime.estimation.whitening import find_segments, is_long
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.record import is_disc_angle
 from ragg_runtime.model.evaluate import make_vector
@@ -62,10 +59,13 @@ def leave_out_uncertain(
     observations = [_leave_out_ends(model, instrument, o) for o in observations]
     if not any(e.switches for e in model.effects):
         return observations
-    # a sample of channels is made of many: of those none is left out
-    return [
-        o if o.recorded.demodulated else _leave_out_open_switches(model, instrument, o) for o in observations
-    ]
+    found = []
+    for o in observations:
+        # a sample of channels is made of many: of those none is left out
+        some = [] if o.recorded.demodulated else divide_into_segments(len(o.record.valid))
+        parts = [_open(model, instrument, o.part(rows)) for rows in some]
+        found.append(_leave_out(o, np.concatenate(parts)) if parts else o)
+    return found
 
 
 def leave_out_extrapolated(
@@ -74,67 +74,54 @@ def leave_out_extrapolated(
     """The observations without the ends where a model that differentiates the motion, with the parameters p, does not fit."""
     if not any(n.startswith(("d_", "d2_")) for n in model.chain.INPUTS):
         return list(observations)
-    return [
-        _leave_out_misfit(LinearisationPoint(model, instrument, p, with_candidates=False), o)
-        for o in observations
-    ]
+    at, found = make_point(model, instrument, p), []
+    for o in observations:
+        valid, ends = o.record.valid, np.zeros(len(o.record.valid), dtype=np.bool_)
+        ends[:EXTRAPOLATED] = ends[-EXTRAPOLATED:] = True
+        left = np.max(np.abs(compute_residual(at, o)), axis=0)
+        std = STD_OF_MEDIAN * float(np.median(left[valid]))
+        found.append(_leave_out(o, ends) if np.any(left[ends & valid] > MISFIT * std) else o)
+    return found
 
 
-def _leave_out_misfit(at: LinearisationPoint, o: Observation) -> Observation:
-    valid, ends = o.record.valid, [*range(EXTRAPOLATED), *range(-EXTRAPOLATED, 0)]
-    left = np.max(np.abs(compute_residual(at, o)), axis=0)
-    std = STD_OF_MEDIAN * float(np.median(left[valid]))
-    if not np.any(left[ends][valid[ends]] > MISFIT * std):
+def _leave_out(o: Observation, some: NDArray[np.bool_]) -> Observation:
+    """An observation without some samples (N,), unless these are too many."""
+    valid = o.record.valid
+    kept = valid & ~some
+    if np.array_equal(kept, valid) or np.sum(kept) < (1.0 - MOST_LEFT_OUT) * np.sum(valid):
         return o
-    kept = valid.copy()
-    kept[ends] = False
     return replace(o, record=replace(o.record, valid=kept))
 
 
 def _leave_out_ends(model: Model, instrument: Instrument, o: Observation) -> Observation:
     """Without as much of either end as motion may be late, and what an instrument may remember of what was before."""
     moving, memories = dict(list_late(model)), [*list_memories(model, make_vector(model, instrument))]
-    if not (moving or memories):
-        return o
     r = o.record
-    most = [
+    late = [
         c.scale * (r.time[-1] if moving[k].growing else 1.0) * r.rate
         for c, k in design.list_base_columns(model, instrument)
         if k in moving
     ]
-    n = int(np.ceil(LATEST * max(most, default=0.0)))
+    n = int(np.ceil(LATEST * max(late, default=0.0)))
     settled = LATEST * max((m.settles * r.rate for m in memories), default=0.0)
     begun = max(n, int(min(settled, MOST_LEFT_OUT / 2 * len(r.valid))))
     n = max(n, HALO if memories else 0)  # beyond the end the record is continued with its last value
-    inside = np.zeros(len(r.valid), dtype=np.bool_)
-    inside[begun : len(inside) - n] = True
-    kept = r.valid & inside
-    if np.array_equal(kept, r.valid) or np.sum(kept) < (1.0 - MOST_LEFT_OUT) * np.sum(r.valid):
-        return o
-    return replace(o, record=replace(r, valid=kept))
-
-
-def _leave_out_open_switches(model: Model, instrument: Instrument, o: Observation) -> Observation:
-    valid = np.array(o.record.valid)
-    for s in divide_into_segments(len(valid)):
-        valid[s.rows] &= ~_open(model, instrument, o.part(s.rows))
-    if np.sum(valid) < (1.0 - MOST_LEFT_OUT) * np.sum(o.record.valid):
-        return o
-    return replace(o, record=replace(o.record, valid=valid))
+    outside = np.ones(len(r.valid), dtype=np.bool_)
+    outside[begun : len(outside) - n] = False
+    return _leave_out(o, outside)
 
 
 def _open(model: Model, instrument: Instrument, o: Observation) -> NDArray[np.bool_]:
     """(N,): whether the side of any of the output's accelerometers is open."""
     chain, r, p = model.chain, o.record, make_vector(model, instrument)
-    x = r.inputs(chain)
-    rows = {name: k for k, (name, shared) in enumerate(chain.ROWS) if not shared}
+    x, members = r.inputs(chain), o.output.members
+    rows = {name: k for k, (name, _) in enumerate(chain.ROWS)}
     base = [c for c, _ in design.list_base_columns(model, instrument) if c.effect is None]
     found = np.zeros(len(r.time), dtype=np.bool_)
-    for j in o.output.members:
-        own = [c for c in base if c.accelerometer == j + 1]
+    for j, v in zip(members, chain.voltages(r.time, x, p, r.phi, members), strict=True):
         slopes = chain.derivatives(j, r.time, x, p, r.phi)
-        variance = sum((slopes[rows[c.name]] * c.scale) ** 2 for c in own)
-        found |= chain.voltages(r.time, x, p, r.phi, (j,))[0] ** 2 < OPEN**2 * variance
+        variance = sum((slopes[rows[c.name]] * c.scale) ** 2 for c in base if c.accelerometer == j + 1)
+        found |= v**2 < OPEN**2 * variance
     return found
 
 
@@ -167,20 +154,18 @@ MISSING = 0.25
 LOST = 0.05
 """Share of the samples that may be lost beside those that are missing."""
 
-BLOCK, TOGETHER = 1 << 12, 32
-"""Samples, and columns, that are made at a time: more take memory and no less time."""
-
 
 def thin_observations(
     model: Model, instrument: Instrument, observations: Sequence[Observation]
 ) -> list[Observation]:
     """Observations as thin as their columns allow about the sheet, those of one flight alike; short ones as they are."""
-    at = LinearisationPoint(model, instrument, make_vector(model, instrument), with_candidates=True)
+    candidates = design.list_candidate_columns(model, instrument)
+    at = make_point(model, instrument, make_vector(model, instrument), candidates)
     most = [_find_most(at, o) for o in observations]
     found = []
     for o in observations:
         every = min(k for k, x in zip(most, observations, strict=True) if x.flight == o.flight)
-        found.append(o if every == 1 else _keep_samples(o, _thin(o, every)))
+        found.append(o if every == 1 else _keep_samples(_thin(o, every)))
     return found
 
 
@@ -188,10 +173,10 @@ def _find_most(at: LinearisationPoint, o: Observation) -> int:
     """One in how many of its samples is enough."""
     least = max(LEAST_RATE, 2 * (4 * o.record.spin_frequency + ABOVE) / PASSED)
     choices = [k for k in EVERY if o.record.rate >= k * least]
-    if o.recorded.demodulated or not is_long(o) or not choices:
+    if o.recorded.demodulated or len(o.segments) == 1 or not choices:
         return 1
-    some = spread(find_segments(o), EXCERPTS)
-    pieces = [o.part(slice(s.rows.start, min(s.rows.start + EXCERPT, s.rows.stop))) for s in some]
+    some = spread([rows for rows in o.segments if o.record.valid[rows].any()], EXCERPTS)
+    pieces = [o.part(slice(rows.start, min(rows.start + EXCERPT, rows.stop))) for rows in some]
     whole = [linearise(at, _count_all(x))[:-1] for x in pieces]
 
     def enough(every: int) -> bool:
@@ -202,8 +187,8 @@ def _find_most(at: LinearisationPoint, o: Observation) -> int:
     if not enough(choices[-1]):  # a motion that shakes is soon known
         return 1
     every = next((k for k in choices[:-1] if enough(k)), choices[-1])
-    lost = np.mean(o.record.valid) - np.mean(_find_supported(o.record.valid, _thin(o, every)))
-    return 1 if lost > LOST or any(_has_line(at, _thin(o.part(s.rows), every)) for s in some) else every
+    lost = np.mean(o.record.valid) - np.mean(_find_supported(_thin(o, every)))
+    return 1 if lost > LOST or any(_has_line(at, _thin(o.part(rows), every)) for rows in some) else every
 
 
 def _count_all(o: Observation) -> Observation:
@@ -228,18 +213,18 @@ def measure_beyond(model: Model, instrument: Instrument, p: Array, o: Observatio
     """Mean square, V^2 of G_out, of what thinning has taken of an observation's residual about parameters p, SI."""
     if o.thin is None:
         return 0.0
-    at = LinearisationPoint(model, instrument, p, with_candidates=False)
+    at = make_point(model, instrument, p)
     whole, taps = o.thin.whole, o.thin.taps
 
-    def taken(s: Segment) -> Array:
-        part = whole.part(s.rows, at.channels)
+    def taken(rows: slice) -> Array:
+        part = whole.part(rows)
         e = part.signs @ compute_residual(at, part)
         slow, inner = convolve(e, taps), slice(len(taps) // 2, len(e) - len(taps) // 2)
         # the whole less the slow, one sample at a time: what both hold, an unknown gradient say, cancels
         square = ((e[inner] - slow) * (e[inner] + slow))[part.record.valid[inner]]
         return np.array([np.sum(square), len(square)])
 
-    square, count = sum(map(taken, find_segments(whole)), np.zeros(2))
+    square, count = sum(map(taken, whole.segments), np.zeros(2))
     return max(0.0, float(square) / max(float(count), 1.0))
 
 
@@ -247,13 +232,12 @@ def _are_alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[A
     """Whether along the thinned motion the same columns are made, of pieces of a flight, as the ``whole`` ones are, thinned."""
     square = off = np.zeros(1)
     for thin, columns in zip(pieces, whole, strict=True):
-        o = replace(_keep_samples(thin.whole, thin), thin=None)
+        o = replace(_keep_samples(thin), thin=None)
         # towards an end or a gap derivatives are of one side
         inside = ndimage.binary_erosion(o.record.valid, iterations=HALO)
         if 2 * np.sum(inside) < len(inside):
             return False  # too few samples to determine the rest
-        made = linearise(at, o)[:-1]
-        wanted = np.concatenate([thin.kept(columns[some]) for some in split_range(len(columns), TOGETHER)])
+        made, wanted = linearise(at, o)[:-1], thin.kept(columns)
         square = square + np.sum(wanted[:, :, inside] ** 2, axis=(1, 2))
         off = off + np.sum((made - wanted)[:, :, inside] ** 2, axis=(1, 2))
     most = np.where(np.arange(len(off)) < len(at.base), ALIKE, NEAR)
@@ -271,48 +255,31 @@ def _has_line(at: LinearisationPoint, thin: Thin) -> bool:
     return any(find_lines(x, r.rate, kept) for x in fast)
 
 
-def _find_supported(valid: NDArray[np.bool_], thin: Thin) -> NDArray[np.bool_]:
+def _find_supported(thin: Thin) -> NDArray[np.bool_]:
     """(n,): which samples that are kept have nearly all that makes them."""
-    found = np.empty(thin.rows.stop, dtype=np.bool_)
     weights = replace(thin, taps=np.abs(thin.taps) / np.sum(np.abs(thin.taps)))
-    for some in split_range(len(found), BLOCK):
-        missing = ~valid[thin.part(some).span]
-        found[some] = not missing.any() or weights.kept(missing.astype(np.float64)) < MISSING
-    return found
+    return np.asarray(weights.kept(np.where(thin.whole.record.valid, 0.0, 1.0)) < MISSING)
 
 
-def _keep_samples(o: Observation, thin: Thin) -> Observation:
-    """The samples of an observation that are kept."""
-    r, size, half = o.record, thin.rows.stop, len(thin.taps) // 2
-    channels = dict(r.channels)
-    time = np.array(r.time[half :: thin.every][:size])
-    series = [np.empty(size) for x in o.series]
-    wide = {n: np.empty(size) for n, x in channels.items()}
+def _keep_samples(thin: Thin) -> Observation:
+    """The observation made of those samples of another that are kept."""
+    o, half = thin.whole, len(thin.taps) // 2
+    r = o.record
 
-    for some in split_range(size, BLOCK):
-        rows = thin.part(some).span
-        there = np.array(r.valid[rows])
-        for x, found in zip(o.series, series, strict=True):
-            found[some] = thin.kept(_fill_in(x[rows], there))
-        for n, x in channels.items():
-            whole = _fill_in(x[rows], there)
-            # of a disc's angle turns may be missing
-            wide[n][some] = thin.kept(np.unwrap(whole) if is_disc_angle(n) else whole)
+    def kept(x: Array, *, angle: bool = False) -> Array:
+        x = np.nan_to_num(bridge_gaps(np.array(x), r.valid & np.isfinite(x)))
+        return thin.kept(np.unwrap(x) if angle else x)  # of a disc's angle turns may be missing
+
+    series = tuple(kept(x) for x in o.series)
     record = replace(
         r,
-        time=time,
-        wide=wide,
+        time=np.array(r.time[half :: thin.every][: thin.rows.stop]),
+        wide={n: kept(x, angle=is_disc_angle(n)) for n, x in r.channels.items()},
         reading=None if r.reading is None else series[0],
         rate=r.rate / thin.every,
-        valid=_find_supported(r.valid, thin),
+        valid=_find_supported(thin),
         halo=(0, 0),
         whole=None,
         first=0,
     )
-    return replace(o, record=record, series=tuple(series), thin=thin)
-
-
-def _fill_in(x: Array, valid: NDArray[np.bool_]) -> Array:
-    """Some samples of a column, in memory, all of them numbers."""
-    x = np.array(x)
-    return np.nan_to_num(bridge_gaps(x, valid & np.isfinite(x)))
+    return replace(o, record=record, series=series, thin=thin)

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import interpolate
 
-from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation.least_squares import orthonormalise
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation
@@ -34,9 +33,6 @@ LEAD_SECONDS = 100.0
 that oscillates at twice the spin rate."""
 
 
-TOGETHER = 128
-"""Columns that it is projected out of at a time: more leave the cache."""
-
 TAKEN = 0.6 / KNOT_SECONDS
 """Frequency, Hz, up to which the splines follow a signal, and so take noise away: half a period a knot, and a margin."""
 
@@ -51,12 +47,6 @@ class Window:
     plain: Array
     places: NDArray[np.intp]
     white: Array
-
-    @cached_property
-    def rows(self) -> slice | NDArray[np.intp]:
-        """The same as a slice, which is no copy, where they follow one another."""
-        first, last = int(self.places[0]), int(self.places[-1]) + 1
-        return slice(first, last) if last - first == len(self.places) else self.places
 
     @cached_property
     def raw(self) -> Array:
@@ -111,15 +101,14 @@ def make_windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]
         here = np.array(r.valid[a - lead : b])
         if np.sum(here[lead:]) < 2:
             return None
-        inside = here[lead:]
-        shares = [np.empty((0, len(here)))] * len(o.series)
+        shares = np.empty((0, len(o.series), len(here)))
         if is_unknown(o):
             part = r.part(slice(a - lead, b), only=())
             shares = _share_among_series(o, make_splines(part.time, *part.carriers) * here)
-        plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
+        plain = shares[:, :, lead:][:, :, here[lead:]].reshape(len(shares), -1)
         level = noise.level.of(take_quantities(r, slice(a - lead, b)))
         lines = noise.line_columns(r.time[a - lead : b], len(o.series))
-        together = np.concatenate([np.stack(shares, axis=1), lines * here])
+        together = np.concatenate([shares, lines * here])
         white = noise.whiten(together, here, level, lead=lead)
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
         places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(noise.outputs)])
@@ -129,31 +118,25 @@ def make_windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]
     return [w for w in map(window, pairwise(edges)) if w is not None]
 
 
-def _share_among_series(o: Observation, X: Array) -> list[Array]:
-    """What each series sees of T_1 sin 2 phi and T_2 cos 2 phi in turn, (k, N) each, by the sheet's scale factors."""
-    alike = all(s * c == 1 for s, c in zip(o.output.signs, o.output.carriers, strict=True))
-    if not o.recorded.separate or (alike and len(set(o.output.radii)) == 1):
-        return [w * X for w in o.weights * o.gains]
-    sine, cosine = X[0::2], X[1::2]
-    found = []
-    largest = max(o.output.radii) or 1.0
-    for c, radius, gain in zip(o.output.carriers, o.output.radii, o.gains, strict=True):
-        g = gain * c * radius / largest
-        x = np.empty_like(X)
-        x[0::2], x[1::2] = g.real * sine + g.imag * cosine, g.real * cosine - g.imag * sine
-        found.append(x)
+def _share_among_series(o: Observation, X: Array) -> Array:
+    """What each series sees of T_1 sin 2 phi and T_2 cos 2 phi in turn, (k, m, N), by the sheet's scale factors."""
+    g = np.ones(1, dtype=np.complex128)
+    if o.recorded.separate:
+        radii = np.array(o.output.radii)
+        g = o.gains * np.array(o.output.carriers) * radii / (np.max(radii) or 1.0)
+    real, imaginary = g.real[:, None], g.imag[:, None]
+    sine, cosine = X[0::2, None], X[1::2, None]
+    found = np.empty((len(X), len(g), X.shape[1]))
+    found[0::2] = real * sine + imaginary * cosine
+    found[1::2] = real * cosine - imaginary * sine
     return found
 
 
 def project(columns: Floats, found: Sequence[Window]) -> None:
     """Take what an unknown gradient spans out of whitened columns (n, rows), in place."""
     for w in found:
-        Q = w.white.astype(columns.dtype, copy=False)
-        for some in split_range(len(columns), TOGETHER):
-            part = columns[some, w.rows]
-            part -= np.matmul(np.matmul(part, Q), Q.T)
-            if not isinstance(w.rows, slice):  # then ``part`` is a copy
-                columns[some, w.rows] = part
+        Q, part = w.white.astype(columns.dtype, copy=False), columns[:, w.places]
+        columns[:, w.places] = part - (part @ Q) @ Q.T
 
 
 def take_out(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Array:

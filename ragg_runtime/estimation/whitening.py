@@ -10,22 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import progress
-from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.least_squares import compute_r_factor, join
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import (
     BLOCKS,
-    ROWS,
-    THINNER,
     Observation,
-    Segment,
     combine_output,
-    divide_into_segments,
     make_block_edges,
     split_at_blocks,
 )
-from ragg_runtime.estimation.regressors import LinearisationPoint, linearise, thin_residual
+from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
 from ragg_runtime.estimation.unknown_gradient import Window
 
 Array = NDArray[np.float64]
@@ -34,68 +29,35 @@ R = TypeVar("R")
 
 @dataclass(frozen=True)
 class Piece:
-    """A segment of a flight about one parameter vector: N samples, m outputs.
+    """A segment of a flight about one parameter vector: N samples, ``rows`` of the flight, m outputs.
 
-    ``columns`` (n + 1, m, N), V, are base (``n_base``) and candidates, each times its parameter's scale, and the residual;
+    ``columns`` (n + 1, m, N), V, are base and candidates, each times its parameter's scale, and the residual;
     ``white`` (n + 1, rows) the same whitened, one output after the other, an unknown gradient (``windows``) projected out;
-    ``sample`` (rows,) the flight's sample of each whitened row; ``nonzero`` the columns that are not zero.
+    ``sample`` (rows,) the flight's sample of each whitened row.
     """
 
-    segment: Segment
+    rows: slice
     observation: Observation
     columns: Array
-    n_base: int
     white: Array
     sample: NDArray[np.intp]
     windows: Sequence[Window]
-    nonzero: slice | NDArray[np.intp]
     noise: NoiseModel
 
     def r_factor(self, first: int = 0, stop: int | None = None) -> Array:
         """Triangular factor (n + 1, n + 1) of the whitened columns: of the flight's samples from ``first`` on, before ``stop``."""
-        valid = int(np.count_nonzero(self.observation.record.valid))
-        ends = (first, self.segment.rows.stop if stop is None else stop)
-        a, b = (int(k) for k in np.searchsorted(self.sample[:valid], ends))
-        begins = range(0, max(1, self.white.shape[1]), max(1, valid))  # of every output
-        return compute_r_factor(np.concatenate([self.white[:, k + a : k + b] for k in begins], axis=1))
+        some = (self.sample >= first) & (self.sample < (self.rows.stop if stop is None else stop))
+        return compute_r_factor(self.white if some.all() else self.white[:, some])
 
     def sums(self, some: slice = slice(None)) -> Array:
         """(n + 1,), V: sums of the columns of G_out over some samples; zero of channels, which have lost their mean."""
         weights = self.observation.signs * (not self.observation.recorded.demodulated)
         return np.asarray(np.sum(self.columns[:, :, some], axis=2) @ weights)
 
-    def left(self, coefficients: Array) -> Array:
-        """Residuals of G_out (k, N), V, once columns have these coefficients (k, n); no unknown gradient."""
-        base, further = coefficients[:, : self.n_base], coefficients[:, self.n_base :]
-        e = self.columns[-1] - np.tensordot(base, self.columns[: base.shape[1]], 1)
-        for left, own in zip(e, further, strict=True):  # of an effect's fit all but a few are zero
-            few = np.flatnonzero(own)
-            if len(few):
-                left -= np.tensordot(own[few], self.columns[self.n_base + few], 1)
-        return self.observed(e)
-
     def observed(self, e: Array) -> Array:
         """What residuals of the series (k, m, N), V, are of G_out (k, N); no unknown gradient."""
         e = unknown_gradient.take_out(e, self.windows, self.observation.record.valid)
         return combine_output(self.observation, e)
-
-
-def divide_flight(o: Observation) -> list[Segment]:
-    """The segments of a flight. Demodulated channels are not divided: their columns pass a two-sided filter."""
-    n = len(o.record.time)
-    if o.recorded.demodulated:
-        return divide_into_segments(n, max(n, ROWS))
-    return divide_into_segments(n, ROWS // THINNER if o.thin is not None and n > ROWS else ROWS)
-
-
-def is_long(o: Observation) -> bool:
-    """Whether a flight is longer than what its noise is seen in at a time: of noise that is slower nothing is known."""
-    return len(divide_flight(o)) > 1
-
-
-def find_segments(o: Observation) -> list[Segment]:
-    """The segments of a flight that hold valid samples."""
-    return [s for s in divide_flight(o) if np.any(o.record.valid[s.rows])]
 
 
 def pass_over(
@@ -104,86 +66,46 @@ def pass_over(
     noise: NoiseModel,
     work: Callable[[Piece], R],
     *,
-    chosen: Sequence[Segment] | None = None,
+    chosen: Sequence[slice] | None = None,
     whitened: bool = True,
-    residual: Array | None = None,
-    windows: Sequence[Window] | None = None,
 ) -> Iterator[R]:
     """What ``work`` makes of every segment of a flight (or of the ``chosen``, in order); it must not keep a piece of several.
 
-    Unless ``whitened``, the columns alone are made. ``residual`` (m, N) V: that of a thinned flight, if it is known.
-    ``windows``: of a flight of one segment, if they are known.
+    Unless ``whitened``, the columns alone are made.
     """
-    n_base = len(at.base)
-    nonzero = design.find_nonzero([*at.base, *at.candidates], at.instrument, o.place)
-    found = divide_flight(o) if chosen is None else chosen
-    memory = noise.memory if whitened else 0
-    tail: Array | None = None
-    before = 0
-    share = (1.0 if at.with_candidates else 0.4) * (1.0 if whitened else 0.5)
-    for s in found:
-        part = o.part(s.rows)
-        columns = linearise(at, part, None if residual is None else residual[:, s.rows])
-        flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
-        taken = unknown_gradient.make_windows(o, s.rows, noise) if windows is None else windows
+    share = (1.0 if at.candidates else 0.4) * (1.0 if whitened else 0.5)
+    past, end = None, 0
+    for rows in o.segments if chosen is None else chosen:
+        part = o.part(rows)
+        columns, windows = linearise(at, part), unknown_gradient.make_windows(o, rows, noise)
+        white, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
         if whitened:
-            level = noise.level.of(part.record.quantity)
-            series = noise.interpolate(columns[nonzero], part.record.valid, level)
-            if tail is not None:
-                tail = np.pad(tail, ((0, 0), (0, 0), (0, min(memory, s.rows.start - before))))[:, :, -memory:]
-            white = noise.filter(series, part.record.valid, level, tail=tail)
-            flat = _project_segment(white, series, len(columns), nonzero, taken)
-            if memory:
-                whole = tail is None or series.shape[2] >= memory
-                past = series if whole else np.concatenate([tail, series], axis=2)
-                tail, before = past[:, :, -memory:], s.rows.stop
-            sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, noise.outputs)
-        piece = Piece(
-            segment=s,
-            observation=part,
-            columns=columns,
-            n_base=n_base,
-            white=flat,
-            sample=sample,
-            windows=taken,
-            nonzero=nonzero,
-            noise=noise,
-        )
-        made = work(piece)
-        progress.step(share * (s.rows.stop - s.rows.start))
+            white, past = noise.whiten_segment(
+                columns,
+                part.record.valid,
+                noise.level.of(part.record.quantity),
+                past if rows.start == end else None,
+            )
+            end = rows.stop
+            if windows:
+                white = white.copy()  # a noise of one volt leaves the columns themselves
+                unknown_gradient.project(white, windows)
+            sample = np.tile(np.flatnonzero(part.record.valid) + rows.start, noise.outputs)
+        made = work(Piece(rows, part, columns, white, sample, windows, noise))
+        progress.step(share * (rows.stop - rows.start))
         yield made
-
-
-def _project_segment(
-    some: Array, series: Array, count: int, nonzero: slice | NDArray[np.intp], windows: Sequence[Window]
-) -> Array:
-    """(count, rows): of so many columns those that are not zero, ``series``, whitened, ``some``, without what an unknown gradient spans."""
-    if windows:
-        some = some.copy() if np.shares_memory(some, series) else some
-        unknown_gradient.project(some, windows)
-    if isinstance(nonzero, slice):
-        return some
-    flat = np.zeros((count, some.shape[1]))
-    flat[nonzero] = some
-    return flat
 
 
 @dataclass(frozen=True)
 class PreparedFlight:
     """One flight about the calibrated parameters.
 
-    Attributes
-    ----------
-    pieces
-        Of a short flight its columns; those of a longer one (``None``) are computed anew in every pass.
-    residual
-        Of a thinned flight that of the whole record, thinned, (m, N) V.
+    ``pieces``: of a short flight its columns; those of a longer one (``None``) are computed anew in every pass.
     """
 
     observation: Observation
     noise: NoiseModel
     at: LinearisationPoint
-    residual: Array | None = field(default=None, repr=False)
     pieces: tuple[Piece, ...] | None = field(default=None, repr=False)
 
     @property
@@ -196,20 +118,12 @@ class PreparedFlight:
         return self.noise.psd(f, self.observation.signs)
 
     def each(
-        self, work: Callable[[Piece], R], *, chosen: Sequence[Segment] | None = None, whitened: bool = True
+        self, work: Callable[[Piece], R], *, chosen: Sequence[slice] | None = None, whitened: bool = True
     ) -> Iterator[R]:
         """What ``work`` makes of every segment (or of the ``chosen``), in order: one pass over the flight. It must not keep one."""
         if self.pieces is not None:
             return map(work, self.pieces)
-        return pass_over(
-            self.at,
-            self.observation,
-            self.noise,
-            work,
-            chosen=chosen,
-            whitened=whitened,
-            residual=self.residual,
-        )
+        return pass_over(self.at, self.observation, self.noise, work, chosen=chosen, whitened=whitened)
 
     def lean(self, places: Sequence[int]) -> tuple[PreparedFlight, list[int]]:
         """What makes the columns of the base and those at ``places`` at least cost, and where it puts the latter."""
@@ -217,61 +131,54 @@ class PreparedFlight:
             return self, list(places)
         n = len(self.at.base)
         further = sorted({k - n for k in places if k >= n})
-        known = range(len(self.at.candidates)) if self.at.only is None else self.at.only
-        at = replace(self.at, with_candidates=bool(further), only=tuple(known[k] for k in further))
+        at = replace(self.at, candidates=[self.at.candidates[k] for k in further])
         return replace(self, at=at), [k if k < n else n + further.index(k - n) for k in places]
 
-    def for_residuals(self, v: Array) -> tuple[PreparedFlight, Array]:
-        """What yields residuals for coefficients v (k, size) at least cost, and these coefficients of its columns."""
+    def residuals(self, v: Array, chosen: Sequence[slice] | None = None) -> Array:
+        """Residuals of G_out (k, N), V, once columns have coefficients v (k, size); no unknown gradient."""
         n = len(self.at.base)
         places = [*range(n), *(n + np.flatnonzero(np.any(v[:, n:], axis=0)))]
         lean, own = self.lean(places)
-        w = np.zeros((len(v), v.shape[1] if lean is self else len(places)))
-        w[:, own] = v[:, places]
-        return lean, w
+
+        def left(piece: Piece) -> Array:
+            return piece.observed(piece.columns[-1] - np.tensordot(v[:, places], piece.columns[own], 1))
+
+        return np.concatenate([*lean.each(left, chosen=chosen, whitened=False)], axis=1)
 
     def with_steps(self, instants: Mapping[str, float]) -> PreparedFlight:
         """The same with steps (effect -> instant, s)."""
         if dict(instants) == dict(self.at.instants):
             return self
-        at = replace(self.at, instants=instants)
-        return prepare_flight(self.observation, self.noise, at, self.residual)
+        return prepare_flight(self.observation, self.noise, replace(self.at, instants=instants))
 
 
-def prepare_flight(
-    o: Observation, noise: NoiseModel, at: LinearisationPoint, residual: Array | None = None
-) -> PreparedFlight:
-    """A flight about a point; ``residual`` is known of a thinned flight that was prepared about the same parameters."""
-    if residual is None and o.thin is not None:
-        residual = thin_residual(at, o.thin)
-    if len(o.record.time) > ROWS:
-        return PreparedFlight(o, noise, at, residual)
-    pieces = pass_over(at, o, noise, lambda piece: piece, residual=residual)
-    return PreparedFlight(o, noise, at, residual, tuple(pieces))
+def prepare_flight(o: Observation, noise: NoiseModel, at: LinearisationPoint) -> PreparedFlight:
+    """A flight about a point."""
+    if len(o.segments) > 1:
+        return PreparedFlight(o, noise, at)
+    return PreparedFlight(o, noise, at, tuple(pass_over(at, o, noise, lambda piece: piece)))
 
 
 def factor_blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
     """Of the columns [base | candidates | residual]: R factors (n + 1, n + 1) of the whitened ones, one a block of
     time, and (BLOCKS, n + 1), V: sums of the plain ones of G_out.
     """
-    samples = len(prepared.observation.record.time)
-
-    def own(piece: Piece) -> list[tuple[int, Array, Array]]:
-        first, parts = piece.segment.rows.start, split_at_blocks(piece.segment.rows, samples)
-        return [
-            (b, piece.r_factor(x.start, x.stop), piece.sums(slice(x.start - first, x.stop - first)))
-            for b, x in parts
-        ]
-
+    samples, size = len(prepared.observation.record.time), len(prepared.at.base) + len(prepared.at.candidates)
     r_factors: dict[int, Array] = {}
-    totals: dict[int, Array] = {}
-    for parts in prepared.each(own):  # a day has hundreds: those of a block are joined as they come
-        for b, T, sums in parts:
-            r_factors[b] = join([r_factors[b], T]) if b in r_factors else T
-            totals[b] = totals[b] + sums if b in totals else sums
-    nothing = np.zeros_like(next(iter(r_factors.values())))
-    each = range(BLOCKS)
-    return tuple(r_factors.get(b, nothing) for b in each), np.stack([totals.get(b, nothing[0]) for b in each])
+    totals = np.zeros((BLOCKS, size + 1))
+
+    def add(piece: Piece) -> None:
+        first = piece.rows.start
+        for b, x in split_at_blocks(piece.rows, samples):
+            # a day has hundreds of segments: those of a block are joined as they come
+            own = piece.r_factor(x.start, x.stop)
+            r_factors[b] = join([r_factors[b], own]) if b in r_factors else own
+            totals[b] += piece.sums(slice(x.start - first, x.stop - first))
+
+    for _ in prepared.each(add):
+        pass
+    nothing = np.zeros((size + 1, size + 1))
+    return tuple(r_factors.get(b, nothing) for b in range(BLOCKS)), totals
 
 
 DEPENDENT = 1e-6

@@ -95,8 +95,7 @@ class Comparison:
     def with_nominal(self, instrument: Instrument) -> Comparison:
         """The same, ``nominal`` being these values."""
         p = make_vector(self.fitted.model, instrument)
-        (scored,) = self.fitted.score((), lambda x: compute_nominal_residual(self.fitted, p, x)[None], 1)
-        return replace(self, nominal=scored.whole)
+        return replace(self, nominal=self.fitted.score_residuals(compute_residuals(self.fitted, p)).whole)
 
     def __repr__(self) -> str:
         errors = (
@@ -203,7 +202,7 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
 
 def score_with_nominal(f: Fitted, vectors: Sequence[Array]) -> list[Scored]:
     """How large the residuals are with these coefficients (size,), and with the nominal values (last)."""
-    return f.score(vectors, lambda x: compute_nominal_residual(f, f.sheet, x)[None], 1)
+    return [*f.score(vectors), f.score_residuals(compute_residuals(f, f.sheet))]
 
 
 def conclude(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> Comparison:
@@ -235,12 +234,16 @@ def describe_disturbance(f: Fitted) -> str | None:
     return "; ".join(said) or None
 
 
-def compute_nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
-    """Residual of G_out, (N,) V, of a piece of a flight with these values; no unknown gradient."""
-    o = piece.observation
-    predicted = regressors.predict_observed(f.model, o, p)
-    (left,) = piece.observed(np.where(o.record.valid, o.data - predicted, 0.0)[None])
-    return np.asarray(left)
+def compute_residuals(f: Fitted, p: Array) -> list[Array]:
+    """Residual of G_out, (N,) V, of every flight with these values; no unknown gradient."""
+
+    def left(piece: Piece) -> Array:
+        o = piece.observation
+        predicted = regressors.predict_observed(f.model, o, p)
+        return np.asarray(piece.observed(np.where(o.record.valid, o.data - predicted, 0.0)[None])[0])
+
+    flights = [x.lean(range(f.n_base))[0] for x in f.prepared]
+    return [np.concatenate([*x.each(left, whitened=False)]) for x in flights]
 
 
 @dataclass(frozen=True)

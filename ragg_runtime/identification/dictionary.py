@@ -269,8 +269,8 @@ def _measure(
     first: dict[str, float] = {}
     sums = {n: np.zeros(2) for n in names}
     ends = {n: np.array([np.inf, -np.inf]) for n in names}
-    for s in divide_into_segments(len(r.time)):
-        part = r.part(s.rows)
+    for rows in divide_into_segments(len(r.time)):
+        part = r.part(rows)
         count += float(np.sum(part.valid))
         relaxed = slow.advance(part)
         for n in names:
@@ -354,7 +354,7 @@ class Directions:
     def whitened(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
         """Places of some terms, their series (terms, N), and these whitened (terms, rows), through the filter."""
         o, piece = self.piece.observation, self.piece
-        rows = piece.segment.rows
+        rows = piece.rows
         lead = min(rows.start, max(len(t) for t in self.filters) - 1)
         wide = self.whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
         valid, level = o.record.valid, np.broadcast_to(self.noise.level.of(wide.quantity), wide.valid.shape)

@@ -22,7 +22,7 @@ from ragg_runtime.base import series_name
 from ragg_runtime.base.series_name import Function
 from ragg_runtime.estimation import whitening
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.whitening import PreparedFlight, Projector, divide_flight
+from ragg_runtime.estimation.whitening import PreparedFlight, Projector
 from ragg_runtime.identification import omnibus
 from ragg_runtime.identification.dictionary import MEMORY, Dictionary, Term, list_harmonics, make_carrier
 from ragg_runtime.identification.features import FORCES, OUTPUT, begins_at_zero
@@ -112,11 +112,11 @@ def _sum_products(
     shape = (1 + len(MEMORIES), len(d.terms), len(d.terms))
     dots, squares = np.zeros((*shape, len(stages) * len(turns))), np.zeros((*shape, len(stages)))
     last, origin = np.zeros((*shape, 1), dtype=np.float32), None
-    for s in divide_flight(x.observation):
-        r = x.observation.record.part(s.rows)
+    for rows in x.observation.segments:
+        r = x.observation.record.part(rows)
         F = np.concatenate([X for _, X in d.make_chunks(r, d.terms)])
         at = np.array([d.series(Term("const", n), r) / d.size(Term("const", n)) for n in stages])
-        turned = np.array([make_carrier(r, h) * back[s.rows] for h in turns])
+        turned = np.array([make_carrier(r, h) * back[rows] for h in turns])
         weights = (at[:, None] * turned).reshape(dots.shape[-1], -1).T.astype(np.float32)
         power = np.square(at).T.astype(np.float32)
         sums = _average(weights.T, few).T * few, _average(power.T, few).T * few

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from ragg_runtime.estimation.noise_level import score_excess
+from ragg_runtime.estimation.noise import score_excess
 from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.estimation.whitening import Piece
@@ -191,7 +191,7 @@ class Variance:
     """Sums over samples for a score test of a random effect: is the residual larger where it would show, and nowhere else?
 
     ``gram`` (k + 2, k + 2): inner products of what the noise's own variance may follow (k), of the effect's variance, and of the
-    squared residual (:func:`noise_level.score_excess`).
+    squared residual (:func:`noise.score_excess`).
     """
 
     gram: Array

@@ -193,7 +193,7 @@ class Knowledge:
         Where that flight's gradient was not recorded it will not be known in the motion either, and is projected out.
         """
         x = self.f.prepared[0]
-        o, only = x.observation, x.at.only
+        o = x.observation
         n = int(seconds * o.record.rate)
         time = np.arange(n) / o.record.rate
         channels = _continue_channels(self.f, n)
@@ -201,7 +201,7 @@ class Knowledge:
         r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
         r = replace(r, reading=None if r.reading is None else np.zeros(n))  # the model names it
         made = replace(o, record=r, series=(np.zeros(n),) * len(o.series), name="motion", thin=None)
-        at = replace(x.at, only=tuple(k if only is None else only[k] for k in self.candidates))
+        at = replace(x.at, candidates=[x.at.candidates[k] for k in self.candidates])
 
         white = x.noise.whiten(linearise(at, made)[:-1])
         if not unknown_gradient.is_unknown(o):

@@ -21,7 +21,7 @@ from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.noise_estimate import compute_line_width
 from ragg_runtime.estimation.regressors import predict_observed
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
-from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector, divide_flight
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector
 from ragg_runtime.identification.dictionary import Dictionary, Directions, Term, multiply, sum_squares
 from ragg_runtime.identification.features import find_term_unit
 from ragg_runtime.identification.likelihood_ratio import Variance, pool_variances
@@ -154,7 +154,7 @@ class Scores:
         if unknown_gradient.is_unknown(o):  # there nothing is left of the noise either
             double, width = 2 * o.record.spin_frequency, 2 / unknown_gradient.KNOT_SECONDS
             self._excluded = (double - width, double + width)
-        self._longest = max(s.rows.stop - s.rows.start for s in divide_flight(o))
+        self._longest = max(rows.stop - rows.start for rows in o.segments)
         self.sums = self._zero()
 
     def _zero(self) -> Sums:
@@ -254,9 +254,9 @@ def _predict_output(x: PreparedFlight) -> Array | None:
     if o.recorded.demodulated or len(o.series) != 1:
         return None
     found = np.zeros(len(o.record.time))
-    for s in divide_flight(o):
-        part = o.part(s.rows)
-        found[s.rows] = predict_observed(x.at.model, part, x.at.p)[0]
+    for rows in o.segments:
+        part = o.part(rows)
+        found[rows] = predict_observed(x.at.model, part, x.at.p)[0]
     return found
 
 

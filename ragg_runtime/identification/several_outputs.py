@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.estimation.scores import find_whole, measure_error, shortest_demodulated
+from ragg_runtime.estimation.scores import find_whole, measure_error
 from ragg_runtime.estimation.seen_gradient import Block, ModelledOutput
 from ragg_runtime.signals.demodulators import find_demodulator
 from ragg_runtime.signals.tensor import Tensor, tensor
@@ -107,7 +107,7 @@ def compare_outputs(f: Fitted) -> list[Together]:
     found = []
     for first, last in pairwise([*f.first, len(f.observations)]):
         records = {n: f.observations[n].record for n in range(first, last)}
-        own = [n for n, r in records.items() if r.turning and len(r.time) >= shortest_demodulated(r.rate)]
+        own = [n for n, r in records.items() if r.turning]
         seen = tuple(s for s in (estimate_gradient(f, n) for n in own) if len(s.time))
         if len(seen) > 1:
             found.append(Together(name=f.observations[first].flight_name, fitted=f, seen=seen))
@@ -120,7 +120,7 @@ def estimate_gradient(f: Fitted, n: int) -> Seen:
     r = o.record
     d = find_demodulator("fir", r.rate)
     g = ModelledOutput(f.model, o, p, (Block(slice(0, len(r.time)), p),), d).estimate_gradient()
-    there = find_whole(r.valid, d)
+    there = find_whole(np.ones_like(r.valid), r.valid, d)
     cross = float(np.sqrt(d.pass_power(f.prepared[n].noise_psd, 2 * abs(r.spin_frequency)))) / k_ggi
     return Seen(o.place, r.time[there], g[there].real, g[there].imag, cross)
 

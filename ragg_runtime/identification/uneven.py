@@ -1,7 +1,7 @@
 """Scores that vary more than they should: what tests are worth where the noise is not one of known weights.
 
 A likelihood-ratio test trusts that whitened noise has unit variance everywhere. Where the noise's level was seen to change
-(``estimation.noise_level``) the weights are estimates by groups, tails are heavy, and a term that is large in a few swings
+(``estimation.noise``) the weights are estimates by groups, tails are heavy, and a term that is large in a few swings
 of the motion rides on them. The squares of the residual, weighted by those of what is tested, give the real variance of its score
 (H. White, Econometrica 48, 1980): its ratio to what unit variance gives divides chi-square (J. N. K. Rao, A. J. Scott, Ann. Stat. 12,
 1984, first-order correction). It is known from as many samples as carry the score (F. Satterthwaite, Biometrics 2, 1946): the test then

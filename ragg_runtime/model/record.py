@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Mapping
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
@@ -358,11 +358,6 @@ def list_recorded_channels(flight: Flight, layout: Layout) -> frozenset[str]:
 def strip_derivative(name: str) -> str:
     """What a series ``d_<channel>`` or ``d2_<channel>`` is the time derivative of; any other is itself."""
     return name.removeprefix("d2_").removeprefix("d_")
-
-
-def list_channels(names: Iterable[str]) -> frozenset[str]:
-    """The channels that series of these names need: themselves, and what they are time derivatives of."""
-    return frozenset(x for n in names for x in (n, strip_derivative(n)))
 
 
 def take_quantities(r: Record, rows: slice) -> Callable[[str], Array]:

@@ -46,9 +46,7 @@ def test_the_simulator_confirms_the_strength() -> None:
     hidden = oracle.drawn(effect, 10.0, np.random.default_rng(1))
     assert hidden is not None
     sim = fly._simulated(w, {effect: hidden.values})
-    at = strength.LinearisationPoint(
-        oracle.model, w.known, strength.make_vector(oracle.model, w.known), with_candidates=False
-    )
+    at = strength.make_point(oracle.model, w.known, strength.make_vector(oracle.model, w.known))
     left = [strength.linearise(at, strength.observe(s.flight(), w.known))[-1] for s in (sim, plain)]
     assert np.linalg.norm(oracle.projected(oracle.whitened((left[0] - left[1])[None]))) == pytest.approx(
         10.0, rel=0.03

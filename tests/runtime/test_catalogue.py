@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from benchmarks.diagnosis import fly, plan, records
 from benchmarks.diagnosis.strength import NEVER, Oracle
 from ragg_runtime.estimation.observation import observe
-from ragg_runtime.estimation.regressors import LinearisationPoint, group_by_effect, linearise
+from ragg_runtime.estimation.regressors import group_by_effect, linearise, make_point
 from ragg_runtime.identification.selection import ProjectedProblem, choose, find_alternatives
 from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.model import load_packaged
@@ -78,9 +78,7 @@ def test_it_is_named_first_or_one_that_is_stated_to_be_like_it(flight: WhitenedF
     o, rng = flight.oracle, np.random.default_rng(1)
     hidden = next(h for h in (o.drawn(effect, SIGMAS, rng) for _ in range(DIRECTIONS)) if h is not None)
     sim = fly._simulated(flight.world, {effect: hidden.values})
-    known = LinearisationPoint(
-        o.model, flight.world.known, make_vector(o.model, flight.world.known), with_candidates=False
-    )
+    known = make_point(o.model, flight.world.known, make_vector(o.model, flight.world.known))
     residual = linearise(known, observe(sim.flight(), flight.world.known))[-1]
     field = flight.field(o.whitened(residual[None])[0] + flight.noise)
     chosen = choose(field)

@@ -31,6 +31,7 @@ from ragg_runtime.base.series_name import (
     harmonic,
     series,
 )
+from ragg_runtime.estimation.spectrum import Stretch
 from ragg_runtime.identification.dictionary import list_generic, list_harmonics
 from ragg_runtime.io import files
 from ragg_runtime.report.plots import draw_plot
@@ -225,6 +226,6 @@ def test_a_panel_is_a_function_that_returns_a_section() -> None:
 def test_a_noise_model_is_a_function_from_residuals_to_a_density() -> None:
     estimate_white = module_of("ragg_runtime/estimation/white.py").estimate_white
     x = 3.0 * np.random.default_rng(1).standard_normal(20_000)
-    model = estimate_white([x[:5000], x[5000:]], 16.0)
+    model = estimate_white([Stretch(x[:5000], 16.0), Stretch(x[5000:], 16.0)])
     assert model.rms == pytest.approx(3.0, rel=0.02)
     assert np.std(signal.lfilter(model.whitening_filter(64), [1.0], x)) == pytest.approx(1.0, rel=0.02)

@@ -17,10 +17,10 @@ from ragg_runtime.estimation import fitted
 from ragg_runtime.estimation.fitted import estimate_variance, fit
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import observe, observe_flights
-from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
+from ragg_runtime.estimation.regressors import linearise, make_point
 from ragg_runtime.estimation.unknown_gradient import make_windows, take_out
 from ragg_runtime.identification import selection, strong
-from ragg_runtime.identification.comparison import compare, compute_nominal_residual
+from ragg_runtime.identification.comparison import compare, compute_residuals
 from ragg_runtime.identification.diagnose import complete_ranking, diagnose
 from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.ranking import list_not_testable
@@ -82,7 +82,7 @@ def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
     assert d.verdict == "adequate"
     # as `ragg add` scores the values it has written: no linearised residual is asked for
     at = d.fitted.calibration.p
-    (scored,) = d.fitted.score((), lambda x: compute_nominal_residual(d.fitted, at, x)[None], 1)
+    scored = d.fitted.score_residuals(compute_residuals(d.fitted, at))
     assert scored.whole.rms_Eo == pytest.approx(d.before.rms_Eo, rel=1e-3)
     hidden = s.simulate(THERMAL, record_gradient=False).flight()
     assert "thermal-scale" in claimed(diagnosed(s, hidden))
@@ -181,7 +181,7 @@ def test_an_unknown_gradient_is_taken_out_of_each_voltage_by_its_scale_factor() 
     o = observe(flight, s.sheet)
     model = load.load_packaged()
     true = s.sheet.replace(**s.instrument.accelerometers)
-    e = linearise(LinearisationPoint(model, s.sheet, make_vector(model, true), with_candidates=False), o)[-1:]
+    e = linearise(make_point(model, s.sheet, make_vector(model, true)), o)[-1:]
     n = len(o.record.time)
     left = take_out(e, make_windows(o, slice(0, n), NoiseModel.white(o.record.rate, 4)), o.record.valid)
     assert np.std(e) > 1e-3

@@ -14,7 +14,7 @@ import pytest
 from derive.effects import catalogue
 from derive.pipeline import derive_model
 from ragg_runtime.estimation import observation
-from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
+from ragg_runtime.estimation.regressors import linearise, list_candidate_columns, make_point
 from ragg_runtime.model.chain import _say_once
 from ragg_runtime.model.compile import BuildError, build, find_compiler, load
 from ragg_runtime.model.evaluate import make_vector
@@ -42,7 +42,7 @@ def test_fits_in_machine_code_are_those_in_numpy() -> None:
     model, o = load_packaged(), observation.observe(flight, s.sheet)
     without = {n: replace(getattr(model, n), sources={}) for n in ("chain", "signatures")}
     c, n = (
-        linearise(LinearisationPoint(m, s.sheet, make_vector(m, s.sheet), with_candidates=True), o)
+        linearise(make_point(m, s.sheet, make_vector(m, s.sheet), list_candidate_columns(m, s.sheet)), o)
         for m in (model, replace(model, **without))
     )
     assert model.chain.library is not None

@@ -8,18 +8,20 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation import fitted, noise_estimate, observation, scores, thinning, whitening
-from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.noise_level import Level, LevelFactor
+from ragg_runtime.estimation import fitted, noise_estimate, observation, scores, thinning
+from ragg_runtime.estimation.noise import Level, LevelFactor, NoiseModel
 from ragg_runtime.estimation.observation import (
     BLOCKS,
     Observation,
     divide_into_segments,
     split_at_blocks,
-    spread,
-    take_beginnings,
 )
-from ragg_runtime.estimation.regressors import LinearisationPoint, linearise
+from ragg_runtime.estimation.regressors import (
+    LinearisationPoint,
+    linearise,
+    list_candidate_columns,
+    make_point,
+)
 from ragg_runtime.identification import formula, omnibus, selection
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.selection import make_problem
@@ -29,6 +31,7 @@ from ragg_runtime.model import derive, model
 from ragg_runtime.model.evaluate import evaluate_output, make_vector
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.report import panels
+from ragg_runtime.signals.demodulators import find_demodulator
 from tests.rate import RATE as SLOW
 
 RATE, EVERY = 100.0, 12
@@ -59,7 +62,8 @@ def thinned(sheet: Instrument, flight: Flight) -> Observation:
 
 def at_sheet(sheet: Instrument, *, with_candidates: bool = False) -> LinearisationPoint:
     m = model.load_packaged()
-    return LinearisationPoint(m, sheet, make_vector(m, sheet), with_candidates=with_candidates)
+    candidates = list_candidate_columns(m, sheet) if with_candidates else ()
+    return make_point(m, sheet, make_vector(m, sheet), candidates)
 
 
 def with_output(flight: Flight, further: NDArray[np.float64]) -> Flight:
@@ -136,28 +140,16 @@ def test_what_thinning_takes_is_counted_as_noise(flown: tuple[Scenario, Flight],
     assert scored.whole.rms_V == pytest.approx(loud, rel=0.03)
 
 
-def test_short_flights_and_slow_ones_stay_as_they_are(flown: tuple[Scenario, Flight]) -> None:
-    s, flight = flown
-    m = model.load_packaged()
-    short = observation.observe(flight.part(slice(0, 25_000)), s.sheet)
-    assert thinning.thin_observations(m, s.sheet, [short]) == [short]
-    slow = scenario(78, duration=2200.0, rate=16.0)
-    o = observation.observe(slow.simulate().flight(), slow.sheet)
-    assert len(o.record.time) > 30_000 and thinning.thin_observations(m, slow.sheet, [o]) == [o]
-
-
-def test_a_motion_that_shakes_is_not_thinned(flown: tuple[Scenario, Flight]) -> None:
-    """A vibration at 30 Hz that comes and goes is rectified by K2 into the band: its square is slow, and must not be lost."""
+def test_what_must_not_be_thinned_stays_as_it_is(flown: tuple[Scenario, Flight]) -> None:
+    """Short and slow flights; a vibration at 30 Hz that comes and goes, which K2 rectifies into the band; a line beyond the band."""
     s, flight = flown
     t = flight.time
     shake = 0.5 * np.sin(2 * np.pi * 30.0 * t) * (1 + np.sin(2 * np.pi * 0.2 * t))
-    channels = {**flight.channels, "a_x": flight.channels["a_x"] + shake}
-    assert thinned(s.sheet, replace(flight, channels=channels)).thin is None
-
-
-def test_a_flight_with_a_line_beyond_the_band_is_not_thinned(flown: tuple[Scenario, Flight]) -> None:
-    s, flight = flown
-    assert thinned(s.sheet, with_output(flight, 2e-3 * np.sin(2 * np.pi * 27.3 * flight.time))).thin is None
+    shaking = replace(flight, channels={**flight.channels, "a_x": flight.channels["a_x"] + shake})
+    line = with_output(flight, 2e-3 * np.sin(2 * np.pi * 27.3 * t))
+    slow = scenario(78, duration=2200.0, rate=16.0).simulate().flight()
+    for kept in (flight.part(slice(0, 25_000)), slow, shaking, line):
+        assert thinned(s.sheet, kept).thin is None
 
 
 def test_spikes_cost_a_sample_and_a_gap_what_is_beside_it(flown: tuple[Scenario, Flight]) -> None:
@@ -217,10 +209,10 @@ def test_ends_whose_derivative_does_not_fit_are_not_fitted(flown, whole) -> None
 @pytest.mark.parametrize("samples", [24, 1000, 30000, 40000, 360_000, 8_640_000])
 def test_segments_and_their_blocks_cover_a_flight_once(samples: int) -> None:
     found = divide_into_segments(samples)
-    assert [s.rows.start for s in found] == [0, *(s.rows.stop for s in found[:-1])]
-    assert found[-1].rows.stop == samples
-    assert max(s.rows.stop - s.rows.start for s in found) <= 30000
-    blocks = [b for s in found for b in split_at_blocks(s.rows, samples)]
+    assert [s.start for s in found] == [0, *(s.stop for s in found[:-1])]
+    assert found[-1].stop == samples
+    assert max(s.stop - s.start for s in found) <= 30000
+    blocks = [b for s in found for b in split_at_blocks(s, samples)]
     assert [rows.start for _, rows in blocks] == [0, *(rows.stop for _, rows in blocks[:-1])]
     assert sorted({b for b, _ in blocks}) == list(range(BLOCKS))
 
@@ -236,8 +228,8 @@ def test_the_division_leaves_no_trace(long_flight, monkeypatch) -> None:
     estimated = fitted.fit(model.load_packaged(), s.sheet, [o]).calibration.noise
     noise = [replace(n, level=louder, level_first=True) for n in estimated]
     whole = fitted.fit(model.load_packaged(), s.sheet, [o], noise)
-    monkeypatch.setattr(whitening, "ROWS", 1700)
-    assert len(whitening.divide_flight(o)) > 5
+    monkeypatch.setattr(observation, "ROWS", 1700)
+    assert len(o.segments) > 5
     parts = fitted.fit(model.load_packaged(), s.sheet, [o], noise)
     scale = np.array([c.scale for c in whole.calibration.columns])
     moved = (parts.calibration.p - whole.calibration.p)[whole.calibration.index] / scale
@@ -276,15 +268,16 @@ def test_single_missing_samples_do_not_silence_the_demodulator(long_flight: tupl
         assert b.cross_Eo == pytest.approx(a.cross_Eo, rel=0.1)
     gap = np.ones(1000, dtype=bool)
     gap[500:560] = False
-    found_segments = scores.find_supported(np.ones((1, 1000), dtype=bool), gap, 101)[0]
-    assert not found_segments[460:500].any()  # windows with more than half of the gap
-    assert found_segments[:400].all() and found_segments[560:].all()
+    d = replace(find_demodulator("fir", RATE), taps=np.full(101, 1 / 101), ahead=50)
+    there = scores.find_whole(np.ones(1000, dtype=bool), gap, d)
+    assert not there[510:550].any()  # windows with more than half of the gap
+    assert there[50:450].all() and there[610:950].all()
 
 
 def test_a_long_flight_with_gaps_everywhere_has_no_means(long_flight, monkeypatch) -> None:
     """One output sample of three, or part of the flight: the density is that of the segments, or of the means that are left."""
     s, flight = long_flight
-    monkeypatch.setattr(whitening, "ROWS", 1700)
+    monkeypatch.setattr(observation, "ROWS", 1700)
     monkeypatch.setattr(noise_estimate, "MEANS", 2400)
     every, third = np.zeros((2, len(flight.time)), dtype=bool)
     every[::3] = third[2400:6400] = True
@@ -305,7 +298,7 @@ def test_noise_slower_than_a_segment_is_seen(monkeypatch: pytest.MonkeyPatch) ->
     """
     s = scenario(73, duration=1700.0, rate=SLOW, red_corner=0.3)
     flight = s.simulate().flight()
-    monkeypatch.setattr(whitening, "ROWS", 850)
+    monkeypatch.setattr(observation, "ROWS", 850)
     o = observation.observe(flight, s.sheet)
     (x,) = fitted.fit(model.load_packaged(), s.sheet, [o], candidates=False).prepared
     f = np.geomspace(4.0 / 1700.0, 3.0, 40)
@@ -315,12 +308,3 @@ def test_noise_slower_than_a_segment_is_seen(monkeypatch: pytest.MonkeyPatch) ->
     ratio = x.noise_psd(f) / true
     assert np.exp(np.mean(np.log(ratio[:15]))) == pytest.approx(1.0, rel=0.25)  # slower than a segment shows
     assert np.max(np.abs(np.log(ratio))) < np.log(2.0)
-
-
-def test_of_long_flights_as_many_samples_are_taken_whatever_their_length() -> None:
-    for samples in (1_000_000, 3_000_000, 16_000_000):
-        found = spread(divide_into_segments(samples), 4)
-        found_segments = take_beginnings(found, 80_000)
-        assert [s.rows.start for s in found_segments] == [s.rows.start for s in found]
-        assert [s.rows.stop - s.rows.start for s in found_segments] == [20_000] * 4
-    assert [s.rows for s in take_beginnings(divide_into_segments(28_800), 80_000)] == [slice(0, 28_800)]

@@ -21,12 +21,19 @@ def problem(residual: Residual, costs: list[float]) -> Callable[[Array], Linear]
     def linearise(x: Array) -> Linear:
         r = residual(x)
         J = np.stack([(residual(x + h) - residual(x - h)) / 2e-6 for h in 1e-6 * np.eye(len(x))], axis=1)
-        T = np.linalg.qr(np.column_stack([J, -r]), mode="r")
         costs.append(float(r @ r))
-        n = len(x)
-        return Linear(T[:n, :n], T[:n, n], float(r @ r) - float(T[:n, n] @ T[:n, n]))
+        n = len(x) + 1
+        rows = np.vstack([np.column_stack([J, -r]), np.zeros((n, n))])
+        return Linear(np.linalg.qr(rows, mode="r"))
 
     return linearise
+
+
+def make_linear(y: list[float], rest: float) -> Linear:
+    """With the identity for R."""
+    T = np.eye(len(y) + 1)
+    T[:-1, -1], T[-1, -1] = y, np.sqrt(rest)
+    return Linear(T)
 
 
 def rosenbrock(x: Array) -> Array:
@@ -71,7 +78,7 @@ def test_a_rise_that_was_promised_as_a_fall_is_not_settled() -> None:
 
 def test_a_model_that_does_not_follow_its_slope_has_not_converged() -> None:
     def liar(x: Array) -> Linear:
-        return Linear(np.eye(2), np.array([5.0, 0.0]), float(np.sum(np.abs(x))))
+        return make_linear([5.0, 0.0], float(np.sum(np.abs(x))))
 
     found = minimise(liar, np.zeros(2))
     assert not found.converged
@@ -84,7 +91,7 @@ def test_a_small_promise_that_drowns_in_rounding_is_none(promise: float, converg
     """Of a record without noise the sum of squares scatters by some tenths from one point to the next."""
 
     def grainy(x: Array) -> Linear:
-        return Linear(np.eye(2), np.array([promise**0.5, 0.0]), 10.0 + 0.2 * float(np.sin(1e13 * np.sum(x))))
+        return make_linear([promise**0.5, 0.0], 10.0 + 0.2 * float(np.sin(1e13 * np.sum(x))))
 
     assert minimise(grainy, np.zeros(2)).converged is converged
 
@@ -95,7 +102,7 @@ def test_a_search_is_left_where_its_pace_would_not_bring_it_to_its_end(way: int,
 
     def creeping(x: Array) -> Linear:
         seen.append(x)
-        return Linear(np.eye(1), np.array([1e3 * max(0.0, 1.0 - len(seen) / way)]), 1.0)
+        return make_linear([1e3 * max(0.0, 1.0 - len(seen) / way)], 1.0)
 
     assert minimise(creeping, np.zeros(1)).converged is (way == trials)
     assert len(seen) == pytest.approx(trials, abs=3)
@@ -105,10 +112,9 @@ def test_a_point_where_the_model_has_no_output_is_left_alone() -> None:
     def edge(x: Array) -> Linear:
         r = np.sqrt(1.0 - x[0]) if x[0] < 1.0 else np.inf
         if not np.isfinite(r):
-            return Linear(np.eye(1), np.zeros(1), np.inf)
+            return make_linear([0.0], np.inf)
         slope = np.array([[-0.5 / r]])
-        T = add_prior(np.array([[slope[0, 0], -r], [0.0, 0.0]]), [0], 0.0 - x)
-        return Linear(T[:1, :1], T[:1, 1], float(T[1, 1] ** 2))
+        return Linear(add_prior(np.array([[slope[0, 0], -r], [0.0, 0.0]]), [0], 0.0 - x))
 
     found = minimise(edge, np.zeros(1))
     assert np.isfinite(found.at.cost)
