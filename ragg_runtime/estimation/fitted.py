@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import one_thread, split_range
 from ragg_runtime.estimation import calibration, regressors, whitening
 from ragg_runtime.estimation.calibration import QUIET, Calibration, widen_priors
-from ragg_runtime.estimation.least_squares import Linear, add_prior, fold, make_prior
+from ragg_runtime.estimation.least_squares import Linear, add_prior, join, make_prior
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, Observation
 from ragg_runtime.estimation.regressors import Column
@@ -115,7 +115,7 @@ class Fitted:
     def _join(self, blocks: Sequence[int]) -> Array:
         """R factor of some blocks of all flights, the prior in it."""
         prior = make_prior(range(self.n_base), self.size + 1, self.to_nominal)
-        return fold([*(t[b] for t in self.r_factors for b in blocks), prior])
+        return join([*(t[b] for t in self.r_factors for b in blocks), prior])
 
     @cached_property
     def whole(self) -> Array:
