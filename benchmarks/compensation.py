@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ragg_runtime.compensation.compensate import prepare
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
-from ragg_runtime.estimation.regressors import compute_residual, make_point
+from ragg_runtime.estimation.regressors import compute_residual
 from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.identification import next_motion
 from ragg_runtime.identification.next_motion import ChannelVariance, Sinusoid
@@ -125,8 +125,9 @@ def calibrate_by_runs(seed: int) -> list[tuple[str, float, Array, Array]]:
     for name, motion, duration in runs:
         c = fitted(flight, fly_sinusoids(s, motion, duration)) if duration else first
         f = c.known.f
-        at = make_point(f.model, s.sheet, f.calibration.p)
-        left = compute_residual(at, clean)  # of what has no noise: what the parameters are wrong by
+        left = compute_residual(
+            f.model, clean, f.calibration.p
+        )  # of what has no noise: what the parameters are wrong by
         r = clean.record
         g = demodulate_residual(left[0], r, f.k_ggi)
         g = g[np.isfinite(g)]

@@ -251,7 +251,7 @@ RULES: tuple[Rule, ...] = (
          (Patch("identification.selection:_settle_blocks", lambda f, blocks: blocks),)),
     Rule("extrapolated", "ends that a model with derivatives does not fit are left out",
          (("strong", "4-Hz"), ("ten", "4-Hz")),
-         (Patch("estimation.fitted:leave_out_extrapolated", lambda model, instrument, p, observations: list(observations)),)),
+         (Patch("estimation.fitted:leave_out_extrapolated", lambda model, p, observations: list(observations)),)),
     Rule("one-kind", "special cases of one effect are not claimed together",
          (*OUTSIDE, ("ten", "white"), ("pair", "white")),
          (Patch("identification.verdict:_find_common_kind", _nothing, acts=lambda r: r is not None),)),

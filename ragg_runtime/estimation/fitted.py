@@ -108,9 +108,7 @@ class Fitted:
     @cached_property
     def beyond(self) -> tuple[float, ...]:
         """Mean square, V^2, of what thinning took of each observation: no column reaches there, it is noise."""
-        return tuple(
-            measure_beyond(self.model, self.instrument, self.calibration.p, o) for o in self.observations
-        )
+        return tuple(measure_beyond(self.model, self.calibration.p, o) for o in self.observations)
 
     def _join(self, blocks: Sequence[int]) -> Array:
         """R factor of some blocks of all flights, the prior in it."""
@@ -202,7 +200,7 @@ def calibrate_certain(
     fit = partial(calibrate, model, instrument, noise=noise, start=start, unweighted=unweighted)
     observations = leave_out_uncertain(model, instrument, observations)
     found = fit(observations)
-    kept = leave_out_extrapolated(model, instrument, found[1].p, observations)
+    kept = leave_out_extrapolated(model, found[1].p, observations)
     if all(a is b for a, b in zip(kept, observations, strict=True)):
         return (observations, *found)
     return (kept, *fit(kept))

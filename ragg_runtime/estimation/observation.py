@@ -147,11 +147,6 @@ class Observation:
         return divide_into_segments(n, max(n, ROWS) if self.recorded.demodulated else ROWS)
 
     @property
-    def unthinned(self) -> Observation:
-        """The observation as it was recorded."""
-        return self if self.thin is None else self.thin.whole
-
-    @property
     def flight_name(self) -> str:
         """Name of the flight, without that of the output."""
         return self.name.removesuffix(f": {self.output.name}")

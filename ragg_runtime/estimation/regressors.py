@@ -208,7 +208,7 @@ def linearise(at: LinearisationPoint, o: Observation) -> Array:
     if o.thin is None:
         columns[-1] = o.data - observe_voltages(o, V)
     else:  # that of the whole record, thinned, for the outputs are a million times the noise
-        columns[-1] = o.thin.kept(compute_residual(at, o.thin.source()))
+        columns[-1] = o.thin.kept(compute_residual(at.model, o.thin.source(), at.p))
     for k, c in enumerate((*at.base, *at.candidates)):
         instant = at.instants.get(c.effect or "")
         if instant is not None:
@@ -247,7 +247,7 @@ def put_derivatives(
                 columns[n, series, some] += scale * slopes[of]
 
 
-def compute_residual(at: LinearisationPoint, o: Observation) -> Array:
-    """Residual (m, N), V, at a point; between its neighbours where a sample is not valid."""
-    left = o.data - predict_observed(at.model, o, at.p)
+def compute_residual(model: Model, o: Observation, p: Array) -> Array:
+    """Residual (m, N), V, with parameters p (size,), SI; between its neighbours where a sample is not valid."""
+    left = o.data - predict_observed(model, o, p)
     return np.stack([bridge_gaps(x, o.record.valid) for x in left])

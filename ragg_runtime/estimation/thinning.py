@@ -68,17 +68,15 @@ def leave_out_uncertain(
     return found
 
 
-def leave_out_extrapolated(
-    model: Model, instrument: Instrument, p: Array, observations: Sequence[Observation]
-) -> list[Observation]:
+def leave_out_extrapolated(model: Model, p: Array, observations: Sequence[Observation]) -> list[Observation]:
     """The observations without the ends where a model that differentiates the motion, with the parameters p, does not fit."""
     if not any(n.startswith(("d_", "d2_")) for n in model.chain.INPUTS):
         return list(observations)
-    at, found = make_point(model, instrument, p), []
+    found = []
     for o in observations:
         valid, ends = o.record.valid, np.zeros(len(o.record.valid), dtype=np.bool_)
         ends[:EXTRAPOLATED] = ends[-EXTRAPOLATED:] = True
-        left = np.max(np.abs(compute_residual(at, o)), axis=0)
+        left = np.max(np.abs(compute_residual(model, o, p)), axis=0)
         std = STD_OF_MEDIAN * float(np.median(left[valid]))
         found.append(_leave_out(o, ends) if np.any(left[ends & valid] > MISFIT * std) else o)
     return found
@@ -209,16 +207,15 @@ def make_low_pass(every: int) -> Array:
     return np.asarray(signal.firwin(2 * (half // 2) + 1, 1.0 / every, window=("kaiser", shape)))
 
 
-def measure_beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> float:
+def measure_beyond(model: Model, p: Array, o: Observation) -> float:
     """Mean square, V^2 of G_out, of what thinning has taken of an observation's residual about parameters p, SI."""
     if o.thin is None:
         return 0.0
-    at = make_point(model, instrument, p)
     whole, taps = o.thin.whole, o.thin.taps
 
     def taken(rows: slice) -> Array:
         part = whole.part(rows)
-        e = part.signs @ compute_residual(at, part)
+        e = part.signs @ compute_residual(model, part, p)
         slow, inner = convolve(e, taps), slice(len(taps) // 2, len(e) - len(taps) // 2)
         # the whole less the slow, one sample at a time: what both hold, an unknown gradient say, cancels
         square = ((e[inner] - slow) * (e[inner] + slow))[part.record.valid[inner]]
@@ -249,7 +246,7 @@ def _are_alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[A
 
 def _has_line(at: LinearisationPoint, thin: Thin) -> bool:
     """Whether the part of a piece's residual that the low-pass removes has a line, which must be reported."""
-    r, half, e = thin.whole.record, len(thin.taps) // 2, compute_residual(at, thin.whole)
+    r, half, e = thin.whole.record, len(thin.taps) // 2, compute_residual(at.model, thin.whole, at.p)
     fast = e[:, half:-half] - convolve(e, thin.taps)
     kept = (0.0, STOPPED * r.rate / (2 * thin.every))
     return any(find_lines(x, r.rate, kept) for x in fast)

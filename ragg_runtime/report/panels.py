@@ -209,7 +209,7 @@ def plot_compensated(made: Sequence[Mapping[str, Array]]) -> Curves | None:
 
 def describe_record(f: Fitted) -> list[tuple[str, str]]:
     """(name, value) of what was recorded and what was fitted."""
-    records = [o.unthinned.record for o in f.observations]
+    records = [(o if o.thin is None else o.thin.whole).record for o in f.observations]
     samples, valid = (sum(len(r.time) for r in records), sum(int(np.sum(r.valid)) for r in records))
     used = f"{numbers.fixed(samples, 0)} at {numbers.number(records[0].rate, 4)} Hz"
     if valid < samples:

@@ -15,7 +15,7 @@ from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.fitted import Fitted, fit, prepare_evidence
 from ragg_runtime.estimation.observation import Observation, observe_flights
-from ragg_runtime.estimation.regressors import compute_residual, group_by_effect, make_point
+from ragg_runtime.estimation.regressors import compute_residual, group_by_effect
 from ragg_runtime.identification import next_motion
 from ragg_runtime.identification.next_motion import Alternatives, ChannelVariance, Sinusoid
 from ragg_runtime.identification.selection import ProjectedProblem, make_problem
@@ -54,14 +54,13 @@ def flown(s: Scenario, sinusoids: Sequence[Sinusoid], effects: EffectValues) -> 
     other = replace(s, motion=MotionSignals((x, y, z), (wx, wy, wz)), seed=s.seed + 100_000)
     runs = [(w.simulate(effects), w.simulate()) for w in (s, other)]
     both = fitted(s, *(a.flight() for a, _ in runs))
-    at = make_point(both.model, both.instrument, both.calibration.p)
     clean: list[Observation] = []
     for k, (with_it, without) in enumerate(runs):
         a, b = (
             observe_flights([replace(q.flight(), outputs=dict(q.outputs_noise_free))], s.sheet)[0]
             for q in (with_it, without)
         )
-        rest = compute_residual(at, b)
+        rest = compute_residual(both.model, b, both.calibration.p)
         clean.append(replace(a, series=tuple(np.atleast_2d(a.data - rest)), flight=k))
     signal = prepare_evidence(both.model, both.instrument, clean, both.calibration)
     n = both.n_base

@@ -202,7 +202,7 @@ def test_ends_whose_derivative_does_not_fit_are_not_fitted(flown, whole) -> None
     p = make_vector(with_lag, flown[0].instrument)
     off = replace(whole, series=tuple(y + 0.1 * (np.arange(n) == n - 2) for y in whole.series))
     for m, o, left_out in ((packaged, off, []), (with_lag, whole, []), (with_lag, off, [0, 1, n - 2, n - 1])):
-        (kept,) = thinning.leave_out_extrapolated(m, flown[0].sheet, p, [o])
+        (kept,) = thinning.leave_out_extrapolated(m, p, [o])
         assert np.flatnonzero(~kept.record.valid).tolist() == left_out
 
 
