@@ -110,20 +110,24 @@ class Fitted:
         """Mean square, V^2, of what thinning took of each observation: no column reaches there, it is noise."""
         return tuple(measure_beyond(self.model, self.calibration.p, o) for o in self.observations)
 
-    def _join(self, blocks: Sequence[int]) -> Array:
-        """R factor of some blocks of all flights, the prior in it."""
-        prior = make_prior(range(self.n_base), self.size + 1, self.to_nominal)
-        return join([*(t[b] for t in self.r_factors for b in blocks), prior])
+    @cached_property
+    def data(self) -> Array:
+        """R factor of all flights, without the prior."""
+        return join([t for own in self.r_factors for t in own])
 
     @cached_property
     def whole(self) -> Array:
         """R factor of all flights, the prior in it."""
-        return self._join(range(BLOCKS))
+        return join([self.data, self._prior])
 
     @cached_property
     def half(self) -> Array:
         """The same over the blocks on which a held-out fit is made."""
-        return self._join(FITTED_BLOCKS)
+        return join([*(own[b] for own in self.r_factors for b in FITTED_BLOCKS), self._prior])
+
+    @property
+    def _prior(self) -> Array:
+        return make_prior(range(self.n_base), self.size + 1, self.to_nominal)
 
     def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
         """Fit of base and ``extra`` candidate regressors, in scales, with its covariance, priors included.

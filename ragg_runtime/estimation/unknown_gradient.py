@@ -105,7 +105,7 @@ def make_windows(o: Observation, rows: slice, noise: NoiseModel) -> list[Window]
         if is_unknown(o):
             part = r.part(slice(a - lead, b), only=())
             shares = _share_among_series(o, make_splines(part.time, *part.carriers) * here)
-        plain = shares[:, :, lead:][:, :, here[lead:]].reshape(len(shares), -1)
+        plain = np.concatenate([shares[:, m, lead:][:, here[lead:]] for m in range(len(o.series))], axis=1)
         level = noise.level.of(take_quantities(r, slice(a - lead, b)))
         lines = noise.line_columns(r.time[a - lead : b], len(o.series))
         together = np.concatenate([shares, lines * here])

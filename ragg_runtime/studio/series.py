@@ -161,8 +161,7 @@ class View:
             raise UserError("no model is drawn for a validation flight")
         draws = np.random.default_rng(0).standard_normal((MODELS, self.f.n_base))
         root = invert_root(information(self.f))
-        lean, w = self.prepared.for_residuals(np.stack([self.f.vector(root @ x) for x in draws]))
-        left = np.concatenate([*lean.each(lambda piece: piece.left(w), whitened=False)], axis=1)
+        left = self.prepared.residuals(np.stack([self.f.vector(root @ x) for x in draws]))
         each = [self._convert(x) for x in left]
         values = [x.values for x in each]
         return replace(each[0], values=np.stack([np.fmin.reduce(values), np.fmax.reduce(values)]))
