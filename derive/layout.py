@@ -6,8 +6,9 @@ its angle on the disc, and, where a layout has them, its height, the turn of its
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property
 
 import sympy as sp
@@ -53,6 +54,9 @@ class SymbolicLayout:
         heights, directions or axes) -> one number for each accelerometer.
     outputs
         G_out ...
+    rest
+        What the exact cosines and sines of the angles have beyond ``constants``: of places that balance each other
+        the sum vanishes as it should, and a specific force of 1 g leaves nothing of their rounding.
     own
         Whether each accelerometer has a radius and a spin frequency of its own, even where all are placed as the paper's: four
         quarter turns on a vertical disc have no other constants than the paper's once the axis is put in, and are another
@@ -62,6 +66,7 @@ class SymbolicLayout:
     names: tuple[str, ...]
     constants: Mapping[str, tuple[float, ...]] = field(hash=False)
     outputs: tuple[SymbolicOutput, ...]
+    rest: Mapping[str, tuple[float, ...]] = field(hash=False, default_factory=dict)
     own: bool = False
 
     @property
@@ -91,6 +96,25 @@ class SymbolicLayout:
 
     def has(self, constant: sp.Symbol) -> bool:
         return constant.name in self.constants
+
+
+def rest_of_angles(
+    degrees: Sequence[Fraction | None], cosines: Sequence[float], sines: Sequence[float]
+) -> Mapping[str, tuple[float, ...]]:
+    """``SymbolicLayout.rest`` of angles in degrees, where they are known exactly (``None``: nothing is added)."""
+    found: dict[str, tuple[float, ...]] = {}
+    for name, of, known in (("cos_j", sp.cos, cosines), ("sin_j", sp.sin, sines)):
+        rest = [
+            0.0 if d is None else _difference(of(sp.Rational(d.numerator, d.denominator) * sp.pi / 180), x)
+            for d, x in zip(degrees, known, strict=True)
+        ]
+        if any(rest):
+            found[name] = tuple(rest)
+    return found
+
+
+def _difference(exact: sp.Expr, x: float) -> float:
+    return float((exact - sp.Rational(x)).evalf(20, maxn=60))
 
 
 _COSINES, _SINES = (1.0, 0.0, -1.0, 0.0), (0.0, 1.0, 0.0, -1.0)

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
@@ -294,6 +295,17 @@ def constants(layout: Layout) -> Mapping[str, tuple[float, ...]]:
         discs = [layout.discs[p.disc] for p in places]
         found |= _entries("axes", [np.column_stack([*d.across, d.axis]) for d in discs])
     return found
+
+
+PARTS = 1_000_000
+"""Of a degree: what an angle on the disc is written in."""
+
+
+def degrees(layout: Layout) -> tuple[Fraction | None, ...]:
+    """The exact angle of each accelerometer, as it was written; ``None``: it was not written in millionths of a degree."""
+    parts = [math.degrees(p.angle) * PARTS for p in layout.places]
+    # a part in 1e12: what turning degrees into radians rounds off
+    return tuple(Fraction(round(x), PARTS) if abs(x - round(x)) < 1e-12 * PARTS else None for x in parts)
 
 
 def _entries(name: str, matrices: list[Array]) -> dict[str, tuple[float, ...]]:

@@ -189,6 +189,8 @@ def units(g0: float) -> Units:
 
 
 _AMOUNT = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*(\S.*)?")
+# a decimal comma, but not what may be a comma between thousands
+_COMMA = re.compile(r"^(\s*[+-]?(?:0+,\d+|\d+,(?!\d{3}(?!\d))\d+))")
 
 
 def read_quantity(raw: object, where: str | None = None, *, count: int = 4) -> RawQuantity:
@@ -196,7 +198,7 @@ def read_quantity(raw: object, where: str | None = None, *, count: int = 4) -> R
     value: object = None
     unit: object = None
     if isinstance(raw, str):
-        found = _AMOUNT.fullmatch(raw)
+        found = _AMOUNT.fullmatch(_COMMA.sub(lambda m: m[0].replace(",", "."), raw))
         if found is not None:
             with contextlib.suppress(ValueError):
                 value, unit = float(found[1]), found[2]

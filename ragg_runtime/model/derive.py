@@ -165,14 +165,16 @@ def _make_symbolic_form(form: Form, layout: Layout) -> SymbolicForm:
 def _make_symbolic_layout(layout: Layout) -> SymbolicLayout:
     """The layout as the derivation takes it."""
     from derive.layout import PAPER as QUARTERS
-    from derive.layout import SymbolicLayout, SymbolicOutput
+    from derive.layout import SymbolicLayout, SymbolicOutput, rest_of_angles
 
     if layout.like_paper:
         return QUARTERS
+    constants = layouts.constants(layout)
     return SymbolicLayout(
         names=layout.names,
-        constants=layouts.constants(layout),
+        constants=constants,
         outputs=tuple(SymbolicOutput(o.name, o.members, o.signs) for o in layout.outputs),
+        rest=rest_of_angles(layouts.degrees(layout), constants["cos_j"], constants["sin_j"]),
         own=True,
     )
 

@@ -89,6 +89,11 @@ def vertical() -> list[str]:
     return [disc("A", four("A", "G_out"), (1, 0, 0))]
 
 
+def oblique() -> list[str]:
+    """The same a twelfth of a turn on: cosines and sines of balanced places that differ in their rounding."""
+    return [disc("A", four("A", "G_out", 30.0), (1, 0, 0))]
+
+
 def odd() -> list[str]:
     """A vertical disc with heights and directions, and a disc that stands still beside it."""
     more = 'height = "0.03 m"\ndirection = [0.2, 0.9, 0.3]\n'

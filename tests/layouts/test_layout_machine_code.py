@@ -21,7 +21,7 @@ from tests.layouts.test_layouts_physics import instrument
 Array = NDArray[np.float64]
 
 N = 4
-GATES = {"vertical": 1e-6, "umbrella": 1e-6, "odd": 1e-4}
+GATES = {"vertical": 1e-6, "oblique": 3e-6, "umbrella": 1e-6, "odd": 1e-4}
 """Eo, as of the paper's layout (tests/generated) where the places balance: elsewhere half a unit in the last place of a recorded force is
 worth 5e-5 Eo."""
 
@@ -69,7 +69,7 @@ UPRIGHT = [[np.full(12, float(a == b)) for b in range(3)] for a in range(3)]
 
 
 @pytest.mark.parametrize(
-    ("name", "head"), [("vertical", sheets.EXACT), ("odd", sheets.EXACT), ("umbrella", "")]
+    ("name", "head"), [*((n, sheets.EXACT) for n in ("vertical", "oblique", "odd")), ("umbrella", "")]
 )
 def test_round_off_against_fifty_digits(name: str, head: str) -> None:
     """With 1 g in all directions."""

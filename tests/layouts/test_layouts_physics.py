@@ -32,6 +32,7 @@ LAYOUTS: dict[str, tuple[Callable[[], list[str]], int]] = {
     "complements": (sheets.complements, 8),
     "umbrella": (sheets.umbrella, 12),
     "vertical": (sheets.vertical, 4),
+    "oblique": (sheets.oblique, 4),
     "odd": (sheets.odd, 4),
 }
 

@@ -114,6 +114,7 @@ def test_any_text_is_a_unit_or_a_user_error(text: str) -> None:
         ("1e9ohm", RawQuantity(1e9, "ohm")),
         (" -2.5e-3  ug/g^2 ", RawQuantity(-0.0025, "ug/g^2")),
         ("3 1", RawQuantity(3.0, "1")),
+        ("0,1 m", RawQuantity(0.1, "m")),
         ({"value": 3, "unit": "s"}, RawQuantity(3.0, "s")),
         ({"value": [1, 2.5, 0, -4], "unit": "um"}, RawQuantity((1.0, 2.5, 0.0, -4.0), "um")),
     ],
@@ -139,7 +140,7 @@ def test_quantities(raw: object, expected: RawQuantity) -> None:
         ({"value": [1, 2, math.inf, 4], "unit": "m"}, "not finite"),
         ("1e999 m", "not finite"),
         ("1 furlogn", "not a unit"),
-        ("1,234 m", "not a unit"),
+        ("1,234 m", "not a unit"),  # a thousand, or one?
     ],
 )
 def test_what_is_no_quantity(raw: object, what: str) -> None:
