@@ -40,8 +40,10 @@ from ragg_runtime.estimation.observation import (
     observe_flights,
     spread,
 )
-from ragg_runtime.estimation.scores import finite
+from ragg_runtime.estimation.scores import finite, measure_error
 from ragg_runtime.estimation.seen_gradient import Block
+from ragg_runtime.estimation.unknown_gradient import make_windows
+from ragg_runtime.identification.comparison import compute_residual
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, sees
 from ragg_runtime.instrument.parameters import PARAMETERS
@@ -283,8 +285,10 @@ def describe_channel(c: OutputChannel, x: Compensated, instrument: Instrument) -
     there = np.isfinite(x.gradient.real)
     rms = np.sqrt(np.mean(x.parameters[:, there] ** 2, axis=1)) if there.any() else np.full(2, np.nan)
     sheet = make_vector(c.model, instrument)
-    nominal = replace(c, about=sheet, blocks=(Block(slice(0, len(there)), sheet),))
-    before = np.where(there, nominal.estimate_first(nominal.predict()), np.nan)
+    left = [
+        compute_residual(c.model, o.part(rows), sheet, make_windows(o, rows, c.noise)) for rows in o.segments
+    ]
+    nominal = measure_error(np.concatenate(left), o.record, c.find_scale_factor(c.about)).as_json()
     every = max(1, int(d.rate))  # the channels hold nothing above half a hertz
     return {
         "flight": o.flight_name,
@@ -295,7 +299,7 @@ def describe_channel(c: OutputChannel, x: Compensated, instrument: Instrument) -
         "quality": {q.name: int(np.count_nonzero(x.quality & q)) for q in Quality},
         "density": {
             "band_Hz": list(BAND),
-            "before": measure_density(before[::every], d.rate / every),
+            "before": {k: v for k, v in nominal.items() if k.endswith("rtHz")},
             "after": measure_density(x.gradient[::every], d.rate / every),
             "noise": name_both(c.noise_std / np.sqrt(d.bandwidth), "Eo_per_rtHz"),
         },

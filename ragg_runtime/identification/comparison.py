@@ -13,8 +13,9 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import fitted, regressors, unknown_gradient
 from ragg_runtime.estimation.calibration import OffSheet, list_off_sheet
 from ragg_runtime.estimation.fitted import Fitted, Scored, fit, measure_noise_floor, measure_swell
-from ragg_runtime.estimation.observation import combine_output, observe_flights
+from ragg_runtime.estimation.observation import Observation, combine_output, observe_flights
 from ragg_runtime.estimation.scores import Error, list_errors
+from ragg_runtime.estimation.unknown_gradient import Window
 from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import selection, series, several_outputs
 from ragg_runtime.identification.dictionary import list_harmonics, make_carrier
@@ -238,12 +239,16 @@ def compute_residuals(f: Fitted, p: Array) -> list[Array]:
     """Residual of G_out, (N,) V, of every flight with these values; no unknown gradient."""
 
     def left(piece: Piece) -> Array:
-        o = piece.observation
-        predicted = regressors.predict_observed(f.model, o, p)
-        return np.asarray(piece.observed(np.where(o.record.valid, o.data - predicted, 0.0)[None])[0])
+        return compute_residual(f.model, piece.observation, p, piece.windows)
 
     flights = [x.lean(range(f.n_base))[0] for x in f.prepared]
     return [np.concatenate([*x.each(left, whitened=False)]) for x in flights]
+
+
+def compute_residual(model: Model, o: Observation, p: Array, windows: Sequence[Window]) -> Array:
+    """The same of a segment, without what an unknown gradient can be in its windows."""
+    e = np.where(o.record.valid, o.data - regressors.predict_observed(model, o, p), 0.0)[None]
+    return np.asarray(combine_output(o, unknown_gradient.take_out(e, windows, o.record.valid))[0])
 
 
 @dataclass(frozen=True)

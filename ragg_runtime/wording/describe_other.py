@@ -184,7 +184,7 @@ def _channels_table(x: Json) -> Table:
         "std by noise, Eo": lambda k: number(std["noise"][f"{k}_Eo"]),
         "std by parameters, Eo": lambda k: number(std["parameters"][f"{k}_Eo"]),
     }
-    note = "Nominal: with the values of model.toml, not calibrated. Both with the gravity gradient and the noise, 0.02 to 0.15 Hz."
+    note = "Nominal: the error of compare. Compensated: the gravity gradient and the noise, 0.02 to 0.15 Hz."
     return tabulate(("inline", "cross"), columns, note=note)
 
 
