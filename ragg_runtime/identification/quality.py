@@ -16,7 +16,7 @@ def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
     follows the motion, as what smoothing leaves of the sensors' noise does so, too. Of one at rest, which the model explains, the
     reason says how little that means.
     """
-    flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind == "motion-noise"]
+    flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind]
     # an output that exceeds stationary noise, where motion was not recorded, is not explained
     unknown = bool(d.reasons) and any(f.kind == "still" for _, f in flags)
     several = len(flights) > 1

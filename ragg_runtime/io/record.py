@@ -84,7 +84,8 @@ class Flag:
     effects
         Ids of effects that describe the same, and may be claimed with it.
     kind
-        ``motion-noise`` of sensors whose noise shows in the output, ``still`` where one of their columns holds one value; else empty.
+        ``motion-noise`` of sensors whose noise shows in the output, ``still`` where one of their columns holds one value, ``coarse`` of a
+        thermometer that reads few values; else empty.
     """
 
     columns: tuple[str, ...]

@@ -11,6 +11,7 @@ from ragg_runtime.base.errors import UserError, at, count
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.io import Flight
+from ragg_runtime.io.assemble import FEWEST_LEVELS
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE, Flag
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import find_start, list_recorded_channels
@@ -98,7 +99,7 @@ def list_remarks(instrument: Instrument, flight: Flight) -> list[Flag]:
     """Columns that are constant or contradict each other, with the likely mistake."""
     encoders = (x for d in instrument.layout.discs for x in _encoder(d, flight))
     noted = (*_rates(flight), *encoders, *_angle_origin(instrument, flight))
-    return [*_still(flight), *_overflown(flight), *(Flag((), text) for text in noted)]
+    return [*_still(flight), *_coarse(flight), *_overflown(flight), *(Flag((), text) for text in noted)]
 
 
 def _still(flight: Flight) -> list[Flag]:
@@ -108,6 +109,13 @@ def _still(flight: Flight) -> list[Flag]:
     text = f"{', '.join(still)} {'does' if len(still) == 1 else 'do'} not change at all: a stuck sensor?"
     text = AT_REST if len(still) == len(moving) else text
     return [Flag(tuple(still), text, open=True, kind="still")] if still else []
+
+
+def _coarse(flight: Flight) -> list[Flag]:
+    """Thermometers that read two or three values: what follows them is hardly told from what is slow by itself."""
+    warm = {n: np.unique(x[flight.valid]) for n, x in flight.channels.items() if flight.units.get(n) == "K"}
+    words = "is recorded in so few values that an effect of it may look like a drift, a step or an error of the spin rate"
+    return [Flag((n,), f"{n} {words}", kind="coarse") for n, x in warm.items() if 1 < len(x) < FEWEST_LEVELS]
 
 
 def _overflown(flight: Flight) -> list[Flag]:

@@ -250,10 +250,8 @@ def propose_parts(s: Sampler) -> list[Hypothesis]:
         return (1.0 - float(np.mean(inside))) * rest.misfit, part / size
 
     def refine(first: float, last: float) -> tuple[float, float]:
-        if first > 0:
-            first = find_least(lambda a: judge(a, last)[0], first + near, spacing / 64)
-        if last < n:
-            last = find_least(lambda b: judge(first, b)[0], last + near, spacing / 64)
+        first = find_least(lambda a: judge(a, last)[0], first + near, spacing / 64) if first > 0 else first
+        last = find_least(lambda b: judge(first, b)[0], last + near, spacing / 64) if last < n else last
         return max(first, 0.0), min(last, float(n))
 
     edges, spacing = np.linspace(0, n, INSTANTS + 1), n / INSTANTS
@@ -264,10 +262,10 @@ def propose_parts(s: Sampler) -> list[Hypothesis]:
     if judge(first, last)[1] < LARGE or rest.share > SMALL:
         return []
     begins, ends = (f"t = {s.flight.time[min(int(k), n - 1)]:.4g} s" for k in (first, last))
-    part = f"lies between {begins} and {ends}"
-    if first == 0 or last == n:
-        part = f"comes before {ends}" if first == 0 else f"comes after {begins}"
-    what = f"the model explains the record, but not what {part} (another instrument, range, sign, axis or wiring there?)"
+    what = (
+        f"the model explains the record, but not what lies between {begins} and {ends} (another instrument, range, sign, axis or"
+        " wiring there?)"
+    )
     remedy = "cut the record there, and diagnose its parts by themselves"
     fitted = replace(rest, rms=rest.size * rest.share ** (1.0 - (last - first) / n))
     return [Hypothesis(what, remedy, fitted, COST + 1.0, effects=("gain-step",))]

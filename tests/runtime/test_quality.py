@@ -62,6 +62,13 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect() -> None:
     heeded = heed_flags(two, [odd])
     assert (heeded.verdict, heeded.found) == ("partly-explained", ("spin-rate-offset",))
     assert "magnetic-scale would explain it, but" in " ".join(r.text for r in heeded.reasons)
+    for levels, said in ((1, False), (3, True), (40, False)):
+        warm = 290.0 + np.floor(levels * np.arange(len(x)) / len(x))
+        flagged = x.flagged(
+            checks.list_remarks(s.sheet, replace(x, channels={**x.channels, "temperature": warm}))
+        )
+        drifts = heed_flags(replace(d, verdict="missing-effect", found=("gain-drift",)), [flagged])
+        assert (drifts.found, "may look like a drift" in str(drifts.reason)) == (("gain-drift",), said)
     at_rest = replace(x, channels={n: np.full(len(x), np.mean(v)) for n, v in x.channels.items()})
     little = heed_flags(replace(d, reasons=()), [x.flagged(checks.list_remarks(s.sheet, at_rest))])
     assert (little.verdict, little.reason) == ("adequate", checks.AT_REST)

@@ -190,8 +190,8 @@ def test_rows_that_lack_or_are_doubled_all_along_are_said() -> None:
 @pytest.mark.parametrize(
     ("begins", "ends", "said"),
     [
-        (110.0, np.inf, r"comes after t = 1(09|10)(\.\d+)? s"),
-        (0.0, 20.0, r"comes before t = (19|20)(\.\d+)? s"),
+        (110.0, np.inf, r"lies between t = 1(09|10)(\.\d+)? s and t = 199\.9 s"),
+        (0.0, 20.0, r"lies between t = 0 s and t = (19|20)(\.\d+)? s"),
         (60.0, 110.0, r"lies between t = (59|60)(\.\d+)? s and t = 1(09|10)(\.\d+)? s"),
     ],
 )
