@@ -20,7 +20,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.compensation import channel as output_channel
 from ragg_runtime.compensation.channel import Compensated, OutputChannel, Quality
-from ragg_runtime.compensation.compensate import Kind, prepare
+from ragg_runtime.compensation.compensate import Kind, leave_out_gradients, prepare
 from ragg_runtime.estimation import seen_gradient
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model import model as load
@@ -85,6 +85,10 @@ def test_frozen_parameters_compensate_another_flight_as_well(tmp_path: Path) -> 
     (flight,) = o["flights"]
     density = flight["density"]
     assert density["before"]["inline_Eo_per_rtHz"] > 1e3 * density["after"]["inline_Eo_per_rtHz"]
+    unknown = tmp_path / "unknown.parquet"
+    write_flight(leave_out_gradients(flights()[1]), unknown)
+    nominal = api.compare(api.load(model), unknown).as_json()["error"]["nominal"]
+    assert density["before"]["inline_Eo_per_rtHz"] == pytest.approx(nominal["inline_Eo_per_rtHz"], rel=1e-3)
     assert density["after"]["cross_Eo_per_rtHz"] == pytest.approx(2.0, rel=0.3)
     assert density["noise"]["cross_Eo_per_rtHz"] == pytest.approx(2.0, rel=0.1)
     assert {"everything", "imbalance of K1"} <= {q["of"] for q in flight["contributions"]}
