@@ -33,7 +33,7 @@ from ragg_runtime.io.arrays import (
 from ragg_runtime.io.assemble import make_flight
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.io.record import SI_UNITS, Flight, content
-from ragg_runtime.io.recording import make_recordings, read_quantities
+from ragg_runtime.io.recording import join_parts, make_recordings, read_quantities
 from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.io.text_tables import read_csv, read_excel
 
@@ -129,7 +129,7 @@ def read_tables(source: Any) -> list[DataTable]:
     """All tables of a file, by the ending of its name, or of a flight in memory."""
     try:
         tables = _read_file(source) if isinstance(source, Path) else tabulate(source)
-        return [replace(t, columns=tuple(map(read_quantities, t.columns))) for t in tables]
+        return [join_parts(replace(t, columns=tuple(map(read_quantities, t.columns)))) for t in tables]
     except MemoryError:
         what = "the file is damaged, or too large for the memory of this computer"
         raise UserError(what, where=source, remedy="copy it again, or split it") from None

@@ -118,10 +118,6 @@ def _read_plain(table: DataTable) -> DataTable:
     notes = list(table.notes)
     by_name = {c.name: c for c in reversed(table.columns)}
     time, index = by_name.get("time"), by_name.get(table.index or "")
-    parts = [c for c in table.columns if c.name.casefold() in PARTS and c.is_number]
-    if time is None and len(parts) == len(PARTS):
-        table = replace(table, columns=tuple(c for c in table.columns if c not in parts))
-        time = _join_parts(parts)
     if (
         time is None
         and index is not None
@@ -148,13 +144,16 @@ def _read_plain(table: DataTable) -> DataTable:
     return _read_columns(named, [] if time is None else [time], TimeEntry(()), chosen)
 
 
-def _join_parts(parts: Sequence[DataColumn]) -> DataColumn:
-    """The instants of which columns are the parts, as texts."""
-    values = {c.name.casefold(): c.values for c in parts}
-    rows = zip(*(values[n] for n in PARTS), strict=True)
+def join_parts(table: DataTable) -> DataTable:
+    """A table whose columns ``year`` to ``second`` are one, ``time``, of instants as texts."""
+    parts = {c.name.casefold(): c for c in table.columns if c.name.casefold() in PARTS and c.is_number}
+    if len(parts) < len(PARTS) or "time" in table.names:
+        return table
+    rows = zip(*(parts[n].values for n in PARTS), strict=True)
     written = "{:04.0f}-{:02.0f}-{:02.0f}T{:02.0f}:{:02.0f}:{:012.9f}"
     texts = ["" if np.isnan(row).any() else written.format(*row) for row in rows]
-    return DataColumn("time", "", np.array(texts, dtype=object))
+    others = (c for c in table.columns if c not in parts.values())
+    return replace(table, columns=(DataColumn("time", "", np.array(texts, dtype=object)), *others))
 
 
 def _read_mapped(table: DataTable, mapping: Mapped) -> DataTable:
