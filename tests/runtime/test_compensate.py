@@ -230,9 +230,6 @@ def test_formats_and_several_flights(tmp_path: Path) -> None:
     )
     assert len(inline) == len(kept) < 2 * BRIEF.stop
     assert np.max(np.abs(kept - inline)) <= 0.05 * np.min(std), "and one digit more than is known"
-    before = c.as_json()["flights"][0]["density"]["before"]
-    nominal = api.compare(m, api.read_for_compensation(m, places[:1])).nominal.as_json()
-    assert before == pytest.approx({k: nominal[k] for k in before}, rel=1e-3)  # k_ggi of both flights
 
 
 BAD: dict[str, list[str]] = {
