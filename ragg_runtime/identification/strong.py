@@ -284,8 +284,14 @@ ROOM = 0.1
 """What an estimate may be off besides, as a share of the only physical value: by what else the model leaves out."""
 
 
+FARTHEST = 100.0
+"""How many times wider than ten times its plausible size, the usual width, a prior may have to be for an effect to be claimed: of 135 right
+claims (10 to 3,000 sigma, seeds 4401, 4403 and 4412) none took more than 70.
+"""
+
+
 def find_impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
-    """Those of the effects, all in the fitted model, whose parameter has a size that it cannot have."""
+    """Those of the effects, all in the fitted model, whose parameter has a size that it cannot have, or that is unheard of."""
     calibration, found = f.calibration, []
     for n, c, q in list_bounded_columns(f):
         true = q.physical or 0.0
@@ -293,6 +299,7 @@ def find_impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
         off = abs(float(calibration.p[calibration.index[n]]) - true * c.unit_factor)
         if off > room * c.unit_factor + CERTAIN * c.scale * np.sqrt(calibration.covariance[n, n]):
             found.append(c.effect)
+    found += [c.effect for c in calibration.columns if f.instrument.widths.get(c.name, 1.0) > FARTHEST]
     return tuple(e for e in dict.fromkeys(effects) if e in found)
 
 

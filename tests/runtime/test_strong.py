@@ -59,6 +59,18 @@ def test_a_size_that_anybody_would_see_is_not_claimed(size: float, *, claimed: b
     assert ("imu-acceleration-scale" in d.found) is claimed
 
 
+def test_a_size_that_is_unheard_of_is_not_claimed() -> None:
+    s = scenario(3, duration=250.0, rate=4.0)
+    run = s.simulate({})
+    x, noise = run.flight(), float(np.std(run.G_out - run.G_out_noise_free))
+    wz = x.channels["omega_z"]
+    d = diagnosed(
+        s, dataclasses.replace(x, outputs={"G_out": x.outputs["G_out"] + 2.0 * noise * wz / np.std(wz)})
+    )
+    assert (d.verdict, d.found) == ("unexplained", ()), "a gyro-bias of thousands of deg/h does the same"
+    assert d.terms()[0]["term"] == "omega_z"
+
+
 def test_a_strong_effect_keeps_no_coefficients_that_its_second_order_seemed_to_need() -> None:
     s = scenario(5, duration=200.0, rate=RATE)
     d = diagnosed(s, s.simulate({"gain-drift": {"dK1_dt": [0.0, 0.0, 0.0, 3e-9]}}).flight())
