@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import one_thread, split_range
 from ragg_runtime.estimation import calibration, regressors, whitening
 from ragg_runtime.estimation.calibration import QUIET, Calibration, widen_priors
-from ragg_runtime.estimation.least_squares import Linear, add_prior, join, make_prior
+from ragg_runtime.estimation.least_squares import Linear, add_prior, fold, make_prior
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, Observation
 from ragg_runtime.estimation.regressors import Column
@@ -113,17 +113,17 @@ class Fitted:
     @cached_property
     def data(self) -> Array:
         """R factor of all flights, without the prior."""
-        return join([t for own in self.r_factors for t in own])
+        return fold([t for own in self.r_factors for t in own])
 
     @cached_property
     def whole(self) -> Array:
         """R factor of all flights, the prior in it."""
-        return join([self.data, self._prior])
+        return fold([self.data, self._prior])
 
     @cached_property
     def half(self) -> Array:
         """The same over the blocks on which a held-out fit is made."""
-        return join([*(own[b] for own in self.r_factors for b in FITTED_BLOCKS), self._prior])
+        return fold([*(own[b] for own in self.r_factors for b in FITTED_BLOCKS), self._prior])
 
     @property
     def _prior(self) -> Array:

@@ -51,17 +51,50 @@ def compute_r_factor(columns: Array) -> Array:
     some = find_nonzero(columns)
     k = np.count_nonzero(some)
     R = np.zeros((k, k), order="F")
-    for start in range(0, columns.shape[1] if k else 0, CHUNK):
-        part = np.asfortranarray(columns[some, start : start + CHUNK].T)
-        R, *_ = linalg.lapack.dtpqrt(0, min(PANEL, k), R, part, overwrite_a=True, overwrite_b=True)
+    for start in range(0, columns.shape[1], CHUNK):
+        R = _enter_rows(R, np.asfortranarray(columns[some, start : start + CHUNK].T))
     T = np.zeros((len(columns),) * 2)
     T[np.ix_(some, some)] = R
     return T
 
 
+def _enter_rows(R: Array, part: Array, trapezoid: int = 0) -> Array:
+    """The factor of the rows of R (n, n), upper triangular, and of ``part`` (m, n), both in Fortran's order and used up; the last
+    ``trapezoid`` rows of ``part`` are an upper trapezoid.
+    """
+    if not part.size:
+        return R
+    panel = min(PANEL, len(R))
+    return np.asarray(linalg.lapack.dtpqrt(trapezoid, panel, R, part, overwrite_a=True, overwrite_b=True)[0])
+
+
 def join(blocks: Sequence[Array]) -> Array:
     """The R factor of several records together, each of them in any rows (k, n) with the right inner products."""
-    return blocks[0] if len(blocks) == 1 else compute_r_factor(np.vstack(blocks).T)
+    if len(blocks) == 1:
+        return blocks[0]
+    return compute_r_factor(np.vstack(blocks).T)
+
+
+def fold(trapezoids: Sequence[Array]) -> Array:
+    """The same of upper trapezoids, row i of which is zero before column i: a fourth of the work, as the zeros stay."""
+    first, *others = trapezoids
+    n = first.shape[1]
+    R = np.zeros((n, n), order="F")
+    R[: len(first)] = first
+    for t in others:
+        R = _enter_rows(R, np.array(t, order="F"), len(t))
+    return R
+
+
+def pick_columns(T: Array, first: int, picked: Sequence[int]) -> Array:
+    """The R factor of the first columns of T (n, n), which are triangular in it already, and of others ``picked``."""
+    k = first + len(picked)
+    R = np.zeros((k, k))
+    R[:first, :first] = T[:first, :first]
+    R[:first, first:] = T[:first, picked]
+    rest = np.linalg.qr(T[first:, picked], mode="r")
+    R[first : first + len(rest), first:] = rest
+    return R
 
 
 def marginalise(root: Array, own: Sequence[int]) -> Array:

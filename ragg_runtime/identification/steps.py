@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.least_squares import compute_r_factor, join, make_prior
+from ragg_runtime.estimation.least_squares import compute_r_factor, fold, join, make_prior, pick_columns
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS, ROWS
 from ragg_runtime.estimation.regressors import Column, group_by_effect
@@ -136,13 +136,13 @@ def _find_best_edges(
     n_base = f.n_base
     own = [c for each in columns.values() for c in each]
     k, m = n_base + len(given), len(own)
-    some = [*range(n_base), *(n_base + n for n in given), *(n_base + n for n, _ in own), -1]
-    picked = [join([t[:, some] for t in each]) for each in zip(*r_factors, strict=True)]
+    others = [*(n_base + n for n in given), *(n_base + n for n, _ in own), -1]
+    picked = [fold([pick_columns(t, n_base, others) for t in each]) for each in zip(*r_factors, strict=True)]
     # The segments after an edge count with the steps' columns, those before it without; the prior in them.
     sheet = make_prior(range(n_base), k + m + 1, f.to_nominal)
     after: list[Array] = [np.pad(sheet, ((0, k + m + 1 - n_base), (0, 0)))]
     for t in reversed(picked[1:]):
-        after.append(join([after[-1], t]))
+        after.append(fold([after[-1], t]))
     before = np.zeros((k + m + 1, k + m + 1))
     place = count()
     named = {e: [(next(place), c) for _, c in each] for e, each in columns.items()}
@@ -151,8 +151,8 @@ def _find_best_edges(
     for n, edge in enumerate(edges):
         off = picked[n].copy()
         off[:, k : k + m] = 0.0
-        before = join([before, off])
-        P = likelihood_ratio.project(join([before, after[len(edges) - n]]), k)
+        before = fold([before, off])
+        P = likelihood_ratio.project(fold([before, after[len(edges) - n]]), k)
         for e, each in named.items():
             test = likelihood_ratio.test(P, each, floor, float(np.log(2 * BLOCKS)))
             if e not in best or test.log_p < best[e][1].log_p:
