@@ -64,11 +64,6 @@ void ragg_chain_output(size_t n, const double *t, const double *const *in, const
 void ragg_chain_derivatives(size_t j, size_t n, const double *t, const double *const *in, const double *p,
                            const double *angle, double *D);
 
-/* V_j and their derivatives at one instant, of count accelerometers of one disc from first on (0 and 4): V[j - first],
- * D[row * count + j - first]. */
-void ragg_chain_sample(size_t first, size_t count, const double *t, const double *const *in, const double *p,
-                       const double *angle, double *V, double *D);
-
 #ifdef __cplusplus
 }
 #endif

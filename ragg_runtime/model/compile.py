@@ -25,7 +25,7 @@ from ragg_runtime.base.files import find_private_folder
 
 VARIABLE = "RAGG_NATIVE"
 
-OPTIONS = ("-std=c17", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared", "-DRAGG_SERIES_ALONE")
+OPTIONS = ("-std=c17", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared")
 """No -ffast-math: it gains nothing and costs exactness. Contraction is off because the code says itself where products are fused: a
 sample has the same bits wherever it stands, and with whatever effort it was compiled."""
 

@@ -76,18 +76,6 @@ class Library:
     def derivatives(self, j: int, t: Array, inputs: Array, p: Array, rows: int) -> Array:
         return self._call("derivatives", t, inputs, p, rows, (j,))
 
-    def sample(self, t: Array, inputs: Array, p: Array, rows: int) -> tuple[Array, Array]:
-        """Voltages (4, N) and derivatives (rows, 4, N), instant by instant."""
-        V, D = np.full((len(t), 4), np.nan), np.full((len(t), rows, 4), np.nan)
-        columns = np.ascontiguousarray(inputs.T)
-        for n, x in enumerate(columns):
-            pointers = (_double * len(x))(*(_pointer(x[k : k + 1]) for k in range(len(x))))
-            getattr(self._library, f"ragg_{self._name}_sample")(
-                *map(ctypes.c_size_t, (0, 4)), _pointer(t[n : n + 1]), pointers,
-                _pointer(np.ascontiguousarray(p)), None, _pointer(V[n]), _pointer(D[n]),
-            )  # fmt: skip
-        return V.T, np.moveaxis(D, 0, 2)
-
     def amplitudes(self, inputs: Array, p: Array, count: int) -> Array:
         found = np.full((count, inputs.shape[1]), np.nan)
         for n in range(inputs.shape[1]):

@@ -208,10 +208,8 @@ def test_harmonic_models_equal_numpy(start: float, library: Mapping[str, compile
         assert np.all(np.abs(c.jacobian(t, inputs, p) - J) <= 1e-12 * rows)
 
 
-def same_chain(
-    module: ModuleType, c: compiled.Library, t: Array, inputs: Array, p: Array, *, sampled: bool = True
-) -> None:
-    """Voltages, output and derivatives of a chain: C against NumPy, to a few roundings; instant by instant the same bits."""
+def same_chain(module: ModuleType, c: compiled.Library, t: Array, inputs: Array, p: Array) -> None:
+    """Voltages, output and derivatives of a chain: C against NumPy, to a few roundings."""
     phi = analytical.disc_angle(t, float(p[1]))
     turning = np.cos(phi), np.sin(phi)
     V = module.voltages(t, *turning, inputs, p)
@@ -221,14 +219,9 @@ def same_chain(
     np.testing.assert_allclose(
         c.output(t, inputs, p), module.output(t, *turning, inputs, p), rtol=0, atol=4e-14 * size
     )
-    at_instants = c.sample(t, inputs, p, len(module.ROWS)) if sampled else None
-    if at_instants is not None:
-        np.testing.assert_array_equal(at_instants[0], c.voltages(t, inputs, p))
     for j in range(4):
         D = module.derivatives(j, t, *turning, inputs, module.values_of(j, p))
         found = c.derivatives(j, t, inputs, p, len(D))
-        if at_instants is not None:
-            np.testing.assert_array_equal(at_instants[1][:, j], found)
         rows = np.max(np.abs(D), axis=1, keepdims=True)
         names = [
             n
@@ -296,7 +289,7 @@ def test_chain_and_signatures_equal_numpy(start: float, library: Mapping[str, co
     t = start + np.sort(draw.uniform(0, 100, 40))
     for name, module in (("chain", chain), ("signatures", signatures)):
         p = np.concatenate([draws.instrument(draw), np.zeros(module.SIZE - 62)])
-        same_chain(module, library[name], t, inputs_of(module, draw, len(t)), p, sampled=name == "chain")
+        same_chain(module, library[name], t, inputs_of(module, draw, len(t)), p)
 
 
 def list_constructs(e: Effect) -> set[str]:
