@@ -42,7 +42,6 @@ from ragg_runtime.estimation.observation import (
 )
 from ragg_runtime.estimation.scores import finite, measure_error
 from ragg_runtime.estimation.seen_gradient import Block
-from ragg_runtime.estimation.unknown_gradient import make_windows
 from ragg_runtime.identification.comparison import compute_residual
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, sees
@@ -285,10 +284,8 @@ def describe_channel(c: OutputChannel, x: Compensated, instrument: Instrument) -
     there = np.isfinite(x.gradient.real)
     rms = np.sqrt(np.mean(x.parameters[:, there] ** 2, axis=1)) if there.any() else np.full(2, np.nan)
     sheet = make_vector(c.model, instrument)
-    left = [
-        compute_residual(c.model, o.part(rows), sheet, make_windows(o, rows, c.noise)) for rows in o.segments
-    ]
-    nominal = measure_error(np.concatenate(left), o.record, c.find_scale_factor(c.about)).as_json()
+    left = compute_residual(c.model, o, sheet, c.noise)
+    nominal = measure_error(left, o.record, c.find_scale_factor(c.about)).as_json()
     every = max(1, int(d.rate))  # the channels hold nothing above half a hertz
     return {
         "flight": o.flight_name,

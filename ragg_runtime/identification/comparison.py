@@ -13,10 +13,9 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.estimation import fitted, regressors, unknown_gradient
 from ragg_runtime.estimation.calibration import OffSheet, list_off_sheet
 from ragg_runtime.estimation.fitted import Fitted, Scored, fit, measure_noise_floor, measure_swell
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation, combine_output, observe_flights
 from ragg_runtime.estimation.scores import Error, list_errors
-from ragg_runtime.estimation.unknown_gradient import Window
-from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import selection, series, several_outputs
 from ragg_runtime.identification.dictionary import list_harmonics, make_carrier
 from ragg_runtime.identification.omnibus import Remainder, list_terms, search_residual
@@ -237,18 +236,19 @@ def describe_disturbance(f: Fitted) -> str | None:
 
 def compute_residuals(f: Fitted, p: Array) -> list[Array]:
     """Residual of G_out, (N,) V, of every flight with these values; no unknown gradient."""
-
-    def left(piece: Piece) -> Array:
-        return compute_residual(f.model, piece.observation, p, piece.windows)
-
-    flights = [x.lean(range(f.n_base))[0] for x in f.prepared]
-    return [np.concatenate([*x.each(left, whitened=False)]) for x in flights]
+    return [compute_residual(f.model, x.observation, p, x.noise) for x in f.prepared]
 
 
-def compute_residual(model: Model, o: Observation, p: Array, windows: Sequence[Window]) -> Array:
-    """The same of a segment, without what an unknown gradient can be in its windows."""
-    e = np.where(o.record.valid, o.data - regressors.predict_observed(model, o, p), 0.0)[None]
-    return np.asarray(combine_output(o, unknown_gradient.take_out(e, windows, o.record.valid))[0])
+def compute_residual(model: Model, o: Observation, p: Array, noise: NoiseModel) -> Array:
+    """The same of one flight, without what an unknown gradient can be in it."""
+
+    def of_segment(rows: slice) -> Array:
+        part, windows = o.part(rows), unknown_gradient.make_windows(o, rows, noise)
+        valid = part.record.valid
+        e = np.where(valid, part.data - regressors.predict_observed(model, part, p), 0.0)[None]
+        return np.asarray(combine_output(o, unknown_gradient.take_out(e, windows, valid))[0])
+
+    return np.concatenate([of_segment(rows) for rows in o.segments])
 
 
 @dataclass(frozen=True)

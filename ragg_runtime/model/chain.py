@@ -35,6 +35,7 @@ class ChainModule(Protocol):
 
 Inputs = Sequence[ArrayLike] | NDArray[np.floating]
 """One series of N samples each, in the order of the model."""
+
 BLOCK = 4096
 """Samples that NumPy evaluates at a time, in cache."""
 
