@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.model import compile as compilation
+from ragg_runtime.model import chain as compilation
 
 Array = NDArray[np.float64]
 Rival = Callable[[Array, Array, Array], object]

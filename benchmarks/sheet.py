@@ -6,8 +6,7 @@ from typing import Any
 
 import tomlkit
 
-from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETERS
+from ragg_runtime.instrument.instrument import DISC_UNITS, PARAMETERS, Instrument
 
 
 def model_text(instrument: Instrument) -> str:

@@ -76,7 +76,7 @@ def detection_limits() -> dict[str, dict[str, str]]:
 
 def model_toml() -> str:
     """Keys of model.toml: prose with the table of the accelerometers' parameters."""
-    from ragg_runtime.instrument.parameters import PARAMETERS
+    from ragg_runtime.instrument.instrument import PARAMETERS
 
     rows = ["| key | | unit | usual error | if left out |", "|---|---|---|---|---|"]
     for p in PARAMETERS:

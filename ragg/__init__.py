@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from ragg_runtime.api import remove as remove
     from ragg_runtime.api import survey as survey
     from ragg_runtime.base.errors import UserError as UserError
-    from ragg_runtime.model.catalogue import effects as effects
+    from ragg_runtime.model.derive import effects as effects
     from ragg_runtime.simulate import simulate as simulate
 
 _MODULES = {
@@ -36,7 +36,7 @@ _MODULES = {
         "add", "calibrate", "compare", "compensate", "diagnose", "export", "load", "new", "read_flights", "remove",
         "survey",
     ),
-    "model.catalogue": ("effects",),
+    "model.derive": ("effects",),
     "simulate": ("simulate",),
 }  # fmt: skip
 __all__ = sorted(name for names in _MODULES.values() for name in names)

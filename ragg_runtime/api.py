@@ -40,17 +40,16 @@ from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.series import list_noise_floor
 from ragg_runtime.identification.strong import choose_start
-from ragg_runtime.instrument.edit_toml import add_effect, remove_effect
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.layout import PAPER
+from ragg_runtime.instrument.model_toml import add_effect, remove_effect
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.io import Flight
 from ragg_runtime.io.files import require_writable as check_output
 from ragg_runtime.model import derive
-from ragg_runtime.model.catalogue import Catalogue, effects
+from ragg_runtime.model.derive import Catalogue, effects
 from ragg_runtime.model.directory import HistoryStep, replace_model_dir
-from ragg_runtime.model.evaluate import make_vector
-from ragg_runtime.model.model import list_missing_channels
+from ragg_runtime.model.model import make_vector
 from ragg_runtime.model.record import list_recorded_channels
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.run import digest_file, survey
@@ -287,9 +286,8 @@ def add(
 
 def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting:
     """The effect as model.toml will list it, its values open but for a step's instant; UserError if it cannot be added."""
-    # a candidate of the model has all that is needed here; importing the derivation takes half a second
-    found = next((e for e in m.model.candidates if e.id == effect), None)
-    offered = found or derive.find_offered(m.instrument, effect)[0]
+    offered = m.model.effect(effect) or derive.with_effects(m.instrument, m.model, [effect]).effect(effect)
+    assert offered is not None
     present = m.instrument.effect(effect) or EffectSetting(effect)
     if {q.name for q in offered.parameters if not q.shape} & present.values.keys():
         raise UserError(
@@ -299,7 +297,7 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
             remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
         )
     for x in flights:
-        missing = list_missing_channels(offered, list_recorded_channels(x, m.instrument.layout))
+        missing = offered.missing(list_recorded_channels(x, m.instrument.layout))
         if missing:
             raise UserError(
                 f"the effect {effect} needs a channel that the flight lacks",

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from ragg_runtime.api import Loaded, diagnose
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
-from ragg_runtime.base.templates import make_environment
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification.next_motion import (
@@ -32,6 +31,7 @@ from ragg_runtime.identification.next_motion import (
 )
 from ragg_runtime.identification.selection import make_problem
 from ragg_runtime.io import Flight
+from ragg_runtime.wording.sections import make_environment
 
 Array = NDArray[np.float64]
 Json = Mapping[str, Any]

@@ -10,11 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import read_text, write_text
-from ragg_runtime.base.provenance import provenance
-from ragg_runtime.instrument.edit_toml import with_full_kinematics
+from ragg_runtime.base.files import provenance, read_text, write_text
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument, with_full_kinematics
 from ragg_runtime.io import Flight
 from ragg_runtime.io import read_flights as _read_flights
 from ragg_runtime.io.mapping import Mapped, parse_mapping, read_mapping
@@ -29,8 +27,7 @@ from ragg_runtime.model.directory import (
     load_model_dir,
     replace_model_dir,
 )
-from ragg_runtime.model.evaluate import make_vector
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, make_vector
 from ragg_runtime.screening import screen
 from ragg_runtime.wording import describe
 from ragg_runtime.wording.sections import render_notebook

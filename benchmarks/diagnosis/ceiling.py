@@ -22,7 +22,7 @@ from ragg_runtime.estimation.observation import BLOCKS, observe
 from ragg_runtime.estimation.regressors import list_base_columns, predict_observed
 from ragg_runtime.identification import likelihood_ratio
 from ragg_runtime.identification.selection import ProjectedProblem
-from ragg_runtime.model.evaluate import make_vector
+from ragg_runtime.model.model import make_vector
 
 Array = NDArray[np.float64]
 

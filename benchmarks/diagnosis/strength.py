@@ -24,8 +24,7 @@ from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.regressors import Column, linearise, make_point
 from ragg_runtime.io import Flight
-from ragg_runtime.model.evaluate import make_vector
-from ragg_runtime.model.model import load_packaged
+from ragg_runtime.model.model import load_packaged, make_vector
 from ragg_runtime.reference.effects import CATALOGUE
 
 Array = NDArray[np.float64]

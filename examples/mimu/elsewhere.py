@@ -40,7 +40,7 @@ from examples.mimu.story import (
 )
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 
 BACK = tuple(k + 1 for k in FRONT)

@@ -17,7 +17,7 @@ from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.record import ANGULAR_RATE
 from ragg_runtime.model import derive

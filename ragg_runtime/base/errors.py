@@ -1,4 +1,4 @@
-"""The one error that a user sees: what is wrong, where, what was found, what is expected, what to do."""
+"""The one error that a user sees: what is wrong, where, what was found, what is expected, what to do; checks of what files give."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ import functools
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
+
+from derive.names import EXPECTED, is_name
 
 
 class UserError(Exception):
@@ -124,3 +126,20 @@ def printable(text: str) -> str:
 def one_line(text: str) -> str:
     """As :func:`printable`, line ends and tabs too: a name of several lines could pass for further messages."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def read_name(found: object, where: str, example: str | None = None) -> str:
+    """``found``, from ``where`` (file and key); UserError if it is not a name."""
+    if isinstance(found, str) and is_name(found):
+        return found
+    raise UserError(
+        "not a name",
+        where=where,
+        found=repr(found)[:80],
+        expected=EXPECTED + ("" if example is None else f", such as {example}"),
+    )
+
+
+def is_column(name: str) -> bool:
+    """Whether a column may be a channel, an output, a voltage or a disc's angle."""
+    return is_name(name.removeprefix("V_").removeprefix("spin_angle_")) or is_name(name)

@@ -1,18 +1,23 @@
-"""How far a long command is, with the time left: passes over flights report (:func:`step`), a command listens
-(:func:`shown`).
+"""Passes over flights: in segments, with linear algebra on one thread, and how far a command is with them.
 
-The unit is one sample in one pass with all columns, whitened; ``PASSES`` are estimates.
+Passes report (:func:`step`), a command listens (:func:`shown`). The unit is one sample in one pass with all columns, whitened;
+``PASSES`` are estimates.
 """
 
 from __future__ import annotations
 
 import contextlib
+import functools
 import sys
 import time
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 import click
+
+if TYPE_CHECKING:
+    import threadpoolctl
 
 PASSES = {"compare": 9.0, "diagnose": 10.5, "add": 17.0}
 """Passes over the flights that a command takes, about."""
@@ -75,3 +80,32 @@ def _describe(share: float, spent: float) -> str:
     if share > 0.99:
         return f"{spent:.0f} s so far, longer than estimated"
     return f"{100 * share:.0f} % done, about {spent * (1 / share - 1):.0f} s left"
+
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def split_range(length: int, most: int) -> list[slice]:
+    """Consecutive slices of at most so many of ``length`` items."""
+    return [slice(k, min(k + most, length)) for k in range(0, length, most)]
+
+
+@functools.cache
+def _libraries() -> threadpoolctl.ThreadpoolController:
+    """Those of linear algebra; to look for them takes as long as a small fit."""
+    import scipy.linalg  # noqa: F401  (brings a BLAS of its own, which must be there to be limited)
+    import threadpoolctl
+
+    return threadpoolctl.ThreadpoolController()
+
+
+def one_thread(function: Callable[P, R]) -> Callable[P, R]:
+    """Let linear algebra run in one thread while ``function`` does: BLAS splits its sums by threads, which changes the last digits."""
+
+    @functools.wraps(function)
+    def wrapped(*args: P.args, **kwargs: P.kwargs) -> R:
+        with _libraries().limit(limits=1):
+            return function(*args, **kwargs)
+
+    return wrapped

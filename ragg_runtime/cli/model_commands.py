@@ -86,7 +86,7 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
 @click.argument("identifier", metavar="[ID]", required=False)
 def effects(identifier: str | None) -> None:
     """List the catalogue of effects; with ID, one in full."""
-    from ragg_runtime.model.catalogue import effects as catalogue
+    from ragg_runtime.model.derive import effects as catalogue
 
     found = catalogue()
     if identifier is None:
@@ -116,7 +116,7 @@ def remove(model_dir: Path, effect: str) -> None:
 @model_argument
 def history(model_dir: Path) -> None:
     """Show the error after every step."""
-    from ragg_runtime.base.provenance import provenance
+    from ragg_runtime.base.files import provenance
     from ragg_runtime.model.directory import compute_digest, load_model_dir
 
     d = load_model_dir(model_dir)  # not derived: the steps of a model that no longer can be are shown, too

@@ -18,8 +18,7 @@ import click
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, count, one_line
-from ragg_runtime.base.files import check_writable, write_text
-from ragg_runtime.base.provenance import provenance
+from ragg_runtime.base.files import check_writable, provenance, write_text
 from ragg_runtime.report.page import Origin
 from ragg_runtime.wording.describe import group_notes
 from ragg_runtime.wording.sections import Section, render_text

@@ -25,8 +25,7 @@ from ragg_runtime.identification.parameters import (
 from ragg_runtime.identification.series import list_noise_floor
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
-from ragg_runtime.model.evaluate import name_values
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, name_values
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import progress
-from ragg_runtime.base.threads import split_range
+from ragg_runtime.base.progress import split_range
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import ROWS, combine_output
 from ragg_runtime.estimation.regressors import Column, put_derivatives

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import one_thread
+from ragg_runtime.base.progress import one_thread
 from ragg_runtime.compensation.calibrate import fit_some, information, invert_root, list_base_r_factors
 from ragg_runtime.compensation.channel import (
     MEANING,
@@ -43,15 +43,13 @@ from ragg_runtime.estimation.observation import (
 from ragg_runtime.estimation.scores import finite, measure_error
 from ragg_runtime.estimation.seen_gradient import Block
 from ragg_runtime.identification.comparison import compute_residual
-from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
 from ragg_runtime.instrument.layout import column_endings, sees
-from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.io import Flight
 from ragg_runtime.io.files import write_tables
 from ragg_runtime.io.record import GRADIENT, distinct
 from ragg_runtime.io.tables import DataColumn, DataTable
-from ragg_runtime.model.evaluate import find_unit_factor, make_vector, scale_factor
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, find_unit_factor, make_vector, scale_factor
 from ragg_runtime.signals.demodulators import find_demodulator
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.tensor import COMPONENTS, tensor

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
-from ragg_runtime.base.threads import split_range
+from ragg_runtime.base.progress import split_range
 from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors
 from ragg_runtime.estimation.calibration import estimate_noises
 from ragg_runtime.estimation.fitted import Fitted, prepare_evidence

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.base.threads import one_thread
+from ragg_runtime.base.progress import one_thread
 from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.estimation.calibration import Calibration

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import one_thread, split_range
+from ragg_runtime.base.progress import one_thread, split_range
 from ragg_runtime.compensation.channel import Quality
 from ragg_runtime.compensation.compensate import Compensation, find_seeing, leave_out_gradients
 from ragg_runtime.compensation.drift import walk_on
@@ -34,9 +34,8 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.evaluate import make_vector, scale_factor
-from ragg_runtime.model.model import Model
-from ragg_runtime.model.recorded import put_on_carriers
+from ragg_runtime.model.model import Model, make_vector, scale_factor
+from ragg_runtime.model.record import put_on_carriers
 from ragg_runtime.signals.demodulators import CUTOFF
 from ragg_runtime.workspace import Loaded
 

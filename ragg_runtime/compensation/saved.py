@@ -15,8 +15,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.regressors import Column, list_base_columns
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.directory import CALIBRATION
-from ragg_runtime.model.evaluate import make_vector, scale_factor
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, make_vector, scale_factor
 from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]

@@ -25,10 +25,8 @@ from ragg_runtime.estimation.regressors import (
     spell_name,
 )
 from ragg_runtime.estimation.whitening import Piece, pass_over
-from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.parameters import PARAMETERS
-from ragg_runtime.model.evaluate import make_vector, scale_factor
-from ragg_runtime.model.model import Model
+from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
+from ragg_runtime.model.model import Model, make_vector, scale_factor
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.threads import one_thread, split_range
+from ragg_runtime.base.progress import one_thread, split_range
 from ragg_runtime.estimation import calibration, regressors, whitening
 from ragg_runtime.estimation.calibration import QUIET, Calibration, widen_priors
 from ragg_runtime.estimation.least_squares import Linear, add_prior, fold, make_prior
@@ -20,8 +20,7 @@ from ragg_runtime.estimation.scores import Error, measure_errors, pool_errors
 from ragg_runtime.estimation.thinning import leave_out_extrapolated, leave_out_uncertain, measure_beyond
 from ragg_runtime.estimation.whitening import PreparedFlight, prepare_flight
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.evaluate import make_vector, scale_factor
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, make_vector, scale_factor
 
 Array = NDArray[np.float64]
 

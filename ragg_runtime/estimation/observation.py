@@ -15,8 +15,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.io import Flight
-from ragg_runtime.model.record import Record, record
-from ragg_runtime.model.recorded import RecordedSeries, find_recorded
+from ragg_runtime.model.record import Record, RecordedSeries, find_recorded, record
 from ragg_runtime.signals.fir import convolve
 
 BLOCKS = 24

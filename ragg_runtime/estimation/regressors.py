@@ -8,18 +8,15 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.threads import split_range
+from ragg_runtime.base.progress import split_range
 from ragg_runtime.estimation.observation import Observation
-from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
 from ragg_runtime.instrument.layout import Output
-from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.model.chain import Chain
-from ragg_runtime.model.evaluate import evaluate_voltages, find_unit_factor
 from ragg_runtime.model.memory import add_responses, first_memories, move_record
-from ragg_runtime.model.model import DerivedEffect, Model
-from ragg_runtime.model.record import Record
-from ragg_runtime.model.recorded import RecordedSeries
+from ragg_runtime.model.model import DerivedEffect, Model, evaluate_voltages, find_unit_factor
+from ragg_runtime.model.record import Record, RecordedSeries
 from ragg_runtime.signals.derivative import bridge_gaps
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, linalg, signal
 
-from ragg_runtime.base.threads import split_range
+from ragg_runtime.base.progress import split_range
 from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.spectrum import (
     LOWEST,

@@ -12,14 +12,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.threads import split_range
+from ragg_runtime.base.progress import split_range
 from ragg_runtime.estimation.observation import ROWS, Observation, combine_output
 from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.memory import move_record
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, scale_factor
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.tensor import spread_across

@@ -25,9 +25,8 @@ from ragg_runtime.estimation.regressors import LinearisationPoint, compute_resid
 from ragg_runtime.estimation.residual import STD_OF_MEDIAN, find_lines
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.record import is_disc_angle
-from ragg_runtime.model.evaluate import make_vector
 from ragg_runtime.model.memory import list_late, list_memories
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, make_vector
 from ragg_runtime.model.record import HALO
 from ragg_runtime.signals.derivative import bridge_gaps
 from ragg_runtime.signals.fir import convolve

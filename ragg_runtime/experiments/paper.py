@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ragg_runtime.base.templates import make_environment
+from ragg_runtime.wording.sections import make_environment
 
 DEGREE_PER_HOUR = ARCSEC = np.pi / 180 / 3600
 

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.threads import one_thread
+from ragg_runtime.base.progress import one_thread
 from ragg_runtime.estimation import fitted, regressors, unknown_gradient
 from ragg_runtime.estimation.calibration import OffSheet, list_off_sheet
 from ragg_runtime.estimation.fitted import Fitted, Scored, fit, measure_noise_floor, measure_swell
@@ -22,8 +22,7 @@ from ragg_runtime.identification.omnibus import Remainder, list_terms, search_re
 from ragg_runtime.identification.selection import make_problem
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
-from ragg_runtime.model.evaluate import make_vector
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, make_vector
 from ragg_runtime.signals.demodulators import is_demodulable, low_pass
 from ragg_runtime.signals.fir import convolve
 from ragg_runtime.wording import describe, numbers

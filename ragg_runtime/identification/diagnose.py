@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ragg_runtime.base.threads import one_thread
+from ragg_runtime.base.progress import one_thread
 from ragg_runtime.estimation.fitted import Fitted, fit, measure_noise_floor, release_held
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.thinning import thin_observations

@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import series_name
+from ragg_runtime.base.progress import split_range
 from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Product, Relaxation, Series
-from ragg_runtime.base.threads import split_range
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.observation import divide_into_segments
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.base.threads import split_range
+from ragg_runtime.base.progress import split_range
 from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import one_thread
+from ragg_runtime.base.progress import one_thread
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.least_squares import compute_r_factor, orthonormalise

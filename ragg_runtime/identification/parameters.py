@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.regressors import Column, spell_name
 from ragg_runtime.instrument.layout import Layout
-from ragg_runtime.model.evaluate import name_values
-from ragg_runtime.model.model import DerivedParameter, Model
+from ragg_runtime.model.model import DerivedParameter, Model, name_values
 
 Array = NDArray[np.float64]
 

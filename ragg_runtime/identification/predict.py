@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from ragg_runtime.base.threads import one_thread
+from ragg_runtime.base.progress import one_thread
 from ragg_runtime.estimation import whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.whitening import PreparedFlight

@@ -20,8 +20,7 @@ from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.strong import AddedEffect, Extend, Stage
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.evaluate import make_vector
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, make_vector
 
 Array = NDArray[np.float64]
 

@@ -1,24 +1,160 @@
-"""The instrument: nominal parameters and effects of one gradiometer, read from ``model.toml``."""
+"""The instrument of a ``model.toml``: parameters with units and plausible errors, form of the model, effects."""
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from functools import cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from ragg_runtime.base.errors import UserError, at, check_keys
-from ragg_runtime.instrument import form as forms
+from ragg_runtime.base.errors import UserError, at, check_choice, check_keys, check_table
 from ragg_runtime.instrument.demodulation import Demodulation
-from ragg_runtime.instrument.form import Form
 from ragg_runtime.instrument.layout import PAPER, Layout, scale
-from ragg_runtime.instrument.parameters import PARAMETER, PARAMETERS, Vector
 from ragg_runtime.instrument.units import RawQuantity, Units, check_finite, read_si, units
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class AccelerometerParameter:
+    """A parameter of an accelerometer; 0 where model.toml leaves it out, unless ``required``.
+
+    ``plausible``: a usual error of the test sheet, in ``display_unit``; if ``relative``, a fraction of the nominal
+    value.
+    """
+
+    name: str
+    symbol: str
+    si_unit: str
+    display_unit: str
+    description: str
+    plausible: float
+    relative: bool = False
+    required: bool = False
+
+    def plausible_si(self, nominal: Vector, g0: float) -> Vector:
+        """Plausible error of each value of ``nominal`` (any shape), in ``si_unit``, with g = ``g0`` m/s^2."""
+        if self.relative:
+            return np.abs(nominal) * self.plausible
+        return np.full_like(nominal, _convert(self.plausible, self.display_unit, self.si_unit, g0))
+
+
+@cache  # a search for mistakes asks a thousand times
+def _convert(value: float, unit: str, si_unit: str, g0: float) -> float:
+    return units(g0).to_si(value, unit, si_unit)
+
+
+def _second_order(index: int, product: str) -> AccelerometerParameter:
+    text = f"second-order coefficient of {product}"
+    return AccelerometerParameter(f"K{index}", f"K_{index}", "1/(m/s^2)", "ug/g^2", text, 20.0)
+
+
+def _angle(name: str, symbol: str, text: str) -> AccelerometerParameter:
+    return AccelerometerParameter(name, symbol, "rad", "arcsec", text, 100.0)
+
+
+PARAMETERS: tuple[AccelerometerParameter, ...] = (
+    AccelerometerParameter("dR", "dR", "m", "um", "radial distance error", 50.0),
+    _angle("beta_x", r"\beta_x", "altitude angle of the mounting position"),
+    _angle("beta_z", r"\beta_z", "initial phase angle of the mounting position"),
+    _angle("vartheta_x", r"\vartheta_x", "misalignment about the tangential axis"),
+    _angle("vartheta_y", r"\vartheta_y", "misalignment about the radial axis"),
+    _angle("vartheta_z", r"\vartheta_z", "misalignment about the axial axis"),
+    AccelerometerParameter("K0", "K_0", "m/s^2", "ug", "null bias", 50.0),
+    AccelerometerParameter(
+        "K1", "K_1", "A/(m/s^2)", "mA/g", "linear scale factor", 1e-3, relative=True, required=True
+    ),
+    _second_order(2, "f_i^2"),
+    _second_order(4, "f_i f_p"),
+    _second_order(5, "f_o^2"),
+    _second_order(6, "f_i f_o"),
+    _second_order(7, "f_p^2"),
+    _second_order(8, "f_o f_p"),
+    AccelerometerParameter(
+        "k_VI", "k_{V/I}", "V/A", "ohm", "current-to-voltage gain", 1e-3, relative=True, required=True
+    ),
+)
+"""The accelerometer's parameters, in the order in which every parameter vector holds them."""
+
+PARAMETER: Mapping[str, AccelerometerParameter] = MappingProxyType({p.name: p for p in PARAMETERS})
+"""The same by name."""
+
+DISC_UNITS: Mapping[str, str] = MappingProxyType({"radius": "m", "spin_frequency": "Hz", "g0": "m/s^2"})
+
+
+@dataclass(frozen=True)
+class Form:
+    """The table ``[model]``; what it leaves out is the paper's.
+
+    ``kinematics``: ``platform`` (Eq. 9) or ``full`` (of the disc, which turns). ``mounting``: power to which rotations
+    are kept, or ``exact``. ``misalignment``: 1 (C of Eq. 2) or ``exact``. ``second_order_angles``: whether second-order
+    terms see the force along the axes as they are.
+    """
+
+    kinematics: Literal["platform", "full"] = "platform"
+    mounting: int | str = 1
+    misalignment: int | str = 1
+    second_order_angles: bool = False
+
+    @property
+    def preset(self) -> str | None:
+        """``paper`` or ``exact``, if the order is one of these."""
+        return next((name for name, order in PRESETS.items() if order == self.order), None)
+
+    @property
+    def order(self) -> Mapping[str, int | str | bool]:
+        return {k: v for k, v in asdict(self).items() if k != "kinematics"}
+
+    def words(self) -> str:
+        """In half a sentence."""
+        order = self.preset or ", ".join(
+            f'{k} = "{v}"' if isinstance(v, str) else f"{k} = {str(v).lower()}" for k, v in self.order.items()
+        )
+        return f"kinematics {self.kinematics}, order {order}"
+
+
+PAPER_FORM = Form()
+
+PRESETS: Mapping[str, Mapping[str, int | str | bool]] = {
+    "paper": PAPER_FORM.order,
+    "exact": Form(mounting="exact", misalignment="exact", second_order_angles=True).order,
+}
+
+_CHOICES: Mapping[str, tuple[int | str | bool, ...]] = {
+    "mounting": (1, 2, "exact"),
+    "misalignment": (1, "exact"),
+    "second_order_angles": (True, False),
+}
+
+
+def read_form(table: object, path: Path | None = None) -> tuple[Form, str | None]:
+    """``[model]`` of a parsed model.toml, and its ``angle_origin``; ``None``: it is not there, which means the paper's."""
+    where = at(path, "[model]")
+    table = check_table({} if table is None else table, "model", path, "[model]")
+    check_keys(table, ("kinematics", "order", "angle_origin"), where)
+    kinematics = check_choice(
+        table.get("kinematics", PAPER_FORM.kinematics), ("platform", "full"), f"{where} kinematics"
+    )
+    if "angle_origin" in table:
+        check_choice(table["angle_origin"], ("zero", "first-sample"), f"{where} angle_origin")
+    order = _read_order(table.get("order", {}), f"{where} order")
+    return Form(kinematics=kinematics, **order), table.get("angle_origin")
+
+
+def _read_order(order: object, where: str) -> dict[str, Any]:
+    if isinstance(order, str):
+        return dict(PRESETS[check_choice(order, tuple(PRESETS), where)])
+    if not isinstance(order, dict):
+        expected = '"paper", "exact" or { mounting = 1, misalignment = 1, second_order_angles = false }'
+        raise UserError("the order is invalid", where=where, found=repr(order), expected=expected)
+    check_keys(order, _CHOICES, where)
+    return {k: check_choice(v, _CHOICES[k], f"{where}: {k}") for k, v in order.items()}
 
 
 @dataclass(frozen=True)
@@ -75,7 +211,7 @@ class Instrument:
     effects: tuple[EffectSetting, ...] = ()
     path: Path | None = None
     sigmas: Mapping[str, Vector] = field(default_factory=lambda: MappingProxyType({}))
-    form: Form = forms.PAPER
+    form: Form = PAPER_FORM
     demodulation: Demodulation | None = None
     widths: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
     fixed: frozenset[str] = frozenset()

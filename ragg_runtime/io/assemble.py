@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError, at, count, did_you_mean, one_line
-from ragg_runtime.base.names import EXPECTED, is_column
+from derive.names import EXPECTED
+from ragg_runtime.base.errors import UserError, at, count, did_you_mean, is_column, one_line
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import units

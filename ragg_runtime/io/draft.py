@@ -19,8 +19,8 @@ from typing import Any
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.names import LONGEST, is_column
+from derive.names import LONGEST
+from ragg_runtime.base.errors import UserError, is_column
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.files import read_tables
 from ragg_runtime.io.instants import are_packed, find_order, find_parts

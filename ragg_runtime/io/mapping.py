@@ -16,9 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError, at, check_keys, did_you_mean
+from ragg_runtime.base.errors import UserError, at, check_keys, did_you_mean, is_column, read_name
 from ragg_runtime.base.files import read_text
-from ragg_runtime.base.names import is_column, read_name
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.instants import WAYS, parse_order

@@ -10,8 +10,8 @@ import inspect
 import json
 import os
 import threading
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
 from functools import cache
 from importlib import metadata, resources
 from pathlib import Path
@@ -19,20 +19,19 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
-from ragg_runtime.base.files import find_private_folder, read_text, write_text
-from ragg_runtime.base.provenance import digest_sources
+from ragg_runtime.base.files import digest_sources, find_private_folder, read_text, write_text
 from ragg_runtime.instrument import layout as layouts
-from ragg_runtime.instrument.form import PAPER, Form
-from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.instrument import PAPER_FORM, EffectSetting, Form, Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.directory import DIGEST, compute_digest, read_digest
 from ragg_runtime.model.model import Model, load_files, load_packaged
+from ragg_runtime.wording import describe_other
+from ragg_runtime.wording.sections import Section, render_notebook
 
 if TYPE_CHECKING:
     from derive.effect import Effect as SymbolicEffect
     from derive.layout import SymbolicForm, SymbolicLayout
-
 
 E = TypeVar("E")
 
@@ -139,7 +138,7 @@ def _derive_files(
 def derived(
     effects: tuple[SymbolicEffect, ...],
     candidates: tuple[SymbolicEffect, ...],
-    form: Form = PAPER,
+    form: Form = PAPER_FORM,
     layout: Layout = FOUR,
 ) -> tuple[Model, Mapping[str, str]]:
     """A model of this form with these effects, and the files that its derivation yields."""
@@ -362,3 +361,38 @@ def check(root: Path) -> None:
 def find_root() -> Path:
     """The root of the project, to write to unless another is named."""
     return Path(str(resources.files("derive"))).parent
+
+
+@dataclass(frozen=True, repr=False)
+class Catalogue:
+    """Effects by their id: title, physics, equation, parameters with units, channels, limits, source."""
+
+    entries: tuple[Mapping[str, Any], ...]
+
+    def __len__(self) -> int:
+        return len(self.entries)
+
+    def __iter__(self) -> Iterator[Mapping[str, Any]]:
+        return iter(self.entries)
+
+    def __getitem__(self, identifier: str) -> Mapping[str, Any]:
+        return find_effect({str(e["id"]): e for e in self.entries}, identifier)
+
+    def __repr__(self) -> str:
+        return f"<Catalogue: {len(self.entries)} effects>"
+
+    def sections(self) -> tuple[Section, ...]:
+        """A line for every effect."""
+        return describe_other.describe_catalogue(self.entries)
+
+    def _repr_html_(self) -> str:
+        return render_notebook(self.sections())
+
+    def as_json(self) -> dict[str, object]:
+        return {"effects": [dict(e) for e in self.entries]}
+
+
+def effects() -> Catalogue:
+    """List the packaged catalogue of effects and the user's own effects in Python."""
+    text = (find_root() / "generated" / "manifest.json").read_text("utf-8")
+    return Catalogue((*json.loads(text)["catalogue"], *list_own_entries()))

@@ -19,7 +19,7 @@ from typing import Any
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import locked, put_in_place, read_text, refuse_to_write
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 
 MODEL, GENERATED, HISTORY, CALIBRATION = "model.toml", "generated", "history.json", "calibration.json"
 MAPPING = "mapping.toml"

@@ -10,10 +10,9 @@ from importlib import resources
 from typing import TYPE_CHECKING
 
 from ragg_runtime.base.errors import missing_package
-from ragg_runtime.base.provenance import MISSING, versions
-from ragg_runtime.base.templates import make_environment
+from ragg_runtime.base.files import MISSING, versions
 from ragg_runtime.wording import numbers
-from ragg_runtime.wording.sections import Plot, Section, render_html
+from ragg_runtime.wording.sections import Plot, Section, make_environment, render_html
 
 if TYPE_CHECKING:  # slow to import, and help does without it
     from ragg_runtime.workspace import Source

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.regressors import Column, list_base_columns, list_own_columns, put_derivatives
-from ragg_runtime.model.evaluate import make_vector, scale_factor
+from ragg_runtime.model.model import make_vector, scale_factor
 from ragg_runtime.screening.sampler import Rows, Sampler
 
 Array = NDArray[np.float64]

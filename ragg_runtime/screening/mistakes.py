@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.instrument.demodulation import Demodulation
-from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.instrument.instrument import PARAMETERS
 from ragg_runtime.io.record import ANGULAR_ACCELERATION
-from ragg_runtime.model.evaluate import make_vector
+from ragg_runtime.model.model import make_vector
 from ragg_runtime.model.record import make_kernel
 from ragg_runtime.screening import timing
 from ragg_runtime.screening.linear_fit import INDEPENDENT, RARE, Hypothesis, LinearFit, find_least, fit_rows

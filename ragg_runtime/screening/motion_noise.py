@@ -26,7 +26,7 @@ from ragg_runtime.io.record import (
     WIDEST_SPIKE,
     Flag,
 )
-from ragg_runtime.model.evaluate import scale_factor
+from ragg_runtime.model.model import scale_factor
 from ragg_runtime.screening.linear_fit import fit_rows
 from ragg_runtime.screening.sampler import Sampler
 from ragg_runtime.signals.derivative import PREDICTED, predict_missing, runs

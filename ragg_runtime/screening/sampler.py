@@ -17,14 +17,15 @@ from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import (
     SPIN,
+    RecordedSeries,
     disc_angle,
+    find_recorded,
     find_start,
     make_kernel,
     make_spin,
     record,
     strip_derivative,
 )
-from ragg_runtime.model.recorded import RecordedSeries, find_recorded
 from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]

@@ -9,16 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import one_thread, split_range
+from ragg_runtime.base.progress import one_thread, split_range
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import Flag
 from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, find_clock_steps, fit_even_clock
-from ragg_runtime.model.evaluate import scale_factor
-from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import EVEN
-from ragg_runtime.model.recorded import find_recorded
+from ragg_runtime.model.model import Model, scale_factor
+from ragg_runtime.model.record import EVEN, find_recorded
 from ragg_runtime.screening import checks
 from ragg_runtime.screening.linear_fit import INDEPENDENT, find_inliers, fit_rows
 from ragg_runtime.screening.mistakes import Finding, find_mistake

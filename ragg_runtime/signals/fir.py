@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, linalg
 
-from ragg_runtime.base.threads import split_range
+from ragg_runtime.base.progress import split_range
 
 Array = NDArray[np.float64]
 Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])

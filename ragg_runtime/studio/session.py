@@ -18,8 +18,8 @@ from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.progress import PASSES
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.instrument.edit_toml import add_effect, set_parameters
 from ragg_runtime.instrument.instrument import EffectSetting
+from ragg_runtime.instrument.model_toml import add_effect, set_parameters
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive

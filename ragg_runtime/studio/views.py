@@ -24,8 +24,7 @@ from ragg_runtime.base import false_alarms
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
 from ragg_runtime.io.record import WIDEST_SPIKE, left_out
 from ragg_runtime.report import pages, panels, parameters
 from ragg_runtime.report.page import Origin

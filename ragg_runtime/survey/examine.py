@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.provenance import digest_sources, versions
-from ragg_runtime.base.threads import one_thread
+from ragg_runtime.base.files import digest_sources, versions
+from ragg_runtime.base.progress import one_thread
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification import comparison
@@ -26,7 +26,7 @@ from ragg_runtime.identification.diagnose import diagnose_fitted
 from ragg_runtime.identification.parameters import SEEN, Estimates
 from ragg_runtime.identification.quality import heed_flags
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import Mapped, parse_mapping

@@ -5,17 +5,36 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import one_line
-from ragg_runtime.base.templates import make_environment
 from ragg_runtime.wording import numbers
 
 if TYPE_CHECKING:
     import jinja2
+
+
+def make_environment(
+    package: str, filters: Mapping[str, Callable[..., Any]] = MappingProxyType({}), *, html: bool = False
+) -> jinja2.Environment:
+    """For the templates in the folder ``templates`` of a package; in ``html`` what they show is escaped."""
+    import jinja2  # slow to import, and most commands do without it
+
+    env = jinja2.Environment(
+        loader=jinja2.PackageLoader(package, "templates"),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=html,
+    )
+    env.filters |= filters
+    return env
+
 
 Array = NDArray[np.float64]
 T = TypeVar("T")

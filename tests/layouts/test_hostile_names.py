@@ -17,7 +17,7 @@ from derive.layout import PAPER, SymbolicForm, SymbolicOutput
 from derive.names import EXPECTED, channel_in_code, channel_of, id_in_code, is_name, parameter_in_code
 from derive.pipeline import derive_model, derive_plain
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import read_flight
 from ragg_runtime.io.draft import draft_mapping
 from ragg_runtime.io.mapping import parse_mapping

@@ -13,7 +13,7 @@ from derive.symbols import MOTION
 from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import derive
-from ragg_runtime.model.evaluate import make_vector, scale_factor
+from ragg_runtime.model.model import make_vector, scale_factor
 from tests.generated import fifty_digits as fifty
 from tests.layouts import sheets
 from tests.layouts.test_layouts_physics import instrument

@@ -13,7 +13,7 @@ from ragg_runtime.estimation.regressors import list_base_columns, spell_name
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.layout import scale
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.model import derive
 from ragg_runtime.wording.describe import write_parameter
 from tests.layouts import sheets

@@ -13,12 +13,11 @@ from numpy.typing import NDArray
 from derive.effects import catalogue
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.instrument.units import EOTVOS, units
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.model import derive
-from ragg_runtime.model.evaluate import evaluate_output, find_unit_factor, make_vector, scale_factor
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, evaluate_output, find_unit_factor, make_vector, scale_factor
 from ragg_runtime.model.record import SPIN, Record, measure_spin, record
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion

@@ -14,7 +14,7 @@ from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import read_flight
 from ragg_runtime.model import derive
 

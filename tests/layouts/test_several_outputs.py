@@ -27,11 +27,11 @@ from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification import several_outputs
 from ragg_runtime.identification.strong import Stage
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.model import derive
 from ragg_runtime.model.directory import ModelDir
-from ragg_runtime.model.evaluate import evaluate_output, make_vector
+from ragg_runtime.model.model import evaluate_output, make_vector
 from ragg_runtime.model.record import record
 from ragg_runtime.reference import EffectValues
 from ragg_runtime.signals.demodulators import Demodulator

@@ -13,7 +13,7 @@ from benchmarks.diagnosis import __main__ as command
 from benchmarks.diagnosis import ablation, ceiling, fly, outside, plan, records, score, strength
 from benchmarks.diagnosis.plan import Spec
 from benchmarks.sheet import model_text
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 
 
 def prepared(record: str) -> tuple[plan.World, Any, strength.Oracle, records.Loudness]:

@@ -13,8 +13,7 @@ from benchmarks.diagnosis.strength import NEVER, Oracle
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.regressors import group_by_effect, linearise, make_point
 from ragg_runtime.identification.selection import ProjectedProblem, choose, find_alternatives
-from ragg_runtime.model.evaluate import make_vector
-from ragg_runtime.model.model import load_packaged
+from ragg_runtime.model.model import load_packaged, make_vector
 
 Array = NDArray[np.float64]
 

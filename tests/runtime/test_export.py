@@ -20,7 +20,7 @@ from ragg_runtime.compensation.recursive import UPDATE, Online, Tuning
 from ragg_runtime.estimation.observation import Observation, observe
 from ragg_runtime.io import read_flight, write_flight
 from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import evaluate_output, make_vector, scale_factor
+from ragg_runtime.model.model import evaluate_output, make_vector, scale_factor
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.scenario import Scenario, scenario
 from tests.rate import RATE

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.model.record import record
 

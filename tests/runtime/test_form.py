@@ -12,13 +12,12 @@ from scipy.signal import savgol_filter
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.form import PAPER, PRESETS, Form
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.instrument import PAPER_FORM, PRESETS, Form
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.files import convert
 from ragg_runtime.model import derive
-from ragg_runtime.model.evaluate import evaluate_output, make_vector, scale_factor
-from ragg_runtime.model.model import load_packaged
+from ragg_runtime.model.model import evaluate_output, load_packaged, make_vector, scale_factor
 from ragg_runtime.model.record import SPIN, Record, measure_spin, record
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import scenario
@@ -39,7 +38,7 @@ def sheet(model: str) -> str:
 @pytest.mark.parametrize(
     ("table", "form"),
     [
-        ("", PAPER),
+        ("", PAPER_FORM),
         ('[model]\nkinematics = "full"\norder = "exact"', EXACT),
         ("[model]\norder = { mounting = 2 }", Form(mounting=2)),
         (
@@ -105,7 +104,7 @@ def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     "form",
     [
-        PAPER,
+        PAPER_FORM,
         EXACT,
         Form(mounting=2, misalignment="exact"),
         Form(kinematics="full", mounting="exact", second_order_angles=True),
@@ -121,7 +120,7 @@ def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -
     r = record(flight, instrument)
     left = (flight.outputs["G_out"] - evaluate_output(model.chain, r, p)) / scale_factor(model, p)
     assert np.sqrt(np.mean(left**2)) < 1e-5
-    other = replace(instrument, form=PAPER if form == EXACT else EXACT)
+    other = replace(instrument, form=PAPER_FORM if form == EXACT else EXACT)
     away = derive.load_model(other, candidates=False)
     q = make_vector(away, other)
     left = (flight.outputs["G_out"] - evaluate_output(away.chain, r, q)) / scale_factor(away, q)

@@ -17,7 +17,7 @@ from flights_of_a_survey import in_process
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.cli.main import main
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import parse_mapping

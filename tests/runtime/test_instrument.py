@@ -10,10 +10,8 @@ import pytest
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
-from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_parameters
-from ragg_runtime.instrument.instrument import EffectSetting
-from ragg_runtime.instrument.parameters import PARAMETERS
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.instrument import PARAMETERS, EffectSetting
+from ragg_runtime.instrument.model_toml import add_effect, parse_instrument, remove_effect, set_parameters
 from ragg_runtime.instrument.units import RawQuantity
 
 TEXT = """# The maker's test sheet.

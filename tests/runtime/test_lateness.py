@@ -14,8 +14,8 @@ from ragg_runtime.estimation.thinning import leave_out_uncertain
 from ragg_runtime.estimation.unknown_gradient import make_windows
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import evaluate_voltages, make_vector
 from ragg_runtime.model.memory import list_late, move_record
+from ragg_runtime.model.model import evaluate_voltages, make_vector
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.scenario import Scenario, scenario
 

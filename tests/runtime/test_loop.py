@@ -29,8 +29,7 @@ from ragg_runtime.identification.verdict import _find_common_kind
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import make_vector
-from ragg_runtime.model.model import load_packaged
+from ragg_runtime.model.model import load_packaged, make_vector
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.simulate import simulate_flight

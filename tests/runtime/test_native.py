@@ -15,10 +15,8 @@ from derive.effects import catalogue
 from derive.pipeline import derive_model
 from ragg_runtime.estimation import observation
 from ragg_runtime.estimation.regressors import linearise, list_candidate_columns, make_point
-from ragg_runtime.model.chain import _say_once
-from ragg_runtime.model.compile import BuildError, build, find_compiler, load
-from ragg_runtime.model.evaluate import make_vector
-from ragg_runtime.model.model import load_files, load_packaged
+from ragg_runtime.model.chain import BuildError, _say_once, build, find_compiler, load
+from ragg_runtime.model.model import load_files, load_packaged, make_vector
 from ragg_runtime.reference.scenario import scenario
 from tests.generated import draws
 

@@ -14,8 +14,8 @@ import pytest
 from ragg_runtime import api
 from ragg_runtime.base.errors import EXTRAS, UserError, missing_package
 from ragg_runtime.cli.main import main
-from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.model import compile as compiler
+from ragg_runtime.instrument.model_toml import parse_instrument
+from ragg_runtime.model import chain as compiler
 from ragg_runtime.report.page import Origin, render_page
 from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.wording.sections import Bar, Bars, Section
@@ -75,7 +75,7 @@ def test_a_compiler_that_hangs_is_given_up(tmp_path: Path, monkeypatch: pytest.M
     script.chmod(0o755)
     monkeypatch.setenv("CC", str(script))
     monkeypatch.delenv("RAGG_NATIVE", raising=False)
-    monkeypatch.setattr("ragg_runtime.model.compile.PATIENCE", 1.0)
+    monkeypatch.setattr("ragg_runtime.model.chain.PATIENCE", 1.0)
     start = time.monotonic()
     with pytest.raises(compiler.BuildError, match="does not answer within 1 s"):
         compiler.build({"a.c": "int f(void) { return 1; }\n"}, tmp_path / "cache")

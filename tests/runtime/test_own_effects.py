@@ -11,9 +11,9 @@ import derive.effects as derive_effects
 from derive import pipeline
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.model import derive
-from ragg_runtime.model.catalogue import effects
+from ragg_runtime.model.derive import effects
 
 CUBIC = (Path(derive_effects.__file__).parent / "cubic_input.py").read_text("utf-8")
 

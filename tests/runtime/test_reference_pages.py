@@ -19,7 +19,7 @@ from commands import ragg
 from docs import made
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import COMMANDS, cli
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.report import plots
 
 DISC = '[disc]\nradius = "0.1 m"\nspin_frequency = "0.25 Hz"\ng0 = "9.8 m/s^2"\n'

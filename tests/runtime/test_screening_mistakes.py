@@ -17,7 +17,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.layout import paper
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model
-from ragg_runtime.model.evaluate import make_vector, scale_factor
+from ragg_runtime.model.model import make_vector, scale_factor
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.screening import checks, mistakes, screen, timing
 from ragg_runtime.screening.mistakes import Finding, find_mistake

@@ -28,7 +28,7 @@ from ragg_runtime.identification.selection import make_problem
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive, model
-from ragg_runtime.model.evaluate import evaluate_output, make_vector
+from ragg_runtime.model.model import evaluate_output, make_vector
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.report import panels
 from ragg_runtime.signals.demodulators import find_demodulator

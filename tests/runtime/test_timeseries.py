@@ -20,11 +20,10 @@ from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.identification.comparison import Comparison, compare
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.mapping import parse_mapping
-from ragg_runtime.model.evaluate import make_vector, scale_factor
-from ragg_runtime.model.model import load_packaged
+from ragg_runtime.model.model import load_packaged, make_vector, scale_factor
 from ragg_runtime.model.record import make_kernel, record
 from ragg_runtime.reference import disc_angle, simulate, still
 from ragg_runtime.reference.gravity import Gradient

@@ -22,7 +22,7 @@ from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification import predict
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.identification.selection import make_problem
-from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import write_flight
 from ragg_runtime.model.directory import HistoryStep
 from ragg_runtime.simulate import simulate_flight

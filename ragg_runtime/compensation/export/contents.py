@@ -12,14 +12,12 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
+from ragg_runtime.instrument.instrument import DISC_UNITS, PARAMETER, Instrument
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS, is_disc_angle
-from ragg_runtime.model.evaluate import name_values, scale_factor
 from ragg_runtime.model.memory import list_late
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, name_values, scale_factor
 from ragg_runtime.model.record import SPIN, record
 from ragg_runtime.signals.derivative import differentiate_rate
 

@@ -11,14 +11,14 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from derive.names import in_comment
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
-from ragg_runtime.base.names import in_comment
-from ragg_runtime.base.templates import make_environment
 from ragg_runtime.compensation.export.contents import DISC, Contents, unit_of
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
 from ragg_runtime.signals.derivative import DEGREES, REACH, WINDOW, weights, wide_weights
+from ragg_runtime.wording.sections import make_environment
 
 TOLERANCE_EO = 1e-6
 """Largest difference of C and Python, Eo, that `make check` allows."""
