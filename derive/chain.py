@@ -12,8 +12,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive import stages
-from derive.context import OMEGA, Context
-from derive.effect import Effect, Values
+from derive.effect import OMEGA, Context, Effect, Values
 from derive.layout import AXES, HEIGHT, PAPERS, TURN, SymbolicForm, SymbolicLayout
 from derive.names import id_in_code
 from derive.stages import Force, Geometry, Motion, Order, SensedForce, Spin

@@ -13,17 +13,14 @@ import operator
 import re
 import warnings
 from collections.abc import Collection, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import sympy as sp
 
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import Context, Effect, EffectParameter, Values
 from derive.names import EXPECTED, is_name
 from derive.stages import SensedForce
 from derive.symbols import MOTION, RATES, symbol
-
-if TYPE_CHECKING:
-    from derive.context import Context
 
 LONGEST = 500
 """Longest expression, characters."""

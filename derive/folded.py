@@ -22,7 +22,7 @@ from sympy.polys.rings import PolyElement, PolyRing
 
 from derive import stages
 from derive.chain import accelerometer, auxiliary_channel, recorded_motion
-from derive.context import RECORDED_SPIN
+from derive.effect import RECORDED_SPIN
 from derive.harmonics import NotHarmonic, split
 from derive.layout import AXES, SymbolicForm, SymbolicLayout, instrument_parameters
 from derive.layout import PAPER as FOUR

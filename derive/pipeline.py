@@ -7,27 +7,31 @@ with a list of effects. Both are pure: a mapping from path to text, the same byt
 from __future__ import annotations
 
 import dataclasses
+import difflib
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from functools import cache
+from pathlib import Path
 
 import sympy as sp
 from sympy import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
-from derive import ir, recogniser, stages
+from derive import ir, stages
 from derive.effect import Effect
-from derive.effects import catalogue
+from derive.effects import catalogue, recogniser_package, recognisers
+from derive.emit import Files, write_form
 from derive.emit import c as _c
 from derive.emit import numpy as _numpy
-from derive.emit.target import Files, write_form
 from derive.folded import Folded, folded
 from derive.layout import PAPERS, SymbolicForm
 from derive.propagation import collect, ideal
 from derive.stages import PAPER
 from derive.symbols import SECOND_ORDER, symbol
+
+GENERATED = "generated"
 
 FORMAT = 1
 """Version of the generated interface, in every manifest."""
@@ -45,7 +49,7 @@ def derive_base() -> Files:
     In the folder ``full`` the model that includes the disc's own rotation, at the paper's order: chain, folded form,
     signatures. In ``output_effects`` what recognises the effects of the recorder.
     """
-    from derive.simplify.terms import simplified
+    from derive.simplify import simplified
 
     analytical = ir.harmonic(collect(), "analytical", "The analytical model of the RAGG (paper, Eq. 16-19).")
     simple = ir.harmonic(
@@ -53,7 +57,7 @@ def derive_base() -> Files:
     )
     full = _derive(SymbolicForm(kinematics="full"), (), catalogue(), packaged=True)
     below = {f"{FULL}/{name}": text for name, text in full.items()}
-    below |= {**recogniser.files(catalogue()), **recogniser.package_file(catalogue())}
+    below |= {**recognisers(catalogue()), **recogniser_package(catalogue())}
     own = _derive(PAPERS, (), catalogue(), analytical, simple, packaged=True, below=tuple(below))
     return dict(sorted({**own, **below}.items()))
 
@@ -66,7 +70,7 @@ def derive_model(
     The folder :data:`FITS` is not part of the model: the manifest does not list it.
     Effects of the recorder bring their recogniser, those of the catalogue apart: theirs come with the program.
     """
-    below = recogniser.files(e for e in candidates if e not in catalogue())
+    below = recognisers(e for e in candidates if e not in catalogue())
     files = _derive(form, effects, candidates, below=tuple(below))
     return dict(sorted({**files, **below}.items()))
 
@@ -184,3 +188,58 @@ def starred() -> dict[str, sp.Expr]:
         name: ring.from_dict(by_powers[powers]).as_expr() * signs.get(name, 1)
         for name, powers in STARRED.items()
     }
+
+
+def difference(root: Path) -> str:
+    """Empty if ``generated/`` below ``root`` is as derived; else the diff."""
+    found = diff_files(derive_base(), root / GENERATED)
+    return f"{GENERATED}/ differs from the derivation:\n{found}" if found else ""
+
+
+def write(files: Mapping[str, str], folder: Path) -> list[str]:
+    """Make ``folder`` hold these files; returns the paths that changed.
+
+    Each file is replaced by a rename, so that none is ever half-written. Files that are not derived are removed; caches
+    (``__pycache__``) are left alone.
+    """
+    changed = []
+    for name, text in files.items():
+        path = folder / name
+        if path.is_file() and path.read_bytes() == text.encode():
+            continue
+        path.parent.mkdir(parents=True, exist_ok=True)
+        temporary = path.with_name(f"{path.name}.new")
+        temporary.write_bytes(text.encode())
+        temporary.replace(path)
+        changed.append(name)
+    for name in _present(folder):
+        if name not in files:
+            (folder / name).unlink()
+            changed.append(name)
+    return changed
+
+
+def diff_files(files: Mapping[str, str], folder: Path, lines: int = 40) -> str:
+    """Empty if ``folder`` holds these files and only them, byte for byte; else a diff."""
+    present = _present(folder)
+    report = [f"missing: {n}" for n in files if n not in present]
+    report += [f"not derived: {n}" for n in present if n not in files]
+    for name in (n for n in files if n in present):
+        old = (folder / name).read_bytes()
+        if old != files[name].encode():
+            texts = old.decode(errors="replace").splitlines(), files[name].splitlines()
+            diff = difflib.unified_diff(*texts, f"committed/{name}", f"derived/{name}", lineterm="", n=1)
+            report += list(diff) or [f"{name}: line endings or final newline differ"]
+    if len(report) > lines:
+        report = [*report[:lines], f"... and {len(report) - lines} more lines"]
+    return "\n".join(report)
+
+
+def _present(folder: Path) -> list[str]:
+    """The files below a folder; links are none, for what they lead to is elsewhere."""
+    if folder.is_symlink():
+        return []
+    found = (
+        p for p in folder.rglob("*") if p.is_file() and not p.is_symlink() and "__pycache__" not in p.parts
+    )
+    return sorted(p.relative_to(folder).as_posix() for p in found)

@@ -21,7 +21,7 @@ from sympy.polys.rings import PolyElement, PolyRing
 
 from derive import stages
 from derive.chain import accelerometer, recorded_motion
-from derive.context import RECORDED_SPIN
+from derive.effect import RECORDED_SPIN
 from derive.harmonics import Series, constant, rotating, series, split
 from derive.stages import Kinematics
 from derive.symbols import COS_J, COS_PHI, QUARTER_TURNS, SIGNS, SIN_J, SIN_PHI, symbol

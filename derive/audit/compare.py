@@ -1,4 +1,7 @@
-"""Compares printed equations with derived ones, term by term.
+"""Reads the printed equations of the paper into polynomials, and compares them with the derived ones, term by term.
+
+The grammar is the paper's own: sums and products of numbers, powers, brackets, symbols with a subscript,
+and the combinations ``D_{X}^{12}``, ``D_{X,Y}^{12,34}``, ``D_{X}^{1234}`` and ``\\sum_{X}``.
 
 A printed equation is a sum of *atoms*: one number times one monomial, once brackets and the subscripts of
 D and Sigma are multiplied out. Printed motion numbers depend on one another (omegadot_x = (S_2 - T_3)/2 and
@@ -11,25 +14,155 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
+from fractions import Fraction
 from importlib import resources
 from typing import Any
 
 from sympy import QQ
+from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyElement, PolyRing
 
-from derive.audit.reading import (
-    ANGLE_RING,
-    COMBINATIONS,
-    MODEL_RING,
-    RATE_RING,
-    REDUNDANT_MOTION,
-    Reader,
-    generators,
-)
 from derive.pipeline import starred
-from derive.propagation import Collected, motion_numbers
-from derive.symbols import symbol
+from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, motion_numbers
+from derive.symbols import COMPONENTS, SECOND_ORDER, symbol
+
+_TOKEN = re.compile(
+    r"(?P<head>D|\\sum)_\{|\}(?:\^\{(?P<close>[\d,]+)\})?|\^(?P<power>\d+)|(?P<number>\d+(?:\.\d+)?)"
+    r"|(?P<symbol>\\?[A-Za-z]+(?:_(?:\{[^{}]*\}|\w))?)|(?P<sign>[-+(),])"
+)
+_IN_PYTHON = {
+    "head": "combination({!r}, [",
+    None: "], '')",
+    "close": "], {!r})",
+    "power": "**{}",
+    "number": "number({!r})",
+    "symbol": "symbol({!r})",
+    "sign": "{}",
+}
+
+
+class NotReadable(ValueError):
+    """The printed text does not follow the grammar, or names a symbol that the equation does not have."""
+
+
+def ring_of(names: tuple[str, ...]) -> PolyRing:
+    """A ring over the rationals whose generators bear these names."""
+    return PolyRing([symbol(n) for n in names], QQ, lex)
+
+
+def generators(ring: PolyRing) -> dict[str, PolyElement]:
+    """The generators of a ring by their names."""
+    return {s.name: g for s, g in zip(ring.symbols, ring.gens, strict=True)}
+
+
+@dataclass(frozen=True)
+class Reader:
+    """Printed text in, polynomial out: token by token it is put into Python, whose operators the elements of the ring have.
+
+    ``symbols`` gives the polynomial of every symbol by its LaTeX without braces (``\\theta_y``, ``K_j4``),
+    and those of the combinations by their names in :data:`COMBINATIONS`.
+    """
+
+    ring: PolyRing
+    symbols: Mapping[str, PolyElement]
+
+    def read(self, text: str) -> PolyElement:
+        """The polynomial of ``text``; raises :class:`NotReadable`."""
+        meaning = {"number": self._number, "symbol": self._symbol, "combination": self._combination}
+        try:
+            return eval(_in_python(text), meaning)
+        except (SyntaxError, KeyError, ValueError) as error:
+            raise NotReadable(f"{text!r}: {error}") from error
+
+    def _number(self, text: str) -> PolyElement:
+        value = Fraction(text)
+        return self.ring(QQ(value.numerator, value.denominator))
+
+    def _symbol(self, text: str) -> PolyElement:
+        return self.symbols[re.sub("[{}]", "", text)]
+
+    def _combination(self, head: str, subscripts: list[PolyElement], which: str) -> PolyElement:
+        names = ["Sigma"] if head == r"\sum" else [f"D{n}" for n in which.split(",")]
+        return sum((self.symbols[n] * s for n, s in zip(names, subscripts, strict=True)), self.ring.zero)
+
+
+def _in_python(text: str) -> str:
+    """The text as an expression of Python, with the signs of multiplication that are not printed."""
+    found, after_factor, at, text = [], False, 0, text.replace(" ", "")
+    while at < len(text):
+        token = _TOKEN.match(text, at)
+        if token is None:
+            raise NotReadable(f"{text!r}: stopped before {text[at:]!r}")
+        at, kind = token.end(), token.lastgroup
+        if after_factor and (kind in ("head", "number", "symbol") or token[0] == "("):
+            found.append("*")
+        found.append(_IN_PYTHON[kind].format(token[kind] if kind else ""))
+        after_factor = kind not in ("head", "sign") or token[0] == ")"
+    return "".join(found)
+
+
+COMBINATIONS: tuple[str, ...] = ("D12", "D34", "D1234", "Sigma")
+
+REDUNDANT_MOTION: tuple[str, ...] = ("S_3", "S_5", "omegadot_x", "omegadot_y", "omega_im")
+"""Motion numbers that the paper writes beside the twelve independent ones of the derivation."""
+
+MODEL_RING = ring_of((*COEFFICIENT_PARAMETERS, *MOTION_NUMBERS, *REDUNDANT_MOTION, *COMBINATIONS))
+"""Ring of Eq. 18, 19 and 43-47: every monomial is a combination, its subscript and a product of motion."""
+
+OUTER = slice(len(COEFFICIENT_PARAMETERS), None)
+"""Of a monomial of it the motion and the combination, without the instrument's parameters."""
+
+ANGLE_RING = ring_of(("vartheta_x", "vartheta_y", "vartheta_z", *SECOND_ORDER))
+"""Ring of Eq. 5b."""
+
+RATE_RING = ring_of(
+    (
+        *(f"omega_{k}" for k in "xyz"),
+        "omega_im",
+        *(f"omegadot_{k}" for k in "xyz"),
+        *(f"Gamma_{k}" for k in COMPONENTS),
+    )
+)
+"""Ring of Eq. 16; omega_im is the magnitude of the angular rate."""
+
+
+def model_reader() -> Reader:
+    """Reader of Eq. 18, 19 and 43-47, into :data:`MODEL_RING`.
+
+    ``k_p`` is k1 K_p and ``theta`` is k1 vartheta (Eq. 6a). Upper and lower case subscripts of the angles mean the same.
+    """
+    g = generators(MODEL_RING)
+    table = {n: g[n] for n in (*MOTION_NUMBERS, "S_3", "S_5", "R", *COMBINATIONS)}
+    table |= {r"\omega_i\max": g["omegadot_x"], r"\omega_imay": g["omegadot_y"], r"\omega_im": g["omega_im"]}
+    table |= {"k_1": g["k1"]} | {f"k_{p}": g["k1"] * g[f"K{p}"] for p in "0245678"}
+    for axis in "xyz":
+        for printed in (axis, axis.upper()):
+            if axis != "y":
+                table[rf"\beta_{printed}"] = g[f"beta_{axis}"]
+            table[rf"\vartheta_{printed}"] = g[f"vartheta_{axis}"]
+            table[rf"\theta_{printed}"] = g[f"vartheta_{axis}"] * g["k1"]
+    return Reader(MODEL_RING, table)
+
+
+def transducer_reader() -> Reader:
+    """Reader of Eq. 5b, into :data:`ANGLE_RING`; a missing subscript j is passed over."""
+    g = generators(ANGLE_RING)
+    table: dict[str, PolyElement] = {}
+    for j in ("j", ""):
+        table |= {rf"\vartheta_{j}{k}": g[f"vartheta_{k}"] for k in "xyz"}
+        table |= {f"K_{j}{p}": g[f"K{p}"] for p in "245678"}
+    return Reader(ANGLE_RING, table)
+
+
+def motion_reader() -> Reader:
+    """Reader of Eq. 16, into :data:`RATE_RING`, with T_xx ... read as Gamma_xx ..."""
+    g = generators(RATE_RING)
+    table = {rf"\omega_im{k}": g[f"omega_{k}"] for k in "xyz"}
+    table |= {r"\omega_im": g["omega_im"], r"\omega_i\max": g["omegadot_x"]}
+    table |= {rf"\omega_ima{k}": g[f"omegadot_{k}"] for k in "yz"}
+    table |= {f"T_{k}": g[f"Gamma_{k}"] for k in COMPONENTS}
+    return Reader(RATE_RING, table)
+
 
 Monomial = tuple[int, ...]
 Rational = Any
@@ -139,8 +272,8 @@ def _grouped(
     left = list(missing)
     for n in sorted({a.term for a, _ in wrong}):
         changes = [Change(a.monomial, a.value, right) for a, right in wrong if a.term == n]
-        motions = [_outer(ring, c.monomial) for c in changes]
-        adopted = [c for c in left if ring is MODEL_RING and _outer(ring, c.monomial) in motions]
+        motions = [c.monomial[OUTER] for c in changes]
+        adopted = [c for c in left if ring is MODEL_RING and c.monomial[OUTER] in motions]
         left = [c for c in left if c not in adopted]
         right = printed.terms[n]
         for c in (*changes, *adopted):
@@ -149,16 +282,7 @@ def _grouped(
     return tuple(mistakes), tuple(left)
 
 
-@cache
-def _outer(ring: PolyRing, powers: Monomial) -> tuple[tuple[str, int], ...]:
-    """Motion and combination of a monomial of :data:`MODEL_RING`, without the instrument's parameters."""
-    named = ((s.name, p) for s, p in zip(ring.symbols, powers, strict=True) if p)
-    return tuple((n, p) for n, p in named if re.match(r"a_|T_|S_|omega|D|Sigma", n))
-
-
 # --- Eq. 18, 19, 43-47 ---
-
-_NAMES = tuple(s.name for s in MODEL_RING.symbols)
 
 
 def amplitude(left: str) -> str:
@@ -177,56 +301,46 @@ def derived_amplitude(collected: Collected, name: str) -> PolyElement:
     return MODEL_RING.from_dict(rows)
 
 
-@cache
-def redundant() -> Mapping[str, PolyElement]:
-    """The redundant motion numbers by the independent ones (the square of omega_im, for that one).
+def expand_motion() -> Expansion:
+    """Rewrites a printed monomial of :data:`MODEL_RING` in the twelve independent motion numbers.
 
-    All follow from T and S as linear functions of M (Eq. 16), except omega_im^2, for which Laplace's
-    equation is needed: 2 T_5 + S_4 = 2 omega_im^2 + Gamma_xx + Gamma_yy + Gamma_zz.
+    The others are linear functions of M (Eq. 16), except omega_im^2, for which Laplace's equation is needed:
+    2 T_5 + S_4 = 2 omega_im^2 + Gamma_xx + Gamma_yy + Gamma_zz.
     """
     g = generators(MODEL_RING)
-    return {
+    redundant = {
         "S_3": g["T_5"] - g["T_1"],
         "S_5": g["T_2"] + g["T_6"],
         "omegadot_x": (g["S_2"] - g["T_3"]) / 2,
         "omegadot_y": (g["T_4"] - g["S_1"]) / 2,
-        "omega_im": g["T_5"] + g["S_4"] / 2,
     }
+    return _expansion(MODEL_RING, redundant, g["T_5"] + g["S_4"] / 2)
 
 
-def expand_motion() -> Expansion:
-    """Rewrites a printed monomial of :data:`MODEL_RING` in the twelve independent motion numbers."""
-    meanings = {
-        _NAMES.index(name): (value, 2 if name == "omega_im" else 1) for name, value in redundant().items()
-    }
+def expand_rate() -> Expansion:
+    """Rewrites a printed monomial of :data:`RATE_RING` without omega_im."""
+    g = generators(RATE_RING)
+    return _expansion(RATE_RING, {}, g["omega_x"] ** 2 + g["omega_y"] ** 2 + g["omega_z"] ** 2)
+
+
+def _expansion(ring: PolyRing, redundant: Mapping[str, PolyElement], square: PolyElement) -> Expansion:
+    """Of monomials by what ``redundant`` generators mean, and the ``square`` of omega_im."""
+    names = [s.name for s in ring.symbols]
 
     def expand(powers: Monomial) -> PolyElement:
-        factor, kept = None, list(powers)
-        for at, (value, unit) in meanings.items():
-            if powers[at]:
-                kept[at] = 0
-                step = value ** (powers[at] // unit)
-                factor = step if factor is None else factor * step
-        plain = monomial(MODEL_RING, tuple(kept))
-        return plain if factor is None else plain * factor
+        left = dict(zip(names, powers, strict=True))
+        found = square ** (left.pop("omega_im") // 2)
+        for name, value in redundant.items():
+            found *= value ** left.pop(name)
+        return found * monomial(ring, tuple(left.get(n, 0) for n in names))
 
     return expand
 
 
-@cache
-def powers_by_name(powers: Monomial) -> Mapping[str, int]:
-    """Powers of a monomial of :data:`MODEL_RING`, without the zeros."""
-    return {n: p for n, p in zip(_NAMES, powers, strict=True) if p}
-
-
-def select(p: PolyElement, keep: Callable[[Mapping[str, int]], bool]) -> PolyElement:
-    """The terms of a polynomial whose named powers satisfy ``keep``."""
-    return p.ring.from_dict({m: v for m, v in p.terms() if keep(powers_by_name(m))})
-
-
-def printed_order(powers: Mapping[str, int]) -> bool:
-    """The order of counting of Eq. 18 and 19: beta_z to the first power, everything else multiplied out."""
-    return powers.get("beta_z", 0) <= 1
+def in_printed_order(p: PolyElement) -> PolyElement:
+    """The terms of a polynomial by the order of counting of Eq. 18 and 19: beta_z to the first power, all else multiplied out."""
+    at = COEFFICIENT_PARAMETERS.index("beta_z")
+    return p.ring.from_dict({m: v for m, v in p.terms() if m[at] <= 1})
 
 
 @dataclass(frozen=True)
@@ -269,12 +383,3 @@ def derived_transducer() -> dict[str, PolyElement]:
 def derived_motion() -> dict[str, PolyElement]:
     """T_1 ... S_5 of the derivation, in :data:`RATE_RING`."""
     return {name: RATE_RING.from_expr(e) for name, e in motion_numbers().items()}
-
-
-def expand_rate(powers: tuple[int, ...]) -> PolyElement:
-    """omega_im^2 by its components."""
-    at = RATE_RING.symbols.index(symbol("omega_im"))
-    kept = tuple(0 if n == at else p for n, p in enumerate(powers))
-    plain = RATE_RING.from_dict({kept: QQ(1)})
-    square = sum((generators(RATE_RING)[f"omega_{k}"] ** 2 for k in "xyz"), RATE_RING.zero)
-    return plain * square if powers[at] else plain

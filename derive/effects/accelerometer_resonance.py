@@ -1,7 +1,7 @@
 import sympy as sp
 
 from derive.effect import Context, Effect, EffectParameter, SensedForce, Values
-from derive.memory import RESONANCE, response
+from derive.hooks import RESONANCE, response
 from derive.stages import NOMINAL_TRIAD
 from derive.symbols import COS_J, SIN_J
 

@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, Parameters, Values
+from derive.effect import Context, Effect, Parameters, Values, shared
 
 
 def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
@@ -18,10 +18,6 @@ EFFECT = Effect(
         "The error common to the four; individual errors are dR, which absorbs it where the sheet's radius is uncertain. In G_out it "
         "scales everything but the specific force, like a scale factor of the accelerometers."
     ),
-    parameters=(
-        EffectParameter(
-            "delta_R", r"\Delta R", "mm", "arms less the sheet's radius", 0.1, shared=True, like="dR"
-        ),
-    ),
+    parameters=(shared("delta_R", r"\Delta R", "mm", "arms less the sheet's radius", 0.1, like="dR"),),
     instrument=instrument,
 )

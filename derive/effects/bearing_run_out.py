@@ -1,7 +1,7 @@
 import sympy as sp
 
 from derive import stages
-from derive.effect import Context, Effect, EffectParameter, Values
+from derive.effect import Context, Effect, Values, shared
 
 HARMONICS = (1, 2)
 
@@ -35,9 +35,7 @@ EFFECT = Effect(
         "is a constant force there, absorbed by null biases. phi is the true angle."
     ),
     parameters=tuple(
-        EffectParameter(
-            f"{a}_{k}{n}", f"{a}_{{{k}{n}}}", "um", f"{word} of harmonic {n} along {k}", 1.0, shared=True
-        )
+        shared(f"{a}_{k}{n}", f"{a}_{{{k}{n}}}", "um", f"{word} of harmonic {n} along {k}", 1.0)
         for n in HARMONICS
         for k in "xyz"
         for a, word in (("c", "cosine"), ("s", "sine"))

@@ -1,5 +1,5 @@
 from derive.effect import Context, Effect, EffectParameter, Parameters, Values
-from derive.memory import RELAXATION, remembered_force, response
+from derive.hooks import RELAXATION, remembered_force, response
 
 
 def instrument(k: Parameters, p: Values, c: Context) -> Parameters:

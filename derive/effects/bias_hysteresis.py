@@ -1,5 +1,5 @@
 from derive.effect import Context, Effect, EffectParameter, Parameters, Values
-from derive.memory import SLIP, remembered_force
+from derive.hooks import SLIP, remembered_force
 
 
 def instrument(k: Parameters, p: Values, c: Context) -> Parameters:

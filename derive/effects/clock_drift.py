@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, Motion, Values
+from derive.effect import Context, Effect, Motion, Values, shared
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -21,13 +21,12 @@ EFFECT = Effect(
         "of the motion."
     ),
     parameters=(
-        EffectParameter(
+        shared(
             "epsilon",
             r"\epsilon",
             "1",
             "lateness of the motion record that a second adds",
             1e-6,
-            shared=True,
             late=("a", "omega", "omegadot"),
             growing=True,
         ),

@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, EffectParameter, Values
+from derive.effect import Context, Effect, Values, shared
 from derive.stages import spin_gradient
 
 
@@ -26,11 +26,7 @@ EFFECT = Effect(
         "spin is constant, and absorbed by K0, K1, vartheta_y and vartheta_z. The rate is that of spin_angle, or "
         '2 pi spin_frequency where it is not recorded. A model with kinematics = "full" has all of it.'
     ),
-    parameters=(
-        EffectParameter(
-            "share", "share", "1", "share of the spin in the kinematics", 1.0, shared=True, physical=1.0
-        ),
-    ),
+    parameters=(shared("share", "share", "1", "share of the spin in the kinematics", 1.0, physical=1.0),),
     field=field,
     moot=lambda order, kinematics: kinematics == "full",
 )

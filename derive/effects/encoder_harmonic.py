@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, EffectParameter, Values
+from derive.effect import Context, Effect, Values, shared
 
 HARMONICS = (1, 2, 3, 4)
 
@@ -28,7 +28,7 @@ EFFECT = Effect(
         "not on one that turns steadily behind an uneven encoder."
     ),
     parameters=tuple(
-        EffectParameter(f"{a}_{n}", f"{a}_{n}", "rad", f"{word} of harmonic {n}", 1e-5, shared=True)
+        shared(f"{a}_{n}", f"{a}_{n}", "rad", f"{word} of harmonic {n}", 1e-5)
         for n in HARMONICS
         for a, word in (("c", "cosine"), ("s", "sine"))
     ),

@@ -1,5 +1,5 @@
 from derive.effect import Effect, EffectParameter
-from derive.following import T_STEP, begun, following
+from derive.hooks import T_STEP, begun, following
 
 EFFECT = Effect(
     id="gain-step",

@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, Expr, Motion, Values
+from derive.effect import Context, Effect, Expr, Motion, Values, shared
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -28,22 +28,13 @@ EFFECT = Effect(
         "the delays to second order. The two delays are equal where the angular acceleration is derived from the rate."
     ),
     parameters=(
-        EffectParameter(
-            "delta_w",
-            r"\delta_\omega",
-            "s",
-            "lateness of the angular rate",
-            1e-3,
-            shared=True,
-            late=("omega",),
-        ),
-        EffectParameter(
+        shared("delta_w", r"\delta_\omega", "s", "lateness of the angular rate", 1e-3, late=("omega",)),
+        shared(
             "delta_d",
             r"\delta_{\dot\omega}",
             "s",
             "lateness of the angular acceleration",
             1e-3,
-            shared=True,
             late=("omegadot",),
         ),
     ),

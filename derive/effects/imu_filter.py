@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, EffectParameter, Motion, Values
+from derive.effect import Context, Effect, Motion, Values, shared
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -32,7 +32,7 @@ EFFECT = Effect(
         "accelerometer accelerometer-resonance."
     ),
     parameters=tuple(
-        EffectParameter(f"b_{n}", latex, "s^2", f"curvature of the response to {of}", 1e-5, shared=True)
+        shared(f"b_{n}", latex, "s^2", f"curvature of the response to {of}", 1e-5)
         for n, latex, of in (("a", "b_a", "specific force"), ("w", r"b_\omega", "angular rate"))
     ),
     sensing=sensing,

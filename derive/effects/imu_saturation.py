@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from derive.effect import Effect, EffectParameter
+from derive.effect import Effect, shared
 from derive.effects import saturation
 
 Array = NDArray[np.float64]
@@ -52,23 +52,13 @@ EFFECT = Effect(
     ),
     kind="output",
     parameters=(
-        EffectParameter(
-            "a_max",
-            "a_{max}",
-            "g",
-            "largest recorded force",
-            2.0,
-            shared=True,
-            neutral=float("inf"),
-            fitted=False,
-        ),
-        EffectParameter(
+        shared("a_max", "a_{max}", "g", "largest recorded force", 2.0, neutral=float("inf"), fitted=False),
+        shared(
             "omega_max",
             r"\omega_{max}",
             "deg/s",
             "largest recorded rate",
             100.0,
-            shared=True,
             neutral=float("inf"),
             fitted=False,
         ),

@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, EffectParameter, Motion, Values
+from derive.effect import Context, Effect, Motion, Values, shared
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -18,10 +18,7 @@ EFFECT = Effect(
         "a_x and a_y; exported programs approximate the delays to second order."
     ),
     parameters=tuple(
-        EffectParameter(
-            f"delta_{k}", rf"\delta_{k}", "s", f"lateness of a_{k}", 1e-3, shared=True, late=(f"a_{k}",)
-        )
-        for k in "xy"
+        shared(f"delta_{k}", rf"\delta_{k}", "s", f"lateness of a_{k}", 1e-3, late=(f"a_{k}",)) for k in "xy"
     ),
     sensing=sensing,
 )

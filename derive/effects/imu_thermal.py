@@ -1,7 +1,7 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, EffectParameter, Motion, Values
-from derive.following import warmth
+from derive.effect import Context, Effect, Motion, Values, shared
+from derive.hooks import warmth
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -25,14 +25,8 @@ EFFECT = Effect(
     ),
     channels=("temperature",),
     parameters=tuple(
-        EffectParameter(
-            f"d{n}_{k}_dT",
-            rf"\partial_T {n}_{k}",
-            unit,
-            f"change of the {word} along {k}",
-            size,
-            shared=True,
-            like=like,
+        shared(
+            f"d{n}_{k}_dT", rf"\partial_T {n}_{k}", unit, f"change of the {word} along {k}", size, like=like
         )
         for n, unit, word, size, like in (
             ("b", "ug/K", "bias", 10.0, "K0"),

@@ -1,9 +1,9 @@
 from derive.effect import Context, Effect, EffectParameter, Parameters, Values
-from derive.memory import HEAT, response, warmth
+from derive.hooks import HEAT, heat_of_force, response
 
 
 def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
-    heat, start = warmth(p, c), response("heat_start", p, c, HEAT)
+    heat, start = heat_of_force(p, c), response("heat_start", p, c, HEAT)
     return {
         "K0": k["K0"] + p.b * heat + p.b_0 * start,
         "K1": k["K1"] * (1 + p.s * heat + p.s_0 * start),

@@ -1,7 +1,7 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, EffectParameter, Motion, Values
-from derive.memory import RESONANCE, response
+from derive.effect import Context, Effect, Motion, Values, shared
+from derive.hooks import RESONANCE, response
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -32,9 +32,7 @@ EFFECT = Effect(
         "begin at rest, and its first seconds are excluded."
     ),
     parameters=(
-        EffectParameter(
-            "share", r"\kappa", "1", "share of the motion that passes the resonance", 1.0, shared=True
-        ),
+        shared("share", r"\kappa", "1", "share of the motion that passes the resonance", 1.0),
         *RESONANCE,
     ),
     sensing=sensing,

@@ -1,6 +1,6 @@
-from derive.attraction import CHANNELS, MASS, PLACE, gradient_of_cuboid, gradient_of_point
 from derive.effect import Context, Effect, Motion, Values, components
 from derive.effects.near_sphere import field
+from derive.hooks import CHANNELS, MASS, PLACE, gradient_of_cuboid, gradient_of_point
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

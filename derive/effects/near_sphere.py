@@ -1,7 +1,7 @@
 import sympy as sp
 
-from derive.attraction import CHANNELS, MASS, PLACE, of_point
 from derive.effect import Context, Effect, Values
+from derive.hooks import CHANNELS, MASS, PLACE, of_point
 
 
 def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:

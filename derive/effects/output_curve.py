@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, Expr, SensedForce, Values
+from derive.effect import Context, Effect, Expr, SensedForce, Values, shared
 
 
 def transducer(i: Expr, f: SensedForce, p: Values, c: Context) -> Expr:
@@ -24,10 +24,8 @@ EFFECT = Effect(
     ),
     channels=("G_out",),
     parameters=(
-        EffectParameter("c_2", "c_2", "1/V", "relative change of the gain per volt", 1e-7, shared=True),
-        EffectParameter(
-            "c_3", "c_3", "1/V^2", "relative change of the gain per square volt", 1e-9, shared=True
-        ),
+        shared("c_2", "c_2", "1/V", "relative change of the gain per volt", 1e-7),
+        shared("c_3", "c_3", "1/V^2", "relative change of the gain per square volt", 1e-9),
     ),
     transducer=transducer,
 )

@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, Expr, SensedForce, Values
+from derive.effect import Context, Effect, Expr, SensedForce, Values, shared
 
 
 def transducer(i: Expr, f: SensedForce, p: Values, c: Context) -> Expr:
@@ -21,10 +21,6 @@ EFFECT = Effect(
         "First order in b, for signals slow against the filter; b is positive. The delay itself is time-offset, except for the disc "
         "angle's part, which beta_z absorbs."
     ),
-    parameters=(
-        EffectParameter(
-            "b", "b", "s^2", "curvature of the filter's response at low frequencies", 1e-6, shared=True
-        ),
-    ),
+    parameters=(shared("b", "b", "s^2", "curvature of the filter's response at low frequencies", 1e-6),),
     transducer=transducer,
 )

@@ -1,5 +1,5 @@
-from derive.effect import Context, Effect, EffectParameter, Expr, SensedForce, Values
-from derive.following import T_STEP, begun
+from derive.effect import Context, Effect, Expr, SensedForce, Values, shared
+from derive.hooks import T_STEP, begun
 
 
 def transducer(i: Expr, f: SensedForce, p: Values, c: Context) -> Expr:
@@ -17,7 +17,7 @@ EFFECT = Effect(
     ),
     kind="step",
     parameters=(
-        EffectParameter("g", "g", "1", "relative step of the output's gain", 1e-4, shared=True),
+        shared("g", "g", "1", "relative step of the output's gain", 1e-4),
         T_STEP,
     ),
     transducer=transducer,

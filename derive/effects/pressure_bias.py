@@ -1,5 +1,5 @@
 from derive.effect import Effect, EffectParameter
-from derive.following import following, overpressure
+from derive.hooks import following, overpressure
 
 EFFECT = Effect(
     id="pressure-bias",

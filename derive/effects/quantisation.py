@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from derive.effect import Effect, EffectParameter
+from derive.effect import Effect, shared
 
 Array = NDArray[np.float64]
 
@@ -53,7 +53,5 @@ EFFECT = Effect(
     equation=r"G_{out} \leftarrow q\, \mathrm{round}(G_{out}/q)",
     limits="Uniform steps through zero, of G_out only.",
     kind="output",
-    parameters=(
-        EffectParameter("q", "q", "V", "step of the recorded output", 1e-3, shared=True, fitted=False),
-    ),
+    parameters=(shared("q", "q", "V", "step of the recorded output", 1e-3, fitted=False),),
 )

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from derive.effect import Effect, EffectParameter
+from derive.effect import Effect, shared
 
 Array = NDArray[np.float64]
 
@@ -56,13 +56,12 @@ EFFECT = Effect(
     limits="Symmetric, of G_out only; single accelerometers do not saturate.",
     kind="output",
     parameters=(
-        EffectParameter(
+        shared(
             "V_max",
             "V_{max}",
             "V",
             "largest output that is recorded",
             10.0,
-            shared=True,
             neutral=float("inf"),
             fitted=False,
         ),

@@ -1,5 +1,5 @@
 from derive.effect import Effect, EffectParameter
-from derive.following import elapsed, following
+from derive.hooks import elapsed, following
 
 EFFECT = Effect(
     id="second-order-drift",

@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, SensedForce, Values
+from derive.effect import Context, Effect, SensedForce, Values, shared
 
 
 def second_order(q: SensedForce, f: SensedForce, p: Values, c: Context) -> SensedForce:
@@ -20,15 +20,7 @@ EFFECT = Effect(
         "where the model already keeps the angles."
     ),
     parameters=(
-        EffectParameter(
-            "kappa",
-            r"\kappa",
-            "1",
-            "share of the angles in the second-order terms",
-            1.0,
-            shared=True,
-            physical=1.0,
-        ),
+        shared("kappa", r"\kappa", "1", "share of the angles in the second-order terms", 1.0, physical=1.0),
     ),
     second_order=second_order,
     moot=lambda order, kinematics: order.second_order_angles,

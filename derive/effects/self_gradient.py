@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, EffectParameter, Motion, Values
+from derive.effect import Context, Effect, Motion, Values, shared
 from derive.symbols import TRACELESS, traceless
 
 ATTITUDE = ("roll", "pitch")
@@ -28,13 +28,12 @@ EFFECT = Effect(
     channels=ATTITUDE,
     either=True,
     parameters=tuple(
-        EffectParameter(
+        shared(
             f"G_{k}_{angle}",
             rf"G_{{{k},\mathrm{{{angle}}}}}",
             "Eo/rad",
             f"gradient {k} per sine of {angle}",
             100.0,
-            shared=True,
             channel=angle,
         )
         for angle in ATTITUDE

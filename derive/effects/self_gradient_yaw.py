@@ -1,6 +1,6 @@
 import sympy as sp
 
-from derive.effect import Context, Effect, EffectParameter, Motion, Values
+from derive.effect import Context, Effect, Motion, Values, shared
 
 _MEANING = {
     "G_d": "half of the difference of xx and yy",
@@ -33,9 +33,7 @@ EFFECT = Effect(
     ),
     channels=("yaw",),
     parameters=tuple(
-        EffectParameter(
-            name, f"G_{{{name[2:]}}}", "Eo", f"gradient of the carrier at yaw 0: {meaning}", 30.0, shared=True
-        )
+        shared(name, f"G_{{{name[2:]}}}", "Eo", f"gradient of the carrier at yaw 0: {meaning}", 30.0)
         for name, meaning in _MEANING.items()
     ),
     sensing=sensing,

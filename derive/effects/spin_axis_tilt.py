@@ -1,7 +1,7 @@
 import sympy as sp
 
 from derive.effect import Context, Effect, Motion, Values, components
-from derive.rotation import small_rotation
+from derive.hooks import small_rotation
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

@@ -1,7 +1,7 @@
 import sympy as sp
 
 from derive.effect import Context, Effect, Geometry, Values, components
-from derive.rotation import lean
+from derive.hooks import lean
 
 
 def geometry(g: Geometry, p: Values, c: Context) -> Geometry:

@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, Expr, Values
+from derive.effect import Context, Effect, Expr, Values, shared
 
 
 def disc_angle(p: Values, c: Context) -> Expr:
@@ -15,10 +15,6 @@ EFFECT = Effect(
         "Exact. A common part of beta_z is equivalent and absorbs it; rotating the motion record about z is equivalent except for the "
         "gradients."
     ),
-    parameters=(
-        EffectParameter(
-            "phi_0", r"\phi_0", "rad", "true disc angle less the recorded one", 1e-4, shared=True
-        ),
-    ),
+    parameters=(shared("phi_0", r"\phi_0", "rad", "true disc angle less the recorded one", 1e-4),),
     disc_angle=disc_angle,
 )

@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, Expr, Values
+from derive.effect import Context, Effect, Expr, Values, shared
 
 
 def disc_angle(p: Values, c: Context) -> Expr:
@@ -21,22 +21,8 @@ EFFECT = Effect(
     ),
     kind="random",
     parameters=(
-        EffectParameter(
-            "sigma_phi",
-            r"\sigma_\phi",
-            "rad",
-            "standard deviation, independent at every sample",
-            1e-6,
-            shared=True,
-        ),
-        EffectParameter(
-            "sigma_walk",
-            r"\sigma_w",
-            "rad/s^0.5",
-            "random walk: growth with the root of time",
-            1e-6,
-            shared=True,
-        ),
+        shared("sigma_phi", r"\sigma_\phi", "rad", "standard deviation, independent at every sample", 1e-6),
+        shared("sigma_walk", r"\sigma_w", "rad/s^0.5", "random walk: growth with the root of time", 1e-6),
     ),
     disc_angle=disc_angle,
 )

@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, Expr, Values
+from derive.effect import Context, Effect, Expr, Values, shared
 
 
 def disc_angle(p: Values, c: Context) -> Expr:
@@ -18,10 +18,6 @@ EFFECT = Effect(
         "Steady over the record, from the instant 0 of its time column (another one is spin-phase-offset). With a "
         "steady horizontal force it looks like a drift of scale factors and misalignments."
     ),
-    parameters=(
-        EffectParameter(
-            "epsilon", r"\epsilon", "1", "true spin rate over the believed one, less one", 1e-7, shared=True
-        ),
-    ),
+    parameters=(shared("epsilon", r"\epsilon", "1", "true spin rate over the believed one, less one", 1e-7),),
     disc_angle=disc_angle,
 )

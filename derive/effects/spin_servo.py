@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, Expr, Values
+from derive.effect import Context, Effect, Expr, Values, shared
 
 
 def disc_angle(p: Values, c: Context) -> Expr:
@@ -18,6 +18,6 @@ EFFECT = Effect(
         "Slow against the servo's bandwidth, and only if the recorded angle does not contain it (no encoder, or one on the motor). "
         "The force of the uneven spin, R phi'', is in a model of full kinematics (or with disc-spin)."
     ),
-    parameters=(EffectParameter("c", "c", "s^2", "angle lost per angular acceleration", 1e-4, shared=True),),
+    parameters=(shared("c", "c", "s^2", "angle lost per angular acceleration", 1e-4),),
     disc_angle=disc_angle,
 )

@@ -1,5 +1,5 @@
 from derive.effect import Effect, EffectParameter
-from derive.following import following, warmth
+from derive.hooks import following, warmth
 
 EFFECT = Effect(
     id="thermal-bias",

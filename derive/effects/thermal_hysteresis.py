@@ -1,5 +1,5 @@
 from derive.effect import Context, Effect, EffectParameter, Parameters, Values
-from derive.memory import THERMAL_SLIP, response
+from derive.hooks import THERMAL_SLIP, response
 
 
 def instrument(k: Parameters, p: Values, c: Context) -> Parameters:

@@ -1,4 +1,4 @@
-from derive.effect import Context, Effect, EffectParameter, Motion, Values
+from derive.effect import Context, Effect, Motion, Values, shared
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
@@ -20,13 +20,12 @@ EFFECT = Effect(
         "not moved."
     ),
     parameters=(
-        EffectParameter(
+        shared(
             "delta_t",
             r"\delta t",
             "s",
             "lateness of the motion record",
             1e-3,
-            shared=True,
             late=("a", "omega", "omegadot"),
         ),
     ),

@@ -1,5 +1,5 @@
 from derive.effect import Context, Effect, Expr, SensedForce, Values, components
-from derive.rectified import rectified
+from derive.hooks import rectified
 from derive.symbols import COMPONENTS, symmetric
 
 

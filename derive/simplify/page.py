@@ -9,8 +9,18 @@ from typing import Any
 
 from derive.emit.render import number, render_page
 from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected
-from derive.simplify.envelope import DYNAMIC_EXPERIMENT, EOTVOS, G0, PAPER_ENVELOPE, Envelope, ranges
-from derive.simplify.terms import Size, certified_bound, simplified, sizes
+from derive.simplify import (
+    DYNAMIC_EXPERIMENT,
+    EOTVOS,
+    G0,
+    PAPER_ENVELOPE,
+    Envelope,
+    Size,
+    certified_bound,
+    ranges,
+    simplified,
+    sizes,
+)
 from derive.symbols import ACCELEROMETER, ANGLES, SECOND_ORDER
 
 Row = tuple[str, ...]

@@ -338,17 +338,17 @@ def rederive(root: Path) -> list[str]:
 
     Cut off, it leaves whole files; the next one writes the others.
     """
-    from derive import everything, pipeline
+    from derive import pipeline
 
-    changed = everything.write(pipeline.derive_base(), root / everything.GENERATED)
-    return [f"{everything.GENERATED}/{name}" for name in changed]
+    changed = pipeline.write(pipeline.derive_base(), root / pipeline.GENERATED)
+    return [f"{pipeline.GENERATED}/{name}" for name in changed]
 
 
 def check(root: Path) -> None:
     """UserError unless what is below ``root`` is what the derivation yields. Nothing is written."""
-    from derive import everything
+    from derive import pipeline
 
-    if difference := everything.difference(root):
+    if difference := pipeline.difference(root):
         raise UserError(
             "the committed code does not match the derivation",
             where=root,

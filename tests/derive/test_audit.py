@@ -8,28 +8,29 @@ from dataclasses import replace
 import pytest
 from sympy import QQ
 
-from derive.audit import audit, direct, experiment, proof
+from derive.audit import audit, direct, result
 from derive.audit.compare import (
     ANALYTICAL,
     TRANSDUCER,
     Equation,
+    NotReadable,
     amplitude,
     compare,
     derived_amplitude,
     derived_transducer,
     expand_motion,
-    printed_order,
+    in_printed_order,
+    model_reader,
     read,
-    select,
+    transducer_reader,
 )
-from derive.audit.reading import NotReadable, model_reader, transducer_reader
 from derive.propagation import collect
 
 READER, EXPAND = model_reader(), expand_motion()
 
 
 def derived(e: Equation):
-    return select(derived_amplitude(collect(), amplitude(e.left)), printed_order)
+    return in_printed_order(derived_amplitude(collect(), amplitude(e.left)))
 
 
 def negated(term: str) -> str:
@@ -89,7 +90,7 @@ def test_reader_refuses_what_is_not_in_the_grammar(text):
 
 def amplitudes():
     c = collect()
-    return {n: select(derived_amplitude(c, n), printed_order) for n in c.amplitudes}
+    return {n: in_printed_order(derived_amplitude(c, n)) for n in c.amplitudes}
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -97,14 +98,14 @@ def test_derivation_equals_direct_evaluation_exactly(seed):
     for p in direct.points(3, seed):
         value = direct.output(p)
         assert value != 0
-        assert proof.output(amplitudes(), p) == value
+        assert result.output(amplitudes(), p) == value
         for j in range(4):
-            assert proof.current(derived_transducer(), p, j) == direct.current(p, j, p.a)
+            assert result.current(derived_transducer(), p, j) == direct.current(p, j, p.a)
 
 
 def test_signal_costs_what_it_is():
     """k_ggi T_1 sin 2 phi demodulates to 2 mean(T_1): T_1 has no fourth harmonic."""
-    c = experiment.cost({"A_2s": model_reader().read(r"T_1 \sum_{k_1 R}")})
+    c = result.cost({"A_2s": model_reader().read(r"T_1 \sum_{k_1 R}")})
     per_hour = math.pi / 648000
     mean = (1500**2 + 900**2 / 2 - 1000**2 - 700**2 / 2) / 2 * per_hour**2 / 1e-9
     assert c.inline == pytest.approx(2 * mean, rel=1e-12)

@@ -25,9 +25,8 @@ from derive.propagation import (
     from_generic,
     motion_numbers,
 )
-from derive.simplify.envelope import DYNAMIC_EXPERIMENT, PAPER_ENVELOPE, Envelope
+from derive.simplify import DYNAMIC_EXPERIMENT, PAPER_ENVELOPE, Envelope, certified_bound, simplified, sizes
 from derive.simplify.page import Condition, critical_conditions
-from derive.simplify.terms import certified_bound, simplified, sizes
 from derive.stages import Kinematics
 from derive.symbols import MOTION, QUARTER_TURNS, SECOND_ORDER, SIGNS, SPIN_ACCELERATION, SPIN_RATE
 from ragg_runtime.estimation.regressors import list_base_columns

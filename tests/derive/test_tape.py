@@ -12,10 +12,10 @@ from evaluated import place, voltage
 
 from derive import ir
 from derive.chain import recorded_motion
-from derive.context import Context
+from derive.effect import Context
 from derive.effects import catalogue
+from derive.hooks import small_rotation
 from derive.layout import SymbolicForm
-from derive.rotation import small_rotation
 from derive.stages import EXACT
 from derive.symbols import ACCELEROMETER, MOTION, SPIN_ACCELERATION, SPIN_RATE
 from derive.tape import Tape, partials

@@ -16,7 +16,7 @@ import mpmath
 import numpy as np
 from numpy.typing import NDArray
 
-from derive.audit import proof
+from derive.audit import result
 from derive.audit.compare import derived_amplitude, derived_motion
 from derive.propagation import Collected
 from derive.symbols import MOTION
@@ -158,13 +158,13 @@ def of_model(c: Collected, t: Any, x: Sequence[Any], p: Sequence[Any]) -> Any:
         return real(f.numerator) / f.denominator
 
     rates = dict(zip((m.name for m in MOTION), x, strict=True))
-    motion = rates | {n: proof.value(q, rates, number) for n, q in derived_motion().items()}
+    motion = rates | {n: result.value(q, rates, number) for n, q in derived_motion().items()}
     own = {name: p[2 + 4 * n : 6 + 4 * n] for n, name in enumerate(PER_ACCELEROMETER)}
     own["k1"] = [k * gain for k, gain in zip(own["K1"], own["k_VI"], strict=True)]
     own["R"] = [p[0] + dR for dR in own["dR"]]
     phi, total = 2 * CONTEXT.pi * p[1] * t, real(0)
     for name in c.amplitudes:
         wave = CONTEXT.sin if name.endswith("s") else CONTEXT.cos
-        value = proof.amplitude_value(derived_amplitude(c, name), own, motion, number)
+        value = result.amplitude_value(derived_amplitude(c, name), own, motion, number)
         total += value * wave(int(name[2]) * phi)
     return total

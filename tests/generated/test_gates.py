@@ -18,13 +18,13 @@ import pytest
 import sympy as sp
 
 import generated
-from derive import everything, pipeline
+from derive import pipeline
 from derive.chain import accelerometer
 from derive.effect import STAGES, Effect
 from derive.effects import catalogue
 from derive.pipeline import derive_model
 from derive.propagation import Collected
-from derive.simplify.terms import simplified as simplified_model
+from derive.simplify import simplified as simplified_model
 from derive.stages import PAPER
 from generated import analytical, chain, folded, signatures, simplified
 from ragg_runtime.cli.main import main
@@ -68,7 +68,7 @@ def test_check_shows_the_difference_and_the_command_that_mends_it(tmp_path, monk
     main(["derive", "--out", str(root)])
     mended = capsys.readouterr().out
     assert {"simplified.py", "chain.h", "by_hand.py"} <= {Path(n).name for n in mended.split()}
-    assert not everything.diff_files(committed, root / "generated")
+    assert not pipeline.diff_files(committed, root / "generated")
 
 
 @pytest.mark.parametrize(
@@ -77,11 +77,11 @@ def test_check_shows_the_difference_and_the_command_that_mends_it(tmp_path, monk
 )
 def test_every_byte_counts(tmp_path: Path, old: str, new: str, message: str) -> None:
     (tmp_path / "x.py").write_bytes(new.encode())
-    found = everything.diff_files({"x.py": old}, tmp_path)
+    found = pipeline.diff_files({"x.py": old}, tmp_path)
     assert found
     assert message in found
-    everything.write({"x.py": old}, tmp_path)
-    assert not everything.diff_files({"x.py": old}, tmp_path)
+    pipeline.write({"x.py": old}, tmp_path)
+    assert not pipeline.diff_files({"x.py": old}, tmp_path)
 
 
 def test_committed_files_are_what_the_derivation_yields_under_any_hash_seed() -> None:

@@ -17,8 +17,7 @@ import pytest
 from scipy import signal
 
 import derive.effects
-from derive import pipeline
-from derive.emit import target
+from derive import emit, pipeline
 from derive.symbols import MOTION
 from generated import folded
 from ragg_runtime.base.errors import UserError
@@ -209,7 +208,7 @@ def test_a_file_format_is_a_function_and_a_line(tmp_path: Path, monkeypatch: pyt
 
 def test_a_target_is_a_package_with_a_function_for_each_form(monkeypatch: pytest.MonkeyPatch) -> None:
     names = module_of("derive/emit/names/__init__.py")
-    monkeypatch.setattr(target, "targets", lambda: (names,))
+    monkeypatch.setattr(emit, "targets", lambda: (names,))
     table = pipeline.derive_model((), ())["names/chain.csv"].splitlines()
     assert table[0] == "kind,name,values"
     assert {"input,a_x,1", "parameter,K1,4", "parameter,radius,1"} <= set(table)

@@ -6,8 +6,7 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from derive.emit.printers import to_latex
-from derive.emit.render import environment
+from derive.emit.render import environment, to_latex
 from derive.ir import AmplitudeTerm, Coefficient, Harmonic
 from derive.propagation import MonomialTerm, monomial
 from derive.symbols import symbol

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 
-from derive.emit.printers import to_numpy
-from derive.emit.render import environment
+from derive.emit.render import environment, to_numpy
 from derive.folded import Folded
 from derive.ir import AmplitudeTerm, ChainProgram, Harmonic
 
@@ -27,7 +27,11 @@ def chain(m: ChainProgram, *, packaged: bool) -> dict[str, str]:
 
 def package_file(modules: Sequence[str]) -> str:
     """``__init__.py`` of a generated package."""
-    return _render("init.py.j2", modules=sorted(modules))
+    names = sorted(modules)
+    return (
+        '"""Derived models; do not edit: change the derivation and derive again. See manifest.json."""\n\n'
+        f"from . import {', '.join(names)}\n\n__all__ = {json.dumps(names)}\n"
+    )
 
 
 def _render(template: str, **values: object) -> str:
