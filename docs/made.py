@@ -62,8 +62,8 @@ def detection_limits() -> dict[str, dict[str, str]]:
     from ragg_runtime.identification.ranking import list_detectable
     from ragg_runtime.identification.selection import make_problem
     from ragg_runtime.model.model import load_packaged
-    from ragg_runtime.reference.auxiliaries import further
     from ragg_runtime.reference.scenario import scenario
+    from ragg_runtime.reference.simulate import further
 
     s = scenario(1, duration=600.0, rate=8.0)
     s = replace(s, auxiliaries={**s.auxiliaries, **further(np.random.default_rng(1))})
@@ -125,8 +125,7 @@ def demonstration(reports: Path) -> Demonstration:
     """Go through the loop in the current folder, once for all pages; the reports of diagnosis and addition go to ``reports``."""
     from ragg_runtime import api
     from ragg_runtime.cli.main import cli
-    from ragg_runtime.report.page import Origin
-    from ragg_runtime.report.pages import write_addition, write_diagnosis
+    from ragg_runtime.report.pages import Origin, write_addition, write_diagnosis
 
     shutil.copy(FLIGHT, FLIGHT.name)
     m = api.new(Path("model"))

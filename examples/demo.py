@@ -6,7 +6,7 @@ import argparse
 import shutil
 from pathlib import Path
 
-from ragg_runtime.cli import demo
+from ragg_runtime.cli.model_commands import make_flight, run_demo
 
 FLIGHT = Path(__file__).parent / "demo-flight.parquet"
 
@@ -16,8 +16,8 @@ if __name__ == "__main__":
     parser.add_argument("--make-flight", action="store_true", help="make the shipped flight again")
     arguments = parser.parse_args()
     if arguments.make_flight:
-        demo.make_flight(FLIGHT)
+        make_flight(FLIGHT)
     else:
         if arguments.output.exists():
             shutil.rmtree(arguments.output)
-        demo.run_demo(arguments.output, FLIGHT)
+        run_demo(arguments.output, FLIGHT)

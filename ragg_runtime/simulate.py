@@ -18,15 +18,13 @@ from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.model.model import DerivedEffect, load_packaged
 from ragg_runtime.model.record import find_start
-from ragg_runtime.reference.accelerometer_noise import eotvos_noise
-from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues, channels_needed, resolve
 from ragg_runtime.reference.geometry import Rotations
-from ragg_runtime.reference.instruments import perturbed
-from ragg_runtime.reference.motion import RecordedSignal
+from ragg_runtime.reference.instruments import eotvos_noise, perturbed
+from ragg_runtime.reference.motion import RecordedSignal, Turning
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
-from ragg_runtime.reference.turning import Turning
+from ragg_runtime.reference.simulate import further, plausible
 
 if TYPE_CHECKING:
     from ragg_runtime.api import Loaded

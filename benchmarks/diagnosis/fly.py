@@ -27,7 +27,7 @@ from benchmarks.sheet import model_text
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.reference.effects import EffectValues, resolve
-from ragg_runtime.reference.effects.output import record_output
+from ragg_runtime.reference.effects.sensing import record_output
 from ragg_runtime.reference.simulate import Simulation, combine
 from ragg_runtime.signals.demodulators import low_pass
 from ragg_runtime.signals.fir import convolve

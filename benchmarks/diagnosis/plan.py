@@ -15,12 +15,11 @@ from benchmarks.diagnosis import records
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import paper
 from ragg_runtime.io import read_flight
-from ragg_runtime.reference.accelerometer_noise import eotvos_noise
-from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.gravity import Gradient
-from ragg_runtime.reference.instruments import perturbed, table_v, trimmed
+from ragg_runtime.reference.instruments import eotvos_noise, perturbed, table_v, trimmed
 from ragg_runtime.reference.motion import MotionSignals, Signal, recorded_motion
 from ragg_runtime.reference.scenario import SHAPES, Scenario, draw_gradient, draw_motion
+from ragg_runtime.reference.simulate import further, plausible
 
 Array = NDArray[np.float64]
 

@@ -31,13 +31,13 @@ from ragg_runtime.cli.shared import (
     source_of,
     working,
 )
-from ragg_runtime.report.page import Origin
 from ragg_runtime.wording import describe, describe_other
 
 if TYPE_CHECKING:
     from ragg_runtime import api, next_flight
     from ragg_runtime.api import Added, Loaded
     from ragg_runtime.report import pages
+    from ragg_runtime.report.pages import Origin
 else:
     api, next_flight, pages = map(Later, ("api", "next_flight", "report.pages"))
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Sequence
+import json
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,7 @@ import click
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.base.files import write_text
+from ragg_runtime.cli.main import cli
 from ragg_runtime.cli.shared import (
     PLACE,
     Command,
@@ -27,16 +29,17 @@ from ragg_runtime.cli.shared import (
     series_option,
     source_of,
 )
-from ragg_runtime.report.page import Origin
-from ragg_runtime.wording import describe, describe_other
-from ragg_runtime.wording.sections import Section
+from ragg_runtime.wording import describe, describe_other, numbers
+from ragg_runtime.wording.sections import Section, render_text
 
 if TYPE_CHECKING:
-    from ragg_runtime import api
+    from ragg_runtime import api, io
+    from ragg_runtime import simulate as simulator
     from ragg_runtime.api import Loaded
     from ragg_runtime.report import pages
+    from ragg_runtime.report.pages import Origin
 else:
-    api, pages = map(Later, ("api", "report.pages"))
+    api, io, pages, simulator = map(Later, ("api", "io", "report.pages", "simulate"))
 
 
 STUDIO_NEEDS = ("starlette", "uvicorn", "latex2mathml")
@@ -171,15 +174,12 @@ def simulate(
     model_dir: Path, output: str, hidden: Sequence[str], mapping: Path | None, gradient: bool, **options: Any
 ) -> None:
     """Simulate a flight, hidden effects on request."""
-    from ragg_runtime.io import write_flight
-    from ragg_runtime.simulate import simulate_flight
-
     m = load(model_dir)
     progress.remark("simulating")
-    flight = simulate_flight(
+    flight = simulator.simulate_flight(
         m.instrument, hidden, mapping=api.mapping_of(m, mapping), no_gradient=not gradient, **options
     )
-    write_flight(flight, output)
+    io.write_flight(flight, output)
     text = f"{one_line(output)}: {len(flight.time)} samples at {flight.rate:g} Hz"
     result = {"output": output, "samples": len(flight.time), "rate_Hz": flight.rate, "effects": list(hidden)}
     conclude(result, [Section(sentences=(text,))], source_of(m))
@@ -189,8 +189,6 @@ def simulate(
 @click.option("--output", type=PLACE, default=Path("ragg-demo"), show_default=True, help="Folder to make.")
 def demo(output: Path) -> None:
     """Find a hidden effect in a simulated flight, add it."""
-    from ragg_runtime.cli.demo import run_demo
-
     run_demo(output)
 
 
@@ -199,7 +197,6 @@ def demo(output: Path) -> None:
 @mapping_option
 def info(flight: Path, mapping: Path | None) -> None:
     """Show what a flight file holds, and what is assumed."""
-    from ragg_runtime.io import read_flights
     from ragg_runtime.io.info import PAPER_G, describe_flight
     from ragg_runtime.io.mapping import read_mapping
 
@@ -209,7 +206,7 @@ def info(flight: Path, mapping: Path | None) -> None:
 
     def page(origin: Origin) -> str:
         usable = not any(r["refused"] for r in found["records"])
-        records = read_flights(flight, PAPER_G, mapping=how) if usable else []
+        records = io.read_flights(flight, PAPER_G, mapping=how) if usable else []
         return pages.write_info(said, records, replace(origin, sources=[(found["path"], found["sha256"])]))
 
     conclude(found, said, page=page, title=flight.name)
@@ -300,3 +297,57 @@ def studio(model_dir: Path | None, flights: Sequence[Path], port: int, no_browse
     from ragg_runtime.studio.serve import serve
 
     serve(model_dir, flights, port, click.echo, browser=not no_browser)
+
+
+HIDDEN = ("thermal-scale", "dK1_dT", (0.0, 0.0, 6e-8, 0.0))
+"""What is hidden in the flight: effect, parameter, its values in A1 ... A4, 1/K."""
+
+
+def make_flight(path: Path) -> None:
+    """Write the flight: twelve minutes at 1 g in turbulence, with a temperature-dependent scale factor in A3."""
+    effect, name, values = HIDDEN
+    hidden = f"{effect}:{name}={'/'.join(f'{x:g}' for x in values)}"
+    flight = simulator.simulate_flight(
+        api.example(), [hidden], seed=2026, instrument_seed=2026, duration=720.0
+    )
+    io.write_flight(flight, path)
+
+
+def run_demo(output: Path, flight: Path | None = None) -> None:
+    """Run the commands of the loop in ``output``, which must not exist, on ``flight`` (else one is made)."""
+    if output.exists():
+        raise UserError("the folder exists already", where=output, remedy="choose another with --output")
+    output.mkdir(parents=True)
+    if flight is None:
+        flight = output / "flight.parquet"
+        make_flight(flight)
+    model, report, diagnosis, added = (
+        str(output / name) for name in ("model", "report.html", "diagnosis.html", "added.json")
+    )
+    _run("new", model)
+    _run("compare", model, str(flight))
+    _run("diagnose", model, str(flight), "--report", diagnosis)
+    _run("add", model, HIDDEN[0], str(flight), "--report", report, "--json", added)
+    _run("history", model)
+    said = (
+        *_recovered(json.loads(Path(added).read_text("utf-8"))),
+        f"Reports: {diagnosis}  {report}",
+        f"In a browser: ragg studio {model} {flight}",
+    )
+    click.echo(f"\n{render_text([Section(sentences=said)])}")
+
+
+def _run(*words: str) -> None:
+    click.echo(f"\n\033[1m$ ragg {' '.join(words)}\033[0m")
+    cli.main(args=list(words), prog_name="ragg", standalone_mode=False, obj=list(words))
+
+
+def _recovered(added: Mapping[str, Any]) -> list[str]:
+    """What was hidden and what was found, of the combination of accelerometers that the record determines best."""
+    effect, _, values = HIDDEN
+    q = max(added["combinations"], key=describe.significance)
+    true = sum(w * x for w, x in zip(q["weights"], values, strict=True))
+    return [
+        f"hidden:    {effect}: {describe.label_parameter(q)} = {numbers.with_unit(numbers.number(true, 2), q['unit'])}",
+        f"recovered: {effect}: {describe.write_parameter(q)}",
+    ]

@@ -19,7 +19,6 @@ import click
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, count, one_line
 from ragg_runtime.base.files import check_writable, provenance, write_text
-from ragg_runtime.report.page import Origin
 from ragg_runtime.wording.describe import group_notes
 from ragg_runtime.wording.sections import Section, render_text
 
@@ -38,8 +37,10 @@ if TYPE_CHECKING:
     from ragg_runtime import api
     from ragg_runtime.api import Loaded, Source
     from ragg_runtime.io import Flight
+    from ragg_runtime.report import pages
+    from ragg_runtime.report.pages import Origin
 else:
-    api = Later("api")
+    api, pages = map(Later, ("api", "report.pages"))
 
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of stdout; where JSON is asked for there, it is all that is written there."""
@@ -211,7 +212,10 @@ def conclude(
     wanted = find_wanted()
     if wanted.report_file is not None and page is not None:
         progress.remark("writing the report")
-        origin = Origin(title or "", command_line(), ()) if source is None else Origin.of(source, title)
+        if source is None:
+            origin = pages.Origin(title or "", command_line(), ())
+        else:
+            origin = pages.Origin.of(source, title)
         if wanted.report_file in STDOUT:
             click.echo(page(origin), nl=False)
         else:

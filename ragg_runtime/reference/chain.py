@@ -11,11 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.reference.effects import Injected, force, geometry, transducer
-from ragg_runtime.reference.geometry import Mount, Rotations, frame_rotation, mount, standing
+from ragg_runtime.reference.geometry import (
+    Mount,
+    Rotations,
+    Taylor,
+    carried,
+    frame_rotation,
+    mount,
+    spun,
+    standing,
+)
 from ragg_runtime.reference.gravity import Gravity
-from ragg_runtime.reference.motion import MotionSignals, MotionState
-from ragg_runtime.reference.taylor import Taylor, carried, spun
-from ragg_runtime.reference.turning import Turning
+from ragg_runtime.reference.motion import MotionSignals, MotionState, Turning
 
 if TYPE_CHECKING:
     from ragg_runtime.instrument.instrument import Instrument
@@ -97,7 +104,7 @@ class Chain:
     def _unfiltered(self, time: Array, earlier: float, angle_error: Array) -> Array:
         """The voltages (n, N) V so much earlier (s), loops and their lags included."""
         tau = transducer.lags(self.effects, self.size)
-        shaken = force.vibration(self.effects)
+        shaken = force.vibration(self.effects, "vibration-rectification", "P")
         V = np.empty((self.size, time.size))
         now = self._instant(time, earlier, angle_error)
         for j in range(self.size):
@@ -170,7 +177,7 @@ class Chain:
         shakes = [
             (v + u * instant.auxiliaries["vibration_rms"] if np.any(u) else v, weight * w)
             for v, weight in shaken
-            for u, w in force.scale_vibration(self.effects)
+            for u, w in force.vibration(self.effects, "vibration-level", "L")
         ]
         voltages = (weight * self._voltage(j, instant, v) for v, weight in shakes)
         return np.asarray(sum(voltages), dtype=np.float64)
@@ -243,10 +250,10 @@ class Chain:
         disc = self.instrument.layout.places[j].disc
         lifts = bool(np.any(fixed.lift))
         vectors = np.stack([fixed.arm, *fixed.triad, *([fixed.lift] if lifts else [])])
-        if (lean := geometry.wobble(self.effects)) is not None:
+        if (lean := geometry.lean(self.effects, "spin-axis-wobble", "w")) is not None:
             vectors = vectors @ lean.T
         turned = spun(vectors, instant.phi[disc])
-        if (axis := geometry.spin_axis(self.effects)) is not None:
+        if (axis := geometry.lean(self.effects, "spin-axis-tilt", "alpha")) is not None:
             turned = [v.turned(axis) for v in turned]
         if (axes := self.standing[disc]) is not None:
             turned = [v.turned(axes) for v in turned]

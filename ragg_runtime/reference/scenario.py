@@ -11,15 +11,13 @@ from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfftfreq
 
 from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
-from ragg_runtime.reference.auxiliaries import plausible
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.geometry import Rotations
 from ragg_runtime.reference.gravity import Gradient, Gravity
-from ragg_runtime.reference.instruments import perturbed, table_v, trimmed
+from ragg_runtime.reference.instruments import Noise, eotvos_noise, perturbed, table_v, trimmed
 from ragg_runtime.reference.motion import MotionSignals, RecordedSignal, Signal, Sinusoids
-from ragg_runtime.reference.simulate import Simulation, simulate
+from ragg_runtime.reference.simulate import Simulation, plausible, simulate
 
 if TYPE_CHECKING:
     from ragg_runtime.instrument.instrument import Instrument

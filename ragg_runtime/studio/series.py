@@ -16,7 +16,7 @@ from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.identification import predict
 from ragg_runtime.identification import series as reported
 from ragg_runtime.io.record import DEMODULATED
-from ragg_runtime.report import panels, parameters, whiteness
+from ragg_runtime.report import panels
 from ragg_runtime.report.plots import draw_file
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
@@ -376,13 +376,13 @@ def draw_panel(s: State, a: Asked) -> bytes:
         case "compensated":
             plot = panels.plot_compensated(s.require("compensated").series)
         case "correlations":
-            plot = parameters.correlate_parameters(View(s, a).f)[0]
+            plot = panels.correlate_parameters(View(s, a).f)[0]
         case "whiteness":
             v = View(s, a)
-            plot = whiteness.plot_whiteness(v.f, v.n, v.residual)
+            plot = panels.plot_whiteness(v.f, v.n, v.residual)
         case "against":
             v = View(s, a)
-            plot = whiteness.plot_against(v.f, v.n, v.residual, channel)
+            plot = panels.plot_against(v.f, v.n, v.residual, channel)
         case _:
             plot = None
     if plot is None:

@@ -26,8 +26,8 @@ from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
 from ragg_runtime.io.record import WIDEST_SPIKE, left_out
-from ragg_runtime.report import pages, panels, parameters
-from ragg_runtime.report.page import Origin
+from ragg_runtime.report import pages, panels
+from ragg_runtime.report.pages import Origin
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.studio.session import Branches, State
 from ragg_runtime.wording import describe, describe_other, numbers
@@ -52,7 +52,7 @@ def overview(s: State) -> Json:
         "untestable": [] if d is None else [_about(d, n.effect) | {"why": n.why} for n in d.not_testable],
         "unexplained": None if d is None else _show_unexplained(d),
         "next_motion": [] if d is None else [describe.motion_sentence(p.as_json()) for p in d.next_motion],
-        "parameters": None if c is None else show_sections(parameters.describe_parameters(c.fitted)),
+        "parameters": None if c is None else show_sections(panels.describe_parameters(c.fitted)),
         "validation": None if s.held is None else _show_validation(s),
         "sheet": None if m is None else show_sheet(m.instrument),
         "history": None if m is None else _show_history(m),

@@ -16,7 +16,7 @@ from ragg_runtime.base.errors import EXTRAS, UserError, missing_package
 from ragg_runtime.cli.main import main
 from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.model import chain as compiler
-from ragg_runtime.report.page import Origin, render_page
+from ragg_runtime.report.pages import Origin, render_page
 from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.wording.sections import Bar, Bars, Section
 

@@ -25,9 +25,8 @@ from ragg_runtime.model import model as load
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.instruments import trimmed
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.report import parameters, plots, whiteness
-from ragg_runtime.report.page import Origin
-from ragg_runtime.report.pages import write_addition, write_comparison, write_diagnosis
+from ragg_runtime.report import panels, plots
+from ragg_runtime.report.pages import Origin, write_addition, write_comparison, write_diagnosis
 from ragg_runtime.report.plots import draw_plot
 from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.wording import describe, numbers
@@ -155,7 +154,7 @@ def test_names_of_strangers_are_text(cubic: Case) -> None:
 @pytest.mark.usefixtures("no_figures")
 def test_same_input_same_bytes(cubic: Case) -> None:
     assert write_diagnosis(cubic.diagnosis, ORIGIN) == write_diagnosis(cubic.diagnosis, ORIGIN)
-    plot = whiteness.plot_whiteness(cubic.comparison.fitted, 0, cubic.diagnosis.residual[0], ("a_x",))
+    plot = panels.plot_whiteness(cubic.comparison.fitted, 0, cubic.diagnosis.residual[0], ("a_x",))
     assert draw_plot(plot) == draw_plot(plot)
 
 
@@ -215,10 +214,10 @@ def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
 
 def test_what_a_record_sees_of_the_parameters_is_what_the_paper_derives(clean: compare.Comparison) -> None:
     """Eq. 17-19: of the biases only D1234 enters; K2 and K5 enter as Sigma (k5 - k2) and D1234 (k2 + k5)."""
-    unseen = parameters.list_unseen(clean.fitted)
+    unseen = panels.list_unseen(clean.fitted)
     assert {f"{pattern} K0" for pattern in ("Sigma", "D12", "D34")} <= {*unseen}
     assert "D1234 K0" not in unseen
-    _, pairs = parameters.correlate_parameters(clean.fitted)
+    _, pairs = panels.correlate_parameters(clean.fitted)
     alike = {frozenset(names) for *names, r in pairs if abs(float(r.replace(numbers.MINUS, "-"))) > 0.9}
     assert {frozenset({f"{pattern} K2", f"{pattern} K5"}) for pattern in ("Sigma", "D1234")} <= alike
     # a larger radius is the same as a larger scale factor
@@ -232,7 +231,7 @@ def test_combinations_are_known_better_than_single_values(clean: compare.Compari
     assert known["D1234 K0"]["value"] == pytest.approx(-1.0, abs=0.05)
     assert "Sigma K0" not in known
     assert all(q["std"] > 10 * known["D1234 K0"]["std"] for q in list_parameters(f) if q["name"] == "K0")
-    said = render_text(parameters.describe_parameters(f), verbose=True)
+    said = render_text(panels.describe_parameters(f), verbose=True)
     assert "D1234 of K0  " in said
     assert "shift, sigma of the sheet" in said
 
@@ -277,7 +276,7 @@ def test_whiteness_has_99_percent_bounds_and_finds_what_is_not_noise(clean: comp
     a_x = w.observation.record.channels["a_x"]
 
     def outside(residual: np.ndarray, axes: int) -> float:
-        band, curve = whiteness.plot_whiteness(f, 0, residual, ("a_x",)).axes[axes].curves
+        band, curve = panels.plot_whiteness(f, 0, residual, ("a_x",)).axes[axes].curves
         assert band.high is not None
         high, low = (np.interp(curve.x, band.x, y) for y in (band.high, band.y))
         return float(np.mean((curve.y > high) | (curve.y < low)))
@@ -285,11 +284,11 @@ def test_whiteness_has_99_percent_bounds_and_finds_what_is_not_noise(clean: comp
     assert outside(noise, 0) < 0.03
     assert outside(noise, 1) < 0.03
     assert outside(noise + 0.3 * np.std(noise) * a_x / np.std(a_x), 1) > 0.03
-    assert whiteness.find_worst_channel(f, 0, noise + 0.3 * np.std(noise) * a_x / np.std(a_x)) == "a_x"
-    against = whiteness.plot_against(f, 0, noise, "a_x")
+    assert panels.find_worst_channel(f, 0, noise + 0.3 * np.std(noise) * a_x / np.std(a_x)) == "a_x"
+    against = panels.plot_against(f, 0, noise, "a_x")
     assert np.mean(against.axes[1].curves[1].y) == pytest.approx(1.0, abs=0.05)
     with pytest.raises(UserError, match="no such channel"):
-        whiteness.plot_against(f, 0, noise, "humidity")
+        panels.plot_against(f, 0, noise, "humidity")
 
 
 def test_numbers_a_reader_expects() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.reference.effects.catalogue import Injected, Values
+from ragg_runtime.reference.effects import Injected, Values
 from ragg_runtime.reference.gravity import PointMass, contract
 
 Array = NDArray[np.float64]
@@ -21,11 +21,11 @@ def attraction(r: Array, auxiliaries: Mapping[str, Array], effects: Injected) ->
     if masses := effects.get("self-gradient"):
         for axis in ("roll", "pitch"):
             if axis in auxiliaries:
-                total = total + contract(_turned(masses, axis), r) * np.sin(auxiliaries[axis])
+                total = total + contract(_five(masses, f"G_{{}}_{axis}"), r) * np.sin(auxiliaries[axis])
     if standing := effects.get("gradient-offset"):
-        total = total + contract(_five(standing, "G"), r)
+        total = total + contract(_five(standing), r)
     if tanks := effects.get("fuel-gradient"):
-        total = total + contract(_five(tanks, "G"), r) * auxiliaries["fuel_mass"]
+        total = total + contract(_five(tanks), r) * auxiliaries["fuel_mass"]
     if carrier := effects.get("self-gradient-yaw"):
         total = total + _yawed(carrier, r, auxiliaries["yaw"]) - _yawed(carrier, r, np.zeros(r.shape[1]))
     if rigid := effects.get("carrier-gradient"):
@@ -56,11 +56,6 @@ def _of_body(body: Values, r: Array, auxiliaries: Mapping[str, Array]) -> Array:
     return total
 
 
-def _turned(masses: Values, axis: str) -> Array:
-    xx, xy, xz, yy, yz = (masses[f"G_{c}_{axis}"] for c in ("xx", "xy", "xz", "yy", "yz"))
-    return np.array([xx, xy, xz, yy, yz, -(xx + yy)])
-
-
 def _yawed(carrier: Values, r: Array, yaw: Array) -> Array:
     """Attraction (3, N) m/s^2 of masses that turn with the carrier: r is looked at from there, and the answer turned back."""
     c, s = np.cos(yaw), np.sin(yaw)
@@ -77,22 +72,22 @@ def _carried(carrier: Values, r: Array, auxiliaries: Mapping[str, Array]) -> Arr
     for (a, b), angle in zip(_PLANES, attitude, strict=True):
         c, s = np.cos(angle), np.sin(angle)
         seen[a], seen[b] = c * seen[a] + s * seen[b], c * seen[b] - s * seen[a]
-    pulled = contract(_five(carrier, "G"), seen)
+    pulled = contract(_five(carrier), seen)
     if "fuel_mass" in auxiliaries:
-        pulled = pulled + contract(_five(carrier, "F"), seen) * auxiliaries["fuel_mass"]
+        pulled = pulled + contract(_five(carrier, "F_{}"), seen) * auxiliaries["fuel_mass"]
     for (a, b), angle in zip(_PLANES[::-1], attitude[::-1], strict=True):
         c, s = np.cos(angle), np.sin(angle)
         pulled[a], pulled[b] = c * pulled[a] - s * pulled[b], c * pulled[b] + s * pulled[a]
-    return np.asarray(pulled - contract(_five(carrier, "G"), r))
+    return np.asarray(pulled - contract(_five(carrier), r))
 
 
 _PLANES = ((0, 1), (2, 0), (1, 2))
 """Axes from which to which a turn about z, y and x goes."""
 
 
-def _five(values: Values, name: str) -> Array:
+def _five(values: Values, name: str = "G_{}") -> Array:
     """A gradient's six components of its five independent ones."""
-    xx, xy, xz, yy, yz = (values[f"{name}_{c}"] for c in ("xx", "xy", "xz", "yy", "yz"))
+    xx, xy, xz, yy, yz = (values[name.format(c)] for c in ("xx", "xy", "xz", "yy", "yz"))
     return np.array([xx, xy, xz, yy, yz, -(xx + yy)])
 
 
@@ -146,17 +141,11 @@ def _symmetric(components: Mapping[str, float], rank: int) -> Array:
 _VIBRATION = ((0.0, 2 / 3), (-np.sqrt(3.0), 1 / 6), (np.sqrt(3.0), 1 / 6))
 
 
-def vibration(effects: Injected) -> tuple[tuple[Array, float], ...]:
-    """Instances of the unrecorded vibration, (3, 1) m/s^2 each, and their probabilities; exact for polynomials of degree five."""
-    return _instances(effects, "vibration-rectification", "P")
+def vibration(effects: Injected, effect: str, letter: str) -> tuple[tuple[Array, float], ...]:
+    """Instances of an unrecorded vibration, (3, 1) m/s^2 each (of ``vibration-level`` at a level of 1 m/s^2), and their probabilities.
 
-
-def scale_vibration(effects: Injected) -> tuple[tuple[Array, float], ...]:
-    """Instances of ``vibration-level`` at a level of 1 m/s^2, like those of :func:`vibration`."""
-    return _instances(effects, "vibration-level", "L")
-
-
-def _instances(effects: Injected, effect: str, letter: str) -> tuple[tuple[Array, float], ...]:
+    They are exact for polynomials of degree five; ``letter`` names the covariance.
+    """
     covariance = effects.get(effect)
     if covariance is None:
         return ((np.zeros((3, 1)), 1.0),)

@@ -9,11 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.reference.effects import memory
-from ragg_runtime.reference.effects.catalogue import Injected
+from ragg_runtime.reference.effects import Injected, memory
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
-from ragg_runtime.reference.geometry import by_vector
-from ragg_runtime.reference.taylor import Taylor, stacked
+from ragg_runtime.reference.geometry import Taylor, by_vector, stacked
 
 Array = NDArray[np.float64]
 Kinematics: TypeAlias = Literal["platform", "full"]
@@ -61,16 +59,10 @@ def random_angle(rng: np.random.Generator, size: int, rate: float, effects: Inje
     return angle
 
 
-def spin_axis(effects: Injected) -> Array | None:
-    """Constant lean of the whole disc in the measurement frame, (3, 3), or None."""
-    tilt = effects.get("spin-axis-tilt")
-    return None if tilt is None else by_vector(np.array([tilt["alpha_x"], tilt["alpha_y"], 0.0]))
-
-
-def wobble(effects: Injected) -> Array | None:
-    """Lean of the disc about axes that turn with it, (3, 3) in the disc frame, or None."""
-    lean = effects.get("spin-axis-wobble")
-    return None if lean is None else by_vector(np.array([lean["w_x"], lean["w_y"], 0.0]))
+def lean(effects: Injected, effect: str, name: str) -> Array | None:
+    """Lean of the whole disc, (3, 3), or None: constant in the measurement frame, or (``wobble``) about axes that turn with it."""
+    about = effects.get(effect)
+    return None if about is None else by_vector(np.array([about[f"{name}_x"], about[f"{name}_y"], 0.0]))
 
 
 def spin_share(kinematics: Kinematics, effects: Injected) -> float:

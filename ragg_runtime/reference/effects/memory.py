@@ -11,7 +11,7 @@ from scipy import signal
 from scipy.interpolate import make_interp_spline
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.reference.effects.catalogue import Injected, Values
+from ragg_runtime.reference.effects import Injected, Values
 from ragg_runtime.reference.motion import Signal
 
 Array = NDArray[np.float64]

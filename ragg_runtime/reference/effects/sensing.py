@@ -1,4 +1,4 @@
-"""Stage 1: what is recorded of the true motion. None of these effects touches the truth."""
+"""Stages 1 and 5: what is recorded of the true motion and of the output. None of these effects touches the truth."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.reference.effects.catalogue import Injected, Values
+from ragg_runtime.reference.effects import Injected, Values
 from ragg_runtime.reference.effects.memory import recoil
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE, averaging
 from ragg_runtime.reference.geometry import by_vector
@@ -125,3 +125,31 @@ def _leaning(skew: Values) -> Array:
 def _vector(values: Values, name: str) -> Array:
     """Three values, (3, 1)."""
     return np.array([[float(values[f"{name}_{k}"])] for k in "xyz"])
+
+
+def record_output(G_out: Array, effects: Injected) -> Array:
+    """G_out (N,) V, bent by a curve, clipped at +-V_max and then rounded to multiples of q."""
+    if bent := effects.get("output-curve"):
+        G_out = _reading(G_out, float(bent["c_2"]), float(bent["c_3"]))
+    if limit := effects.get("saturation"):
+        if limit["V_max"] <= 0:
+            raise UserError("V_max of saturation must be positive", found=f"{limit['V_max']:g} V")
+        G_out = np.clip(G_out, -limit["V_max"], limit["V_max"])
+    if steps := effects.get("quantisation"):
+        if steps["q"] < 0:
+            raise UserError("q of quantisation must not be negative", found=f"{steps['q']:g} V")
+        if steps["q"] > 0:
+            G_out = steps["q"] * np.rint(G_out / steps["q"])
+    return G_out
+
+
+def _reading(G: Array, c_2: float, c_3: float) -> Array:
+    """The reading r of a converter at the voltage G = r + c_2 r^2 + c_3 r^3, by Newton's method from r = G on."""
+    r = G
+    for _ in range(_NEWTON if c_2 or c_3 else 0):
+        r = r - (r + c_2 * r**2 + c_3 * r**3 - G) / (1 + 2 * c_2 * r + 3 * c_3 * r**2)
+    return np.asarray(r)
+
+
+_NEWTON = 6
+"""Steps that bring a curve of a per cent to the last digit."""

@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.reference.effects import memory
-from ragg_runtime.reference.effects.catalogue import Injected
+from ragg_runtime.reference.effects import Injected, memory
+from ragg_runtime.reference.geometry import Taylor, carried
 from ragg_runtime.reference.motion import MotionState
-from ragg_runtime.reference.taylor import Taylor, carried
 
 Array = NDArray[np.float64]
 Triple = tuple[Array, Array, Array]
@@ -150,8 +149,7 @@ def further_terms(
         about_x, _, about_z = case_rate(triad, motion)
         total = total + uneven["K_ip"][j] * about_x * about_z
     if magnetic := effects.get("magnetic-bias"):
-        field = np.stack([auxiliaries[f"B_{axis}"] for axis in "xyz"])
-        total = total + magnetic["dK0_dB"][j] * np.sum(field * triad[0].value, axis=0)
+        total = total + magnetic["dK0_dB"][j] * _along(triad[0], auxiliaries)
     if across := effects.get("magnetic-axial-bias"):
         total = total + across["dK0_dBz"][j] * _along(triad[2], auxiliaries)
     return total
