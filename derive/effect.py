@@ -340,14 +340,11 @@ class Effect:
     recogniser: str = ""
 
     def __post_init__(self) -> None:
-        if not is_name(self.id):
-            raise ValueError(f"effect id {_shown(self.id)}: expected {EXPECTED}")
         names = [q.name for q in self.parameters]
         channels = (*self.channels, *(q.channel for q in self.parameters if q.channel is not None))
-        for kind, of_kind in (("parameter", names), ("channel", channels)):
-            for name in of_kind:
-                if not is_name(name):
-                    raise ValueError(f"{self.id}: {kind} name {_shown(name)}: expected {EXPECTED}")
+        for name in (self.id, *names, *channels):
+            if not is_name(name):
+                raise ValueError(f"effect {self.id!r:.80}: name {name!r:.80}: expected {EXPECTED}")
         if len(set(names)) != len(names):
             raise ValueError(f"{self.id}: parameter names must differ, found {names}")
         if not names:
@@ -370,7 +367,3 @@ class Effect:
     @property
     def values(self) -> Values:
         return Values({q.name: self.symbol(q) for q in self.parameters})
-
-
-def _shown(name: object) -> str:
-    return repr(name)[:80]

@@ -168,14 +168,14 @@ def _parse(text: str, parameters: Collection[str]) -> ast.Expression:
     if len(text) > LONGEST:
         raise ExpressionError(f"longer than {LONGEST} characters")
     words = frozenset(keyword.kwlist)
-    try:
-        tree = _tree(text, words.intersection(parameters))
-    except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
+    for names in (words.intersection(parameters), words):  # a channel may be called lambda
         try:
-            tree = _tree(text, words)  # a channel may be called lambda
-        except (SyntaxError, ValueError, MemoryError, RecursionError):
+            tree = _tree(text, names)
+            break
+        except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
             found = error.msg if isinstance(error, SyntaxError) else str(error)
-            raise ExpressionError(f"{text!r} is not an expression ({found})") from None
+    else:
+        raise ExpressionError(f"{text!r} is not an expression ({found})")
     if not text.isascii():
         raise ExpressionError(f"{text!r}: letters, digits and signs of ASCII only")
     _translate(tree.body, symbol)

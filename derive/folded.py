@@ -23,14 +23,12 @@ from sympy.polys.rings import PolyElement, PolyRing
 from derive import stages
 from derive.chain import accelerometer, auxiliary_channel, recorded_motion
 from derive.effect import RECORDED_SPIN
-from derive.harmonics import NotHarmonic, split
+from derive.harmonics import NotHarmonic, converted, split
 from derive.layout import AXES, SymbolicForm, SymbolicLayout, instrument_parameters
-from derive.layout import PAPER as FOUR
 from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS, part, readable, voltage_of_one
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import (
     COS_PHI,
-    INSTRUMENT,
     MOTION,
     QUARTER_TURNS,
     SIGNS,
@@ -52,12 +50,12 @@ TURNED: tuple[str, ...] = (
 )  # fmt: skip
 """a and M along the directions of the turning disc; a_z and M_zz are those of the measurement frame."""
 
+Monomial = tuple[int, ...]
+"""Powers of these numbers."""
+
 
 SPIN_CHANNELS = tuple(auxiliary_channel(n) for n in sorted((SPIN_RATE.name, SPIN_ACCELERATION.name)))
 """Rate and acceleration of the disc angle, which full kinematics need, in the order in which a chain has them."""
-
-
-_EMPTY = Program((), ())
 
 
 @dataclass(frozen=True)
@@ -92,12 +90,12 @@ class Folded:
     title: str
     expressions: tuple[sp.Expr, ...]
     coefficients: tuple[tuple[AccelerometerTerm, ...], ...]
+    own: Program
     numbers: Program
     value: sp.Expr
-    inputs: tuple[Channel, ...] = MOTION
-    parameters: tuple[Parameter, ...] = INSTRUMENT
-    own: Program = _EMPTY
-    layout: SymbolicLayout = FOUR
+    inputs: tuple[Channel, ...]
+    parameters: tuple[Parameter, ...]
+    layout: SymbolicLayout
 
     @property
     def size(self) -> int:
@@ -110,30 +108,32 @@ def folded(form: SymbolicForm) -> Folded:
     kinematics, layout = form.kinematics, form.layout
     title = "The analytical model of the RAGG, folded for evaluation (paper, Eq. 1-15"
     title += ")." if kinematics == "platform" else ", with the rate of the disc in Eq. 9)."
-    inputs = MOTION if kinematics == "platform" else (*MOTION, *SPIN_CHANNELS)
     if layout.is_paper and form.order == PAPER:
-        return _in_parts(title, kinematics, inputs)
-    monomials, own = standing(TURNED, form.order, layout)
+        own = Program((), ())
+        monomials, expressions, coefficients = _in_parts()
+    else:
+        expressions, coefficients = (), ()
+        monomials, own = standing(form.order, layout)
     used = tuple(any(m[n] for m in monomials) for n in range(len(TURNED)))
     return Folded(
         name="folded",
         title=title,
-        expressions=(),
-        coefficients=(),
+        expressions=expressions,
+        coefficients=coefficients,
+        own=own,
         numbers=_numbers(kinematics, layout, used),
         value=_nested({m: symbol(f"c[{n}]") for n, m in enumerate(monomials)}, 0, _names(layout)),
-        inputs=inputs,
+        inputs=MOTION if kinematics == "platform" else (*MOTION, *SPIN_CHANNELS),
         parameters=instrument_parameters(layout),
-        own=own,
         layout=layout.without_common(),
     )
 
 
-def _in_parts(title: str, kinematics: Kinematics, inputs: tuple[Channel, ...]) -> Folded:
-    """That of the paper's instrument, whose quarter turns only swap numbers: coefficients as sums of few expressions."""
+def _in_parts() -> tuple[Sequence[Monomial], tuple[sp.Expr, ...], tuple[tuple[AccelerometerTerm, ...], ...]]:
+    """Of the paper's instrument, whose quarter turns only swap numbers: coefficients as sums of few expressions."""
     own = _standing()
     expressions: dict[sp.Expr, int] = {}
-    sums: dict[tuple[int, ...], list[AccelerometerTerm]] = {}
+    sums: dict[Monomial, list[AccelerometerTerm]] = {}
     for nominal in (True, False):  # equal parts of the coefficients first: little is lost when they cancel
         for j, (sign, quarter) in enumerate(zip(SIGNS, QUARTER_TURNS, strict=True)):
             for powers, coefficient in own.items():
@@ -142,20 +142,11 @@ def _in_parts(title: str, kinematics: Kinematics, inputs: tuple[Channel, ...]) -
                 if found:
                     number = expressions.setdefault(readable(found), len(expressions))
                     sums.setdefault(target, []).append(AccelerometerTerm(sign * turned_sign, number, j))
-    keys = sorted(sums, key=lambda m: (sum(m), tuple(-k for k in m)))
-    value = _nested({m: symbol(f"c[{n}]") for n, m in enumerate(keys)}, 0)
-    return Folded(
-        name="folded",
-        title=title,
-        expressions=tuple(expressions),
-        coefficients=tuple(tuple(sums[m]) for m in keys),
-        numbers=_numbers(kinematics),
-        value=value,
-        inputs=inputs,
-    )
+    monomials = sorted(sums, key=_reading)
+    return monomials, tuple(expressions), tuple(tuple(sums[m]) for m in monomials)
 
 
-def _standing() -> Mapping[tuple[int, ...], PolyElement]:
+def _standing() -> Mapping[Monomial, PolyElement]:
     """V_j of an accelerometer by the numbers along its own directions: powers of TURNED -> coefficient."""
     ring = PolyRing([symbol(n) for n in (*COEFFICIENT_PARAMETERS, *TURNED)], QQ_I, lex)
     spin = _spin()
@@ -177,7 +168,7 @@ def _spin() -> sp.Matrix:
     return sp.Matrix([[COS_PHI, -SIN_PHI, 0], [SIN_PHI, COS_PHI, 0], [0, 0, 1]])
 
 
-def _turned(powers: tuple[int, ...], quarter: int) -> tuple[tuple[int, ...], int]:
+def _turned(powers: Monomial, quarter: int) -> tuple[Monomial, int]:
     """A monomial in an accelerometer's own numbers, ``quarter`` turns ahead, by those of the disc; its sign."""
     place = (("r", 1), ("t", 1)), (("t", 1), ("r", -1)), (("r", -1), ("t", -1)), (("t", -1), ("r", 1))
     to = {**dict(zip("rt", place[quarter], strict=True)), "z": ("z", 1)}
@@ -189,9 +180,7 @@ def _turned(powers: tuple[int, ...], quarter: int) -> tuple[tuple[int, ...], int
     return tuple(found), int(sign)
 
 
-def _nested(
-    terms: Mapping[tuple[int, ...], sp.Symbol], first: int, names: tuple[str, ...] = TURNED
-) -> sp.Expr:
+def _nested(terms: Mapping[Monomial, sp.Symbol], first: int, names: tuple[str, ...]) -> sp.Expr:
     """A polynomial as c + v (... ) + w (...): every variable multiplies what holds it, from ``first`` on."""
     rest = dict(terms)
     total = rest.pop((0,) * len(TURNED), sp.Integer(0))
@@ -209,9 +198,7 @@ def _names(layout: SymbolicLayout) -> tuple[str, ...]:
     return tuple(n.replace("z", "s") for n in TURNED) if layout.has(AXES[0, 0]) else TURNED
 
 
-def _numbers(
-    kinematics: Kinematics, layout: SymbolicLayout = FOUR, used: tuple[bool, ...] = (True,) * len(TURNED)
-) -> Program:
+def _numbers(kinematics: Kinematics, layout: SymbolicLayout, used: tuple[bool, ...]) -> Program:
     """The turned numbers by the inputs and cos_phi, sin_phi, shared subexpressions apart."""
     tape = Tape()
     motion = recorded_motion()
@@ -233,16 +220,25 @@ def _numbers(
     return settled(tape.assignments, {}).program(wanted)
 
 
-Monomial = tuple[int, ...]
-"""Powers of the motion numbers."""
+class Polynomial(dict[Monomial, sp.Expr]):
+    """Coefficients by their monomials."""
 
-Polynomial = Mapping[Monomial, sp.Expr]
+    def __add__(self, other: Polynomial) -> Polynomial:
+        found = Polynomial(self)
+        for m, c in other.items():
+            found[m] = found[m] + c if m in found else c
+        return found
+
+    def __mul__(self, other: Polynomial) -> Polynomial:
+        found: dict[Monomial, list[sp.Expr]] = {}
+        for m, c in self.items():
+            for n, d in other.items():
+                found.setdefault(tuple(a + b for a, b in zip(m, n, strict=True)), []).append(c * d)
+        return Polynomial({m: sp.Add(*terms) for m, terms in found.items()})
 
 
-def standing(
-    numbers: Sequence[str], order: Order, layout: SymbolicLayout
-) -> tuple[Sequence[Monomial], Program]:
-    """V_j by ``numbers``: a (3) and M (3 x 3) along the directions r, t, z of the disc, in this order.
+def standing(order: Order, layout: SymbolicLayout) -> tuple[Sequence[Monomial], Program]:
+    """V_j by the numbers :data:`TURNED`, at the angle 0 of the disc, whose directions are x, y and z there.
 
     The monomials that occur, and the program that gives their coefficients. What vanishes for every place of the layout is
     left out.
@@ -252,19 +248,28 @@ def standing(
     chain = accelerometer((), SymbolicForm(order, layout=level))
     tape, named = Tape(), chain.tape.assignments
     names = [*(f"a_{i}" for i in "xyz"), *(f"M_{i}{k}" for i in "xyz" for k in "xyz")]
-    one: Monomial = (0,) * len(numbers)
-    values: dict[sp.Symbol, Polynomial] = {
-        symbol(n): {tuple(int(k == at) for k in range(len(numbers))): sp.Integer(1)}
+    one: Monomial = (0,) * len(names)
+    values = {
+        symbol(n): Polynomial({tuple(int(k == at) for k in range(len(names))): sp.Integer(1)})
         for at, n in enumerate(names)
     }
-    values |= {COS_PHI: {one: sp.Integer(1)}, SIN_PHI: {}}  # the disc at its angle 0
+    values |= {COS_PHI: Polynomial({one: sp.Integer(1)}), SIN_PHI: Polynomial()}  # the disc at its angle 0
+
+    def of_symbol(s: sp.Symbol) -> Polynomial:
+        return values.get(s, Polynomial({one: s}))
+
+    def of_other(e: sp.Expr) -> Polynomial:
+        inner = [converted(a, of_symbol, of_other) for a in e.args]
+        if any(m != one for p in inner for m in p):
+            raise NotHarmonic(f"{e} is no polynomial in the motion numbers")
+        return Polynomial({one: e.func(*(p.get(one, sp.Integer(0)) for p in inner)) if e.args else e})
+
     for s, e in named:
         if s not in values:
-            found = _converted(e, values, one)
-            values[s] = {
-                m: tape.let(f"{s.name}_{''.join(map(str, m))}", c) for m, c in found.items() if c != 0
-            }
-    found = _converted(chain.voltage, values, one)
+            terms = converted(e, of_symbol, of_other).items()
+            named_terms = {m: tape.let(f"{s.name}_{''.join(map(str, m))}", c) for m, c in terms if c != 0}
+            values[s] = Polynomial(named_terms)
+    found = converted(chain.voltage, of_symbol, of_other)
     outputs = [("".join(map(str, m)), c) for m, c in found.items()]
     kept = _occurring(tape, outputs, layout)
     monomials = sorted((m for m, (n, _) in zip(found, outputs, strict=True) if n in kept), key=_reading)
@@ -275,41 +280,6 @@ def standing(
 def _reading(m: Monomial) -> tuple[object, ...]:
     """By degree, then by the first number."""
     return sum(m), tuple(-k for k in m)
-
-
-def _converted(e: sp.Expr, values: Mapping[sp.Symbol, Polynomial], one: Monomial) -> Polynomial:
-    if e.is_Symbol:
-        return values.get(e, {one: e})
-    if e.is_Add or e.is_Mul:
-        first, *rest = (_converted(a, values, one) for a in e.args)
-        for term in rest:
-            first = _sum(first, term) if e.is_Add else _product(first, term)
-        return first
-    if e.is_Pow and e.exp.is_Integer and e.exp > 0:
-        base = _converted(e.base, values, one)
-        found = base
-        for _ in range(int(e.exp) - 1):
-            found = _product(found, base)
-        return found
-    inner = [_converted(a, values, one) for a in e.args]
-    if any(m != one for p in inner for m in p):
-        raise NotHarmonic(f"{e} is no polynomial in the motion numbers")
-    return {one: e.func(*(p.get(one, sp.Integer(0)) for p in inner)) if e.args else e}
-
-
-def _sum(p: Polynomial, q: Polynomial) -> Polynomial:
-    found = dict(p)
-    for m, c in q.items():
-        found[m] = found[m] + c if m in found else c
-    return found
-
-
-def _product(p: Polynomial, q: Polynomial) -> Polynomial:
-    found: dict[Monomial, list[sp.Expr]] = {}
-    for m, c in p.items():
-        for n, d in q.items():
-            found.setdefault(tuple(a + b for a, b in zip(m, n, strict=True)), []).append(c * d)
-    return {m: sp.Add(*terms) for m, terms in found.items()}
 
 
 def _occurring(tape: Tape, outputs: Sequence[tuple[str, sp.Expr]], layout: SymbolicLayout) -> set[str]:

@@ -7,14 +7,19 @@ in that ring costs a hundredth of what expanding SymPy expressions does.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import operator
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
+from typing import Any, TypeVar
 
 import sympy as sp
 from sympy.polys.domains import QQ_I
 from sympy.polys.rings import PolyElement, PolyRing
 
 from derive.tape import live
+
+T = TypeVar("T", bound=Any)
 
 
 @dataclass(frozen=True)
@@ -36,12 +41,6 @@ class Series:
             for m, w in other.coefficients.items():
                 c[n + m] = c[n + m] + v * w if n + m in c else v * w
         return self._kept(c)
-
-    def __pow__(self, exponent: int) -> Series:
-        result = constant(self.ring, self.ring.one)
-        for _ in range(exponent):
-            result = result * self
-        return result
 
     def _kept(self, c: dict[int, PolyElement]) -> Series:
         return Series(self.ring, {n: v for n, v in c.items() if v})
@@ -78,6 +77,18 @@ class NotHarmonic(ValueError):
     """The expression is no polynomial in the motion numbers (|f_i|, a step ...): it has no finite series."""
 
 
+def converted(e: sp.Expr, of_symbol: Callable[[sp.Symbol], T], of_other: Callable[[sp.Expr], T]) -> T:
+    """An expression by elements that add and multiply; ``of_other`` makes those of numbers and functions."""
+    if e.is_Symbol:
+        return of_symbol(e)
+    if e.is_Add or e.is_Mul:
+        terms = (converted(a, of_symbol, of_other) for a in e.args)
+        return reduce(operator.add if e.is_Add else operator.mul, terms)
+    if e.is_Pow and e.exp.is_Integer and e.exp > 0:
+        return reduce(operator.mul, [converted(e.base, of_symbol, of_other)] * int(e.exp))
+    return of_other(e)
+
+
 def series(
     assignments: Iterable[tuple[sp.Symbol, sp.Expr]],
     output: sp.Expr,
@@ -92,28 +103,22 @@ def series(
     values = dict(known)
     generators = {s: constant(ring, ring.gens[n]) for n, s in enumerate(ring.symbols)}
 
-    def convert(e: sp.Expr) -> Series:
-        if e.is_Symbol:
-            if e in values:
-                return values[e]
-            if e in generators:
-                return generators[e]
-            raise NotHarmonic(f"{e} is neither a parameter nor a motion number")
+    def of_symbol(s: sp.Symbol) -> Series:
+        if s in values:
+            return values[s]
+        if s in generators:
+            return generators[s]
+        raise NotHarmonic(f"{s} is neither a parameter nor a motion number")
+
+    def of_other(e: sp.Expr) -> Series:
         if e.is_Rational:
             return constant(ring, ring(QQ_I(int(e.p), 0) / int(e.q)))
-        if e.is_Add or e.is_Mul:
-            first, *rest = (convert(a) for a in e.args)
-            for term in rest:
-                first = first + term if e.is_Add else first * term
-            return first
-        if e.is_Pow and e.exp.is_Integer and e.exp > 0:
-            return convert(e.base) ** int(e.exp)
         raise NotHarmonic(f"{e} has no finite Fourier series in the disc angle")
 
     # Only what the output needs: an unused branch may hold symbols outside the ring.
     for s, e in live([(s, e) for s, e in assignments if s not in known], [("", output)]):
-        values[s] = convert(e)
-    return convert(output)
+        values[s] = converted(e, of_symbol, of_other)
+    return converted(output, of_symbol, of_other)
 
 
 def split(

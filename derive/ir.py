@@ -161,15 +161,9 @@ def chain(
     at = settled(a.tape.assignments, neutral)
     value = at.program([("V", a.voltage)])
     at, by = a.tape.derivatives(a.voltage, at)
-    if candidates:
-        named = [
-            (e.symbol(q), f"{e.id}.{q.name}", q.shared) for e in candidates for q in e.parameters if q.fitted
-        ]
-    else:
-        named = [(q.symbol, q.name, False) for q in ACCELEROMETER]
-        named += [
-            (e.symbol(q), f"{e.id}.{q.name}", q.shared) for e in effects for q in e.parameters if q.fitted
-        ]
+    named = [] if candidates else [(q.symbol, q.name, False) for q in ACCELEROMETER]
+    for e in candidates or effects:
+        named += [(e.symbol(q), f"{e.id}.{q.name}", q.shared) for q in e.parameters if q.fitted]
     outputs = [(n, by(s)) for s, n, _ in named]
     derivatives = at.program(outputs)
     parameters = (*instrument_parameters(layout), *effect_parameters(effects, layout.size))
@@ -214,46 +208,20 @@ def manifest_of_model(m: Harmonic | ChainProgram | Folded) -> Mapping[str, objec
     }
 
 
-def _given(**values: object) -> Mapping[str, object]:
-    """Those that are not left out."""
-    return {n: v for n, v in values.items() if v}
-
-
 def manifest_of_effect(e: Effect) -> Mapping[str, object]:
-    """What the runtime needs of an effect."""
-    return {
-        "id": e.id,
-        "title": e.title,
-        "physics": e.physics,
-        "source": e.source,
-        "equation": e.equation,
-        "limits": e.limits,
-        "channels": list(e.channels),
-        **_given(either=e.either, switches=e.switches, memory=e.memory),
-        **({} if e.searched else {"searched": False}),
-        **_given(contains=list(e.contains)),
-        "kind": e.kind,
-        "parameters": [
-            {
-                "name": q.name,
-                "symbol": e.symbol(q).name,
-                "latex": q.latex,
-                "unit": q.unit,
-                "meaning": q.meaning,
-                "plausible": q.plausible,
-                "shared": q.shared,
-                "neutral": q.neutral if math.isfinite(q.neutral) else None,
-                "channel": q.channel,
-                "fitted": q.fitted,
-                **_given(
-                    physical=q.physical,
-                    largest=q.largest,
-                    like=q.like,
-                    late=list(q.late),
-                    growing=q.growing,
-                    shape=q.shape,
-                ),
-            }
-            for q in e.parameters
-        ],
-    }
+    """What the runtime needs of an effect; what is seldom otherwise than left out is left out then."""
+    named = ("id", "title", "physics", "source", "equation", "limits", "channels")
+    seldom = {n: v for n in ("either", "switches", "memory") if (v := getattr(e, n))}
+    if not e.searched:
+        seldom["searched"] = False
+    if e.contains:
+        seldom["contains"] = e.contains
+    parameters = [_manifest_of_parameter(e, q) for q in e.parameters]
+    return {**{n: getattr(e, n) for n in named}, **seldom, "kind": e.kind, "parameters": parameters}
+
+
+def _manifest_of_parameter(e: Effect, q: EffectParameter) -> Mapping[str, object]:
+    seldom = ("physical", "largest", "like", "late", "growing", "shape")
+    told = {"name": q.name, "symbol": e.symbol(q).name, **vars(q)}
+    told["neutral"] = q.neutral if math.isfinite(q.neutral) else None
+    return {n: v for n, v in told.items() if v or n not in seldom}

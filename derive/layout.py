@@ -104,17 +104,12 @@ def rest_of_angles(
     """``SymbolicLayout.rest`` of angles in degrees, where they are known exactly (``None``: nothing is added)."""
     found: dict[str, tuple[float, ...]] = {}
     for name, of, known in (("cos_j", sp.cos, cosines), ("sin_j", sp.sin, sines)):
-        rest = [
-            0.0 if d is None else _difference(of(sp.Rational(d.numerator, d.denominator) * sp.pi / 180), x)
-            for d, x in zip(degrees, known, strict=True)
-        ]
+        exact = [None if d is None else of(sp.Rational(str(d)) * sp.pi / 180) for d in degrees]
+        pairs = zip(exact, known, strict=True)
+        rest = [0.0 if e is None else float((e - sp.Rational(x)).evalf(20, maxn=60)) for e, x in pairs]
         if any(rest):
             found[name] = tuple(rest)
     return found
-
-
-def _difference(exact: sp.Expr, x: float) -> float:
-    return float((exact - sp.Rational(x)).evalf(20, maxn=60))
 
 
 _COSINES, _SINES = (1.0, 0.0, -1.0, 0.0), (0.0, 1.0, 0.0, -1.0)

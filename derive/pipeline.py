@@ -81,11 +81,6 @@ def derive_plain(effects: Sequence[Effect], form: SymbolicForm = PAPERS) -> File
     return _c.plain(chain)
 
 
-def offered(candidates: Sequence[Effect], form: SymbolicForm) -> tuple[Effect, ...]:
-    """The effects that a model of this form does not hold already."""
-    return tuple(e for e in candidates if not e.moot(form.order, form.kinematics))
-
-
 def _derive(
     form: SymbolicForm,
     effects: Sequence[Effect],
@@ -94,7 +89,7 @@ def _derive(
     packaged: bool = False,
     below: Sequence[str] = (),
 ) -> Files:
-    candidates = offered(candidates, form)
+    candidates = [e for e in candidates if not e.moot(form.order, form.kinematics)]  # held already
     forms = [] if _active(effects) else [folded(form)]
     chains = _chains(form, effects, candidates)
     models: list[ir.Harmonic | ir.ChainProgram | Folded] = [*harmonics, *forms, *chains]
@@ -188,12 +183,6 @@ def starred() -> dict[str, sp.Expr]:
         name: ring.from_dict(by_powers[powers]).as_expr() * signs.get(name, 1)
         for name, powers in STARRED.items()
     }
-
-
-def difference(root: Path) -> str:
-    """Empty if ``generated/`` below ``root`` is as derived; else the diff."""
-    found = diff_files(derive_base(), root / GENERATED)
-    return f"{GENERATED}/ differs from the derivation:\n{found}" if found else ""
 
 
 def write(files: Mapping[str, str], folder: Path) -> list[str]:

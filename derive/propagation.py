@@ -169,30 +169,20 @@ def ideal(c: Collected) -> dict[str, tuple[MonomialTerm, ...]]:
 
     Imbalances D vanish, and of Sigma what is made of k1 and R alone remains.
     """
-    nominal = tuple(n in ("k1", "R") for n in COEFFICIENT_PARAMETERS)
     left: dict[str, tuple[MonomialTerm, ...]] = {}
     for name, terms in c.amplitudes.items():
-        kept = []
-        for t in terms:
-            pure = {
-                m: k
-                for m, k in t.coefficient.terms()
-                if all(n or not e for n, e in zip(nominal, m, strict=True))
-            }
-            if t.combination == "Sigma" and pure:
-                kept.append(MonomialTerm(t.motion, t.combination, c.ring.from_dict(pure)))
-        if kept:
-            left[name] = tuple(kept)
+        sums = [(t, part(t.coefficient, nominal=True)) for t in terms if t.combination == "Sigma"]
+        if kept := tuple(MonomialTerm(t.motion, t.combination, pure) for t, pure in sums if pure):
+            left[name] = kept
     return left
 
 
 def _generic(v: Series) -> dict[tuple[int, str], dict[tuple[int, ...], PolyElement]]:
-    n_parameters = len(COEFFICIENT_PARAMETERS)
-    inner = range(n_parameters)
-    outer = range(n_parameters, n_parameters + len(MOTION_NUMBERS))
+    n = len(COEFFICIENT_PARAMETERS)
+    inner, outer = range(n), range(n, n + len(MOTION_NUMBERS))
     parts: dict[tuple[int, str], PolyElement] = {(0, "c"): v.cosine(0)}
-    for n in range(1, v.highest + 1):
-        parts[n, "c"], parts[n, "s"] = v.cosine(n), v.sine(n)
+    for k in range(1, v.highest + 1):
+        parts[k, "c"], parts[k, "s"] = v.cosine(k), v.sine(k)
     return {key: split(p, outer, COEFFICIENTS, inner) for key, p in parts.items()}
 
 

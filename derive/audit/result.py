@@ -43,16 +43,7 @@ from derive.audit.compare import (
     transducer_reader,
 )
 from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, collect
-from derive.simplify import (
-    ARCSECOND,
-    EOTVOS,
-    G0,
-    PER_HOUR,
-    RADIUS,
-    SPIN_FREQUENCY,
-    TABLE_V,
-    TABLE_VI,
-)
+from derive.simplify import ARCSECOND, EOTVOS, G0, PER_HOUR, RADIUS, SPIN_FREQUENCY, TABLE_V, TABLE_VI
 from derive.simplify import simplified as simplified_model
 from derive.symbols import COMPONENTS
 

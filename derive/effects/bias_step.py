@@ -12,9 +12,6 @@ EFFECT = Effect(
         "step of the output's offset."
     ),
     kind="step",
-    parameters=(
-        EffectParameter("dK0", r"\Delta K_0", "ug", "step of the null bias", 0.01),
-        T_STEP,
-    ),
+    parameters=(EffectParameter("dK0", r"\Delta K_0", "ug", "step of the null bias", 0.01), T_STEP),
     instrument=following("K0", "dK0", begun),
 )

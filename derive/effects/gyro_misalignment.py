@@ -1,16 +1,9 @@
-import sympy as sp
-
 from derive.effect import Context, Effect, Motion, Values, components
-from derive.effects.imu_acceleration_misalignment import PAIRS
+from derive.effects.imu_acceleration_misalignment import PAIRS, straighten
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
-    skewed = sp.Matrix(3, 3, lambda i, k: 0 if i == k else p[f"m_{'xyz'[i]}{'xyz'[k]}"])
-
-    def straight(v: sp.Matrix) -> sp.Matrix:
-        return v - skewed * v + skewed * skewed * v
-
-    return m._replace(omega=straight(m.omega), omegadot=straight(m.omegadot))
+    return m._replace(omega=straighten(m.omega, p), omegadot=straighten(m.omegadot, p))
 
 
 EFFECT = Effect(

@@ -5,9 +5,13 @@ from derive.effect import Context, Effect, Motion, Values, components
 PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
 
 
-def sensing(m: Motion, p: Values, c: Context) -> Motion:
+def straighten(v: sp.Matrix, p: Values) -> sp.Matrix:
     skewed = sp.Matrix(3, 3, lambda i, k: 0 if i == k else p[f"m_{'xyz'[i]}{'xyz'[k]}"])
-    return m._replace(a=m.a - skewed * m.a + skewed * skewed * m.a)
+    return v - skewed * v + skewed * skewed * v
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    return m._replace(a=straighten(m.a, p))
 
 
 EFFECT = Effect(

@@ -4,10 +4,7 @@ from derive.hooks import HEAT, heat_of_force, response
 
 def instrument(k: Parameters, p: Values, c: Context) -> Parameters:
     heat, start = heat_of_force(p, c), response("heat_start", p, c, HEAT)
-    return {
-        "K0": k["K0"] + p.b * heat + p.b_0 * start,
-        "K1": k["K1"] * (1 + p.s * heat + p.s_0 * start),
-    }
+    return {"K0": k["K0"] + p.b * heat + p.b_0 * start, "K1": k["K1"] * (1 + p.s * heat + p.s_0 * start)}
 
 
 EFFECT = Effect(

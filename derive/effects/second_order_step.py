@@ -12,9 +12,6 @@ EFFECT = Effect(
         "weight steps of K4, K7 and K8 are gain-step, bias-step and misalignment-step."
     ),
     kind="step",
-    parameters=(
-        EffectParameter("dK2", r"\Delta K_2", "ug/g^2", "step of K2", 1.0, like="K2"),
-        T_STEP,
-    ),
+    parameters=(EffectParameter("dK2", r"\Delta K_2", "ug/g^2", "step of K2", 1.0, like="K2"), T_STEP),
     instrument=following("K2", "dK2", begun),
 )

@@ -23,10 +23,7 @@ EFFECT = Effect(
         "it is thermal-bias; play besides has a share of that. S begins at 0. That of vartheta_y acts alike where a_z hardly changes."
     ),
     channels=("temperature",),
-    parameters=(
-        EffectParameter("h", "h", "ug", "half of the loop of the bias", 1.0),
-        *THERMAL_SLIP,
-    ),
+    parameters=(EffectParameter("h", "h", "ug", "half of the loop of the bias", 1.0), *THERMAL_SLIP),
     instrument=instrument,
     memory="cycle",
     searched=False,

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from fractions import Fraction
 from functools import cache
-from typing import Any
 
 import jinja2
 import sympy as sp
@@ -115,16 +114,6 @@ class _Fused(_C):
         return sign, factors
 
 
-class _Wide(_C):
-    """C in long double."""
-
-    def _print_sin(self, e: sp.Expr) -> str:
-        return f"sinl({self._print(e.args[0])})"
-
-    def _print_cos(self, e: sp.Expr) -> str:
-        return f"cosl({self._print(e.args[0])})"
-
-
 def _decimal(e: sp.Rational) -> str:
     """A rational that is a short decimal, exactly; otherwise nothing."""
     value = int(e.p) / int(e.q)
@@ -144,7 +133,8 @@ _SYMBOLS |= {TURN[i, k].name: f"u_{{{'rtz'[i]}{'rtz'[k]}}}" for i in range(3) fo
 
 
 _IN_NUMPY = _NumPy()
-_IN_C, _IN_FUSED_C, _IN_WIDE_C = (kind({"contract": False}) for kind in (_C, _Fused, _Wide))
+_IN_C, _IN_FUSED_C = _C({"contract": False}), _Fused({"contract": False})
+_IN_WIDE_C = _C({"contract": False, "user_functions": {"sin": "sinl", "cos": "cosl"}})  # long double
 _IN_LATEX = _LaTeX()
 """One printer each: to make one takes as long as to print an expression."""
 
@@ -168,8 +158,8 @@ def to_wide_c(e: sp.Expr) -> str:
     return str(_IN_WIDE_C.doprint(e))
 
 
-def to_latex(e: sp.Expr, **settings: Any) -> str:
-    return str((_LaTeX(settings) if settings else _IN_LATEX).doprint(e))
+def to_latex(e: sp.Expr) -> str:
+    return str(_IN_LATEX.doprint(e))
 
 
 @cache

@@ -284,14 +284,9 @@ class Size:
     eotvos: Fraction
 
 
-def is_nominal(parameters: Powers) -> bool:
-    """Whether a product of parameters is k1^m R^n: nominally equal for all accelerometers."""
-    return not any(parameters[2:])
-
-
 def balanced(harmonic: int, parameters: Powers) -> bool:
-    """Whether the sum over the accelerometers leaves only the imbalance (D, not Sigma) of k1^m R^n."""
-    return is_nominal(parameters) and harmonic % 4 != 2
+    """Whether a product is k1^m R^n, nominally equal for all accelerometers, and their sum leaves its imbalance (D, not Sigma)."""
+    return not any(parameters[2:]) and harmonic % 4 != 2
 
 
 def sizes(envelope: Envelope) -> tuple[Size, ...]:

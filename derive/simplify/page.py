@@ -25,20 +25,6 @@ from derive.symbols import ACCELEROMETER, ANGLES, SECOND_ORDER
 
 Row = tuple[str, ...]
 
-_PRINTED: dict[str, tuple[str, ...]] = {
-    "Table I": ("2e8", "12.74", "8.51", "5.424"),
-    "below Eq. 37": ("2e-3",),
-    "below Eq. 37a": ("4e-8",),
-    "Table II": ("4e7", "5.734", "1.72", "1.09"),
-    "Table III, row 1": ("4e3", "0.0574", "1.71e-4", ""),
-    "Table III, row 2": ("4e7", "5.734", "1.72", ""),
-    "Table III, row 3": ("4e11", "5724", "1.72e4", ""),
-    "below Eq. 41, one angle": ("4e-8",),
-    "below Eq. 41, two angles": ("4e-4",),
-    "below Eq. 41, three angles": ("4",),
-}
-"""As printed: T_n in Eo, rate in deg/s, acceleration in deg/s^2, amplitude in deg/s; or a_n in g."""
-
 
 def page() -> str:
     """The page on the simplified model, Markdown."""
@@ -136,7 +122,6 @@ def _bound(envelope: Envelope, model: Collected) -> Row:
 
 def _condition(c: Condition) -> list[Row]:
     """One row for every critical value: where, term, quantity, printed, computed, unit."""
-    printed = _PRINTED[c.kind.where]
     if c.angular is None:
         values = [("$a_n$", c.critical / G0, "g")]
     else:
@@ -148,7 +133,7 @@ def _condition(c: Condition) -> list[Row]:
         ]
     return [
         (c.kind.where, f"${c.kind.term}$", what, text, number(value), unit)
-        for (what, value, unit), text in zip(values, printed, strict=True)
+        for (what, value, unit), text in zip(values, c.kind.printed, strict=True)
         if text
     ]
 
@@ -159,10 +144,15 @@ MISALIGNMENTS = ("beta_x", "beta_z", "vartheta_y", "vartheta_z")
 
 @dataclass(frozen=True)
 class TermKind:
-    """A kind of error term: powers of what its basic term is a product of (besides k1 and R)."""
+    """A kind of error term: powers of what its basic term is a product of (besides k1 and R).
+
+    ``printed`` are the critical values as the paper has them: T_n in Eo, rate in deg/s, acceleration in deg/s^2, amplitude in
+    deg/s; or a_n in g.
+    """
 
     where: str
     term: str
+    printed: tuple[str, ...]
     second_order: int = 0
     imbalance: int = 0
     angles: int = 0
@@ -192,24 +182,33 @@ class Condition:
     angular: AngularMotion | None
 
 
+_ONE, _TWO, _THREE = r"\beta_{jn}", r"\beta_{jn_1} \beta_{jn_2}", r"\beta_{jn_1} \beta_{jn_2} \vartheta_{jm}"
+_OF_T, _OF_A = "k_{j1} T_p R_j", "k_{j1} a_z"
+
 KINDS = (
-    TermKind("Table I", "k_{jp} T_{n_1} T_{n_2} R_j^2", second_order=1, angular=2),
-    TermKind("below Eq. 37", "k_{jp} a_{n_1} a_{n_2}", second_order=1, linear=2),
-    TermKind("below Eq. 37a", "dk_{j1} a_n", imbalance=1, linear=1),
-    TermKind("Table II", "k_{jp} T_{n_1} R_j a_{n_2}", second_order=1, angular=1, linear=1),
-    TermKind("Table III, row 1", r"\beta_{jn} k_{j1} T_p R_j", angles=1, angular=1),
-    TermKind("Table III, row 2", r"\beta_{jn_1} \beta_{jn_2} k_{j1} T_p R_j", angles=2, angular=1),
     TermKind(
-        "Table III, row 3", r"\beta_{jn_1} \beta_{jn_2} \vartheta_{jm} k_{j1} T_p R_j", angles=3, angular=1
+        "Table I",
+        "k_{jp} T_{n_1} T_{n_2} R_j^2",
+        ("2e8", "12.74", "8.51", "5.424"),
+        second_order=1,
+        angular=2,
     ),
-    TermKind("below Eq. 41, one angle", r"\beta_{jn} k_{j1} a_z", angles=1, linear=1),
-    TermKind("below Eq. 41, two angles", r"\beta_{jn_1} \beta_{jn_2} k_{j1} a_z", angles=2, linear=1),
+    TermKind("below Eq. 37", "k_{jp} a_{n_1} a_{n_2}", ("2e-3",), second_order=1, linear=2),
+    TermKind("below Eq. 37a", "dk_{j1} a_n", ("4e-8",), imbalance=1, linear=1),
     TermKind(
-        "below Eq. 41, three angles",
-        r"\beta_{jn_1} \beta_{jn_2} \vartheta_{jm} k_{j1} a_z",
-        angles=3,
+        "Table II",
+        "k_{jp} T_{n_1} R_j a_{n_2}",
+        ("4e7", "5.734", "1.72", "1.09"),
+        second_order=1,
+        angular=1,
         linear=1,
     ),
+    TermKind("Table III, row 1", f"{_ONE} {_OF_T}", ("4e3", "0.0574", "1.71e-4", ""), angles=1, angular=1),
+    TermKind("Table III, row 2", f"{_TWO} {_OF_T}", ("4e7", "5.734", "1.72", ""), angles=2, angular=1),
+    TermKind("Table III, row 3", f"{_THREE} {_OF_T}", ("4e11", "5724", "1.72e4", ""), angles=3, angular=1),
+    TermKind("below Eq. 41, one angle", f"{_ONE} {_OF_A}", ("4e-8",), angles=1, linear=1),
+    TermKind("below Eq. 41, two angles", f"{_TWO} {_OF_A}", ("4e-4",), angles=2, linear=1),
+    TermKind("below Eq. 41, three angles", f"{_THREE} {_OF_A}", ("4",), angles=3, linear=1),
 )
 """The kinds of Section II.B.1, in its order."""
 

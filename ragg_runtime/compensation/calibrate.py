@@ -16,12 +16,7 @@ from ragg_runtime.estimation.least_squares import Linear, add_prior, join
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.scores import Error, list_errors
 from ragg_runtime.identification import comparison
-from ragg_runtime.identification.parameters import (
-    SEEN,
-    find_combinations,
-    list_parameter_values,
-    own_name,
-)
+from ragg_runtime.identification.parameters import SEEN, find_combinations, list_parameter_values, own_name
 from ragg_runtime.identification.series import list_noise_floor
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight

@@ -14,13 +14,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import one_thread
 from ragg_runtime.compensation.calibrate import fit_some, information, invert_root, list_base_r_factors
-from ragg_runtime.compensation.channel import (
-    MEANING,
-    NO_VALUE,
-    Compensated,
-    OutputChannel,
-    Quality,
-)
+from ragg_runtime.compensation.channel import MEANING, NO_VALUE, Compensated, OutputChannel, Quality
 from ragg_runtime.compensation.drift import find_starts, smooth_drift
 from ragg_runtime.compensation.frozen import (
     CalibrationChange,

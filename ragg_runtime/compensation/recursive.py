@@ -23,12 +23,7 @@ from ragg_runtime.compensation.drift import walk_on
 from ragg_runtime.compensation.saved import Saved, saved_calibration
 from ragg_runtime.estimation.least_squares import marginalise
 from ragg_runtime.estimation.observation import ROWS, Observation, combine_output, observe_flights
-from ragg_runtime.estimation.regressors import (
-    linearise,
-    list_base_columns,
-    list_own_columns,
-    make_point,
-)
+from ragg_runtime.estimation.regressors import linearise, list_base_columns, list_own_columns, make_point
 from ragg_runtime.identification.parameters import list_parameter_values
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings

@@ -348,10 +348,10 @@ def check(root: Path) -> None:
     """UserError unless what is below ``root`` is what the derivation yields. Nothing is written."""
     from derive import pipeline
 
-    if difference := pipeline.difference(root):
+    if difference := pipeline.diff_files(pipeline.derive_base(), root / pipeline.GENERATED):
         raise UserError(
             "the committed code does not match the derivation",
-            where=root,
+            where=root / pipeline.GENERATED,
             found="\n" + difference,
             expected="the same files, byte for byte, with the SymPy of requirements.lock",
             remedy="run: make derive   (or: ragg derive), look at the change, and commit it",

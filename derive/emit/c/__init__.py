@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from itertools import count
 from typing import Any
 
 import mpmath
@@ -17,22 +18,15 @@ from derive.tape import Program
 
 
 def harmonic(m: Harmonic) -> dict[str, str]:
-    own: list[tuple[str, str, str]] = []
-    expressions: list[sp.Expr] = []
-    lines: list[tuple[str, list[tuple[list[int], sp.Expr]]]] = []
-    for name, terms in m.amplitudes:
-        row = []
-        for t in terms:
-            numbers = []
-            for k in t.coefficients:
-                if k.expression not in expressions:
-                    expressions.append(k.expression)
-                numbers.append(len(own))
-                own.append((k.combination, str(expressions.index(k.expression)), to_c(k.expression)))
-            row.append((numbers, t.motion))
-        lines.append((name, row))
-    values = {"m": m, "folded": own, "expressions": expressions, "lines": lines}
-    return _both("harmonic", m.name, **values)
+    coefficients = [k for _, terms in m.amplitudes for t in terms for k in t.coefficients]
+    expressions = list(dict.fromkeys(k.expression for k in coefficients))
+    own = [(k.combination, expressions.index(k.expression), to_c(k.expression)) for k in coefficients]
+    number = count()
+    lines = [
+        (name, [([next(number) for _ in t.coefficients], t.motion) for t in terms])
+        for name, terms in m.amplitudes
+    ]
+    return _both("harmonic", m.name, m=m, folded=own, expressions=expressions, lines=lines)
 
 
 def folded(m: Folded) -> dict[str, str]:

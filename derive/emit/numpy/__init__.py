@@ -47,8 +47,5 @@ def _term(t: AmplitudeTerm) -> str:
         return inner
     if len(t.coefficients) > 1:
         inner = f"({inner})"
-    return (
-        f"{inner} * {to_numpy(t.motion)}"
-        if t.motion.is_Pow or t.motion.is_Symbol
-        else f"{inner} * ({to_numpy(t.motion)})"
-    )
+    motion = to_numpy(t.motion)
+    return f"{inner} * {motion}" if t.motion.is_Pow or t.motion.is_Symbol else f"{inner} * ({motion})"
