@@ -45,7 +45,6 @@ from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.model_toml import add_effect, remove_effect
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.io import Flight
-from ragg_runtime.io.files import require_writable as check_output
 from ragg_runtime.model import derive
 from ragg_runtime.model.derive import Catalogue, effects
 from ragg_runtime.model.directory import HistoryStep, replace_model_dir
@@ -75,7 +74,7 @@ from ragg_runtime.workspace import (
 
 __all__ = [
     "FORMS", "Added", "Catalogue", "Compensation", "Flights", "Held", "Kept", "Loaded", "Source", "add", "as_of",
-    "calibrate", "calibration_notes", "change", "check_output", "compare", "compare_frozen", "compensate",
+    "calibrate", "calibration_notes", "change", "compare", "compare_frozen", "compensate",
     "contents", "diagnose", "effects", "errors_of", "example", "export", "keep_mapping", "load",
     "mapping_of", "mapping_text", "new", "parse_limits", "read_flights",
     "read_for_compensation", "remove", "saved_calibration", "source_of_survey", "survey", "validate", "write_export",

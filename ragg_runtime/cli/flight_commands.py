@@ -272,8 +272,10 @@ def compensate(
 
     The result is the gravity gradient as the instrument saw it, with its uncertainty.
     """
+    from ragg_runtime.io.files import find_format
+
     out = Path(output)
-    api.check_output(out)
+    find_format(out, write=True)  # before a long computation
     calibration = "frozen" if frozen else calibration
     if calibration != "online" and any(x is not None for x in (noise, walk, forget)):
         raise UserError(

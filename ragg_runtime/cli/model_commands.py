@@ -197,7 +197,7 @@ def demo(output: Path) -> None:
 @mapping_option
 def info(flight: Path, mapping: Path | None) -> None:
     """Show what a flight file holds, and what is assumed."""
-    from ragg_runtime.io.info import PAPER_G, describe_flight
+    from ragg_runtime.io.files import PAPER_G, describe_flight
     from ragg_runtime.io.mapping import read_mapping
 
     how = None if mapping is None else read_mapping(mapping)

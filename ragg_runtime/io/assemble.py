@@ -12,6 +12,7 @@ from ragg_runtime.base.errors import UserError, at, count, did_you_mean, is_colu
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import units
+from ragg_runtime.io.mapping import NEEDED
 from ragg_runtime.io.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
@@ -26,7 +27,6 @@ from ragg_runtime.io.record import (
     Mask,
     is_disc_angle,
 )
-from ragg_runtime.io.recording import NEEDED
 from ragg_runtime.io.sampling import Grid, make_grid
 from ragg_runtime.io.tables import DataTable
 from ragg_runtime.io.text_tables import TWO_ROWS

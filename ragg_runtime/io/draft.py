@@ -11,8 +11,10 @@ and a unit among them is taken off. A quantity and a direction are looked for; w
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -56,90 +58,25 @@ class Role:
 
 
 _HALF = "an inline output is usually (Gamma_xx - Gamma_yy)/2; ragg's inline is twice that"
-_DISCS = "1234ABC"
-_PAIRS = ("xx", "xy", "xz", "yy", "yz", "zz")
-_SCALARS = (
-    (Role("time"), r"t|time|((gps|utc|unix|imu|rec|sample|relative|logging|log|system)_?)?(time|sec(onds?)?)(_fine)?|f_?time|fid(ucial)?"),
-    (Role("time"), r"time_?(gps|utc|1980|day|startup)|x_?value|(time_?)?stamp|elapsed(_?time)?|zeit|m?jd|julian_?da(y|te)|millis|micros"),
-    (Role("line"), r"line|line_?(no|num|number|id|index)|(flight_?)?line"),
-    (Role("week"), r"(gps_?)?w(ee)?k(_?no|_?number)?"),
-    (Role("second_of_week"), r"(gps_?)?(sow|tow|sec(onds?)?_?(of|in)_?week|week_?sec(onds?)?|seconds_of_gps_week)|gps_?seconds?|seconds"),
-    (Role("date"), r"date|y{2,4}m{2}d{2}|utc_?date|gps_?date|datum"),
-    (Role("clock"), r"hhmmss(_?s+)?|utc|clock|time|time_?of_?day|utc_?time|gps_?time|uhrzeit"),
-    (Role("G_out"), r"[guv]_?out|(ggi_?)?(out(put)?|sum)(_?(volt(age)?|sum))?|ggi|volt(age)?_?out(put)?"),
-    (Role("cross"), r"cross(_?raw)?"),
-    (Role("inline", scale=2.0, why=_HALF), r"in_?line(_?raw)?"),
-    (Role("spin_angle"), r"spin_?(angle|phase)|encoder(_?angle)?|disc_?angle"),
-    (Role("temperature"), r"([a-z]+_|[a-z])?temp(eratur(e)?)?(_?[a-z0-9]+)?"),
-    (Role("pressure"), r"((air|baro|ambient|static)_?)?pres(s(ure)?)?|baro"),
-    *((Role(n), n) for n in ("roll", "pitch", "yaw")),
-    *((Role(f"Gamma_{x}"), rf"(gamma|gradient|gg)_?({x}|{x[::-1]})") for x in _PAIRS),
-    *((Role(f"Gamma_{x}", "guess", why="known beforehand?"), rf"[tg]_?({x}|{x[::-1]})") for x in _PAIRS),
-    *((Role(f"V_{k}"), rf"v_?{k}|volt(age)?_?{k}|a(cc(el)?)?_?{k}_?v(olt(age)?)?") for k in range(1, 5)),
-    *((Role(f"inline_{d}", scale=2.0, why=_HALF), rf"(ggi_?)?in_?line_?{d}(_?raw)?|ggi_?{d}_?in_?line") for d in _DISCS),
-    *((Role(f"cross_{d}"), rf"(ggi_?)?cross_?{d}(_?raw)?|ggi_?{d}_?cross") for d in _DISCS),
-    *((Role(f"inline_{d}", scale=2.0, why=_HALF), rf"{d}_?uv(_\w+)?") for d in "AB"),
-    *((Role(f"cross_{d}"), rf"{d}_?ne(_\w+)?") for d in "AB"),
-)  # fmt: skip
-"""Channels without a direction, and the usual names of a column of each."""
-
-_ANGULAR = r"(?:ang(?:ular)?|body|gyro)_?"
-_VECTORS = (
-    ("omegadot", "likely", rf"omega_?dot|alpha|{_ANGULAR}acc(?:el(?:eration)?)?"),
-    ("omega", "likely", rf"{_ANGULAR}(?:rate|vel(?:ocity)?)|gyr(?:o(?:scopes?)?)?|rate|rot(?:ation)?|omg|omega|w"),
-    ("a", "likely", r"(?:linear_?)?acc(?:n|l|el(?:eration|erometer)?s?)?|specific_?force|sf|f|a"),
-    ("B", "guess", r"mag(?:net(?:ic|ometer)?)?(?:_?field)?|field|b"),
-    ("omega", "guess", r"g"),
-)  # fmt: skip
-"""Channels of three components, how sure their names are, and the names. A single letter must begin the column's name."""
-
-_FRAMES = (
-    ("north", "east", "down"),
-    ("east", "north", "up"),
-    ("forward", "right", "down"),
-    ("forward", "left", "up"),
-    ("right", "forward", "up"),
-    ("longitudinal", "lateral", "vertical"),
-    ("roll", "pitch", "yaw"),
-    ("p", "q", "r"),
-    ("xv1", "xv2", "xv3"),
-    ("1", "2", "3"),
-    ("0", "1", "2"),
-)
-"""Directions that stand for x, y, z where a table has all three: right-handed axes of vehicles and of navigation."""
-
-_SHORT = {"n": "north", "e": "east", "d": "down", "u": "up", "fwd": "forward", "vert": "vertical", "lat": "lateral",
-          "long": "longitudinal", "xv": "x", "yv": "y", "zv": "z", "p": "roll", "q": "pitch", "r": "yaw"}  # fmt: skip
+_NAMES = tomllib.loads(resources.files("ragg_runtime.io").joinpath("names.toml").read_text("utf-8"))
+_SCALARS = [
+    (
+        Role(entry["name"].replace("@", k), entry.get("sure", "likely"), *told),
+        entry["pattern"].replace("@", word),
+    )
+    for entry in _NAMES["scalars"]
+    for told in [(2.0, _HALF) if "half" in entry else (1.0, entry.get("why", ""))]
+    for k, word in entry.get("of", {"": ""}).items()
+]
+_FRAMES, _SHORT = _NAMES["frames"], _NAMES["short"]
 _LONG = "|".join(
     dict.fromkeys([*"xyz", *(d for f in _FRAMES for d in f if len(d) > 1), "xv_?[123]", "[0-9]"])
 )
 _DIRECTION = rf"(?:{_LONG}|{'|'.join(_SHORT)})"
-
-_UNITS = (
-    ("m/s^2", r"m_?p?_?s_?2|m_?p?_?s_s"),
-    ("ft/s^2", r"ft_?s(?:ec)?_?2"),
-    ("deg/s", r"dps|deg_?p?_?s(?:ec)?"),
-    ("rad/s", r"rad_?p?_?s(?:ec)?|rps"),
-    ("mdeg/s", r"mdps"),
-    ("deg/h", r"dph|deg_?p?_?h(?:r|our)?"),
-    *((u, u) for u in ("deg", "rad", "us", "ms", "ns", "mg", "ug", "mv", "nt", "ut")),
-    ("degC", r"deg_?c"),
-    *((u, rf"{u.lower()}$") for u in ("s", "g", "V", "K", "Pa", "hPa", "mbar", "Eo", "T")),
-    *((u, rf"{w}$") for u, w in (("s", "sec(?:onds?)?"), ("V", "volts?"), ("degC", "c"), ("us", "micros"), ("ms", "millis"))),
-)  # fmt: skip
-"""Units and how they stand among the words of a name; single letters only at its end."""
-
-_NEUTRAL = re.compile(
-    r"imu|ins|sensor|data|field|msg|body|raw|avg|mean|smp|scaled|cal|comp|mems|linear|out|ib|b|v|frame|vehicle|combined|topic|platform"
-    r"|ggi|rec|\d+"
-)
-_NO_READING = re.compile(
-    r"cov(ariance)?|std(dev)?|sigma|var(iance)?|bias|offset|status|flags?|valid|count(er)?|integral|int|dt|err(or)?|delta|vel(ocity)?"
-    r"|speed|pos(ition)?|orientation|quat(ernion)?|attitude|uncomp|rms|min|max|scale|factor|seq|id|free|earth|temp(erature)?|setpoint|sp"
-    r"|ref|relative|jerk|noise|filt"
-)
+_NEUTRAL, _NO_READING = (re.compile(_NAMES[n]) for n in ("neutral", "no_reading"))
 
 Roles = Mapping[str, tuple[Role, ...]]
+Instants = tuple[tuple[str, ...], str, str]
 
 
 @dataclass(frozen=True)
@@ -213,7 +150,7 @@ def _read_numbers(table: DataTable) -> tuple[DataTable, dict[str, list[str]]]:
     columns, odd = [], {}
     for c in table.columns:
         if c.is_text:
-            numbers, unit, spoiled = parse_quantities(c.values)
+            numbers, unit, spoiled = parse_quantities(c.values, table.decimal)
             cells = sorted({*c.values[spoiled]})
             if len(cells) <= _FEW and np.mean(np.isfinite(numbers)) > 0.5:
                 odd[c.name] = cells
@@ -269,31 +206,31 @@ def _draft_time(
     return [*lines, f'unit = "{unit}"' + f"  # {remark}" * bool(remark), *_draft_null(c, odd)], (c.name,)
 
 
-def _find_instants(table: DataTable, roles: Roles) -> tuple[tuple[str, ...], str, str] | None:
+def _find_instants(table: DataTable, roles: Roles) -> Instants | None:
     """Columns that hold instants as such, their format (``?``: one of two), and how sure that is."""
     if any(c.name == "time" and not c.is_text and c.unit and not are_packed(c.values) for c in table.columns):
         return None
     by_role = {r: c for c in reversed(table.columns) for r in _TIMES[2:] if _has(roles[c.name], r)}
     if "week" in by_role and "second_of_week" in by_role:
         return (by_role["week"].name, by_role["second_of_week"].name), "gps", "likely: GPS week and seconds"
-    texts = [c for c in table.columns if c.is_text or are_packed(c.values)]
-    texts.sort(key=lambda c: not _has(roles[c.name], "time"))
-    date, clock = by_role.get("date"), by_role.get("clock")
-    pair = None
+    texts = sorted((c for c in table.columns if c.is_text), key=lambda c: not _has(roles[c.name], "time"))
+    parts = [(c, find_parts(_first_cell(c))) for c in texts]
+    parts += [(c, (True, True)) for c in table.columns if not c.is_text and are_packed(c.values)]
+    whole: list[Instants] = [
+        ((c.name,), _find_form(c), "certain: a date and a time") for c, both in parts if all(both)
+    ]
+    clocks: list[Instants] = [
+        ((c.name,), "clock", "certain: a time of the day, or an elapsed time")
+        for c, (_, timed) in parts
+        if timed
+    ]
+    pairs, date, clock = list[Instants](), by_role.get("date"), by_role.get("clock")
     if date is not None and clock is not None and date is not clock:
         form = _find_form(date).replace("iso", "date clock")
-        pair = (date.name, clock.name), form, "likely: a date and a time of the day"
-        if len(np.unique(date.values)) < len(table):  # no instants: it repeats itself
-            return pair
-    for c in texts:
-        if are_packed(c.values) or all(find_parts(_first_cell(c))):
-            return (c.name,), _find_form(c), "certain: a date and a time"
-    if pair is not None:
-        return pair
-    for c in texts:
-        if find_parts(_first_cell(c))[1]:
-            return (c.name,), "clock", "certain: a time of the day, or an elapsed time"
-    return None
+        pairs.append(((date.name, clock.name), form, "likely: a date and a time of the day"))
+        if len(np.unique(date.values)) == len(table):  # instants of their own
+            pairs, whole = [], whole + pairs
+    return next(iter([*pairs, *whole, *clocks]), None)
 
 
 def _find_form(c: DataColumn) -> str:
@@ -414,7 +351,7 @@ def find_roles(columns: Sequence[str]) -> dict[str, tuple[Role, ...]]:
     axes: dict[tuple[str, str], tuple[str, str]] = {}
     for stem in ("a", "omega", "omegadot", "B"):
         for frame in reversed(_FRAMES):
-            four = frame == ("1", "2", "3") and (stem, "4") in taken  # the disc's own accelerometers
+            four = frame == ["1", "2", "3"] and (stem, "4") in taken  # the disc's own accelerometers
             if all((stem, d) in taken for d in frame) and not four:
                 axes |= {(stem, d): (x, ", ".join(frame)) for d, x in zip(frame, "xyz", strict=True)}
     return {c: tuple(sorted(_turn(roles, axes), key=lambda r: r.rank)) for c, roles in found.items()}
@@ -463,7 +400,7 @@ def _read_vectors(name: str) -> list[Role]:
     text, _ = _take_unit(_fold(name))
     if (m := re.fullmatch(r"([pqr])(?:_(?:body|b))?", text)) is not None:
         return [Role("omega", "guess", direction=m[1])]
-    for stem, sure, words in _VECTORS:
+    for stem, words, sure in ((v["name"], v["pattern"], v.get("sure", "likely")) for v in _NAMES["vectors"]):
         glued = rf"(?:({_LONG})_?|({_DIRECTION})_)?({words})(?:_?({_LONG})|_({_DIRECTION}))?"
         for m in re.finditer(rf"(?:^|(?<=_)){glued}(?=_|$)", text):
             if len(m[3]) == 1 and m.start() > 0 and not (m[1] or m[4]):
@@ -488,7 +425,7 @@ def _fold(name: str) -> str:
 
 def _take_unit(folded: str) -> tuple[str, str]:
     """The words without the unit among them, and the unit."""
-    for unit, pattern in _UNITS:
+    for unit, pattern in _NAMES["units"].items():
         if (m := re.search(rf"(?<=[a-z0-9])_(?:{pattern})(?=_|$)", folded)) is not None:
             return (folded[: m.start()] + folded[m.end() :]), unit
     return folded, {"millis": "ms", "micros": "us"}.get(folded, "")

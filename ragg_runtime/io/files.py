@@ -22,6 +22,7 @@ from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import file_digest, opened, replacing
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
+from ragg_runtime.instrument.units import units
 from ragg_runtime.io.arrays import (
     read_hdf5,
     read_matlab,
@@ -31,11 +32,17 @@ from ragg_runtime.io.arrays import (
     write_parquet,
 )
 from ragg_runtime.io.assemble import make_flight
-from ragg_runtime.io.mapping import Mapped
-from ragg_runtime.io.record import SI_UNITS, Flight, content
-from ragg_runtime.io.recording import join_parts, make_recordings, read_quantities
-from ragg_runtime.io.tables import DataColumn, DataTable
+from ragg_runtime.io.mapping import Mapped, join_parts, make_recordings, read_quantities
+from ragg_runtime.io.record import SI_UNITS, Flight, content, is_disc_angle
+from ragg_runtime.io.sampling import make_grid
+from ragg_runtime.io.tables import DataColumn, DataTable, find_decimal
 from ragg_runtime.io.text_tables import read_csv, read_excel
+
+PAPER_G = 9.8
+"""m/s^2: the g of units such as mg where no model says its own."""
+
+MOST_GAPS = 20
+"""Gaps that are listed, the longest ones."""
 
 # --- formats -------------------------------------------------------------------------------------------
 
@@ -98,29 +105,16 @@ def find_ending(name: str) -> str | None:
     return max((e for e in ENDINGS if name.lower().endswith(e)), key=len, default=None)
 
 
-def find_format(path: Path) -> Format:
-    """The format by the ending of the name; UserError for any other."""
-    ending = find_ending(path.name)
-    if ending is not None:
-        return ENDINGS[ending]
+def find_format(path: Path, *, write: bool = False) -> Format:
+    """The format by the ending of the name; UserError for any other, or for one that cannot be written."""
+    kind = ENDINGS.get(find_ending(path.name) or "")
+    if kind is not None and (kind.write is not None or not write):
+        return kind
     raise UserError(
-        "unknown file ending",
+        "unknown file ending" if kind is None else f"{kind.name} files are read, not written",
         where=path,
         found=path.suffix or "no ending",
-        expected=", ".join(ENDINGS),
-        remedy="save the record in one of these formats",
-    )
-
-
-def require_writable(path: Path) -> Callable[[Path, Sequence[DataColumn]], None]:
-    """The writer of a file; UserError for formats that are read alone."""
-    kind = find_format(path)
-    if kind.write is not None:
-        return kind.write
-    raise UserError(
-        f"{kind.name} files are read, not written",
-        where=path,
-        expected=", ".join(e for f in FORMATS if f.write for e in f.endings),
+        expected=", ".join(e for e, f in ENDINGS.items() if f.write is not None or not write),
         remedy="choose one of these formats",
     )
 
@@ -129,10 +123,16 @@ def read_tables(source: Any) -> list[DataTable]:
     """All tables of a file, by the ending of its name, or of a flight in memory."""
     try:
         tables = _read_file(source) if isinstance(source, Path) else tabulate(source)
-        return [join_parts(replace(t, columns=tuple(map(read_quantities, t.columns)))) for t in tables]
+        return [join_parts(_read_texts(t)) for t in tables]
     except MemoryError:
         what = "the file is damaged, or too large for the memory of this computer"
         raise UserError(what, where=source, remedy="copy it again, or split it") from None
+
+
+def _read_texts(t: DataTable) -> DataTable:
+    """A table whose columns of texts are numbers where all of their cells are."""
+    decimal = t.decimal or find_decimal(c.values for c in t.columns if c.is_text)
+    return replace(t, columns=tuple(read_quantities(c, decimal) for c in t.columns), decimal=decimal)
 
 
 def _read_file(path: Path) -> list[DataTable]:
@@ -140,12 +140,10 @@ def _read_file(path: Path) -> list[DataTable]:
     try:
         with opened(path) as stream:
             is_empty = not stream.read(1)
-    except FileNotFoundError:
-        raise UserError(
-            "the flight file does not exist", where=path, remedy="check the name and the folder"
-        ) from None
     except OSError as error:
-        raise UserError("the flight file cannot be read", where=path, found=error.strerror) from None
+        found = "it does not exist" if isinstance(error, FileNotFoundError) else error.strerror
+        remedy = "check its name, its folder and its permissions"
+        raise UserError("the flight file cannot be read", where=path, found=found, remedy=remedy) from None
     if is_empty:
         remedy = "the recording or the copy may have failed: get the file again"
         raise UserError("the flight file is empty", where=path, found="0 bytes", remedy=remedy)
@@ -192,19 +190,13 @@ def read_flights(
         Of a flight in memory.
     """
     path = Path(source) if isinstance(source, str | Path) else None
-    tables = read_tables(path or source)
-    made = make_recordings(tables, path or name, mapping)
+    made = make_recordings(read_tables(path or source), path or name, mapping)
     digest = None if path is None else file_digest(path)
     title = name if path is None else flight_name(path)
     flights = []
     for r in made:
-        own = title + (f":{r.line}" if len(made) > 1 else "")
-        try:
-            x = make_flight(r, g0, need_output=need_output, accelerometers=accelerometers, leave=leave)
-        except UserError as error:
-            what = f"line {r.line}: {error.what}" if len(made) > 1 else error.what
-            facts = {n: text for n, text in error.facts.items() if n != "what"}
-            raise UserError(what, **facts) from None
+        x = make_flight(r, g0, need_output=need_output, accelerometers=accelerometers, leave=leave)
+        own = f"{title}:{r.line}" if len(made) > 1 else title
         flights.append(replace(x, name=own, path=path, digest=digest or content(x)))
     return flights
 
@@ -250,8 +242,9 @@ def write_flight(flight: Flight, path: Path | str) -> None:
 
 def write_tables(path: Path, tables: Sequence[DataTable]) -> None:
     """Write tables in the format of the name's ending, whole or not at all; lines are distinguished by a column ``line``."""
-    write = require_writable(path)
+    write = find_format(path, write=True).write
     with replacing(path) as temporary:
+        assert write is not None
         write(temporary, _join_tables(tables))
 
 
@@ -283,7 +276,7 @@ def convert(source: Path, target: Path, mapping: Mapped | None = None) -> dict[s
     """
     if source.resolve() == target.resolve():
         raise UserError("a file cannot be converted into itself", where=source, remedy="name another file")
-    require_writable(target)  # before a long file is read for nothing
+    find_format(target, write=True)  # before a long file is read for nothing
     made = read_recordings(source, mapping)
     if len(made) == 1:
         made = [replace(made[0], line=None)]
@@ -312,3 +305,84 @@ def _count_from_first(r: DataTable, notes: list[str]) -> DataTable:
 def write_instant(instant: datetime) -> str:
     """An instant in ISO 8601, UTC as ``Z``."""
     return instant.isoformat().replace("+00:00", "Z")
+
+
+# --- what a file holds ----------------------------------------------------------------------------------
+
+
+def describe_flight(path: Path | str, mapping: Mapped | None = None) -> dict[str, Any]:
+    """What a flight file holds.
+
+    Parameters
+    ----------
+    path
+        The file.
+    mapping
+        What its columns are, where it has names of its own.
+
+    Returns
+    -------
+    dict
+        ``path``, ``sha256``, ``format``, ``bytes``, and ``records``, one for each line. Of a record: ``name``, ``line`` (``None``: the
+        file has only one record), ``rows``; ``start_s``, ``duration_s``, ``rate_Hz`` (``None`` where there is no uniform time), ``origin``
+        (the instant at which time is 0, ISO 8601, or ``None``); ``gap_count``, ``missing`` samples in all gaps, ``gaps`` (the longest:
+        from_s, to_s, samples); ``columns`` (name, unit in the file, samples with and without a value, minimum, maximum and mean in that
+        unit); ``notes``: what was assumed, left out or looks odd; ``refused``: why the record cannot be used as it is, or ``None``.
+
+    Raises
+    ------
+    UserError
+        If the file cannot be read, or holds no table.
+    """
+    path = Path(path)
+    made = read_recordings(path, mapping)
+    return {
+        "path": str(path),
+        "sha256": file_digest(path),
+        "format": find_format(path).name,
+        "bytes": path.stat().st_size,
+        "records": [_describe_record(r, flight_name(path), len(made) > 1) for r in made],
+    }
+
+
+def _describe_record(r: DataTable, name: str, several: bool) -> dict[str, Any]:
+    notes, refused, grid = list(r.notes), None, None
+    try:
+        x = make_flight(r, PAPER_G)
+        notes = [*x.notes]
+        if not any(map(is_disc_angle, x.channels)):
+            zero = "the first sample, since time is given as instants" if x.instants else "t = 0 of time"
+            notes.append(
+                f"no spin_angle: the disc angle counts from {zero} (angle_origin in model.toml overrides this)"
+            )
+    except UserError as error:
+        refused = error.message
+    try:
+        time = r.column("time")
+        grid = make_grid(units(PAPER_G).to_si(time.values, time.unit or "s", "s", "column 'time'"), r.place)
+    except (KeyError, UserError):
+        pass  # reported in ``refused``
+    gaps = [] if grid is None else grid.gaps
+    longest = sorted(sorted(gaps, key=lambda g: -g[2])[:MOST_GAPS])
+    return {
+        "name": f"{name}:{r.line}" if several else name,
+        "line": r.line if several else None,
+        "rows": len(r),
+        "start_s": None if grid is None else float(grid.time[0]),
+        "duration_s": None if grid is None else len(grid.time) * grid.step,
+        "rate_Hz": None if grid is None else 1 / grid.step,
+        "origin": None if r.origin is None else write_instant(r.origin),
+        "gap_count": len(gaps),
+        "missing": sum(g[2] for g in gaps),
+        "gaps": [dict(zip(("from_s", "to_s", "samples"), g, strict=True)) for g in longest],
+        "columns": list(map(_describe_column, r.columns)),
+        "notes": notes,
+        "refused": refused,
+    }
+
+
+def _describe_column(c: DataColumn) -> dict[str, Any]:
+    there = c.values[np.isfinite(c.values)]
+    ranges = [float(f(there)) if len(there) else None for f in (np.min, np.max, np.mean)]
+    told = {"name": c.name, "unit": c.unit, "samples": len(there), "missing": len(c.values) - len(there)}
+    return told | dict(zip(("minimum", "maximum", "mean"), ranges, strict=True))

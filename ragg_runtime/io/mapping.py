@@ -1,31 +1,52 @@
-"""``mapping.toml``: which column of a foreign file is what, in which unit, sign, axis and clock. Plain data.
+"""``mapping.toml``: which column of a foreign file is what, in which unit, sign, axis and clock; and what becomes of a table by it.
 
-Its tables and keys, with an example: docs/reference/mapping.md.
+Its tables and keys, with an example: docs/reference/mapping.md. All formats go this way, with a mapping or without: text that should be
+numbers is read or refused with its cell, what stands for missing values is left out, names, units, signs and axes are applied.
 """
 
 from __future__ import annotations
 
 import hashlib
+import re
 import tomllib
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError, at, check_keys, did_you_mean, is_column, read_name
+from ragg_runtime.base.errors import (
+    UserError,
+    at,
+    check_keys,
+    check_table,
+    count,
+    did_you_mean,
+    is_column,
+    read_name,
+)
 from ragg_runtime.base.files import read_text
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.instants import WAYS, parse_order
+from ragg_runtime.io.instants import WAYS, Stamps, are_packed, count_seconds_since, parse_order, read_stamps
+from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE, Mask
+from ragg_runtime.io.tables import (
+    INDEX,
+    MISSING,
+    DataColumn,
+    DataTable,
+    find_codes,
+    is_quantity,
+    parse_quantities,
+    write_cell,
+)
 
 UNKNOWN = "?"
 """What ``ragg map`` writes where the answer is not in the file."""
 
-_TABLES = ("file", "time", "columns", "axes", "demodulator", "null", "format")
 _KEYS: Mapping[str, tuple[str, ...]] = {
     "file": ("line", "lines", "part", "null", "format"),
     "time": ("column", "format", "unit", "origin", "null"),
@@ -96,32 +117,28 @@ def parse_mapping(text: str, path: Path) -> Mapped:
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # ValueError: numbers of thousands of digits
         raise UserError("not valid TOML", where=path, found=str(error) or "nested too deeply") from None
-    check_keys(data, _TABLES, path)
-    for key, value in data.items():
-        if not isinstance(value, dict) and key not in ("null", "format"):
-            raise UserError(f"[{key}] is not a table", where=path, found=repr(value)[:60])
-        if key in _KEYS and key != "columns":
-            check_keys(value, _KEYS[key], at(path, f"[{key}]"))
-    file, place = data.get("file", {}), at(path, "[file]")
+    check_keys(data, (*_KEYS, "demodulator", "null", "format"), path)
+    tables, place = {}, at(path, "[file]")
+    for name, keys in _KEYS.items():
+        tables[name] = check_table(data.get(name, {}), f"[{name}]", path, f"[{name}]")
+        check_keys(tables[name] if name != "columns" else (), keys, at(path, f"[{name}]"))
+    file, columns = tables["file"], tables["columns"]
     lines = file.get("lines")
     if not (lines is None or (isinstance(lines, list) and lines and all(isinstance(x, str) for x in lines))):
         raise _refuse("lines is not a list of names", place, lines, '["1010", "1020"]')
-    null = _read_null(data.get("null"), str(path)) + _read_null(file.get("null"), place)
-    columns = data.get("columns", {})
+    null = _read_null(data, str(path)) + _read_null(file, place)
     if "time" not in data or "time" in columns:
         what = "time has a table of its own" if "time" in columns else "[time] is missing"
         raise UserError(what, where=path, expected='[time] column = "...", unit = "s"')
-    formats = [x["format"] for x in (data["time"], file, data) if "format" in x]
+    format_ = {"format": "seconds", **data, **file, **tables["time"]}["format"]
     return Mapped(
         path=path,
-        time=_read_time(data["time"], next(iter(formats), "seconds"), null, at(path, "[time]")),
-        channels=MappingProxyType(
-            {n: _read_entry(n, v, null, at(path, f"[columns] {n}")) for n, v in columns.items()}
-        ),
-        axes=_read_axes(data["axes"], at(path, "[axes]")) if "axes" in data else None,
-        line=_read_word(file.get("line"), "line", place),
+        time=_parse_time(tables["time"], format_, null, at(path, "[time]")),
+        channels={n: _parse_entry(n, v, null, at(path, f"[columns] {n}")) for n, v in columns.items()},
+        axes=_read_axes(tables["axes"], at(path, "[axes]")) if "axes" in data else None,
+        line=_take(file, "line", str, place, None),
         lines=tuple(lines) if lines is not None else None,
-        part=_read_word(file.get("part"), "part", place),
+        part=_take(file, "part", str, place, None),
         demodulator=read_demodulation(data.get("demodulator"), at(path, "[demodulator]")),
         digest=hashlib.sha256(text.encode()).hexdigest(),
     )
@@ -131,60 +148,82 @@ def _refuse(what: str, where: str, found: object, expected: str, remedy: str | N
     return UserError(what, where=where, found=repr(found)[:60], expected=expected, remedy=remedy)
 
 
-def _read_null(raw: Any, where: str) -> Null:
+def _take(table: Mapping[str, Any], key: str, kind: type, where: str, default: Any) -> Any:
+    """A text or a number in a table, or its default."""
+    raw = table.get(key, "")
+    if raw == "":
+        return default
+    if raw == UNKNOWN:
+        raise _refuse(
+            f"the {key} is not answered yet",
+            where,
+            raw,
+            "that of the file; 1 for a pure number; none is guessed",
+        )
+    if kind is str and isinstance(raw, str) and raw.strip():
+        return raw
+    if kind is float and isinstance(raw, int | float) and not isinstance(raw, bool) and abs(raw) < 1e100:
+        return float(raw)
+    raise _refuse(f"{key} is not a {'text' if kind is str else 'number'}", where, raw, f"{key} = ...")
+
+
+def _take_unit(table: Mapping[str, Any], where: str) -> str:
+    unit: str = _take(table, "unit", str, where, "")
+    if unit:
+        units(9.8).parse(unit, where)  # whether a text is a unit does not depend on the model's g
+    return unit
+
+
+def _read_null(table: Mapping[str, Any], where: str) -> Null:
     """One or several numbers or texts."""
-    values = raw if isinstance(raw, list) else [] if raw is None else [raw]
+    raw = table.get("null", [])
+    values = raw if isinstance(raw, list) else [raw]
     if any(isinstance(v, bool) or not isinstance(v, int | float | str) for v in values):
         raise _refuse("null is not a list of numbers and texts", where, raw, "null = [-9999]")
     return tuple(v.strip() if isinstance(v, str) else float(v) for v in values)
 
 
-def _read_entry(name: str, raw: Any, null: Null, where: str) -> Entry:
+def _parse_entry(name: str, raw: Any, null: Null, where: str) -> Entry:
     if not is_column(name):
         read_name(name, where, "temperature")
-    if isinstance(raw, str):
-        raw = {"column": raw}
+    raw = {"column": raw} if isinstance(raw, str) else raw
     if not isinstance(raw, dict) or "column" not in raw:
         example = f'{name} = {{ column = "its name in the file", unit = "..." }}'
         raise _refuse("the column of the file is not named", where, raw, example)
     check_keys(raw, _KEYS["columns"], where)
     sign, scale, offset = (
-        _read_number(raw.get(key, default), key, where)
-        for key, default in (("sign", 1), ("scale", 1), ("offset", 0))
+        _take(raw, n, float, where, x) for n, x in (("sign", 1.0), ("scale", 1.0), ("offset", 0.0))
     )
     if sign not in (1.0, -1.0):
         raise _refuse("sign is 1 or -1", where, raw["sign"], "scale for other factors")
     if scale == 0.0:
         raise UserError("the scale must not be zero", where=where)
-    return Entry(
-        column=_read_word(raw["column"], "column", where) or "",
-        unit=_read_unit(raw.get("unit", ""), where),
-        factor=sign * scale,
-        offset=offset,
-        null=null + _read_null(raw.get("null"), where),
-    )
+    column = _take(raw, "column", str, where, "")
+    return Entry(column, _take_unit(raw, where), sign * scale, offset, null + _read_null(raw, where))
 
 
-def _read_time(raw: Mapping[str, Any], form: Any, null: Null, where: str) -> TimeEntry:
+def _parse_time(raw: Mapping[str, Any], form: Any, null: Null, where: str) -> TimeEntry:
     columns = raw.get("column")
     names = (columns,) if isinstance(columns, str) else tuple(columns) if isinstance(columns, list) else ()
-    written = _read_word(form, "format", where) or ""
-    if written not in ("seconds", *WAYS) and parse_order(written) is None:
+    written: str = _take({"format": form}, "format", str, where, "seconds")
+    ordered = parse_order(written) is not None
+    if written not in ("seconds", *WAYS) and not ordered:
         known = "seconds, " + ", ".join(f"{n} ({example})" for n, (_, example) in WAYS.items())
-        near = did_you_mean(written, ("seconds", *WAYS))
-        raise _refuse("no such format of time", where, written, known, near)
-    count = WAYS[written][0] if written in WAYS else 1
-    both = parse_order(written) is not None and len(names) == 2  # the date and the time of the day
-    if (len(names) != count and not both) or not all(isinstance(n, str) and n for n in names):
-        how, example = ("two columns", '["DATE", "CLOCK"]') if count == 2 else ("one column", '"..."')
+        raise _refuse(
+            "no such format of time", where, written, known, did_you_mean(written, ("seconds", *WAYS))
+        )
+    needed = WAYS[written][0] if written in WAYS else 1
+    if len(names) not in ((1, 2) if ordered else (needed,)) or not all(
+        isinstance(n, str) and n for n in names
+    ):
+        how, example = ("two columns", '["DATE", "CLOCK"]') if needed == 2 else ("one column", '"..."')
         raise _refuse(f"time as {written!r} needs {how}", where, columns, f"column = {example}")
     origin = raw.get("origin")
     if origin is not None and (not isinstance(origin, datetime) or written != "seconds"):
         raise _refuse("origin is the instant of second 0", where, origin, "2026-03-01T00:00:00Z, of seconds")
     if origin is not None and origin.tzinfo is None:
         origin = origin.replace(tzinfo=UTC)
-    unit = _read_unit(raw.get("unit", ""), where)
-    return TimeEntry(names, written, unit, origin, null + _read_null(raw.get("null"), where))
+    return TimeEntry(names, written, _take_unit(raw, where), origin, null + _read_null(raw, where))
 
 
 def _read_axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
@@ -208,24 +247,319 @@ def _read_axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], .
     return tuple(found)
 
 
-def _read_unit(raw: Any, where: str) -> str:
-    if raw == UNKNOWN:
-        expected = "the unit of the column in the file; 1 for a pure number; none is guessed"
-        raise _refuse("the unit is not answered yet", where, raw, expected)
-    unit = _read_word(raw, "unit", where) or ""
-    if unit:
-        units(9.8).parse(unit, where)  # whether a text is a unit does not depend on the model's g
-    return unit
+# --- the flights in a file ------------------------------------------------------------------------------
+
+NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
+"""Columns that every flight has."""
+
+PARTS = ("year", "month", "day", "hour", "minute", "second")
+"""Columns that are together the time of a sample."""
+
+MOST_LINES = 20_000
+"""Lines of a file, beyond which the column does not name lines: the largest surveys have some thousands."""
+
+_LOOKED_AT = 600  # cells that tell whether a column of texts is one of numbers
+_COMPONENT = re.compile(r"(?:(a|omega|omegadot|B)_[xyz]|Gamma_[xyz]{2})")
 
 
-def _read_word(raw: Any, key: str, where: str) -> str | None:
-    if raw is not None and (not isinstance(raw, str) or (raw.strip() in ("", UNKNOWN) and key != "unit")):
-        what = f"{key} is not answered" if raw == UNKNOWN else f"{key} is not a text"
-        raise UserError(what, where=where, found=repr(raw)[:60])
-    return raw
+def make_recordings(
+    tables: Sequence[DataTable],
+    place: Path | str,
+    mapping: Mapped | None = None,
+) -> list[DataTable]:
+    """The flights in the tables of one file, one for each line: numbers in the file's units.
+
+    Parameters
+    ----------
+    tables
+        All tables of the file.
+    place
+        The file, for messages.
+    mapping
+        What the columns are; ``None``: they have the names of the contract.
+
+    Raises
+    ------
+    UserError
+        If a choice among tables is needed, or a column is missing, or holds what is no number.
+    """
+    if mapping is not None and mapping.kept and not _applies(tables, mapping):
+        mapping = None
+    if mapping is None:
+        lines = split_lines(choose_tables(tables, place, frozenset(NEEDED)), None, place)
+    else:
+        chosen = choose_tables(tables, place, mapping.columns, mapping.part)
+        _require_names(chosen[0], mapping, place)
+        lines = _pick_lines(split_lines(chosen, mapping.line, place), mapping.lines, place)
+    if not lines:
+        raise UserError("the file holds no rows", where=place)
+    several = len(lines) > 1
+    lines = [replace(t, place=at(place, f"flight line {t.line}" if several else "")) for t in lines]
+    return [_read_plain(t) if mapping is None else _read_mapped(t, mapping) for t in lines]
 
 
-def _read_number(raw: Any, key: str, where: str) -> float:
-    if isinstance(raw, bool) or not isinstance(raw, int | float) or not abs(raw) < 1e100:
-        raise UserError(f"{key} is not a number", where=where, found=repr(raw)[:60])
-    return float(raw)
+def _applies(tables: Sequence[DataTable], mapping: Mapped) -> bool:
+    """Whether a file has any column that the mapping gives another name."""
+    renamed = {e.column for n, e in mapping.channels.items() if e.column != n}
+    renamed |= {n for n in mapping.time.columns if n != "time"}
+    return not renamed or any(renamed & {*t.names} for t in tables)
+
+
+def _require_names(table: DataTable, mapping: Mapped, place: Path | str) -> None:
+    missing = sorted(mapping.columns - {*table.names})
+    if missing:
+        raise UserError(
+            "columns that the mapping names are not in the file",
+            where=place,
+            found=f"{', '.join(missing)} of {mapping.path}; the file has {', '.join(table.names[:20])}",
+            remedy="write a mapping for this file: ragg map FLIGHT -o mapping.toml",
+        )
+
+
+def _pick_lines(lines: list[DataTable], names: Sequence[str] | None, place: Path | str) -> list[DataTable]:
+    wanted = {name_line(n) for n in names or ()}
+    if lost := sorted(wanted - {str(t.line) for t in lines}):
+        expected = ", ".join(str(t.line) for t in lines[:20])
+        raise UserError("the file has no such line", where=place, found=", ".join(lost), expected=expected)
+    return lines if names is None else [t for t in lines if t.line in wanted]
+
+
+def _read_plain(table: DataTable) -> DataTable:
+    """A table whose columns have the names of the contract; without a column called time the index is used, if it is one."""
+    notes = list(table.notes)
+    by_name = {c.name: c for c in reversed(table.columns)}
+    time, index = by_name.get("time"), by_name.get(table.index or "")
+    if (
+        time is None
+        and index is not None
+        and (not index.is_number or units(9.8).fits(index.unit or "1", "s"))
+    ):
+        time = index
+    elif time is None and index is not None and index.name == INDEX:
+        notes.append("skipped, the index: numbers without a unit; if it is the time, name it time [s]")
+    found: dict[str, DataColumn] = {}
+    for c in table.columns:
+        if c is time or c is index:
+            continue
+        if c.name in found or (c.name == "time" and time is not None):
+            if c.name in SI_UNITS:
+                what = f"the column {c.name!r} appears twice"
+                raise UserError(what, where=table.place, remedy="rename one")
+            notes.append(f"{c.name}: a second column of this name is left out")
+        elif c.is_number or c.name in SI_UNITS:
+            found[c.name] = c
+        else:
+            notes.append(f"{c.name} holds {'text' if c.is_text else 'dates'}; it is left out")
+    chosen = {n: (c, Entry(n, c.unit)) for n, c in found.items()}
+    named = replace(table, notes=tuple(notes))
+    return _read_columns(named, [] if time is None else [time], TimeEntry(()), chosen)
+
+
+def join_parts(table: DataTable) -> DataTable:
+    """A table whose columns ``year`` to ``second`` are one, ``time``, of instants as texts."""
+    parts = {c.name.casefold(): c for c in table.columns if c.name.casefold() in PARTS and c.is_number}
+    if len(parts) < len(PARTS) or "time" in table.names:
+        return table
+    rows = zip(*(parts[n].values for n in PARTS), strict=True)
+    written = "{:04.0f}-{:02.0f}-{:02.0f}T{:02.0f}:{:02.0f}:{:012.9f}"
+    texts = ["" if np.isnan(row).any() else written.format(*row) for row in rows]
+    others = (c for c in table.columns if c not in parts.values())
+    return replace(table, columns=(DataColumn("time", "", np.array(texts, dtype=object)), *others))
+
+
+def _read_mapped(table: DataTable, mapping: Mapped) -> DataTable:
+    """A table with the columns of the mapping."""
+    notes = [f"read by {mapping.path.name} (SHA-256 {mapping.digest[:16]})", *table.notes]
+    if mapping.demodulator is not None:
+        notes.append(f"demodulated: {mapping.demodulator.words()}")
+    named = replace(table, notes=tuple(notes), origin=mapping.time.origin, demodulation=mapping.demodulator)
+    entries = mapping.channels.items()
+    chosen = {n: (c := table.column(e.column), replace(e, unit=e.unit or c.unit)) for n, e in entries}
+    read = _read_columns(named, [table.column(n) for n in mapping.time.columns], mapping.time, chosen)
+    return read if mapping.axes is None else _turn(read, mapping.axes, mapping.path)
+
+
+def _read_columns(
+    table: DataTable,
+    times: Sequence[DataColumn],
+    t: TimeEntry,
+    chosen: Mapping[str, tuple[DataColumn, Entry]],
+) -> DataTable:
+    """Time and channels as numbers: codes and rows without a time left out and counted, factors applied."""
+    notes = list(table.notes)
+    stamps, columns = None, []
+    if times:
+        time, stamps = _read_time(times, table, t)
+        columns.append(_leave_out_codes(time, t.null, notes))
+    for name, (c, e) in chosen.items():
+        read = replace(_read_numbers(c, table, e.null), name=name, unit=e.unit)
+        read = _leave_out_codes(read, e.null, notes)
+        if (e.factor, e.offset) != (1.0, 0.0):
+            read = replace(read, values=read.values * e.factor + e.offset)
+        columns.append(read)
+    if stamps is not None:
+        table = replace(table, origin=stamps.origin, instants=stamps.instants)
+        notes += stamps.notes
+    there = np.isfinite(columns[0].values) if times else np.zeros(0, dtype=np.bool_)
+    lost = int(np.sum(~there))
+    if 0 < lost < len(there):
+        notes.append(f"{count(lost, 'row')} without a time left out")
+        columns = [replace(c, values=c.values[there]) for c in columns]
+    return replace(table, columns=tuple(columns), notes=tuple(notes))
+
+
+def _read_time(
+    columns: Sequence[DataColumn], table: DataTable, t: TimeEntry
+) -> tuple[DataColumn, Stamps | None]:
+    """Time as the numbers that it is, or as seconds of the instants that it is."""
+    first = columns[0]
+    where = at(table.place, f"column {first.name!r}")
+    few = first.values[:_LOOKED_AT]
+    mostly = not first.is_text or float(np.mean(np.isfinite(parse_quantities(few, table.decimal)[0]))) > 0.5
+    numeric = mostly and not are_packed(few)
+    if t.format != "seconds" and (t.format is not None or not numeric):
+        stamps = read_stamps([c.values for c in columns], t.format, where, table.row)
+        return DataColumn("time", "s", stamps.values), stamps
+    remedy = None if numeric else f"specify the format: [time] format = {', '.join(map(repr, WAYS))}"
+    unit, _, epoch = first.unit.partition(" since ")
+    time = replace(
+        _read_numbers(replace(first, unit=unit), table, t.null, remedy), name="time", unit=t.unit or unit
+    )
+    if not epoch:
+        return time, None
+    since = count_seconds_since(units(9.8).to_si(time.values, time.unit, "s", where), epoch)
+    return (time, None) if since is None else (DataColumn("time", "s", since.values), since)
+
+
+# --- several tables, several lines ----------------------------------------------------------------------
+
+
+def choose_tables(
+    tables: Sequence[DataTable], where: Path | str, wanted: frozenset[str], part: str | None = None
+) -> list[DataTable]:
+    """The tables that are meant: those of ``part``, with all columns that are wanted or with time; several alike are lines."""
+    inside = f"{(part or '').strip('/')}/".lstrip("/")
+    found = [t for t in tables if t.columns and f"{t.part.strip('/')}/".startswith(inside)]
+    alike = next((c for n in (wanted, {"time"}) if (c := [t for t in found if n <= {*t.names}])), found)
+    if len(alike) == 1:
+        return [replace(alike[0], line=None)]
+    if len({tuple(sorted(t.names)) for t in alike}) == 1:
+        return alike
+    parts = [t.part or "/" for t in alike]
+    raise UserError(
+        "the file holds several tables that differ" if alike else "the file holds no table",
+        where=where,
+        found=", ".join(parts[:12]) + (" ..." if len(parts) > 12 else "") or None,
+        expected=part or "vectors of one length in one place, or in groups of equal structure",
+        remedy="choose one in a mapping: [file] part = ...",
+    )
+
+
+def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | str | None) -> list[DataTable]:
+    """A table for each line, in the order in which they begin; the rows of one need not be contiguous."""
+    if len(tables) != 1:
+        return list(tables)
+    (table,) = tables
+    name = column or next((n for n in table.names if n.casefold() == "line"), None)
+    if name is None:
+        return [table]
+    c = table.column(name)
+    different, which = np.unique(c.values.astype(str) if c.is_text else c.values, return_inverse=True)
+    if len(different) > MOST_LINES:
+        raise UserError(
+            "the column does not name lines: its values differ from row to row",
+            where=at(where, f"column {name!r}"),
+            found=f"{len(different)} values in {len(which)} rows",
+            expected=f"at most {MOST_LINES}, or another column in a mapping: [file] line = ...",
+        )
+    rows_of: dict[str, list[NDArray[Any]]] = {}
+    ends = np.cumsum(np.bincount(which, minlength=len(different)))[:-1]
+    for value, rows in zip(different, np.split(np.argsort(which, kind="stable"), ends), strict=True):
+        rows_of.setdefault(name_line(value), []).append(rows)
+    notes = table.notes
+    if lost := sum(map(len, rows_of.pop("", []))):
+        notes = (*notes, f"{count(lost, 'row')} without the name of a line left out")
+    rest = replace(table, columns=tuple(x for x in table.columns if x is not c), notes=notes)
+    lines = sorted(((np.sort(np.concatenate(p)), n) for n, p in rows_of.items()), key=lambda x: x[0][0])
+    return [replace(rest.rows(rows), line=n) for rows, n in lines]
+
+
+def name_line(value: object) -> str:
+    """The name of a line: 1010 of 1010.0, in numbers or in text; ``""`` where there is none."""
+    try:
+        number = float(str(value))
+    except ValueError:
+        return write_cell(value)
+    return write_cell(number) if np.isfinite(number) else ""
+
+
+# --- numbers and codes -------------------------------------------------------------------------------------------
+
+
+def read_quantities(c: DataColumn, decimal: str) -> DataColumn:
+    """A column of texts that are all numbers, perhaps with units, as numbers; names of lines (10 N) and instants are texts."""
+    first = next((t for t in c.values if t not in MISSING), "") if c.is_text else ""
+    if not is_quantity(first) or "line" in c.name.casefold() or are_packed(c.values):
+        return c
+    numbers, unit, spoiled = parse_quantities(c.values, decimal)
+    return c if spoiled.any() else replace(c, unit=unit or c.unit, values=numbers)
+
+
+def _read_numbers(c: DataColumn, table: DataTable, null: Null, remedy: str | None = None) -> DataColumn:
+    """A column of text as numbers; UserError at the first cell that is none."""
+    if c.is_number:
+        return c
+    texts = ["" if t in null else str(t) for t in c.values]
+    numbers, unit, spoiled = parse_quantities(texts, table.decimal)
+    if c.is_instant or spoiled.any():
+        row = int(np.argmax(spoiled))
+        raise UserError(
+            "not a number"
+            if np.isfinite(numbers).any() and not c.is_instant
+            else "the column does not hold numbers",
+            where=at(table.place, table.row(row), f"column {c.name!r}"),
+            found="dates" if c.is_instant else repr(texts[row])[:60],
+            expected="a number with a decimal point, or nothing where it is missing",
+            remedy=remedy or "codes of missing values can be named in a mapping: null = [...]",
+        )
+    return replace(c, unit=unit or c.unit, values=numbers)
+
+
+def _leave_out_codes(c: DataColumn, null: Null, notes: list[str]) -> DataColumn:
+    """The column without codes of missing values, given by the mapping or recognised, which ``notes`` report."""
+    values = c.values
+
+    def leave_out(code: float, hit: Mask) -> None:
+        nonlocal values
+        if hits := int(np.sum(hit)):
+            unit = "" if c.unit in ("", "1") else f" {c.unit}"
+            notes.append(f"{c.name}: left out as missing: {count(hits, 'value')} of {code:.10g}{unit}")
+            values = np.where(hit, np.nan, values)
+
+    for code in (n for n in null if isinstance(n, float)):
+        leave_out(code, np.isclose(values, code, rtol=1e-6, atol=0.0))
+    for code in find_codes(values, known_only=c.name == "time"):
+        leave_out(code, values == code)
+    return replace(c, values=values)
+
+
+# --- axes ----------------------------------------------------------------------------------------------
+
+
+def _turn(table: DataTable, axes: Sequence[tuple[int, float]], path: Path) -> DataTable:
+    """The table with its vectors and its tensor in the measurement frame."""
+    found = []
+    for c in table.columns:
+        own, sign = c.name, 1.0
+        if _COMPONENT.fullmatch(c.name):
+            stem, _, letters = c.name.rpartition("_")
+            turned = [axes["xyz".index(k)] for k in letters]
+            own = f"{stem}_{''.join(sorted('xyz'[k] for k, _ in turned))}"
+            sign = float(np.prod([s for _, s in turned]))
+        if own not in table.names:
+            lacking = f"{c.name} comes from {own}, which [columns] does not have"
+            what = "a component that the axes need is missing"
+            raise UserError(what, where=at(path, "[axes]"), found=lacking)
+        source = table.column(own)
+        found.append(replace(source, name=c.name, values=source.values if sign > 0 else -source.values))
+    return replace(table, columns=tuple(found))

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.compute as pc
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError, at, count, one_line
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.record import SI_UNITS, Array, Mask
-
-MOST_LINES = 20_000
-"""Lines of a file, beyond which the column does not name lines: the largest surveys have some thousands."""
 
 INDEX = "index"
 """Name of a column that labels the rows and has none."""
@@ -53,9 +53,25 @@ _QUANTITY = re.compile(
 
 _EXPONENT = re.compile(r"([\d.])[dD]([+-]?\d)")
 _GROUPED = re.compile(r"(?<=\d)['\u2019 \u00a0\u202f](?=\d{3}(?:\D|$))")
-_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?")
-_POINTED = re.compile(r"[+-]?[1-9]\d{0,2}(?:\.\d{3})+,\d*")
-"""Numbers with commas between thousands (1,234.5), and with points (1.234,5)."""
+_THOUSANDS = {m: rf"[+-]?[1-9]\d{{0,2}}(?:[{m}]\d{{3}})+" for m in ",."}
+_DECIMALS = {
+    m: rf"[+-]?(?:\d*|[1-9]\d{{0,2}}(?:[{o}]\d{{3}})+)[{m}]\d*(?:[eE][+-]?\d+)?" for m, o in (",.", ".,")
+}
+_UNIT = r"(?:\s*[A-Za-z\x{b5}\x{3bc}\x{b0}%].*)?"
+"""Numbers whose marks may stand between thousands (1,234), and with a decimal mark, as Arrow's expressions."""
+
+ISOLATED = 10.0
+"""Steps into and out of a missing-value code, over the largest step of all other values: those of readings are at most
+a few times it, those of a code (-9999 among temperatures) hundreds or more."""
+
+QUIET = 0.99
+"""Share of the steps that are compared with those of a usual code: spikes beside it do not hide it."""
+
+FEWEST_VARYING = 0.5
+"""Share of steps other than 0 from which a column varies, so that equal values far outside are no readings: switches and
+counters stand still nearly always."""
+
+_NINES = re.compile(r"-?9{3,}(?:\.(?:0|25|9+))?")
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +104,7 @@ class DataTable:
 
     ``line`` is the flight line, where there are several; ``part`` the group, structure or sheet; ``index`` the name of
     the column that labels the rows (the index of a DataFrame); ``notes`` what was made of the file. ``counts`` is how
-    the file itself counts its rows: its word for them, and the number of the first.
+    the file itself counts its rows: its word for them, and the number of the first. ``decimal`` is the mark in its texts.
 
     Of a flight further: ``place`` for messages; ``origin``, the instant at which ``time`` is 0, if it is known (UTC, or
     GPS time where the file counts in that); ``instants``, whether its stamps are instants, not seconds; ``demodulation``,
@@ -101,6 +117,7 @@ class DataTable:
     notes: tuple[str, ...] = ()
     index: str | None = None
     counts: tuple[str, int] = ("row", 1)
+    decimal: str = ""
     place: str = ""
     origin: datetime | None = None
     instants: bool = False
@@ -204,13 +221,36 @@ def _write_plain(text: str) -> str:
     return _GROUPED.sub("", _EXPONENT.sub(r"\1e\2", text.replace("\u2212", "-")))
 
 
-def parse_quantities(texts: Iterable[str]) -> tuple[Array, str, Mask]:
+def find_decimal(columns: Iterable[Any]) -> str:
+    """The decimal mark, ``.`` or ``,``, of columns of texts that were written together; ``""``: they leave it open.
+
+    A mark that may as well stand between thousands (1,234) tells nothing; 0,5 and 1.234,5 do, in whichever column.
+    """
+    texts = [c if isinstance(c, pa.ChunkedArray) else pa.array(c, pa.string()) for c in columns]
+    marked = {m: [t.filter(pc.match_substring(t, m)) for t in texts] for m in ",."}
+    if not any(map(len, marked[","])):
+        return "."
+
+    def is_told(cells: Any, mark: str) -> bool:
+        number, thousands = (rf"^\s*{x[mark]}{_UNIT}\s*$" for x in (_DECIMALS, _THOUSANDS))
+        found = pc.and_not(
+            pc.match_substring_regex(cells, number), pc.match_substring_regex(cells, thousands)
+        )
+        return bool(pc.any(found).as_py())
+
+    told = [m for m in ",." if any(is_told(t, m) for t in marked[m])]
+    return told[0] if len(told) == 1 else ""
+
+
+def parse_quantities(texts: Iterable[str], decimal: str = "") -> tuple[Array, str, Mask]:
     """Numbers in cells, with their units if they have such (``0.12 m/s2``).
 
     Parameters
     ----------
     texts
         n cells.
+    decimal
+        Their decimal mark; ``""``: told by themselves, or they are no numbers.
 
     Returns
     -------
@@ -228,7 +268,7 @@ def parse_quantities(texts: Iterable[str]) -> tuple[Array, str, Mask]:
     given = given if all(is_unit(u) and known.fits(u, given[0]) for u in given) else []
     own = [(m["unit"] or "") if m else "" for m in matches]
     fits = [m if m and (u in given if given else not u) else None for m, u in zip(matches, own, strict=True)]
-    numbers = _parse_numbers([m["number"] if m else "" for m in fits])
+    numbers = _parse_numbers([m["number"] if m else "" for m in fits], decimal)
     for unit in given[1:]:
         here, si = np.array([u == unit for u in own]), known.base_unit(given[0])
         numbers[here] = known.from_si(known.to_si(numbers[here], unit, si), si, given[0])
@@ -236,88 +276,83 @@ def parse_quantities(texts: Iterable[str]) -> tuple[Array, str, Mask]:
     return numbers, given[0] if given else "", spoiled
 
 
-def _parse_numbers(texts: Sequence[str]) -> NDArray[np.float64]:
-    """Numbers of texts, NaN where they are none.
+def _parse_numbers(texts: Sequence[str], decimal: str) -> Array:
+    """Numbers of texts with a decimal mark and perhaps the other mark between thousands, NaN where they are none."""
+    decimal = decimal or find_decimal([texts])
+    other = "." if decimal == "," else ","
+    grouped = re.compile(rf"{_THOUSANDS[other]}(?:[{decimal}]\d*)?") if decimal else None
+    found = np.full(len(texts), np.nan)
+    for k, text in enumerate(texts):
+        plain = text.replace(other, "") if grouped and grouped.fullmatch(text) else text
+        with contextlib.suppress(ValueError):
+            found[k] = float(plain.replace(",", ".") if decimal == "," else plain)
+    return found
 
-    Where a number has points and then a comma (1.234,5) the comma is decimal in all; where one has a point, commas separate
-    thousands. Commas alone are decimal, unless all of them may separate thousands (1,234), which is not decided.
+
+# --- codes of missing values ----------------------------------------------------------------------------
+
+
+def find_codes(values: Array, *, known_only: bool = False) -> list[float]:
+    """Codes of missing values: isolated extremes that repeat, or are usual codes such as -9999.
+
+    Parameters
+    ----------
+    values
+        (n,), NaN for nothing.
+    known_only
+        Only usual codes.
+
+    Returns
+    -------
+    The codes, in the order in which they were found.
     """
-
-    def parse(text: str) -> float:
-        try:
-            return float(text)
-        except ValueError:
-            return np.nan
-
-    if any(map(_POINTED.fullmatch, texts)):
-        texts = [t.replace(".", "").replace(",", ".") for t in texts]
-    elif any("." in t for t in texts):
-        texts = [t.replace(",", "") if _THOUSANDS.fullmatch(t) else t for t in texts]
-    elif not all(map(_THOUSANDS.fullmatch, (t for t in texts if "," in t))):
-        texts = [t.replace(",", ".") for t in texts]
-    return np.array([parse(t) for t in texts])
+    x = values[np.isfinite(values)]
+    usual = _find_extremes(x, lambda _, v: _is_usual(v))
+    rest = x[~np.isin(x, usual)]
+    if not len(rest):  # a sensor that was not there
+        return [c for c in usual if c < 0 or c >= 1e20]
+    found = [c for c in usual if _is_isolated(x[(x == c) | ~np.isin(x, usual)], c, rest, QUIET)]
+    return found + ([] if known_only else _find_extremes(x[~np.isin(x, found)], _is_unusual_code))
 
 
-# --- several tables, several lines ---------------------------------------------------------------------
+def _find_extremes(x: Array, is_code: Callable[[Array, float], bool]) -> list[float]:
+    """Extremes that are codes, one after the other."""
+    found: list[float] = []
+    while len(x):
+        code = next((v for v in (float(x.min()), float(x.max())) if is_code(x, v)), None)
+        if code is None:
+            break
+        found.append(code)
+        x = x[x != code]
+    return found
 
 
-def choose_tables(
-    tables: Sequence[DataTable], where: Path | str, wanted: frozenset[str], part: str | None = None
-) -> list[DataTable]:
-    """The tables that are meant: those of ``part``, with all columns that are wanted or with time; several alike are lines."""
-    inside = f"{(part or '').strip('/')}/".lstrip("/")
-    found = [t for t in tables if t.columns and f"{t.part.strip('/')}/".startswith(inside)]
-    alike = next((c for n in (wanted, {"time"}) if (c := [t for t in found if n <= {*t.names}])), found)
-    if len(alike) == 1:
-        return [replace(alike[0], line=None)]
-    if len({tuple(sorted(t.names)) for t in alike}) == 1:
-        return alike
-    parts = [t.part or "/" for t in alike]
-    raise UserError(
-        "the file holds several tables that differ" if alike else "the file holds no table",
-        where=where,
-        found=", ".join(parts[:12]) + (" ..." if len(parts) > 12 else "") or None,
-        expected=part or "vectors of one length in one place, or in groups of equal structure",
-        remedy="choose one in a mapping: [file] part = ...",
-    )
+def _is_unusual_code(x: Array, code: float) -> bool:
+    """Whether an extreme of no usual form is a code: it repeats, far from values that vary."""
+    hit = x == code
+    if not 1 < np.sum(hit) < len(x) / 2:
+        return False
+    rest = x[~hit]
+    return bool(np.mean(np.diff(rest) != 0) > FEWEST_VARYING) and _is_isolated(x, code, rest, 1.0)
 
 
-def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | str | None) -> list[DataTable]:
-    """A table for each line, in the order in which they begin; the rows of one need not be contiguous."""
-    if len(tables) != 1:
-        return list(tables)
-    (table,) = tables
-    name = column or next((n for n in table.names if n.casefold() == "line"), None)
-    if name is None:
-        return [table]
-    c = table.column(name)
-    different, which = np.unique(c.values.astype(str) if c.is_text else c.values, return_inverse=True)
-    if len(different) > MOST_LINES:
-        raise UserError(
-            "the column does not name lines: its values differ from row to row",
-            where=at(where, f"column {name!r}"),
-            found=f"{len(different)} values in {len(which)} rows",
-            expected=f"at most {MOST_LINES}, or another column in a mapping: [file] line = ...",
-        )
-    rows_of: dict[str, list[NDArray[Any]]] = {}
-    ends = np.cumsum(np.bincount(which, minlength=len(different)))[:-1]
-    for value, rows in zip(different, np.split(np.argsort(which, kind="stable"), ends), strict=True):
-        rows_of.setdefault(name_line(value), []).append(rows)
-    notes = table.notes
-    if lost := sum(map(len, rows_of.pop("", []))):
-        notes = (*notes, f"{count(lost, 'row')} without the name of a line left out")
-    rest = replace(table, columns=tuple(x for x in table.columns if x is not c), notes=notes)
-    lines = sorted(((np.sort(np.concatenate(p)), n) for n, p in rows_of.items()), key=lambda x: x[0][0])
-    return [replace(rest.rows(rows), line=n) for rows, n in lines]
+def _is_isolated(x: Array, code: float, rest: Array, share: float) -> bool:
+    """Whether a value lies outside all others, and every step into and out of it is far larger than ``share`` of theirs."""
+    if len(rest) < 2 or rest.min() <= code <= rest.max():
+        return False
+    hit = x == code
+    steps, own = np.abs(np.diff(x)), np.abs(np.diff(rest))
+    into = np.min(steps[hit[1:] != hit[:-1]], initial=np.inf)
+    return bool(into > ISOLATED * np.quantile(own, share, method="lower"))
 
 
-def name_line(value: object) -> str:
-    """The name of a line: 1010 of 1010.0, in numbers or in text; ``""`` where there is none."""
-    try:
-        number = float(str(value))
-    except ValueError:
-        return write_cell(value)
-    return write_cell(number) if np.isfinite(number) else ""
+def _is_usual(value: float) -> bool:
+    """-999, -9999, -999.25, 99999.9, -32768, 1e20 and beyond: what programs write where nothing was measured."""
+    size = abs(value)
+    if size >= 1e20 or size in (32767.0, 32768.0, 2147483647.0, 2147483648.0):
+        return True
+    digits = (f"{value:.10g}", f"{value:.7g}")  # in single precision, too
+    return 999 <= size < 1e12 and any(map(_NINES.fullmatch, digits))
 
 
 # --- memory --------------------------------------------------------------------------------------------

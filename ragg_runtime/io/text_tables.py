@@ -35,6 +35,7 @@ from ragg_runtime.io.tables import (
     MISSING,
     DataColumn,
     DataTable,
+    find_decimal,
     is_number,
     is_quantity,
     is_unit,
@@ -196,18 +197,20 @@ def read_csv(path: Path) -> list[DataTable]:
         data, delimiter = re.sub(rb"[ \t]+", b" ", data), " "
     data = _drop_headers(data, delimiter, headings, notes)
     table = _parse(data, delimiter, len(headings), len(header.names), path, notes)
-    return [_make_table(header, map(_read_cells, table.columns), notes, counts=("line", len(headings) + 1))]
+    decimal = find_decimal(table.columns)
+    columns = (_read_cells(texts, decimal) for texts in table.columns)
+    return [_make_table(header, columns, notes, counts=("line", len(headings) + 1), decimal=decimal)]
 
 
-def _read_cells(texts: pa.ChunkedArray) -> NDArray[Any]:
+def _read_cells(texts: pa.ChunkedArray, decimal: str) -> NDArray[Any]:
     """A column as numbers where Arrow reads them, or as its texts."""
-    there = pc.is_in(cells := pc.utf8_trim_whitespace(texts), pa.array(sorted(MISSING)), skip_nulls=True)
-    numbers = pc.if_else(there, None, cells)
-    if not are_packed(numbers.slice(0, _LOOKED_AT).drop_null().to_pylist()):
-        if not pc.any(pc.match_substring(numbers, ".")).as_py():  # commas are decimal
-            numbers = pc.replace_substring(numbers, ",", ".")
+    cells = pc.utf8_trim_whitespace(texts)
+    there = pc.is_in(cells, pa.array(sorted(MISSING)), skip_nulls=True)
+    numbers, other = pc.if_else(there, None, cells), "." if decimal == "," else ","
+    packed = are_packed(numbers.slice(0, _LOOKED_AT).drop_null().to_pylist())
+    if not packed and not pc.any(pc.match_substring(numbers, other)).as_py():
         with contextlib.suppress(pa.ArrowInvalid):
-            return convert_arrow(numbers.cast(pa.float64()))
+            return convert_arrow(pc.replace_substring(numbers, ",", ".").cast(pa.float64()))
     return convert_arrow(cells)
 
 

@@ -131,7 +131,7 @@ def test_lines_become_flights(tmp_path: Path) -> None:
         ('column = "AN"', 'colum = "AN"', ("not named",)),
         ('column = "AN"', 'column = 3', ("column", "text")),
         ('column = "AN"', 'column = "AX"', ("AX", "not in the file", "ragg map")),
-        ("[time]", "[[time]]", ("not a table",)),
+        ("[time]", "[[time]]", ("must be a table",)),
         ("[columns]", "[columns", ("TOML",)),
         ('[time]\ncolumn = "T"\nunit = "s"', "", ("[time] is missing",)),
         ('a_x = { column = "AN", unit = "g" }\n', "", ("axes", "a_y", "a_x")),

@@ -21,10 +21,9 @@ from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import read_flight, read_flights, tables
 from ragg_runtime.io.draft import draft_mapping
-from ragg_runtime.io.files import read_recordings
-from ragg_runtime.io.info import describe_flight
+from ragg_runtime.io.files import describe_flight, read_recordings
 from ragg_runtime.io.mapping import parse_mapping
-from ragg_runtime.io.recording import find_codes
+from ragg_runtime.io.tables import find_codes
 from ragg_runtime.simulate import simulate_flight
 from tests.runtime.foreign_files import G0, HEADER, RATE, UNITS, N, write_sheets
 
@@ -119,6 +118,12 @@ CSV = {
     ),
     "commas between thousands below a header": text(
         "time [ms];" + ";".join(HEADER[1:]), rows([f"{1000 * t + 5000:,.1f}" for t in VALUES["time"]]), ";"
+    ),
+    "commas between thousands alone": text(
+        "time [us]," + PLAIN.partition(",")[2], rows([f'"{1e6 * t + 1e6:,.0f}"' for t in VALUES["time"]])
+    ),
+    "points between thousands alone": text(
+        "time [us];" + ";".join(HEADER[1:]), rows([f"{1e6 * t + 1e6:,.0f}".replace(",", ".") for t in VALUES["time"]]), ";", decimal=","
     ),
     "room reserved ahead": text(PLAIN, rows()) + 300 * "\0",
     "row numbers in front": text("," + PLAIN, [[k, *r] for k, r in enumerate(rows())]),
